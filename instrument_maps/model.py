@@ -164,6 +164,8 @@ class Control(_Table, frozen=True):
         Intonation only: labels of the fingerings it corrects.
     held_min_s : float or None
         Intonation only: notes shorter than this are not corrected.
+    attack_s : float or None
+        How long a fingering for attacks (tag ``attack``) holds it, of longer notes; None: as long as the note.
     """
 
     name: str
@@ -181,6 +183,7 @@ class Control(_Table, frozen=True):
     max_speed_m_s: float | None = None
     used_with: tuple[str, ...] = ()
     held_min_s: float | None = None
+    attack_s: float | None = None
 
     @property
     def travel_m(self) -> float:

@@ -194,6 +194,8 @@ def _timing(path: str, control: Control) -> Iterator[Problem]:
     yield from _within(f"{path}.rest_value", control.rest_value, 0, 1)
     yield from _within(f"{path}.move_window_s", control.move_window_s, 0.005, 2)
     yield from _within(f"{path}.move_note_share", control.move_note_share, 0.01, 1)
+    if control.attack_s is not None:
+        yield from _within(f"{path}.attack_s", control.attack_s, 0.05, 2)
     if control.max_speed_m_s is not None:
         yield from _within(f"{path}.max_speed_m_s", control.max_speed_m_s, 0.05, 20)
         if not control.travel_m:

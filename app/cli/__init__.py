@@ -15,6 +15,7 @@ from contextlib import contextmanager
 from typing import NoReturn
 
 import app.cli.characters
+import app.cli.choreography
 import app.cli.edit
 import app.cli.export
 import app.cli.inspect
@@ -46,6 +47,7 @@ examples:
   suisou instruments scale trumpet_Bb
   suisou characters check figure.vrm
   suisou characters add figure.vrm --name "Ms Mori"
+  suisou choreography learn --pair salsa.bvh drums.mid --fps 60 --to salsa.choreography
   suisou ports
   suisou record --port EWI --to take.mid --count-in 1 --tempo 96
 """
@@ -74,6 +76,7 @@ def parser() -> argparse.ArgumentParser:
     app.cli.midi.add_command(commands)
     app.cli.instruments.add_command(commands)
     app.cli.characters.add_command(commands)
+    app.cli.choreography.add_command(commands)
     app.cli.ports.add_command(commands)
     app.cli.record.add_command(commands)
     app.cli.stream.add_command(commands)

@@ -66,7 +66,12 @@ def add_command(commands: Commands) -> None:
         help="frames per second: 24, 25, 29.97, 30, 60 or a fraction such as 30000/1001 (default: the project's, 60)",
     )
     command.add_argument(
-        "--player", dest="players", action="append", default=[], metavar="NAME", help="only this player; repeatable"
+        "--player",
+        dest="players",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="only this player or dancer; repeatable",
     )
     command.add_argument(
         "--skeleton",
@@ -132,8 +137,10 @@ def export(arguments: argparse.Namespace) -> int:
     clean_up()
     project = open_project(arguments)
     performance = Performance(project)
-    chosen = select_players(arguments.players, [player.name for player in project.players])
-    players = tuple(project.players[index] for index in chosen)
+    names = [*(player.name for player in project.players), *(dancer.name for dancer in project.dancers)]
+    chosen = select_players(arguments.players, names)
+    count = len(project.players)
+    players = tuple(project.players[index] for index in chosen if index < count)
     # Before the plans, which say what a body does not reach.
     find_holds(performance, players)
     progress = Progress(sys.stderr)
@@ -150,6 +157,7 @@ def export(arguments: argparse.Namespace) -> int:
         asset=arguments.check_skeleton,
         sound=arguments.sound,
         bvh_names=arguments.bvh_names,
+        dancers=tuple(project.dancers[index - count] for index in chosen if index >= count),
     )
     try:
         with _terminable():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from collections.abc import Sequence, Set
 from typing import Any
 
@@ -33,8 +34,9 @@ from app.plan.model import (
     Note,
     PoseEvent,
 )
-from app.project.model import Player
+from app.project.model import Dancer, Player
 from app.score.model import UnplayedPart
+from app.score.mutes import is_muted
 from instrument_maps.model import InstrumentMap
 
 Table = dict[str, Any]
@@ -87,6 +89,7 @@ def inspection(performance: Performance) -> Table:
             {"tick": marker.tick, "s": score.tempo_map.seconds(float(marker.tick)), "text": marker.text}
             for marker in score.markers
         ],
+        "percussion_hits": len(score.percussion),
         "first_frame_s": performance.time_frame.first_frame_s,
         "warnings": [
             *(text(message) for message in score.warnings),
@@ -106,6 +109,23 @@ def inspection(performance: Performance) -> Table:
             for player in project.players
             if player.id not in absent
         ],
+        "dancers": [_dancer(dancer) for dancer in project.dancers],
+    }
+
+
+def _dancer(dancer: Dancer) -> Table:
+    return {
+        "name": dancer.name,
+        "choreography": shown(dancer.choreography),
+        "character": dancer.character_id,
+        "x_m": dancer.stage.x_m,
+        "z_m": dancer.stage.z_m,
+        "turn_deg": math.degrees(dancer.stage.turn_rad),
+        "seed": dancer.seed,
+        "delay_beats": dancer.delay_beats,
+        "mirrored": dancer.mirrored,
+        "source": dancer.source,
+        "size": dancer.size,
     }
 
 
@@ -152,6 +172,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
                 "bend": list(bent),
                 "loudness": loudness[note.id],
                 "dynamic": dynamic_mark(loudness[note.id]),
+                "muted": is_muted(part.muted, note.onset_tick),
             }
             for note, said, bent in zip(
                 played, articulation, bends(played, None if blown is None else blown.bend), strict=True
@@ -252,6 +273,13 @@ def tables(file: str, found: Table) -> list[str]:
     if found["players"]:
         head = ("player", "instrument", "notes", "range", "breaths", "cues", "first fingerings")
         lines += ["", *columns([head, *(_row(player) for player in found["players"])])]
+    if found["dancers"]:
+        titles = ("dancer", "choreography", "character", "x m", "z m")
+        rows = (
+            (one["name"], one["choreography"], one["character"], f"{one['x_m']:.2f}", f"{one['z_m']:.2f}")
+            for one in found["dancers"]
+        )
+        lines += ["", *columns([titles, *rows])]
     if found["left_out"]:
         lines += ["", "left out:", *(f"  {one['player']}: {one['reason']}" for one in found["left_out"])]
     if found["unplayed"]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from app.encoding import shown
 from app.export.measure import PlayerMeasures, Spread
-from app.export.report import PlayerReport, Report, failures
+from app.export.report import BONES_BOUND_MM, SLIDE_BOUND_MM_S, DancerReport, PlayerReport, Report, failures
 from app.messages import filled, text
 from app.performance.contacts import GRIP_MM, TOUCH_MM
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from app.export.unreal.project import UnrealProject
     from app.export.unreal.run import Written
 
+_DANCE_HEAD = ("dancer", "steps", "standing s", "slide mm/s", "bones mm")
 _HEAD = ("player", "notes", "controls", "fingers mm", "grips mm", "lips mm", "feet mm", "into mm", "breaths", "sway")
 
 
@@ -71,6 +72,9 @@ def _judgement(report: Report) -> list[str]:
             wrong = failures(player)
             if wrong:
                 lines.append(f"! {player.name}: {', '.join(wrong)}")
+    if any(dancer.measures is not None for dancer in report.dancers):
+        lines += ["", *columns([_DANCE_HEAD, *(_dance_row(dancer) for dancer in report.dancers)])]
+        lines += ["(feet that stand, and bones, of the files read back; * beyond its bound)"]
     if report.left_out:
         lines += ["", "left out:", *(f"  {one.player}: {one.reason}" for one in report.left_out)]
     if report.unplayed:
@@ -115,6 +119,19 @@ def _row(player: PlayerReport) -> tuple[str, ...]:
         _worst([measures.penetration]),
         f"{measures.breaths.shown}/{measures.breaths.planned}",
         sway,
+    )
+
+
+def _dance_row(dancer: DancerReport) -> tuple[str, ...]:
+    measures = dancer.measures
+    if measures is None:
+        return (dancer.name, str(dancer.steps), *[""] * (len(_DANCE_HEAD) - 2))
+    return (
+        dancer.name,
+        str(dancer.steps),
+        f"{measures.standing_s:.1f}",
+        f"{measures.slide_mm_s:.2f}{'' if measures.slide_mm_s <= SLIDE_BOUND_MM_S else '*'}",
+        f"{measures.bones_mm:.2f}{'' if measures.bones_mm <= BONES_BOUND_MM else '*'}",
     )
 
 

@@ -169,7 +169,7 @@ def measure_player(
     held = Playback(instrument_scene, instrument_scene.clip)
     fps = player.clip.fps
     times_s = first_frame_s + np.arange(player.clip.frames) / float(fps)
-    notes = notes_of(plan.fingerings, float(times_s[0]), float(times_s[-1]))
+    notes = notes_of(plan.grips, float(times_s[0]), float(times_s[-1]))
     sounding = _within(times_s, [(note.start_s, note.end_s) for note in notes])
     # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
     blowing = sounding & ~_within(times_s, [(event.start_s, event.end_s) for event in plan.breaths])

@@ -14,6 +14,39 @@ SWAY_CORRELATION = 0.9
 """Two players whose sway correlates this much move alike."""
 
 
+SLIDE_BOUND_MM_S = 5.0
+"""Of a foot that stands, in the mean; beyond it a viewer may see it."""
+BONES_BOUND_MM = 0.1
+
+
+class DancerMeasures(msgspec.Struct, frozen=True):
+    """Of an exported FBX file.
+
+    Attributes
+    ----------
+    standing_s : float
+        For how long feet stand, both added up.
+    slide_mm_s : float
+        Mean speed of the tips of feet that stand.
+    slide_most_mm_s : float
+    bones_mm : float
+        Greatest deviation of a bone's length from its length at rest.
+    below_mm : float
+        How far the lower tip of a foot is below the floor at most.
+    """
+
+    standing_s: float
+    slide_mm_s: float
+    slide_most_mm_s: float
+    bones_mm: float
+    below_mm: float
+
+    @property
+    def kept(self) -> bool:
+        """Whether all measures are within their bounds."""
+        return self.slide_mm_s <= SLIDE_BOUND_MM_S and self.bones_mm <= BONES_BOUND_MM
+
+
 class StagePlace(msgspec.Struct, frozen=True):
     """Where a player stands on the stage: the files hold every player at the origin, facing +Z. Metres, Y up, the
     audience towards +Z; a positive turn is from +Z towards +X."""
@@ -59,6 +92,21 @@ class PlayerReport(msgspec.Struct, frozen=True):
     """Touches that the hold of this body does not meet however it moves, millimetres: told, and counted apart."""
 
 
+class DancerReport(msgspec.Struct, frozen=True):
+    """One dancer's files and what they hold. Where feet stand, and how far their tips slide meanwhile, is measured on
+    the FBX file read back, as are the bones; None where none was asked for."""
+
+    name: str
+    choreography: str
+    character: str
+    files: dict[str, str]
+    stage: StagePlace
+    steps: int
+    """Basic motions that begin in the frames."""
+    skeleton: SkeletonReport
+    measures: DancerMeasures | None
+
+
 class UnplayedPart(msgspec.Struct, frozen=True):
     """A part of the file that nobody plays, and why."""
 
@@ -93,11 +141,13 @@ class Report(msgspec.Struct, frozen=True):
     sound: str | None = None
     """File that starts with frame 0; None where none was asked for."""
     left_out: tuple[LeftOutReport, ...] = ()
+    dancers: tuple[DancerReport, ...] = ()
 
     @property
     def file_count(self) -> int:
         """Files that were written, this report among them."""
-        return sum(len(player.files) for player in self.players) + (self.sound is not None) + 1
+        files = [*(player.files for player in self.players), *(dancer.files for dancer in self.dancers)]
+        return sum(map(len, files)) + (self.sound is not None) + 1
 
 
 def encode_report(report: Report) -> bytes:

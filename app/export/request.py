@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from app.errors import Cancelled, FileError, Message
 from app.export.formats import FILE_FORMATS, Format
@@ -17,8 +18,11 @@ from app.export.targets import CheckedTarget, checked_targets, spoilt
 from app.performance.cast import LeftOut, Performer, attempt, performer_of, refuse_nobody
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
-from app.project.model import Player
+from app.project.model import Dancer, Player
 from app.rig.read_figure import read_figure
+
+if TYPE_CHECKING:
+    from app.performance.dancers import Dancing
 
 MOST_FRAMES = 432_000
 """Two hours at 60 frames/s: a player's motion and its file are in memory as a whole."""
@@ -47,6 +51,8 @@ class Request:
         Whether what is heard is written as a WAV file, from the first frame to the last.
     bvh_names : str
         Table of bone names that BVH files have; empty: those of the skeleton.
+    dancers : tuple of Dancer
+        Those to export.
     asset : path or None
         File of the asset that the animation is for: every player's skeleton is compared with its.
     """
@@ -63,6 +69,7 @@ class Request:
     asset: Path | None = None
     sound: bool = False
     bvh_names: str = ""
+    dancers: tuple[Dancer, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,13 +80,15 @@ class ExportCast:
     ----------
     performers : tuple of Performer
     targets : dict of str to CheckedTarget
-        What each is written on, by player id.
+        What each is written on, by the id of the player or dancer.
     left_out : tuple of LeftOut
+    dances : tuple of Dancing
     """
 
     performers: tuple[Performer, ...]
     targets: dict[str, CheckedTarget]
     left_out: tuple[LeftOut, ...]
+    dances: tuple[Dancing, ...] = ()
 
     @property
     def player_ids(self) -> tuple[str, ...]:
@@ -103,7 +112,7 @@ def cast_of(
     """
     if request.span.count > MOST_FRAMES:
         raise FileError("export.too_long", file=request.source, frames=request.span.count, most=MOST_FRAMES)
-    if not request.players:
+    if not request.players and not request.dancers:
         raise FileError("export.nobody", file=request.source)
     for name in request.formats:
         FILE_FORMATS[name].refuse()
@@ -114,13 +123,31 @@ def cast_of(
             raise Cancelled("work.stopped")
         return performer_of(request.performance, player)
 
-    found = attempt(request.players, make)
+    def make_dance(dancer: Dancer) -> Dancing:
+        # What dancing is made with is loaded where somebody dances.
+        from app.performance.dancers import dancing_of
+
+        if stop_wanted():
+            raise Cancelled("work.stopped")
+        return dancing_of(request.performance, dancer)
+
+    found, dances = attempt(request.players, make), attempt(request.dancers, make_dance)
     characters = {id: performer.character for id, performer in found.made.items()}
+    characters |= {id: dance.character for id, dance in dances.made.items()}
     targets = checked_targets(characters, request.skeleton, asset)
-    left_out = found.left_out
+    left_out = found.left_out + dances.left_out
     if asset is not None:
-        left_out += spoilt([performer.player for performer in found.made.values()], targets, asset, wording)
+        seen: tuple[Player | Dancer, ...] = (
+            *(performer.player for performer in found.made.values()),
+            *(dancer for dancer in request.dancers if dancer.id in dances.made),
+        )
+        left_out += spoilt(seen, targets, asset, wording)
     absent = {one.player.id for one in left_out}
-    if absent.issuperset(player.id for player in request.players):
+    if absent.issuperset([*(player.id for player in request.players), *(dancer.id for dancer in request.dancers)]):
         refuse_nobody(left_out, request.source, wording)
-    return ExportCast(tuple(made for id, made in found.made.items() if id not in absent), targets, left_out)
+    return ExportCast(
+        tuple(made for id, made in found.made.items() if id not in absent),
+        targets,
+        left_out,
+        tuple(made for id, made in dances.made.items() if id not in absent),
+    )

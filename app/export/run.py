@@ -16,11 +16,13 @@ from app.errors import Cancelled, Message
 from app.export.bone_names import profile_names
 from app.export.character import character_scene
 from app.export.control_judge import FloatArray
+from app.export.dancers import measure_dancer, standing_frames
 from app.export.folder import files_into
 from app.export.formats import FILE_FORMATS, Beside, Format, Held
 from app.export.instrument import instrument_scene
 from app.export.measure import Measured, contact_name, greatest_correlations, measure_player
 from app.export.report import (
+    DancerReport,
     LeftOutReport,
     PlayerReport,
     Report,
@@ -32,13 +34,17 @@ from app.export.report import (
 from app.export.request import ExportCast, Request, cast_of
 from app.export.sound import write_sound
 from app.export.target import TargetSkeleton
+from app.export.targets import CheckedTarget
 from app.formats.atomic import atomic_write
 from app.formats.fbx.read import read_scene
 from app.formats.scene import Scene
 from app.motion.model import Motion
 from app.performance.cast import Performer
+from app.performance.dancers import Dancing
 from app.performance.ensemble import Performance
 from app.performance.motion import player_motion
+from app.project.casting import StagePosition
+from app.project.model import Dancer
 from app.project.names import file_stems
 from app.rig.fit import INSIDE_M, missed
 from app.rig.hold import Hold
@@ -91,7 +97,9 @@ def write_cast(
     stems, names = _stems(request.performance), file_names(request.performance, request.formats)
     reports: list[PlayerReport] = []
     torsos: dict[str, FloatArray] = {}
-    whole = len(cast.performers) + (_SOUND_WORK if request.sound else 0.0)
+    dancers: list[DancerReport] = []
+    everyone = len(cast.performers) + len(cast.dances)
+    whole = everyone + (_SOUND_WORK if request.sound else 0.0)
     with files_into(request.folder) as folder:
         for index, performer in enumerate(cast.performers):
             player = performer.player
@@ -111,23 +119,38 @@ def write_cast(
             reports.append(report)
             if measured is not None:
                 torsos[player.id] = measured.torso_rad
+        here = {dancer.id: dancer for dancer in request.dancers}
+        for index, dancing in enumerate(cast.dances, len(cast.performers)):
+            dancer = here[dancing.dancer.id]
+
+            def moved(share: float, done: int = index, name: str = dancer.name) -> None:
+                if stop_wanted():
+                    raise Cancelled("work.stopped")
+                progress((done + share) / whole, name)
+
+            checked = cast.targets[dancer.id]
+            dancers.append(
+                _export_dancer(request, dancer, dancing, checked, stems[dancer.id], names[dancer.id], folder, moved)
+            )
         if request.sound:
             sound = sound_name(request.source)
 
             def mixed(share: float) -> None:
-                progress((len(cast.performers) + _SOUND_WORK * share) / whole, sound)
+                progress((everyone + _SOUND_WORK * share) / whole, sound)
 
             write_sound(folder / sound, request.performance.project, request.span, mixed, stop_wanted)
-        report_value = _report(request, cast, _compared(reports, cast.player_ids, torsos), wording)
+        report_value = _report(request, cast, _compared(reports, cast.player_ids, torsos), tuple(dancers), wording)
         with atomic_write(folder / REPORT) as stream:
             stream.write(encode_report(report_value))
     return report_value
 
 
 def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str, dict[str, str]]:
-    """Names of the files of every player: by player id, then by what they hold."""
+    """Names of the files of every player and dancer: by id, then by what they hold."""
     names: dict[str, dict[str, str]] = {}
-    for player_id, stem in _stems(performance).items():
+    stems = _stems(performance)
+    for player_id in (player.id for player in performance.project.players):
+        stem = stems[player_id]
         instrument = performance.project.player(player_id).instrument_id
         held_stems: dict[Held, str] = {"character": stem, "instrument": f"{stem}_{instrument}"}
         names[player_id] = {
@@ -135,6 +158,12 @@ def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str
             for name, kind in FILE_FORMATS.items()
             if name in formats
             for held in kind.holds
+        }
+    for dancer in performance.project.dancers:
+        names[dancer.id] = {
+            f"character_{name}": f"{stems[dancer.id]}{kind.suffix}"
+            for name, kind in FILE_FORMATS.items()
+            if name in formats
         }
     return names
 
@@ -196,6 +225,52 @@ def _export_player(
     return _player_report(request, performer, files, measured), measured
 
 
+def _export_dancer(
+    request: Request,
+    dancer: Dancer,
+    dancing: Dancing,
+    checked: CheckedTarget,
+    stem: str,
+    files: dict[str, str],
+    folder: Path,
+    told: Callable[[float], None],
+) -> DancerReport:
+    told(0.0)
+    character, target, span = dancing.character, checked.target, request.span
+    motion = dancing.motion(span.fps, span.first, span.count)
+    told(0.3)
+    scene = character_scene(character, motion, stem, request.creator, target)
+    beside = Beside(
+        sound=sound_name(request.source) if request.sound else None,
+        bone_names=profile_names(request.bvh_names, target, character.skeleton) if request.bvh_names else {},
+    )
+    for name, kind in FILE_FORMATS.items():
+        if name in request.formats:
+            kind.write(folder / files[f"character_{name}"], scene, beside)
+    told(0.8)
+    measures = None
+    if "fbx" in request.formats:
+        read = read_scene(folder / files["character_fbx"])
+        measures = measure_dancer(read, character, target, standing_frames(dancing, span))
+    told(1.0)
+    starts_s = [step.start_s for step in dancing.dance(span.fps).steps]
+    asset = None if request.asset is None else shown(request.asset.name)
+    return DancerReport(
+        name=dancer.name,
+        choreography=dancing.choreographer.model.name,
+        character=dancer.character_id,
+        files=files,
+        stage=_stage_place(dancer.stage),
+        steps=sum(span.first_frame_s <= start_s < span.end_s for start_s in starts_s),
+        skeleton=SkeletonReport(target.choice, asset, checked.differences),
+        measures=measures,
+    )
+
+
+def _stage_place(place: StagePosition) -> StagePlace:
+    return StagePlace(round(place.x_m, 4), round(place.z_m, 4), round(math.degrees(place.turn_rad), 3))
+
+
 def _scenes(
     request: Request, performer: Performer, target: TargetSkeleton, motion: Motion, stem: str, held: set[Held]
 ) -> dict[Held, Scene]:
@@ -209,10 +284,10 @@ def _scenes(
 
 
 def _stems(performance: Performance) -> dict[str, str]:
-    """File stems by player id; the names are the same whoever is exported."""
-    players = performance.project.players
-    stems = file_stems([player.name for player in players])
-    return {player.id: stem for player, stem in zip(players, stems, strict=True)}
+    """File stems by the id of the player or dancer; the names are the same whoever is exported."""
+    project = performance.project
+    names = {one.id: one.name for one in project.players} | {one.id: one.name for one in project.dancers}
+    return dict(zip(names, file_stems(list(names.values())), strict=True))
 
 
 def _missed_mm(hold: Hold) -> dict[str, float]:
@@ -227,7 +302,6 @@ def _player_report(
 ) -> PlayerReport:
     player, span = performer.player, request.span
     plan = request.performance.plan(player)
-    place = player.stage
     return PlayerReport(
         name=player.name,
         part=request.performance.project.part(player).name,
@@ -237,7 +311,7 @@ def _player_report(
         missed=_missed_mm(performer.hold),
         posture=request.performance.instrument(player).hold.possible(player.parameters.posture),
         files=files,
-        stage=StagePlace(round(place.x_m, 4), round(place.z_m, 4), round(math.degrees(place.turn_rad), 3)),
+        stage=_stage_place(player.stage),
         notes=sum(span.shows_onset(note.start_s) for note in plan.fingerings),
         measures=None if measured is None else measured.measures,
         sway_correlation=None,
@@ -265,6 +339,7 @@ def _report(
     request: Request,
     cast: ExportCast,
     players: tuple[PlayerReport, ...],
+    dancers: tuple[DancerReport, ...],
     wording: Callable[[Message], str],
 ) -> Report:
     project, span = request.performance.project, request.span
@@ -294,4 +369,5 @@ def _report(
         ),
         left_out=tuple(LeftOutReport(one.player.name, wording(one.reason)) for one in cast.left_out),
         sound=sound_name(request.source) if request.sound else None,
+        dancers=dancers,
     )

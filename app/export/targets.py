@@ -13,7 +13,7 @@ from app.export.mannequin import mannequin_axes, mannequin_target
 from app.export.own_skeleton import own_target
 from app.export.target import SkeletonChoice, TargetSkeleton, normalised_target
 from app.performance.cast import LeftOut
-from app.project.model import Player
+from app.project.model import Dancer, Player
 from app.rig import quaternion
 from app.rig.figure import Figure
 from app.rig.mesh import Mesh
@@ -87,7 +87,7 @@ def _as_bound(character: Character, target: TargetSkeleton) -> TargetSkeleton:
 
 
 def spoilt(
-    players: Sequence[Player],
+    players: Sequence[Player | Dancer],
     checked: Mapping[str, CheckedTarget],
     asset: Figure,
     wording: Callable[[Message], str],

@@ -17,13 +17,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from decimal import Decimal
 from fractions import Fraction
 
 import numpy as np
 import numpy.typing as npt
 
-from app.errors import FileError
+from app.errors import FileError, shortened
 from app.formats import euler
 from app.formats.atomic import atomic_write
 from app.formats.files import read_file
@@ -33,7 +34,8 @@ from app.formats.rates import exact_rate
 FloatArray = npt.NDArray[np.floating]
 
 _ORDER = "ZXY"
-_POSITIONS = ["Xposition", "Yposition", "Zposition"]
+_AXES = "XYZ"
+_POSITIONS = [f"{axis}position" for axis in _AXES]
 _DEEPEST = 512
 _FREE_ROTATIONS = 2**20
 MOST_BYTES = 2**29
@@ -57,6 +59,8 @@ class BvhClip:
     root_translation_cm : ndarray, shape (F, 3)
     rotations_xyzw : ndarray, shape (F, J, 4)
         Relative to the parent.
+    translations_cm : mapping of int to ndarray, shape (F, 3)
+        Joints below the root that are not always at their offset, relative to the parent; only in files of others.
     """
 
     names: tuple[str, ...]
@@ -66,6 +70,7 @@ class BvhClip:
     fps: Fraction
     root_translation_cm: FloatArray
     rotations_xyzw: FloatArray
+    translations_cm: Mapping[int, FloatArray] = field(default_factory=dict)
 
 
 def write_bvh(
@@ -172,6 +177,8 @@ def _check(clip: BvhClip) -> None:
     frames = len(clip.rotations_xyzw)
     if clip.rotations_xyzw.shape != (frames, count, 4) or clip.root_translation_cm.shape != (frames, 3) or not frames:
         raise ValueError("rotations (F, J, 4) and root translations (F, 3) of at least one frame")
+    if clip.translations_cm:
+        raise ValueError("only the root moves")
     if np.shape(clip.offsets_cm) != (count, 3) or not np.isfinite(clip.offsets_cm).all() or clip.fps <= 0:
         raise ValueError("one finite offset per joint, and a frame rate above zero")
 
@@ -180,9 +187,10 @@ def _check(clip: BvhClip) -> None:
 
 
 def read_bvh(path: str | os.PathLike[str]) -> BvhClip:
-    """Read a BVH file with any order of rotation channels; position channels on the root only.
+    """Read a BVH file with any channels in any order, also with positions of joints other than the root.
 
-    A root offset is left out: like most programs, this one takes the position channels as the root's place.
+    Position channels take the place of the offset, as in most programs; a root offset is left out. Rotations are about
+    the axes in the order of their channels, where one is missing by 0.
 
     Raises
     ------
@@ -257,12 +265,9 @@ class _Hierarchy:
         names = words[2:]
         if words[1:2] != [str(len(names))]:
             raise self._syntax(number, words)
-        positions = [name for name in names if name.endswith("position")]
-        rotations = [name for name in names if name.endswith("rotation")]
-        if positions + rotations != names or positions not in ([], _POSITIONS) or (positions and joint):
-            raise FileError("bvh.unsupported", file=self.file, line=number, what=" ".join(names))
-        if sorted(rotations) != ["Xrotation", "Yrotation", "Zrotation"]:
-            raise FileError("bvh.unsupported", file=self.file, line=number, what=" ".join(names))
+        known = {*_POSITIONS, *(f"{axis}rotation" for axis in _AXES)}
+        if len(set(names)) != len(names) or not known.issuperset(names):
+            raise FileError("bvh.unsupported", file=self.file, line=number, what=shortened(" ".join(names), 80))
         self.channels[joint] = names
 
     def _offset(self, number: int, words: list[str]) -> list[float]:
@@ -307,26 +312,45 @@ def _motion(motion: str, hierarchy: _Hierarchy, file: str) -> BvhClip:
         # Joints need not have channels, and then cost the file nothing in a frame.
         raise FileError("bvh.too_large", file=file)
     table = values.reshape(frames, width)
-    root_translation = np.zeros((frames, 3))
-    rotations = np.zeros((frames, len(hierarchy.names), 4))
-    rotations[..., 3] = 1.0
-    column = 0
-    for joint, channels in enumerate(hierarchy.channels):
-        if len(channels) == 6:
-            root_translation = table[:, column : column + 3]
-        if channels:
-            order = "".join(name[0] for name in channels[-3:])
-            stop = column + len(channels)
-            rotations[:, joint] = euler.quaternions(table[:, stop - 3 : stop], order)
-            column = stop
     offsets = np.array(hierarchy.offsets)
     offsets[0] = 0.0
+    rotations = np.zeros((frames, len(hierarchy.names), 4))
+    rotations[..., 3] = 1.0
+    translations: dict[int, FloatArray] = {}
+    column = 0
+    for joint, channels in enumerate(hierarchy.channels):
+        columns = table[:, column : column + len(channels)]
+        column += len(channels)
+        turned = [at for at, name in enumerate(channels) if name not in _POSITIONS]
+        if turned:
+            rotations[:, joint] = _rotations(columns[:, turned], "".join(channels[at][0] for at in turned))
+        if len(turned) < len(channels) or not joint:
+            places = np.tile(offsets[joint], (frames, 1))
+            for at in set(range(len(channels))) - set(turned):
+                places[:, _AXES.index(channels[at][0])] = columns[:, at]
+            translations[joint] = places
+    root_translation = translations.pop(0)
+    for joint in [joint for joint, places in translations.items() if (places == places[0]).all()]:
+        offsets[joint] = translations.pop(joint)[0]
     return BvhClip(
         tuple(hierarchy.names),
         tuple(hierarchy.parents),
         offsets,
         hierarchy.end_sites,
-        exact_rate(1 / frame_time),
+        _rate(frame_time, words[4]),
         root_translation,
         rotations,
+        translations,
     )
+
+
+def _rotations(angles_degrees: FloatArray, order: str) -> npt.NDArray[np.float64]:
+    """Quaternions of angles (F, up to 3) about these axes; about the others by nothing."""
+    missing = "".join(axis for axis in _AXES if axis not in order)
+    return euler.quaternions(np.pad(angles_degrees, ((0, 0), (0, len(missing)))), order + missing)
+
+
+def _rate(frame_time: float, written: str) -> Fraction:
+    """The rate that a frame time means, which is often written with few digits: .03333 is 30 frames per second."""
+    digit = float(Decimal(10) ** int(Decimal(written).as_tuple().exponent))
+    return exact_rate(1 / frame_time, 0.5 * digit / frame_time)

@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Final
+
+LEAST_ACCURACY: Final = 2e-3
+"""Rates that differ by more are different ones, however coarsely they are written."""
 
 
-def exact_rate(fps: float) -> Fraction:
+def exact_rate(fps: float, accuracy: float = 0.0) -> Fraction:
     """The rate that a rounded number means: whole, a whole number / 1.001, or else the nearest simple fraction.
 
     Parameters
     ----------
     fps : float
         Frames per second, above zero.
+    accuracy : float
+        How far the number may be off, as a part of it, because it was written with few digits; at least 1e-6.
     """
+    accuracy = min(max(accuracy, 1e-6), LEAST_ACCURACY)
     for candidate in (Fraction(round(fps)), Fraction(round(fps * 1.001) * 1000, 1001)):
-        if candidate and abs(float(candidate) - fps) < 1e-6 * fps:
+        if candidate and abs(float(candidate) - fps) < accuracy * fps:
             return candidate
     return Fraction(fps).limit_denominator(10000)

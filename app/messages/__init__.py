@@ -14,6 +14,7 @@ from app.errors import AppError, Message
 from app.messages import (
     audio,
     capture,
+    choreography,
     edit,
     files,
     formats,
@@ -36,6 +37,7 @@ from app.messages.pitches import pitch_name
 TEMPLATES: Final[dict[str, str]] = {
     **audio.TEMPLATES,
     **capture.TEMPLATES,
+    **choreography.TEMPLATES,
     **edit.TEMPLATES,
     **files.TEMPLATES,
     **formats.TEMPLATES,

@@ -53,7 +53,24 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.hold_right_elbow": "hold the right elbow differently",
     "edit.hold_torso": "hold the torso differently",
     "edit.release_pose": "pose back to the generator's",
+    # Dances
+    "edit.pin_dance": "{dancer} dances basic motion {number}",
+    "edit.use_dance_segment": "{dancer} dances another segment",
+    "edit.forbid_dance": "{dancer} does not dance basic motion {number}",
+    "edit.release_dance": "dance of {dancer} back to the generator's",
     # Players
+    "edit.add_dancer": "add a dancer",
+    "edit.duplicate_dancer": "duplicate {dancer}",
+    "edit.remove_dancer": "remove {dancer}",
+    "edit.rename_dancer": "rename {dancer}",
+    "edit.dancer_choreography": "choreography of {dancer}",
+    "edit.dancer_character": "character of {dancer}",
+    "edit.dancer_source": "preferred source of {dancer}",
+    "edit.dancer_mirrored": "mirror {dancer}",
+    "edit.dancer_seed": "variation of {dancer}",
+    "edit.dancer_size": "size of {dancer}'s motion",
+    "edit.dancer_delay_beats": "delay of {dancer}",
+    "edit.dancer_place": "place {dancer} on the stage",
     "edit.rename_player": "rename {player}",
     "edit.add_player": "add {player}",
     "edit.duplicate_players": "duplicate players: {count}",
@@ -90,5 +107,10 @@ TEMPLATES: Final[dict[str, str]] = {
     "player.too_many": "a project can have {most} players",
     "player.no_name": "a name must have at least one sign that can be seen",
     "player.no_part": "there is no part {part}",
+    "dancer.too_many": "a project can have {most} dancers",
+    "dancer.no_choreography": (
+        "{file} is neither a choreography file (.choreography) nor a choreography that comes with the program; choose "
+        "one of these"
+    ),
     "edit.reimport": "re-import the MIDI file",
 }

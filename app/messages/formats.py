@@ -22,5 +22,10 @@ TEMPLATES: Final[dict[str, str]] = {
     "bvh.motion": "{file}: the motion does not fit the skeleton ({detail})",
     "bvh.too_large": "{file} describes far more data than a file of its size holds; export the motion alone",
     "bvh.unsupported": "{file}, line {line}: {what} is not supported",
+    "motion.incomplete": "{file}: no bone was found for {joints}; only the motion of a whole human body can be read",
+    "motion.far": "{file} is damaged: it has a joint farther away than any body goes; export it again",
+    "motion.format": "{file} is not a file of motion that can be read; export the motion as BVH, FBX or GLB",
+    "motion.no_animation": "{file} has no animation; export it with its animation baked",
+    "motion.too_long": "{file} has too much motion to be read at once; export it in shorter parts",
     "usd.missing": "USD files need the package usd-core, which is not installed: pip install usd-core",
 }

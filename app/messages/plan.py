@@ -93,6 +93,9 @@ TEMPLATES: Final[dict[str, str]] = {
         "a catch breath instead of note {after_note}, which is left out: {phrase_s:g} s without a breath in a rest "
         "need more than the {lung_s:g} s of air there are, and no note is long enough to take it from"
     ),
+    "breath.staggered": (
+        "a breath within a note that others of the line hold on: it takes {air_s:g} s of air, and there are {lung_s:g}"
+    ),
     "breath.too_long": (
         "from note {note} on, {phrase_s:g} s must be played on one breath; it takes {air_s:g} s of air, and there are "
         "{lung_s:g}"

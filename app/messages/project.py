@@ -58,6 +58,13 @@ TEMPLATES: Final[dict[str, str]] = {
     "project.character_missing": (
         "{player} is the character {id!r}, which is not installed; choose another one or install it"
     ),
+    "project.choreography_missing": (
+        "{dancer} dances the choreography {name!r}, which does not come with this version of the program; choose a "
+        "choreography file or one of: {known}"
+    ),
+    "project.choreography_file_missing": (
+        "{dancer} dances the choreography {file}, which is not there; put the file back or choose another choreography"
+    ),
     "project.unknown_remark": "a remark of another version of the program ({remark})",
     # Edits of the piece
     "tempo.outside": "a tempo must be from {low:g} to {high:g} quarters per minute",

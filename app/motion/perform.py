@@ -303,8 +303,8 @@ def _fingers(
     before: Playing | None = None,
 ) -> tuple[dict[str, Curve], dict[str, Curve], Curve]:
     """Curves of the controls, of the places of the fingers and of how high they wait."""
-    notes = plan.fingerings
-    stretch = None if before is None else changed_stretch(before.plan.fingerings, notes, felt_beats)
+    notes = plan.grips
+    stretch = None if before is None else changed_stretch(before.plan.grips, notes, felt_beats)
     controls = stations = None
     if before is not None and stretch is not None:
         own = stretch.notes(notes)

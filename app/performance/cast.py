@@ -22,20 +22,21 @@ import msgspec
 from app.errors import AppError, Cancelled, FileError, Message
 from app.performance.bodies import body_of, character_of, hold_of, model_of
 from app.performance.ensemble import Performance
-from app.project.model import Player
+from app.project.model import Dancer, Player
 from app.rig.hold import Hold
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body
 
 T = TypeVar("T")
+P = TypeVar("P", Player, Dancer)
 Wording = Callable[[Message], str]
 
 
 class LeftOut(msgspec.Struct, frozen=True):
-    """A player who cannot be seen, and why."""
+    """A player or dancer who cannot be seen, and why."""
 
-    player: Player
+    player: Player | Dancer
     reason: Message
 
     def message(self, wording: Wording) -> Message:
@@ -82,8 +83,8 @@ class Performer:
     hold: Hold
 
 
-def attempt(players: Iterable[Player], make: Callable[[Player], T]) -> Attempt[T]:
-    """Make something of every player; those for whom that raises an `AppError` are left out with its message.
+def attempt(players: Iterable[P], make: Callable[[P], T]) -> Attempt[T]:
+    """Make something of every player or dancer; those for whom that raises an `AppError` are left out with its message.
 
     Raises
     ------

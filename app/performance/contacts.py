@@ -109,8 +109,8 @@ class ContactJudge:
         plan, instrument = playing.plan, playing.instrument_map
         self._playing, self._model = playing, model
         self._character = meeting(character, instrument, playing.body)
-        self._starts_s = np.array([event.start_s for event in plan.fingerings])
-        self._ends_s = np.array([event.end_s for event in plan.fingerings])
+        self._starts_s = np.array([event.start_s for event in plan.grips])
+        self._ends_s = np.array([event.end_s for event in plan.grips])
         self._breaths_s = np.array([(event.start_s, event.end_s) for event in plan.breaths]).reshape(-1, 2)
         self._touched = [
             control
@@ -165,7 +165,7 @@ class ContactJudge:
         placed = self._playing.placed(times_s)
         # Of the notes that are looked at: a line has thousands.
         first = int(notes.min())
-        played, notes = self._playing.plan.fingerings[first : int(notes.max()) + 1], notes - first
+        played, notes = self._playing.plan.grips[first : int(notes.max()) + 1], notes - first
         working = stations_of_notes(instrument, ((event.controls, event.fingers) for event in played))
         targets = {control.name: _targets(control, played)[notes] for control in self._touched}
         places = {finger: found[notes] for finger, found in working.items()}
@@ -264,14 +264,14 @@ def contact_problems(breaks: Iterable[Break], plan: PlayerPlan) -> tuple[Problem
             if problem.message.id == "contact.out_of_reach"
         ]
     )
-    starts_s = np.array([event.start_s for event in plan.fingerings])
+    starts_s = np.array([event.start_s for event in plan.grips])
     for found in joined(breaks):
         if found.kind == "short" and any(start_s <= found.start_s and found.end_s <= end_s for start_s, end_s in told):
             continue
         note_id = None
         if found.kind != "foot":
             index = max(int(np.searchsorted(starts_s, found.start_s + 1e-9, side="right")) - 1, 0)
-            note_id = plan.fingerings[index].note_id
+            note_id = plan.grips[index].note_id
         end_s = found.end_s + 1.0 / JUDGED_PER_S
         problems.append(Problem(_message(found), note_id, found.start_s, end_s))
     return tuple(sorted(problems, key=lambda problem: problem.start_s))

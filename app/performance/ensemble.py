@@ -133,8 +133,13 @@ class Performance:
         """The span that every player's motion covers."""
         players = [self.project.player(line.player_id) for line in self.lines]
         played = [part for part in map(self.project.part, players) if part.notes]
-        first_tick = min((part.notes[0].onset_tick for part in played), default=0)
-        last_tick = max((part.end_tick for part in played), default=0)
+        first_ticks = [part.notes[0].onset_tick for part in played]
+        last_ticks = [part.end_tick for part in played]
+        if self.project.dancers:
+            # They move to all that is heard.
+            first_ticks += [hit.tick for hit in self.project.score.percussion[:1]]
+            last_ticks.append(self.project.score.sounding_end_tick)
+        first_tick, last_tick = min(first_ticks, default=0), max(last_ticks, default=0)
         beat_ticks = self.project.felt_beat_ticks(first_tick)
         return frame_around(first_tick, last_tick, self.piece.clock, self.project.preroll_beats, beat_ticks)
 

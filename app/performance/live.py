@@ -14,8 +14,12 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from threading import Lock
+from typing import TYPE_CHECKING
 
-from app.errors import Message
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import AppError, Message
 from app.motion.model import Motion
 from app.motion.perform import Playing
 from app.performance.cast import Performer, performers_of
@@ -24,7 +28,10 @@ from app.performance.contacts import Break, ContactJudge, contact_problems
 from app.performance.ensemble import Performance
 from app.performance.motion import playing_of
 from app.plan.model import PlayerPlan, Problem
-from app.project.model import Player
+from app.project.model import Dancer, Player
+
+if TYPE_CHECKING:
+    from app.performance.dancers import Dancing
 
 StopWanted = Callable[[], bool]
 
@@ -43,23 +50,24 @@ class PlayerFault(Exception):
 
 @dataclass(eq=False)
 class _Track:
-    """What is there of one player.
+    """What is there of one performer.
 
     Attributes
     ----------
-    player : Player
+    player : Player or Dancer
     plan : PlayerPlan
-    playing : Playing or None
+        Of a dancer one without events.
+    playing : Playing, Dancing or None
         None until it is first needed, and for who cannot play.
     chunks : dict of int to Chunk
         Made from ``playing``.
-    basis : Playing or None
+    basis : Playing, Dancing or None
         What ``unproven`` was made from: chunks of the performance before, some of which are still right.
     unproven, outdated : dict of int to Chunk
         Shown as long as there is nothing better.
     error : Message or None
         Why the player cannot be seen.
-    prepared : Playing or None
+    prepared : Playing, Dancing or None
         What ``playing`` will be, once the chunks are proven.
     performer : Performer or None
         Whom ``prepared`` and ``playing`` are of.
@@ -73,15 +81,15 @@ class _Track:
         The same, told.
     """
 
-    player: Player
+    player: Player | Dancer
     plan: PlayerPlan
-    playing: Playing | None = None
+    playing: Playing | Dancing | None = None
     chunks: dict[int, Chunk] = field(default_factory=dict)
-    basis: Playing | None = None
+    basis: Playing | Dancing | None = None
     unproven: dict[int, Chunk] = field(default_factory=dict)
     outdated: dict[int, Chunk] = field(default_factory=dict)
     error: Message | None = None
-    prepared: Playing | None = None
+    prepared: Playing | Dancing | None = None
     performer: Performer | None = None
     judge: ContactJudge | None = None
     judged: set[int] = field(default_factory=set)
@@ -97,8 +105,8 @@ class _Track:
         """What is shown of a chunk's time: the best there is."""
         return self.chunks.get(index) or self.unproven.get(index) or self.outdated.get(index)
 
-    def after(self, player: Player, plan: PlayerPlan, same_chunks: int) -> _Track:
-        """The track of the same player after an edit; chunks from ``same_chunks`` on have other frames now."""
+    def after(self, player: Player | Dancer, plan: PlayerPlan, same_chunks: int) -> _Track:
+        """The track of the same performer after an edit; chunks from ``same_chunks`` on have other frames now."""
         proven = self.playing is not None
         return _Track(
             player,
@@ -177,6 +185,12 @@ class LiveMotion:
                     tracks[player.id] = old
                 else:
                     tracks[player.id] = old.after(player, plan, same_chunks)
+            for dancer in performance.project.dancers:
+                old = before.tracks.get(dancer.id)
+                plan = PlayerPlan(dancer.id, performance.time_frame, (), (), (), (), (), (), (), ())
+                # Whether the dance is still the same is known once it is made ready.
+                kept = old is not None and same_frames and isinstance(old.player, Dancer)
+                tracks[dancer.id] = old.after(dancer, plan, same_chunks) if old and kept else _Track(dancer, plan)
             self._shown = _Shown(performance, grid, tracks)
             self._todo = self._unjudged = None
             self._tell(self._shown)
@@ -287,12 +301,14 @@ class LiveMotion:
                 return False
             motion = track.playing.motion(shown.grid.fps, *shown.grid.span(index))
             chunk = Chunk.of(motion)
+            if isinstance(track.player, Dancer):
+                self._name_problems(track)
         with self._lock:
             track.chunks[index] = chunk
             track.outdated.pop(index, None)
             self._chunk_bytes = chunk.bytes
             self._seen += index == self._in_sight(shown.grid)[0]
-            if index not in track.judged:
+            if index not in track.judged and isinstance(track.player, Player):
                 self._made.append((track, index, motion))
         return True
 
@@ -329,7 +345,7 @@ class LiveMotion:
             with self._own_fault(track):
                 if track.playing is None or track.basis is not None:
                     self._prove(shown, track)
-                if track.playing is None or track.error is not None or index in track.judged:
+                if not isinstance(track.playing, Playing) or track.error is not None or index in track.judged:
                     continue
                 self._judge(track, index, track.playing.motion(shown.grid.fps, *shown.grid.span(index)))
             return True
@@ -370,7 +386,7 @@ class LiveMotion:
             raise PlayerFault(f"{track.player.name}: {detail}") from fault
 
     def _judge(self, track: _Track, index: int, motion: Motion) -> None:
-        assert track.playing is not None
+        assert isinstance(track.playing, Playing)
         assert track.performer is not None
         if track.judge is None:
             track.judge = ContactJudge(track.playing, track.performer.character, track.performer.model)
@@ -378,11 +394,15 @@ class LiveMotion:
         track.judged.add(index)
         if breaks or index in track.breaks:
             track.breaks[index] = breaks
-            self._name_breaks(track)
+            self._name_problems(track)
 
-    def _name_breaks(self, track: _Track) -> None:
-        breaks = [item for index in sorted(track.breaks) for item in track.breaks[index]]
-        problems = contact_problems(breaks, track.plan)
+    def _name_problems(self, track: _Track) -> None:
+        """Contacts that a player breaks, or corrections that a dance does not hold."""
+        if track.playing is None or isinstance(track.playing, Playing):
+            breaks = [item for index in sorted(track.breaks) for item in track.breaks[index]]
+            problems = contact_problems(breaks, track.plan)
+        else:
+            problems = track.playing.problems
         if problems != track.problems:
             track.problems = problems
             with self._lock:
@@ -424,19 +444,38 @@ class LiveMotion:
         """What all chunks take."""
         return sum(track.bytes for track in tuple(self._shown.tracks.values()))
 
-    def _playing(self, shown: _Shown, track: _Track) -> Playing | None:
-        if track.playing is not None or track.error is not None:
-            return track.playing
+    def _playing(self, shown: _Shown, track: _Track) -> Playing | Dancing | None:
+        if track.playing is not None or track.error is not None or track.prepared is not None:
+            return track.playing or track.prepared
+        if isinstance(track.player, Dancer):
+            return self._dancing(shown, track, track.player)
         if track.player.id in shown.performance.waiting:
             track.error = Message("character.hold_waiting", {})
-        elif track.prepared is None:
+        else:
             found = performers_of(shown.performance, (track.player,))
             if found.left_out:
                 track.error = found.left_out[0].reason
             else:
                 track.performer = found.made[track.player.id]
-                track.prepared = playing_of(shown.performance, track.performer, track.basis)
+                basis = track.basis if isinstance(track.basis, Playing) else None
+                track.prepared = playing_of(shown.performance, track.performer, basis)
         return track.prepared
+
+    def _dancing(self, shown: _Shown, track: _Track, dancer: Dancer) -> Dancing | None:
+        # What dancing is made with is loaded where somebody dances.
+        from app.performance.dancers import dancing_of
+
+        try:
+            made = dancing_of(shown.performance, dancer)
+        except AppError as error:
+            track.error = error.message
+            frame = track.plan.time_frame
+            track.problems = (Problem(error.message, None, frame.first_frame_s, frame.end_s),)
+            with self._lock:
+                self._tell(shown)
+            return None
+        track.prepared = made
+        return made
 
     def _prove(self, shown: _Shown, track: _Track) -> None:
         """Find out which chunks of the performance before are still right."""
@@ -444,11 +483,12 @@ class LiveMotion:
         if playing is None:
             track.unproven, track.outdated, track.basis = {}, {}, None
             track.breaks = {}
-            self._name_breaks(track)
+            if isinstance(track.player, Player):
+                self._name_problems(track)
             return
         kept: dict[int, Chunk] = {}
         if track.basis is not None:
-            touched = shown.grid.touched(playing.changed_s(track.basis))
+            touched = shown.grid.touched(_changed_s(playing, track.basis))
             for index, chunk in track.unproven.items():
                 right = index < len(touched) and not touched[index] and chunk.frames == shown.grid.span(index)[1]
                 (kept if right else track.outdated)[index] = chunk
@@ -457,7 +497,7 @@ class LiveMotion:
         with self._lock:
             track.playing, track.chunks, track.basis, track.unproven = playing, kept, None, {}
         if track.breaks or track.problems:
-            self._name_breaks(track)
+            self._name_problems(track)
 
     def _missing(self, shown: _Shown) -> Iterator[tuple[str, int]]:
         """Players and chunks, the most wanted first: what is looked at, then the rest by its distance in time."""
@@ -506,13 +546,23 @@ class LiveMotion:
         return False
 
 
+def _changed_s(playing: Playing | Dancing, basis: Playing | Dancing) -> npt.NDArray[np.float64]:
+    """Spans (K, 2) in which the motion of one is not that of the other."""
+    if isinstance(playing, Playing) and isinstance(basis, Playing):
+        return playing.changed_s(basis)
+    assert not isinstance(playing, Playing)
+    return playing.changed_s(basis)
+
+
 def _distance(index: int, here: int) -> int:
     return index - here if index >= here else BEHIND_COSTS * (here - index)
 
 
-def _looks_same(player: Player, before: Player) -> bool:
+def _looks_same(player: Player, before: Player | Dancer) -> bool:
     """Whether nothing of a player changed that is seen in the motion, beside the plan."""
     if player is before:
         return True
+    if not isinstance(before, Player):
+        return False
     same = player.instrument_id == before.instrument_id and player.character_id == before.character_id
     return same and player.parameters == before.parameters

@@ -61,6 +61,11 @@ class _Grip:
     at_work: dict[str, int]
 
 
+def _due_s(control: Control) -> float:
+    """How long a note is held before a control corrects it, or is let go."""
+    return control.held_min_s or control.attack_s or 0.0
+
+
 class LiveHands:
     """The hands of one player.
 
@@ -132,9 +137,7 @@ class LiveHands:
             self._let_go(self._silent_s + LET_GO_S)
         elif grip is not None and not self._corrected and math.isinf(self._silent_s):
             held_s = now_s - self._onset_s
-            due = {
-                name: value for name, value in grip.held.items() if held_s >= (self._controls[name].held_min_s or 0.0)
-            }
+            due = {name: value for name, value in grip.held.items() if held_s >= _due_s(self._controls[name])}
             for name, value in due.items():
                 self._move(now_s, self._controls[name], value)
             self._corrected = len(due) == len(grip.held)
@@ -179,10 +182,17 @@ class LiveHands:
             grip = self._grips[pitch, column] = _Grip(
                 fingering,
                 self._within_reach(self._instrument.values(fingering)),
-                self._within_reach(fingering.correction),
+                self._within_reach(fingering.correction) | self._vents(fingering),
                 {name: station_for(own, working[name]) for name, own in self._places.items() if name in working},
             )
         return grip
+
+    def _vents(self, fingering: Fingering) -> dict[str, float]:
+        """Controls of a fingering that only help the attack, at rest."""
+        if "attack" not in fingering.tags:
+            return {}
+        controls = (self._controls[name] for name in fingering.controls)
+        return {control.name: control.rest_value for control in controls if control.attack_s is not None}
 
     def _within_reach(self, values: Mapping[str, float]) -> dict[str, float]:
         return {name: min(value, self._farthest.get(name, 1.0)) for name, value in values.items()}

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from app.identity_cache import IdentityCache
 from app.plan.heard import STOPS_AT, step_means
-from app.plan.line import Heard, Steps, velocity_loudness
+from app.plan.line import MEZZOFORTE, Heard, Steps, velocity_loudness
 from app.score.model import ControllerCurve, Part
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -17,6 +17,8 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 _SPEAKING = ("breath", "expression", "aftertouch", "volume")
 """Controllers that may carry the dynamics, the most telling first: wind controllers send one of the first three, and
 sequencers draw the second or the last."""
+_SCALING: Final = ("expression", "volume")
+"""Controllers that make what the velocities say louder or softer, as in synthesisers; the others take its place."""
 
 
 _STEPS: Final[IdentityCache[Steps]] = IdentityCache(64)
@@ -24,13 +26,13 @@ _STEPS: Final[IdentityCache[Steps]] = IdentityCache(64)
 
 
 def note_loudness(part: Part) -> tuple[float, ...]:
-    """Mean loudness 0..1 of every note, by the first controller that moves while notes sound; by its velocity where it
-    was not blown at all (drawn beside the recorded bars).
+    """Mean loudness 0..1 of every note, by the first controller that moves while notes sound, expression and volume
+    relative to its velocity; by the velocity alone where it was not blown at all (drawn beside the recorded bars).
 
     A controller that is set once is a mixer's level and says nothing about playing; empty if no controller speaks.
     """
     curve = speaking_curve(part)
-    return () if curve is None else tuple(_loudness(part, _steps(curve)).tolist())
+    return () if curve is None else tuple(_loudness(part, curve).tolist())
 
 
 def heard(part: Part) -> Heard | None:
@@ -71,7 +73,7 @@ def sounding_curve(part: Part) -> ControllerCurve | None:
     silent = np.flatnonzero(means <= STOPS_AT).tolist()
     if not silent:
         return curve
-    loudness = _loudness(part, steps)
+    loudness = _loudness(part, curve)
     onsets, ends = (array.astype(np.int64) for array in _spans(part))
     levels = dict(zip(curve.ticks, curve.values, strict=True))
     for index in silent:
@@ -87,12 +89,11 @@ def sounding_curve(part: Part) -> ControllerCurve | None:
     return ControllerCurve(curve.kind, tuple(ticks), tuple(levels[tick] for tick in ticks))
 
 
-def _loudness(part: Part, steps: Steps) -> Floats:
-    means: Floats = np.clip(_means(part, steps), 0.0, 1.0)
-    silent = means <= STOPS_AT
-    if silent.any():
-        means[silent] = velocity_loudness(np.array([note.velocity for note in part.notes]))[silent]
-    return means
+def _loudness(part: Part, curve: ControllerCurve) -> Floats:
+    means: Floats = np.clip(_means(part, _steps(curve)), 0.0, 1.0)
+    by_velocity = velocity_loudness(np.array([note.velocity for note in part.notes]))
+    blown = np.minimum(means * by_velocity / MEZZOFORTE, 1.0) if curve.kind in _SCALING else means
+    return np.where(means <= STOPS_AT, by_velocity, blown)
 
 
 def _steps(curve: ControllerCurve) -> Steps:

@@ -65,14 +65,14 @@ def reached(player: Player, instrument: InstrumentMap, plan: PlayerPlan, before:
         return Reached((), (), ())
     known: dict[int, Place] = {}
     places: list[Place] = []
-    for event in plan.fingerings:
+    for event in plan.grips:
         # By identity: notes of one fingering share its table.
         place = known.get(id(event.controls))
         if place is None:
             place = known[id(event.controls)] = _place(event, carried)
         places.append(place)
     examples: dict[Place, FingeringEvent] = {}
-    for place, event in zip(places, plan.fingerings, strict=True):
+    for place, event in zip(places, plan.grips, strict=True):
         examples.setdefault(place, event)
     held = tuple((place, event.controls, event.fingers) for place, event in examples.items())
     body = (player.character_id, character_revision(player.character_id))
@@ -83,7 +83,7 @@ def reached(player: Player, instrument: InstrumentMap, plan: PlayerPlan, before:
         gaps_m = tuple(_gaps_m(player, instrument, plan, list(examples.values())))
     far = {place: gap_m for place, gap_m in zip(examples, gaps_m, strict=True) if gap_m > MOST_GAP_M}
     problems = []
-    for place, event in zip(places, plan.fingerings, strict=True):
+    for place, event in zip(places, plan.grips, strict=True):
         if place in far:
             control = max(sorted(carried), key=lambda name: event.controls.get(name, 0.0))
             gap_mm = 5 * round(200.0 * far[place])

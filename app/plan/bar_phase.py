@@ -13,8 +13,8 @@ import msgspec
 import numpy as np
 
 from app.plan.line import IntArray, LineTimes, Piece
-from app.plan.lungs import written_onsets
 from app.plan.model import FloatArray
+from app.plan.notation import written_onsets
 
 LEAST_NOTES = 24
 """Fewer notes show no metre."""
@@ -41,7 +41,7 @@ def with_felt_bars(piece: Piece, lines: Sequence[LineTimes]) -> Piece:
     bar = piece.bar_length_tick(int(bars[0]))
     if bar % unit or np.any(np.diff(bars) != bar):
         return piece
-    onsets = [written_onsets(times.onset_tick, piece.clock.ticks_per_quarter) - bars[0] for times in lines]
+    onsets = [written_onsets(times.onset_tick, piece.clock.ticks_per_quarter, bars) - bars[0] for times in lines]
     beats = _weights(lines, onsets, unit, bar // unit)
     best = int(np.argmax(beats))
     others = np.delete(beats, best)

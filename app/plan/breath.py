@@ -48,6 +48,7 @@ from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import (
     CATCH_MIN_S,
     EPSILON,
+    FULL_BREATH_S,
     air_used_s,
     catch_lengths_s,
     catch_places,
@@ -56,11 +57,13 @@ from app.plan.lungs import (
     levels,
     lungful_s,
     needed_rests,
-    notated,
+    where_short,
     with_circular_breathing,
 )
 from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, Problem, TimeFrame
+from app.plan.notation import at_score_tempo, notated
 from app.plan.rests import rest_ticks
+from app.plan.stagger import ALONE, Shared, within_held
 from instrument_maps.model import Air
 
 LEAST_DEPTH = 0.3
@@ -94,7 +97,7 @@ def plan_breaths(
     parameters: PlayerParameters,
     frame: TimeFrame,
     corrections: tuple[Correction, ...] = (),
-    taken: frozenset[str] = frozenset(),
+    shared: Shared = ALONE,
     seeds: Seeds = NOBODY,
     air: Air | None = None,
     heard: Blown | None = None,
@@ -105,8 +108,8 @@ def plan_breaths(
     ----------
     air : Air or None
         How long a lungful lasts on the instrument, as its map says.
-    taken : frozenset of str
-        Notes before which other players of the same part take catch breaths.
+    shared : Shared
+        Where others of a unison breathe.
     seeds : Seeds
         What tells this player from others where places are equally good.
     heard : Blown or None
@@ -120,9 +123,13 @@ def plan_breaths(
               if isinstance(item, SetBreath) and item.note_id in index_of}  # fmt: skip
     gaps = None if heard is None or not heard.tells_breaths(times) else silences(heard, times)
     score = notated(times, piece) if gaps is None else times
-    rests = rest_ticks(score, piece.beat_ticks_at(times.onset_tick))
+    # What is a rest is read from the score, how long it is from what sounds.
+    rests = np.where(rest_ticks(score, piece.beat_ticks_at(times.onset_tick)) > 0, times.silence_tick, 0)
+    used, lung_s = air_used_s(score, air, None if gaps is None else heard), lungful_s(parameters, air)
     if gaps is None:
         generated = rest_breaths(notes, times, piece, parameters, frame, rests)
+        if not parameters.circular_breathing:
+            generated += within_held(notes, times, piece, used, lung_s, shared)
     else:
         assert heard is not None
         within = tuple(_within(notes[index], piece, *gap_s) for index, *gap_s in gaps_within(heard, times))
@@ -130,19 +137,20 @@ def plan_breaths(
     by_hand = [_by_hand(item, times, index_of[item.note_id], piece) for item in placed.values()]
     hand_ids = {event.id for event in by_hand}
     kept = [event for event in without_removed(generated, removed) if event.id not in hand_ids]
-    refill = np.zeros(len(notes))
-    used, lung_s = air_used_s(score, air, None if gaps is None else heard), lungful_s(parameters, air)
-    taken_s = np.diff(used)
+    refill, spared_s = np.zeros(len(notes)), np.zeros(len(notes))
     for event in [*kept, *by_hand]:
         index, share = index_of[_note_id(event)], max(0.0, drawn(event.end_s - event.start_s) * _full(event))
         if _is_within(event):
             # Lungs are counted from note to note: such a note takes so much less.
-            taken_s[index] -= min(share * lung_s, taken_s[index])
+            spared_s[index] += share * lung_s
         elif event.kind == "breath":
             refill[index] = share
-    used = np.concatenate(([0.0], np.cumsum(taken_s)))
+    used = _less(used, spared_s)
+    # What is needed is decided at the tempo of the score.
+    steady = at_score_tempo(score, piece) if gaps is None else score
+    steady_used = used if steady is score else _less(air_used_s(steady, air), spared_s)
     # No longer than the notes that really sound leave room for.
-    length_s = np.minimum(catch_lengths_s(score), catch_lengths_s(times))
+    length_s = np.minimum(catch_lengths_s(steady, rests), catch_lengths_s(times, rests))
     spare: dict[int, BreathEvent] = {}
     if gaps is not None:
         length_s = np.where(gaps.played, gaps.length_s, length_s)
@@ -150,26 +158,55 @@ def plan_breaths(
         optional = rests < parameters.breath_prepare_beats * piece.beat_ticks_at(times.onset_tick)
         optional[0] = False
         optional[[index_of[_note_id(event)] for event in by_hand]] = False
-        needed = needed_rests(used, lung_s, refill, optional, parameters.breath_need)
+        needed = needed_rests(steady_used, lung_s, refill, optional, parameters.breath_need)
         spare = {index: event for event in kept
-                 if event.kind == "breath" and not needed[index := index_of[_note_id(event)]]}  # fmt: skip
-        kept = [event for event in kept if index_of[_note_id(event)] not in spare]
+                 if event.kind == "breath" and not _is_within(event)
+                 and not needed[index := index_of[_note_id(event)]]}  # fmt: skip
+        kept = [event for event in kept if _is_within(event) or index_of[_note_id(event)] not in spare]
         for index, event in spare.items():
             refill[index], length_s[index] = 0.0, event.end_s - event.start_s
     if parameters.circular_breathing:
         used = with_circular_breathing(used, lung_s, refill)
+        steady_used = with_circular_breathing(steady_used, lung_s, refill)
     level = levels(used, lung_s, refill)
-    drop_s = drop_lengths_s(times) if gaps is None else None
-    catches = catch_places(
-        notes, score, used, piece, lung_s, refill, level, removed | hand_ids, taken, seeds, rests, length_s, drop_s
-    )
+    drop_s = drop_lengths_s(times) if gaps is None else np.zeros(len(notes))
+
+    taken = frozenset(notes[index].id for index in shared.caught)
+
+    def catches_between(line: LineTimes, line_used: FloatArray, filled: FloatArray) -> list[int]:
+        full = levels(line_used, lung_s, filled)
+        return catch_places(
+            notes,
+            line,
+            line_used,
+            piece,
+            lung_s,
+            filled,
+            full,
+            removed | hand_ids,
+            taken,
+            seeds,
+            rests,
+            length_s,
+            drop_s,
+        )
+
+    catches = catches_between(steady, steady_used, refill)
+    if steady is not score and catches:
+        filled = refill.copy()
+        fits = length_s[catches] >= CATCH_MIN_S - EPSILON
+        filled[catches] = np.minimum(np.where(fits, length_s[catches], drop_s[catches]) / FULL_BREATH_S, 1.0)
+        again = where_short(used, lung_s, refill, filled)
+        if len(again):
+            filled[again] = refill[again]
+            catches = sorted({*catches} - {*again.tolist()} | {*catches_between(score, used, filled)})
     breaths, air_s = np.flatnonzero(refill > 0.0), level * lung_s
     caught = []
     for index in catches:
         if index in spare:
             caught.append(spare[index])
         elif gaps is None or not gaps.played[index]:
-            dropped_s = 0.0 if drop_s is None or length_s[index] >= CATCH_MIN_S - EPSILON else float(drop_s[index])
+            dropped_s = 0.0 if length_s[index] >= CATCH_MIN_S - EPSILON else float(drop_s[index])
             caught.append(
                 _catch(notes, times, piece, air_s, breaths, dropped_s or float(length_s[index]), index, dropped_s > 0.0)
             )
@@ -434,6 +471,11 @@ def _within(note: Note, piece: Piece, start_s: float, end_s: float) -> BreathEve
 
 def _is_within(event: BreathEvent) -> bool:
     return event.id.startswith(f"{WITHIN}:")
+
+
+def _less(used: FloatArray, spared_s: FloatArray) -> FloatArray:
+    """(N + 1,): air used by notes that take so much less, at least none."""
+    return np.concatenate(([0.0], np.cumsum(np.maximum(np.diff(used) - spared_s, 0.0))))
 
 
 def _full(event: BreathEvent) -> float:

@@ -18,13 +18,19 @@ fingering.starts_early(note, label, needed_ms, available_ms): "The way to {label
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
+import msgspec
 import numpy as np
 
 from app.errors import Message
 from app.plan.line import IntArray, LineTimes
-from app.plan.model import FingeringEvent, Note, Problem
+from app.plan.model import FingeringEvent, Note, Problem, Vent
 from app.plan.search import TOLERANCE, FingeringProblem, best_path, even_trills, fingering_problem, never_worse
-from instrument_maps.model import InstrumentMap
+from instrument_maps.model import Fingering, InstrumentMap
+
+LEAST_HELD_S = 0.1
+"""A note that would end sooner after its vents are let go keeps them."""
 
 
 def plan_fingerings(
@@ -49,6 +55,7 @@ def plan_fingerings(
     held = [
         (control.name, control.held_min_s or 0.0) for control in instrument.controls if control.role == "intonation"
     ]
+    attacks = {control.name: control.attack_s for control in instrument.controls if control.attack_s is not None}
     onset_tick, end_tick = times.onset_tick.tolist(), times.played_end_tick.tolist()
     onset_s, end_s = times.onset_s.tolist(), times.played_end_s.tolist()
     rows, columns = problem.pitch_index.tolist(), path.tolist()
@@ -80,26 +87,45 @@ def plan_fingerings(
                 more = {"first": first, "time_ms": time_ms} if fingering.rank > 1 else {}
                 reasons[kind] = Message(rule, {"label": fingering.label, **more})
             reason = reasons[kind]
-        events.append(
-            FingeringEvent(
-                id=f"fingering:{note.id}",
-                note_id=note.id,
-                start_tick=onset_tick[index],
-                end_tick=end_tick[index],
-                start_s=onset_s[index],
-                end_s=end_s[index],
-                label=fingering.label,
-                rank=fingering.rank,
-                controls=controls,
-                cents=fingering.cents,
-                reason=reason,
-                corrected=pinned,
-                fingers=fingering.fingers,
-            )
+        event = FingeringEvent(
+            id=f"fingering:{note.id}",
+            note_id=note.id,
+            start_tick=onset_tick[index],
+            end_tick=end_tick[index],
+            start_s=onset_s[index],
+            end_s=end_s[index],
+            label=fingering.label,
+            rank=fingering.rank,
+            controls=controls,
+            cents=fingering.cents,
+            reason=reason,
+            corrected=pinned,
+            fingers=fingering.fingers,
         )
+        events.append(_vented(event, ranked, attacks) if "attack" in fingering.tags and not pinned else event)
     problems += _out_of_range(notes, times, instrument)
     problems += _early_starts(notes, problem, path)
     return tuple(events), tuple(problems)
+
+
+def _vented(event: FingeringEvent, ranked: Sequence[Fingering], attacks: Mapping[str, float]) -> FingeringEvent:
+    """The fingering of an attack, whose vents are let go once the note speaks, if it lasts.
+
+    Parameters
+    ----------
+    ranked : sequence of Fingering
+        All fingerings of the note.
+    attacks : mapping of str to float
+        How long the controls are held that are let go, seconds.
+    """
+    vents = tuple(name for name in event.controls if name in attacks)
+    length_s, open_s = event.end_s - event.start_s, max((attacks[name] for name in vents), default=0.0)
+    if not vents or length_s < open_s + LEAST_HELD_S:
+        return event
+    held = event.controls.keys() - set(vents)
+    label = next((fingering.label for fingering in ranked if fingering.controls.keys() == held), event.label)
+    end_tick = event.start_tick + round((event.end_tick - event.start_tick) * open_s / length_s)
+    return msgspec.structs.replace(event, vent=Vent(vents, end_tick, event.start_s + open_s, label))
 
 
 def _shortest_steps(problem: FingeringProblem) -> tuple[list[float], list[bool]]:

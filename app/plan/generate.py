@@ -42,6 +42,7 @@ from app.plan.line import Line, LineTimes, Piece, Seeds, line_times
 from app.plan.memo import Memo
 from app.plan.model import Clock, CueEvent, PlayerPlan, Problem, TimeFrame
 from app.plan.pose import plan_poses
+from app.plan.stagger import Breathed, Shared, SharedLine, breathed_of, shared_line, shared_with
 from app.plan.together import one_at_a_time
 from app.plan.traces import plan_traces
 from metadata.load import load_expressions
@@ -177,18 +178,25 @@ def plan_ensemble(
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
     beat = shared.step("pulse", lambda: pulse(piece, frame, first_s), piece, frame, first_s)
     ending = shared.step("ending", lambda: ending_of(all_times, piece), all_times, piece)
-    taken: dict[bytes, frozenset[tuple[int, int]]] = {}
+    together = [
+        own[line.player_id].step("shared line", lambda times=times: shared_line(times, piece), times, piece)  # type: ignore[misc]
+        for line, times, _ in playable
+    ]
+    breathed: list[Breathed] = []
     plans = {}
     for done, (line, times, problems) in enumerate(playable):
         _go_on(stop_wanted)
-        # Players of one part stagger their catch breaths.
-        places = taken.get(times.part, frozenset())
+        this = together[done]
+        others = [*together[:done], *together[done + 1 :]]
+        shared_breaths = shared_with(this, others, breathed)
         memo = own[line.player_id]
         own_cues = memo.step("cues", lambda line=line: _cues_of(cues, line.player_id), cues)  # type: ignore[misc]
-        given = _Given(piece, line, times, frame, own_cues, cue_ids, places, seed, beat, ending, problems, faces)
-        plan, caught = memo.step("plan", lambda given=given, memo=memo: _plan_line(given, memo), *given)  # type: ignore[misc]
+        given = _Given(
+            piece, line, times, frame, own_cues, cue_ids, this, shared_breaths, seed, beat, ending, problems, faces
+        )
+        plan, breaths = memo.step("plan", lambda given=given, memo=memo: _plan_line(given, memo), *given)  # type: ignore[misc]
         plans[line.player_id] = plan
-        taken[times.part] = places | caught
+        breathed.append(breaths)
         progress((done + 1) / len(playable))
     for steps in (shared, *own.values()):
         steps.close()
@@ -227,7 +235,7 @@ def _playable(
 
 
 class _Given(NamedTuple):
-    """What one player's plan is made from. ``taken``: places (tick, pitch class) where others of the line breathe."""
+    """What one player's plan is made from."""
 
     piece: Piece
     line: Line
@@ -235,7 +243,8 @@ class _Given(NamedTuple):
     frame: TimeFrame
     cues: tuple[CueEvent, ...]
     cue_ids: frozenset[str]
-    taken: frozenset[tuple[int, int]]
+    shared_line: SharedLine
+    shared: Shared
     seed: int
     pulse: Pulse
     ending: Ending
@@ -243,8 +252,8 @@ class _Given(NamedTuple):
     faces: Mapping[str, Expression]
 
 
-def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[int, int]]]:
-    """One player's plan, and the places of the catch breaths."""
+def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, Breathed]:
+    """One player's plan, and where the player breathes."""
     piece, line, times, frame = given.piece, given.line, given.times, given.frame
     notes, instrument, parameters = line.notes, line.instrument_map, line.parameters
     corrections, clock = line.corrections, piece.clock
@@ -261,17 +270,17 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
     )
     steps = None if line.heard is None else line.heard.breath
     heard = None if steps is None else memo.step("blown", lambda: blown(steps, clock), steps, clock)
-    taken = frozenset(note.id for note in notes if (note.onset_tick, note.pitch % 12) in given.taken)
+    shared = given.shared
     breaths = memo.step(
         "breaths",
-        lambda: plan_breaths(notes, times, piece, parameters, frame, corrections, taken, seeds, instrument.air, heard),
+        lambda: plan_breaths(notes, times, piece, parameters, frame, corrections, shared, seeds, instrument.air, heard),
         *breath_inputs(notes, times),
         piece,
         instrument.air,
         tuple(getattr(parameters, name) for name in BREATH_PARAMETERS),
         frame,
         of(SetBreath, RemoveEvent, SetCue),
-        taken,
+        shared,
         seeds,
         heard,
     )
@@ -381,7 +390,4 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
         poses=poses,
         traces=traces,
     )
-    caught = frozenset(
-        (note.onset_tick, note.pitch % 12) for note in notes if breaths.catch_notes and note.id in breaths.catch_notes
-    )
-    return plan, caught
+    return plan, breathed_of(given.shared_line, notes, breaths.catch_notes, events)

@@ -19,6 +19,8 @@ IntArray = npt.NDArray[np.int64]
 
 MEZZOFORTE = 0.63
 """Loudness 0..1 of mezzoforte: MIDI velocity 80 of 127."""
+STROKES = 5
+"""In a line of more than four times as many notes, one that differs from so many around it is no dynamic."""
 UNMEANT_SPREAD = 16.0
 """Velocities between the 10th and 90th percentile of notes played equally loud (a standard deviation of 6)."""
 MEANT_SPREAD = 32.0
@@ -31,6 +33,12 @@ DYNAMICS = (("ppp", 16), ("pp", 33), ("p", 49), ("mp", 64), ("mf", 80), ("f", 96
 def dynamic_mark(loudness: float) -> str:
     """The dynamic mark nearest to a loudness 0..1."""
     return min(DYNAMICS, key=lambda row: abs(row[1] - 127.0 * loudness))[0]
+
+
+def marked(loudness: FloatArray) -> FloatArray:
+    """(N,): the loudness of the dynamic mark nearest to each; mezzoforte is exactly that."""
+    levels = np.array([MEZZOFORTE if mark == "mf" else velocity / 127.0 for mark, velocity in DYNAMICS])
+    return np.asarray(levels[np.searchsorted((levels[1:] + levels[:-1]) / 2.0, loudness)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -224,11 +232,6 @@ class LineTimes:
         return self.played_end_s - self.onset_s
 
     @cached_property
-    def part(self) -> bytes:
-        """What begins when, in whatever octave: equal for players of one line."""
-        return _digest(self.onset_tick, self.pitch % 12)
-
-    @cached_property
     def rhythm(self) -> bytes:
         """When something is played, whatever it is: equal for players in unison of rhythm."""
         return _digest(self.onset_tick, self.played_end_tick)
@@ -263,11 +266,15 @@ def velocity_loudness(velocity: IntArray) -> FloatArray:
 
     One velocity throughout says nothing about dynamics (engraved scores, most wind controllers): mezzoforte. Nor do
     the differences between the strokes of one hand: the level, and how much louder or softer than usual a note is,
-    count as far as the velocities spread beyond them.
+    count as far as the velocities of several notes together spread beyond them.
     """
     if not len(velocity):
         return np.zeros(0)
-    low, usual, high = np.percentile(velocity, [10, 50, 90])
+    usual = float(np.median(velocity))
+    several = velocity
+    if len(velocity) >= 4 * STROKES:
+        several = np.median(np.lib.stride_tricks.sliding_window_view(velocity, STROKES), axis=1)
+    low, high = np.percentile(several, [10, 90])
     meant = np.clip((high - low - UNMEANT_SPREAD) / (MEANT_SPREAD - UNMEANT_SPREAD), 0.0, 1.0)
     level = MEZZOFORTE + meant * (usual / 127.0 - MEZZOFORTE)
     unmeant = (1.0 - meant) * UNMEANT_SPREAD / 2.0
@@ -370,13 +377,13 @@ class Seeds(msgspec.Struct, frozen=True):
         digest.update(b"%d" % tick)
         return _share(digest.digest())
 
-    def chances_at(self, purpose: str, ticks: IntArray) -> FloatArray:
-        """The same at many places, (N,) float64."""
+    def chances_at(self, purpose: str, ticks: IntArray, places: IntArray | None = None) -> FloatArray:
+        """The same at many places, (N,) float64, drawn for ``places`` (N,) in their stead where these are given."""
         begun = _begun((*self.names, purpose))
         digests = []
-        for tick in ticks.tolist():
+        for place in (ticks if places is None else places).tolist():
             digest = begun.copy()
-            digest.update(b"%d" % tick)
+            digest.update(b"%d" % place)
             digests.append(digest.digest())
         shares: FloatArray = np.frombuffer(b"".join(digests), ">u8") / 2.0**64
         for start_tick, end_tick, _ in self.varied:

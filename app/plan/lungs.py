@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from functools import lru_cache
 
 import numpy as np
@@ -10,8 +9,9 @@ import numpy.typing as npt
 
 from app.plan.dynamics import mean_around
 from app.plan.heard import STOPS_AT, Blown, step_means
-from app.plan.line import MEZZOFORTE, IntArray, LineTimes, Piece, Seeds
+from app.plan.line import MEZZOFORTE, IntArray, LineTimes, Piece, Seeds, marked
 from app.plan.model import FloatArray, Note, PlayerParameters
+from app.plan.notation import PLACES, written_onsets
 from instrument_maps.model import Air
 
 FULL_BREATH_S = 0.5
@@ -30,8 +30,8 @@ USUAL_LUNG_S = 9.0
 PIANO, FORTE = 0.39, 0.77
 """Loudness of the dynamics a map's `Air` names: velocities 49 and 98 of 127."""
 
-PHRASE_S = 2.0
-"""The air of a note follows the mean loudness so far before and after."""
+PHRASE_S = 8.0
+"""The air of a note follows the dynamic mark nearest to the mean loudness so far before and after."""
 STALE_S = 12.0
 """However little air an instrument takes, usual lungs want fresh air after so long (an oboist breathes out first)."""
 
@@ -64,18 +64,13 @@ LIKE_ENTRIES = 1.5
 AGAIN = 2.0
 """Where what came after a rest comes again."""
 AGAIN_NOTES = 4
-WRITTEN_SHARE = 0.9
-"""Where so many notes lie on fractions of a quarter, nobody played them into the file ..."""
-PLAYED_LEAST = 4
-"""... nor where fewer than this lie elsewhere."""
-RESTS = (0.0, 1 / 4, 1 / 3, 1 / 2, 2 / 3, 3 / 4)
-"""What a score writes as a rest beside whole quarters, in quarters ..."""
-LATE_RELEASE = 0.05
-"""... and how much shorter the silence may be because a note was held too long."""
 SHORTER = 0.5
 """Before a note half as long as the one before."""
 SLURRED = -40.0
-"""Within a slur: only by somebody who has no air left."""
+"""Within a slur: only without any air left."""
+ALL_SLURRED = (0.75, 0.9)
+"""Where more than this part of the notes run into the next one, this is how they are played and no phrasing: the slurs
+count less, and from the second value on not at all."""
 BEFORE_REST = -8.0
 """When a rest comes within a felt beat."""
 CLIPPED = -1.0
@@ -106,8 +101,8 @@ def air_used_s(times: LineTimes, air: Air | None = None, heard: Blown | None = N
         The breath, where it tells when air is blown: then all of it counts, also between the notes.
     """
     lasts_s = times.duration_s
-    # A phrase's dynamic takes the air, not how each of its notes turned out.
-    loudness = mean_around(times.onset_s, lasts_s, times.loudness, times.onset_s + lasts_s / 2.0, PHRASE_S)
+    # The dynamic of the phrases takes the air, not how each of their notes turned out.
+    loudness = marked(mean_around(times.onset_s, lasts_s, times.loudness, times.onset_s + lasts_s / 2.0, PHRASE_S))
     noted_s = lasts_s * air_rate(loudness, air)
     if heard is None:
         return np.concatenate(([0.0], np.cumsum(noted_s)))
@@ -148,6 +143,27 @@ def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
     last = np.searchsorted(breaths, np.arange(len(refill)), side="right")
     since = used[np.insert(breaths, 0, 0)[last]]
     return np.asarray(np.maximum(np.array(full)[last] - (used[: len(refill)] - since) / lung_s, 0.0))
+
+
+def where_short(used: FloatArray, lung_s: float, refill: FloatArray, filled: FloatArray) -> IntArray:
+    """(K,): before which notes the catch breaths are not where the air lasts.
+
+    From the one before the first stretch that takes more air than there is to the next rest that gives a breath.
+
+    Parameters
+    ----------
+    refill, filled : (N,) float
+        What the breaths in rests bring, and what they and the catch breaths bring.
+    """
+    starts = np.unique(np.concatenate(([0], np.flatnonzero(filled > 0.0))))
+    ends = np.append(starts[1:], len(filled))
+    short = np.flatnonzero(used[ends] - used[starts] > levels(used, lung_s, filled)[starts] * lung_s + EPSILON)
+    rests = np.append(np.flatnonzero(refill > 0.0), len(filled))
+    result = np.zeros(len(filled), dtype=bool)
+    for first, start in zip(starts[np.maximum(short - 1, 0)].tolist(), starts[short].tolist(), strict=True):
+        place = int(np.searchsorted(rests, start, side="right"))
+        result[max(first, int(rests[place - 1]) if place else 0) : rests[place]] = True
+    return np.flatnonzero(result & (filled > 0.0) & (refill == 0.0))
 
 
 def needed_rests(
@@ -236,7 +252,7 @@ def catch_places(
     drop_s : (N,) float, optional
         `drop_lengths_s`: taken where nothing else gives the air.
     """
-    length_s = catch_lengths_s(times) if length_s is None else length_s
+    length_s = catch_lengths_s(times, rests) if length_s is None else length_s
     drop_s = np.zeros(len(notes)) if drop_s is None else drop_s
     open_ = (length_s >= CATCH_MIN_S - EPSILON) & (refill == 0.0)
     open_[0] = False
@@ -343,7 +359,7 @@ def _place_costs(
     long = np.clip(np.log2(longer), 0.0, 2.0)
     good: FloatArray = REST * rest + LONG_NOTE * long
     bars = piece.bars(int(onsets[0]), int(onsets[-1]) + 1)
-    onsets = written_onsets(onsets, piece.clock.ticks_per_quarter)
+    onsets = written_onsets(onsets, piece.clock.ticks_per_quarter, bars)
     onset = onsets[at]
     strength = _strength(onsets, bars, piece.beat_ticks_at(onsets))
     falls = strength[at - 1] - strength[at]
@@ -363,55 +379,23 @@ def _place_costs(
     good += SHORTER * np.clip(np.log2(np.maximum(before, EPSILON) / np.maximum(duration[at], EPSILON)), 0.0, 2.0)
     good += LEAP * times.leaps[at - 1]
     good += SILENCE * (times.silence_tick[at] > 0)
-    good += SLURRED * times.slurs_next[at - 1]
+    good += SLURRED * (1.0 - _legato(times, rests)) * times.slurs_next[at - 1]
     good += BEFORE_REST * (~rest & _rest_follows(rests, onsets, at, beat))
     good += CLIPPED * (_gap_s(times)[at] + CATCH_NOTE_SHARE * before < CATCH_MIN_S)
-    good += JITTER * seeds.chances_at("catch", onset)
+    quarter = piece.clock.ticks_per_quarter
+    good += JITTER * seeds.chances_at("catch", onset, (2 * PLACES * onset + quarter) // (2 * quarter))
     good -= TAKEN_COST * np.array([notes[index].id in taken for index in at.tolist()])
     return np.asarray(np.maximum(PLACE_COST - good, LEAST_COST), dtype=np.float64)
 
 
-def written_onsets(onsets: IntArray, quarter_ticks: int) -> IntArray:
-    """(N,): where notes that somebody played would stand in a score: on triplets of sixteenths.
+def _legato(times: LineTimes, rests: IntArray) -> float:
+    """0..1: how far notes are slurred throughout, so that slurs say nothing about phrases.
 
-    Onsets that mostly lie on fractions of a quarter are written ones, and are kept as they are.
+    Notes before a rest do not count, nor repeated notes: a key has to be let go before it is pressed again.
     """
-    if _are_written(onsets, quarter_ticks):
-        return onsets
-    return np.asarray(np.rint(np.rint(onsets * 12 / quarter_ticks) * quarter_ticks / 12), np.int64)
-
-
-def _are_written(ticks: IntArray, quarter_ticks: int) -> bool:
-    elsewhere = np.count_nonzero(ticks * 24 % quarter_ticks)
-    return bool(elsewhere < max(PLAYED_LEAST, (1.0 - WRITTEN_SHARE) * len(ticks) + EPSILON))
-
-
-def notated(times: LineTimes, piece: Piece) -> LineTimes:
-    """The line as a score would have it: a musician decides where to breathe by that, not by how each note turned out.
-
-    Onsets stand on the grid of `written_onsets`. Where the ends were played, a silence is what of it a score writes as
-    a rest (`RESTS`), and the remainder belongs to the note before it.
-    """
-    quarter = piece.clock.ticks_per_quarter
-    onset, end = written_onsets(times.onset_tick, quarter), times.played_end_tick
-    ends_are_written = _are_written(end, quarter)
-    if onset is times.onset_tick and ends_are_written:
-        return times
-    gap = np.clip(onset[1:] - end[:-1], 0, np.diff(onset))
-    if not ends_are_written:
-        whole, part = np.divmod(gap / quarter + LATE_RELEASE, 1.0)
-        written = whole + np.take(RESTS, np.searchsorted(RESTS, part, side="right") - 1)
-        gap = np.minimum(np.rint(written * quarter).astype(np.int64), np.diff(onset))
-    last = onset[-1] + times.played_end_tick[-1] - times.onset_tick[-1]
-    end = np.append(onset[1:] - gap, last)
-    return dataclasses.replace(
-        times,
-        onset_tick=onset,
-        played_end_tick=end,
-        silence_tick=np.append(times.silence_tick[:1], gap),
-        onset_s=piece.clock.seconds(onset.astype(np.float64)),
-        played_end_s=piece.clock.seconds(end.astype(np.float64)),
-    )
+    could = (rests[1:] == 0) & (np.diff(times.pitch) != 0)
+    share = float(times.slurs_next[:-1][could].mean()) if could.any() else 0.0
+    return float(np.interp(share, ALL_SLURRED, (0.0, 1.0)))
 
 
 def _strength(ticks: IntArray, bars: IntArray, beat_ticks: IntArray) -> IntArray:
@@ -480,12 +464,18 @@ def _lengths_around(duration_s: FloatArray) -> FloatArray:
     return around
 
 
-def catch_lengths_s(times: LineTimes) -> FloatArray:
-    """(N,): how long a catch breath before each note may be: the silence there, else also a part of the note before."""
+def catch_lengths_s(times: LineTimes, rests: IntArray) -> FloatArray:
+    """(N,): how long a catch breath before each note may be: the rest there, else also a part of the note before.
+
+    Parameters
+    ----------
+    rests : (N,) int64
+        Ticks of rest before each note; a silence without a rest is the end of a detached note.
+    """
     gap = _gap_s(times)
     before = np.insert(times.duration_s[:-1], 0, 0.0)
     tail = np.maximum(CATCH_NOTE_SHARE * before, np.minimum(CATCH_MIN_S - gap, CATCH_MOST_SHARE * before))
-    length = np.where(gap >= CATCH_MIN_S, gap, gap + tail)
+    length = np.where((gap >= CATCH_MIN_S) & (rests > 0), gap, gap + tail)
     return np.asarray(np.minimum(length, CATCH_MAX_S), dtype=np.float64)
 
 

@@ -7,13 +7,14 @@ float64 seconds of the performance, which may be negative before the first tick.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, Protocol, TypeAlias, overload
+from typing import Final, Literal, Protocol, TypeAlias, overload
 
 import msgspec
 import numpy as np
 import numpy.typing as npt
 
 from app.errors import Message
+from app.identity_cache import IdentityCache
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 
@@ -85,11 +86,20 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 # each would stop the editor for half a second.
 
 
+class Vent(msgspec.Struct, frozen=True, gc=False):
+    """Controls that only help a note to speak, and when they are let go; ``label`` is what is held from then on."""
+
+    controls: tuple[str, ...]
+    end_tick: int
+    end_s: float
+    label: str
+
+
 class FingeringEvent(msgspec.Struct, frozen=True, gc=False):
     """The fingering of one note.
 
     ``controls`` holds 0..1 for every control of the map that is not at rest, ``fingers`` which finger works those that
-    another than the usual one does.
+    another than the usual one does. ``vent`` tells which of the controls are let go once the note speaks.
     """
 
     id: str
@@ -105,6 +115,7 @@ class FingeringEvent(msgspec.Struct, frozen=True, gc=False):
     reason: Message
     corrected: bool = False
     fingers: dict[str, str] = {}
+    vent: Vent | None = None
 
 
 class BreathEvent(msgspec.Struct, frozen=True, gc=False):
@@ -291,6 +302,37 @@ class PlayerPlan(msgspec.Struct, frozen=True):
     problems: tuple[Problem, ...]
     poses: tuple[PoseEvent, ...] = ()
     traces: Traces | None = None
+
+    @property
+    def grips(self) -> tuple[FingeringEvent, ...]:
+        """What the fingers hold one after another: the fingerings, one that is vented at its attack as two."""
+        return grips_of(self.fingerings)
+
+
+def grips_of(fingerings: tuple[FingeringEvent, ...]) -> tuple[FingeringEvent, ...]:
+    """The fingerings, each that is vented at its attack as two; the very same where none is."""
+    if all(event.vent is None for event in fingerings):
+        return fingerings
+    return _GRIPS.get((fingerings,), lambda: tuple(grip for event in fingerings for grip in _grips(event)))
+
+
+_GRIPS: Final[IdentityCache[tuple[FingeringEvent, ...]]] = IdentityCache(64)
+
+
+def _grips(event: FingeringEvent) -> tuple[FingeringEvent, ...]:
+    vent = event.vent
+    if vent is None:
+        return (event,)
+    held = msgspec.structs.replace(
+        event,
+        id=f"{event.id}:held",
+        start_tick=vent.end_tick,
+        start_s=vent.end_s,
+        label=vent.label,
+        controls={name: value for name, value in event.controls.items() if name not in vent.controls},
+        vent=None,
+    )
+    return msgspec.structs.replace(event, end_tick=vent.end_tick, end_s=vent.end_s, vent=None), held
 
 
 def same_events(plan: PlayerPlan, other: PlayerPlan, *kinds: str) -> bool:

@@ -1,7 +1,8 @@
 """What a correction hangs on, and how it is hung on something else.
 
 Fields say it by their names: ``note_id`` and ``moved_from`` are notes (or ``"@tick"``, a place), ``event_id`` ends
-with the note or the place of its event, ``..._offset_tick`` and ``..._ticks`` are lengths, other ``..._tick`` places.
+with the note or the place of its event, ``..._offset_tick`` and ``..._ticks`` are lengths, ``tick`` and
+other ``..._tick`` places.
 """
 
 from __future__ import annotations
@@ -14,8 +15,9 @@ from typing import Any, TypeVar
 import msgspec
 
 from app.plan.corrections import Correction
+from app.project.dance_corrections import DanceCorrection
 
-C = TypeVar("C", bound=Correction)
+C = TypeVar("C", bound=Correction | DanceCorrection)
 
 NOTE_FIELDS = ("note_id", "moved_from")
 _NOTE = re.compile(r"(?:^|(?<=:))(?:\d+|[nft]):\d+$", re.ASCII)
@@ -58,7 +60,7 @@ def moved(
             continue
         elif field.endswith(("_offset_tick", "_ticks")):
             changes[field] = round(value * scale)
-        elif field.endswith("_tick") and place is not None:
+        elif (field == "tick" or field.endswith("_tick")) and place is not None:
             changes[field] = place(value)
     start, end = changes.get("start_tick"), changes.get("end_tick")
     if start is not None and end is not None and end <= start and correction_span(correction) > 0:
@@ -69,7 +71,7 @@ def moved(
     return result
 
 
-def correction_span(correction: Correction) -> int:
+def correction_span(correction: Correction | DanceCorrection) -> int:
     """How long the stretch is that a correction says both ends of; 0 where it does not."""
     start, end = getattr(correction, "start_tick", None), getattr(correction, "end_tick", None)
     return 0 if start is None or end is None else int(end - start)

@@ -28,6 +28,9 @@ BACK_M = 0.35
 CLEAR_M = 0.12
 """Between what neighbours hold."""
 
+DANCER_ROOM_M = 2.4
+"""Between a dancer's place and anybody else: steps to a side, and an arm."""
+
 NATURAL_AMPLITUDE = 0.5
 AMPLITUDE_SPREAD = 0.12
 """Players move by as much more or less than a natural amount (T7: random values so that they differ)."""

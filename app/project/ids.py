@@ -58,7 +58,18 @@ def fresh_part_ids(project: Project, count: int = 1, prefix: str = MADE_PART) ->
 
 def fresh_player_ids(project: Project, count: int = 1) -> tuple[str, ...]:
     """Ids for new players, ``"player:1"`` and so on."""
-    return _following("player:", (player.id for player in project.players), count)
+    return _following("player:", _performers(project), count)
+
+
+def fresh_dancer_ids(project: Project, count: int = 1) -> tuple[str, ...]:
+    """Ids for new dancers, ``"dancer:1"`` and so on."""
+    return _following("dancer:", _performers(project), count)
+
+
+def _performers(project: Project) -> Iterator[str]:
+    """Ids of players and dancers: no two have one."""
+    yield from (player.id for player in project.players)
+    yield from (dancer.id for dancer in project.dancers)
 
 
 def fresh_take_ids(project: Project, count: int = 1) -> tuple[str, ...]:

@@ -38,6 +38,12 @@ MOST_ID: Final = 500
 MOST_NAME: Final = of_score.MOST_NAME
 """Characters of a name that a person gives."""
 MOST_PLAYERS: Final = 1000
+MOST_DANCERS: Final = 200
+DELAY_BEATS: Final = (0.0, 10_000.0)
+DANCE_SIZE: Final = (0.0, 1.5)
+"""Of the motion as captured."""
+CHOREOGRAPHY_INDEX: Final = (0, 2**31 - 1)
+"""Of a basic motion, a segment or a source of a choreography."""
 MOST_TAKES: Final = 2000
 MOST_TAKE_EVENTS: Final = 5_000_000
 TAKE_US: Final = (-(10**13), 10**13)

@@ -45,12 +45,19 @@ def _with_breath_need(raw: Raw) -> Raw:
     return {**raw, "players": players, "score": {**raw["score"], "unplayed": unplayed}}
 
 
+def _with_dancers(raw: Raw) -> Raw:
+    """6 to 7: there are dancers. What percussion strikes is kept; a piece that was read before has it when it is read
+    again."""
+    return {**raw, "dancers": [], "dance_corrections": {}, "score": {**raw["score"], "percussion": []}}
+
+
 MIGRATIONS: Final[tuple[Migration, ...]] = (
     _with_read_notes,
     _with_transpositions,
     _with_takes,
     _with_markers,
     _with_breath_need,
+    _with_dancers,
 )
 """In order."""
 

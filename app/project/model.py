@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -17,6 +17,7 @@ from app.plan.felt_beat import felt_beats
 from app.plan.generate import PREROLL_BEATS
 from app.plan.model import PlayerParameters
 from app.project.casting import StagePosition, amplitude, choose_characters, player_seed, stage_seats, usual_posture
+from app.project.dance_corrections import DanceCorrection
 from app.project.footprint import footprint
 from app.project.names import unique_names
 from app.project.parameters import Setting
@@ -58,6 +59,47 @@ class Player(msgspec.Struct, frozen=True):
     colour: str = ""
     muted: bool = False
     soloed: bool = False
+
+
+class Dancer(msgspec.Struct, frozen=True):
+    """A performer who moves to the piece as a choreography has it.
+
+    Attributes
+    ----------
+    id : str
+        Stays the same whatever the dancer is called; unique among players and dancers.
+    name : str
+        Unique among players and dancers, also where case does not count.
+    choreography : str
+        Absolute path of a ``.choreography`` file as this machine knows it, or the name of a bundled one (see
+        `app.choreography.library`); a project's file keeps a path relative to itself.
+    character_id : str
+    stage : StagePosition
+        Where the dance begins, and which way the dancer faces.
+    seed : int
+    delay_beats : float
+        How much later than the music the dance begins, in felt beats: two dancers of one seed dance in canon.
+    mirrored : bool
+        Left and right are exchanged.
+    source : int
+        Index of the choreography's source whose segments are preferred; -1: none is.
+    size : float
+        Of the motion, 0..1.5; 1: as captured.
+    colour : str
+        ``"#rrggbb"``; empty: the theme's.
+    """
+
+    id: str
+    name: str
+    choreography: str
+    character_id: str
+    stage: StagePosition
+    seed: int = 0
+    delay_beats: float = 0.0
+    mirrored: bool = False
+    source: int = -1
+    size: float = 1.0
+    colour: str = ""
 
 
 class CompSpan(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -149,6 +191,10 @@ class Project:
         part that is not there was not read from a file, or by a program that did not keep it.
     takes : mapping of str to PlayerTakes
         By player id; who was never recorded is not there.
+    dancers : tuple of Dancer
+        In the order in which they are listed.
+    dance_corrections : mapping of str to tuple of DanceCorrection
+        By dancer id.
     """
 
     score: Score
@@ -163,6 +209,8 @@ class Project:
     source: str = ""
     read_notes: Mapping[str, Mapping[str, Note]] = field(default_factory=dict)
     takes: Mapping[str, PlayerTakes] = field(default_factory=dict)
+    dancers: tuple[Dancer, ...] = ()
+    dance_corrections: Mapping[str, tuple[DanceCorrection, ...]] = field(default_factory=dict)
 
     @cached_property
     def felt_beats(self) -> tuple[tuple[int, int], ...]:
@@ -184,6 +232,29 @@ class Project:
     def player(self, player_id: str) -> Player:
         """The player of this id; KeyError where there is none."""
         return self._players[player_id]
+
+    def dancer(self, dancer_id: str) -> Dancer:
+        """The dancer of this id; KeyError where there is none."""
+        return self._dancers[dancer_id]
+
+    def performer_names(self, but: str = "") -> list[str]:
+        """What players and dancers are called, except the one of the id ``but``: no two share a name, also where case
+        does not count."""
+        return [performer.name for performer in self.performers if performer.id != but]
+
+    @cached_property
+    def performers(self) -> tuple[Player | Dancer, ...]:
+        """Players, then dancers."""
+        return (*self.players, *self.dancers)
+
+    @property
+    def dancer_ids(self) -> Collection[str]:
+        """Ids of all dancers."""
+        return self._dancers.keys()
+
+    @cached_property
+    def _dancers(self) -> dict[str, Dancer]:
+        return {dancer.id: dancer for dancer in self.dancers}
 
     @cached_property
     def _players(self) -> dict[str, Player]:

@@ -8,6 +8,8 @@ part that is new gets a player; a player whose part is gone leaves, but stays, w
 corrections for them. Parts made in the editor stay, and so do notes drawn into the file's parts where they do not
 overlap what the file has there.
 
+Dancers stay; what was corrected of their dances moves like other corrections at places of the score.
+
 Corrections whose note is gone stay as they are and do nothing (`orphaned`), until they are given another note
 (`reattached`) or taken back.
 
@@ -148,7 +150,7 @@ class Reimport:
 def reimport(project: Project, score: Score, maps: Mapping[str, InstrumentMap], source: str | None = None) -> Reimport:
     """Let the score that a file holds now take the place of the project's.
 
-    The title stays; tempo, metres, markers and everything else are the file's.
+    The title stays; tempo, metres, markers, percussion and everything else are the file's.
 
     Parameters
     ----------
@@ -473,7 +475,11 @@ def _with_players(
     ids = {player.id for player in staying}
     takes = {id: recorded for id, recorded in project.takes.items() if id in ids}
     scored = with_score(project, whole)
-    result = replace(scored, players=tuple(staying), corrections=corrections, takes=takes)
+    danced = {
+        dancer: tuple(moved(correction, {}, everywhere, scale) for correction in own)
+        for dancer, own in project.dance_corrections.items()
+    }
+    result = replace(scored, players=tuple(staying), corrections=corrections, takes=takes, dance_corrections=danced)
     former = {part.id for part in project.score.parts}
     fresh = [part for part in parts if part.id not in former]
     return _with_new_players(result, fresh, maps) if fresh else result
@@ -481,7 +487,7 @@ def _with_players(
 
 def _with_new_players(project: Project, parts: Sequence[Part], maps: Mapping[str, InstrumentMap]) -> Project:
     """A player for every new part, cast as a new piece's are."""
-    names = [player.name for player in project.players]
+    names = project.performer_names()
     playing = [maps[player.instrument_id] for player in project.players if player.instrument_id in maps]
     newcomers = []
     for player_id, part in zip(fresh_player_ids(project, len(parts)), parts, strict=True):

@@ -2,7 +2,7 @@
 
 The file says its version first; older ones are migrated (`app.project.migrations`), newer ones refused. Paths of media
 are kept relative to the file where both lie in one tree, so that a folder can be moved or sent. Whatever a file holds,
-names are only texts: nothing but the recording and the MIDI file it came from is ever a path.
+names are only texts: nothing but the recording, the MIDI file it came from and a choreography's file is ever a path.
 
 Messages (`FileError`)
 --------
@@ -27,15 +27,17 @@ from typing import Any, Final
 import msgspec
 import numpy as np
 
-from app.encoding import PREFIX, restored, stored
+from app.choreography.library import bundled_choreographies, choreography_path, is_bundled_name
+from app.encoding import PREFIX, restored, shown, stored
 from app.errors import FileError, Message, shortened
 from app.formats.atomic import atomic_write
 from app.formats.files import open_file, read_file
 from app.plan.corrections import Correction
 from app.project.check import faults
+from app.project.dance_corrections import DanceCorrection
 from app.project.ids import is_made_here
 from app.project.migrations import CURRENT, VERSION_KEY, Raw, migrated
-from app.project.model import AudioTrack, Player, PlayerTakes, Project
+from app.project.model import AudioTrack, Dancer, Player, PlayerTakes, Project
 from app.project.remarks import sayable
 from app.rig.character_library import characters
 from app.score.model import Note, Score
@@ -68,6 +70,8 @@ class _Content(msgspec.Struct, forbid_unknown_fields=True):
     audio: AudioTrack | None
     players: tuple[Player, ...]
     corrections: dict[str, list[Any]]
+    dancers: tuple[Dancer, ...]
+    dance_corrections: dict[str, list[Any]]
     expressions: tuple[Expression, ...]
     score: Score
     edited_notes: dict[str, tuple[Note, ...]]
@@ -206,6 +210,11 @@ def _content(project: Project, path: Path) -> _Content:
         audio=audio,
         players=project.players,
         corrections={player: list(corrections) for player, corrections in project.corrections.items() if corrections},
+        dancers=tuple(
+            msgspec.structs.replace(dancer, choreography=_stored_choreography(dancer.choreography, folder))
+            for dancer in project.dancers
+        ),
+        dance_corrections={dancer: list(items) for dancer, items in project.dance_corrections.items() if items},
         expressions=project.expressions,
         score=project.score,
         edited_notes=_edited_notes(project),
@@ -283,9 +292,11 @@ def is_project_file(path: Path) -> bool:
 
 
 def missing(project: Project) -> tuple[Message, ...]:
-    """What players need and this computer does not have; the project keeps it, and plays again where it is there.
+    """What players and dancers need and this computer does not have; the project keeps it, and plays again where it is
+    there.
 
-    Messages: ``project.instrument_missing`` (player, id), ``project.character_missing`` (player, id).
+    Messages: ``project.instrument_missing`` (player, id), ``project.character_missing`` (player, id),
+    ``project.choreography_missing`` (dancer, name, known), ``project.choreography_file_missing`` (dancer, file).
     """
     instruments, bodies = all_maps(), characters()
     found = []
@@ -294,7 +305,23 @@ def missing(project: Project) -> tuple[Message, ...]:
             found.append(Message("project.instrument_missing", {"player": player.name, "id": player.instrument_id}))
         if player.character_id not in bodies:
             found.append(Message("project.character_missing", {"player": player.name, "id": player.character_id}))
+    for dancer in project.dancers:
+        if dancer.character_id not in bodies:
+            found.append(Message("project.character_missing", {"player": dancer.name, "id": dancer.character_id}))
+        found += choreography_missing(dancer)
     return tuple(found)
+
+
+def choreography_missing(dancer: Dancer) -> tuple[Message, ...]:
+    """What to tell of a dancer whose choreography is not there; nothing where it is. Messages: see `missing`."""
+    if os.path.isfile(choreography_path(dancer.choreography)):
+        return ()
+    if is_bundled_name(dancer.choreography):
+        known = ", ".join(bundled_choreographies())
+        name = dancer.choreography
+        return (Message("project.choreography_missing", {"dancer": dancer.name, "name": name, "known": known or "-"}),)
+    file = shown(dancer.choreography)
+    return (Message("project.choreography_file_missing", {"dancer": dancer.name, "file": file}),)
 
 
 def missing_media(project: Project) -> Path | None:
@@ -319,8 +346,13 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
         for player, items in content.corrections.items()
         if items
     }
+    dance_corrections = {
+        dancer: _converted(items, tuple[DanceCorrection, ...], f"dance_corrections[{dancer!r}]", file)
+        for dancer, items in content.dance_corrections.items()
+        if items
+    }
     # What a struct does not forbid it passes over: nothing in a file may be lost by saving it again.
-    for key in ("audio", "players", "expressions", "score", "edited_notes", "takes"):
+    for key in ("audio", "players", "dancers", "expressions", "score", "edited_notes", "takes"):
         for place in _unknown(raw[key], msgspec.to_builtins(getattr(content, key)), key):
             raise FileError("project.invalid", file=file, place=place, detail="unknown key")
     audio = content.audio
@@ -344,6 +376,11 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
         source=_full_path(content.source, folder),
         read_notes=_read_notes(content.edited_notes, score),
         takes=content.takes,
+        dancers=tuple(
+            msgspec.structs.replace(dancer, choreography=_full_choreography(dancer.choreography, folder))
+            for dancer in content.dancers
+        ),
+        dance_corrections=dance_corrections,
     )
 
 
@@ -424,6 +461,14 @@ def _full_path(path: str, folder: Path) -> str:
     return os.path.normpath(folder / path)
 
 
+def _stored_choreography(choreography: str, folder: Path) -> str:
+    return choreography if is_bundled_name(choreography) else _stored_path(choreography, folder)
+
+
+def _full_choreography(choreography: str, folder: Path) -> str:
+    return choreography if is_bundled_name(choreography) else _full_path(choreography, folder)
+
+
 # Layout
 
 
@@ -460,6 +505,6 @@ def _plain_number(value: Any) -> Any:
 
 
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
-for _type in (_Content, tuple[Correction, ...]):
+for _type in (_Content, tuple[Correction, ...], tuple[DanceCorrection, ...]):
     msgspec.json.Decoder(_type)
 _FACTS: Final = msgspec.json.Decoder(_Facts)

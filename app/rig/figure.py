@@ -17,7 +17,7 @@ from app.errors import Message
 from app.rig.mesh import Mesh
 
 FloatArray = npt.NDArray[np.float64]
-Origin: TypeAlias = Literal["vrm0", "vrm1", "gltf", "fbx"]
+Origin: TypeAlias = Literal["vrm0", "vrm1", "gltf", "fbx", "bvh"]
 """What kind of file a figure came from."""
 
 

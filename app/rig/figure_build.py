@@ -127,7 +127,7 @@ def build_figure(
     above = [_nearest_above(nodes, node, bone_of) for node in range(len(nodes.names))]
     parents = tuple(-1 if nodes.parents[node] < 0 else above[nodes.parents[node]] for node in listed)
     world = nodes.world_from_node[listed]
-    rotations, positions = _rotations(world), world[:, :3, 3]
+    rotations, positions = nearest_rotations(world), world[:, :3, 3]
     translations, turns = local_placements(parents, positions, rotations)
     figure = Figure(
         file=file,
@@ -220,7 +220,7 @@ def _nearest_above(nodes: Nodes, node: int, bone_of: Mapping[int, int]) -> int:
     return bone_of.get(node, -1)
 
 
-def _rotations(world: FloatArray) -> FloatArray:
+def nearest_rotations(world: FloatArray) -> FloatArray:
     """The rotations (N, 4) nearest to transforms that may also scale, shear and mirror."""
     left, _, right = np.linalg.svd(world[:, :3, :3])
     left[:, :, 2] *= np.linalg.det(left @ right)[:, None]

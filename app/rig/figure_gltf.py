@@ -50,7 +50,7 @@ def gltf_figure(path: Path) -> Figure:
     """Read a figure from a glTF 2.0 or VRM file. Raises FileError."""
     source = read_source(path)
     posed = source.world_from_node
-    bound = _bind_pose(source)
+    bound = bind_pose(source)
     source = replace(source, world_from_node=rest_pose([node.parent for node in source.gltf.nodes], posed, bound))
     nodes, parts = _nodes(source), tuple(_parts(source))
     extensions = source.gltf.extensions
@@ -66,7 +66,7 @@ def gltf_figure(path: Path) -> Figure:
     return build_figure(source.file, origin, nodes, parts, humanoid, expressions)
 
 
-def _bind_pose(source: Source) -> Mapping[int, FloatArray]:
+def bind_pose(source: Source) -> Mapping[int, FloatArray]:
     """Where each joint of a skin was when it was bound; empty where skins contradict one another.
 
     A skin is bound in a space of its own: where that lies in the world, the joint says that all others hang from, or

@@ -31,7 +31,7 @@ from app.rig.hold import HandHold, Hold, Lips, Reach
 from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
 from app.rig.stations import asked_together, only_at
-from instrument_maps.model import InstrumentMap
+from instrument_maps.model import Control, InstrumentMap
 from metadata.model import Body
 
 MOST_BYTES = 2**22
@@ -73,7 +73,7 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
     usual = usual_posture(instrument)
     hands = (
         instrument.mouthpiece,
-        instrument.controls,
+        tuple(map(_untimed, instrument.controls)),
         instrument.links,
         instrument.contacts,
         instrument.hands,
@@ -86,6 +86,13 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
     ranges = {name: (limit.flexion_deg, limit.sideways_deg, limit.twist_deg) for name, limit in body.limits.items()}
     digest.update(msgspec.json.encode((hands, ranges, body.postures), order="sorted"))
     return digest.hexdigest()
+
+
+def _untimed(control: Control) -> Control:
+    """A control without how fast and how long it is worked, which the hold does not depend on."""
+    return msgspec.structs.replace(
+        control, move_window_s=0.0, move_note_share=0.0, max_speed_m_s=None, held_min_s=None, attack_s=None
+    )
 
 
 def bundled_path(character_id: str, instrument_id: str) -> Path:

@@ -41,9 +41,9 @@ class Source:
     world_from_node: FloatArray
 
 
-def read_source(path: Path) -> Source:
-    """Read a glTF binary. Raises FileError."""
-    gltf = read_glb(path)
+def read_source(path: Path, *, animated: bool = False) -> Source:
+    """Read a glTF binary, with its animations if requested. Raises FileError."""
+    gltf = read_glb(path, animated=animated)
     return Source(str(path), gltf, _world(gltf.nodes))
 
 

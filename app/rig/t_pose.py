@@ -100,8 +100,17 @@ def upright(figure: Figure, bones: Mapping[str, int]) -> Figure:
     return figure if np.allclose(turn, np.eye(3)) else turned_figure(figure, turn)
 
 
-def facing_ahead(figure: Figure, bones: Mapping[str, int]) -> Figure:
-    """The figure turned about where its feet point back; itself where they point ahead or nowhere."""
+def facing_ahead(figure: Figure, bones: Mapping[str, int], tips_m: Mapping[str, FloatArray] | None = None) -> Figure:
+    """The figure turned about where its feet point back; itself where they point ahead or nowhere.
+
+    Parameters
+    ----------
+    figure : Figure
+    bones : mapping of str to int
+        By VRM 1.0 joint.
+    tips_m : mapping of str to (3,) float64, optional
+        Where the feet end at rest, by ``left`` and ``right``, of a figure that has neither toes nor a skin.
+    """
     rest = rest_of(figure)
     ahead, size = 0.0, 0.0
     for side in ("left", "right"):
@@ -109,6 +118,8 @@ def facing_ahead(figure: Figure, bones: Mapping[str, int]) -> Figure:
         ankle = rest.positions_m[foot]
         if side + "Toes" in bones:
             ways = (rest.positions_m[bones[side + "Toes"]] - ankle)[None]
+        elif tips_m and side in tips_m:
+            ways = (tips_m[side] - ankle)[None]
         else:
             points, holders = heaviest(figure)
             if not (holders == foot).any():

@@ -75,6 +75,8 @@ class Stream(msgspec.Struct, frozen=True):
         track.
     change : int
         Which of its player's instruments that is, from 0.
+    muted : tuple of (start, end)
+        Spans of ticks in which the track is played with a mute.
     """
 
     track: int
@@ -91,6 +93,7 @@ class Stream(msgspec.Struct, frozen=True):
     told: tuple[str, ...] = ()
     played_on: str = ""
     change: int = 0
+    muted: tuple[tuple[int, int], ...] = ()
 
     @property
     def place(self) -> tuple[int, int, int]:
@@ -270,6 +273,12 @@ def refusal(stream: Stream, maps: Sequence[MapChoice]) -> Message | None:
     if max((_share(stream.pitches, choice) for choice in found.maps), default=0.0) <= _NEEDED_SHARE:
         return Message("score.outside_ranges", range_)
     return None
+
+
+def is_drum_kit(stream: Stream) -> bool:
+    """Whether its notes name the percussion sounds of General MIDI: a percussion track on channel 10."""
+    said = _said(stream)
+    return stream.channel == PERCUSSION_CHANNEL and said is not None and said.kind == "percussion"
 
 
 def plays(choice: MapChoice, instrument: Instrument) -> bool:

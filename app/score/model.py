@@ -82,6 +82,23 @@ class Marker(msgspec.Struct, frozen=True):
     text: str
 
 
+class PercussionHit(msgspec.Struct, frozen=True, gc=False):
+    """A note of a percussion track, as the file has it: no player plays it, but dancers move to it.
+
+    Attributes
+    ----------
+    tick : int
+    pitch : int
+        MIDI note 0..127: the sound of a drum kit that is struck.
+    velocity : int
+        1..127.
+    """
+
+    tick: int
+    pitch: int
+    velocity: int
+
+
 class Part(msgspec.Struct, frozen=True, dict=True):
     """What one player plays: one voice of one track.
 
@@ -110,6 +127,8 @@ class Part(msgspec.Struct, frozen=True, dict=True):
         Of the whole track; voices of one track share them.
     transposed_semitones : int
         How much higher it was read than the file has it, which had written pitches (lower: negative).
+    muted : tuple of (start, end)
+        Spans of ticks, by start, in which it is played with a mute.
     """
 
     id: str
@@ -123,6 +142,7 @@ class Part(msgspec.Struct, frozen=True, dict=True):
     notes: tuple[Note, ...]
     curves: tuple[ControllerCurve, ...] = ()
     transposed_semitones: int = 0
+    muted: tuple[tuple[int, int], ...] = ()
 
     @property
     def place(self) -> tuple[int, int, int]:
@@ -183,6 +203,8 @@ class Score(msgspec.Struct, frozen=True, dict=True):
     warnings : tuple of Message
     markers : tuple of Marker
         By tick; at one tick in the order of the file. Some may lie behind the last note.
+    percussion : tuple of PercussionHit
+        By tick, then pitch: every note of the percussion tracks.
     """
 
     title: str
@@ -194,6 +216,7 @@ class Score(msgspec.Struct, frozen=True, dict=True):
     unplayed: tuple[UnplayedPart, ...] = ()
     warnings: tuple[Message, ...] = ()
     markers: tuple[Marker, ...] = ()
+    percussion: tuple[PercussionHit, ...] = ()
 
     @cached_property
     def end_tick(self) -> int:
@@ -207,8 +230,10 @@ class Score(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def sounding_end_tick(self) -> int:
-        """Where the last note of the piece ends, whether anybody plays it or not; 0 without notes."""
-        return max((self.end_tick, *(part.end_tick for part in self.unplayed)))
+        """Where the last note of the piece ends, whether anybody plays it or not; 0 without notes. Of percussion hits
+        alone it is known where they begin."""
+        last_hit_end = self.percussion[-1].tick + 1 if self.percussion else 0
+        return max((self.end_tick, last_hit_end, *(part.end_tick for part in self.unplayed)))
 
     @cached_property
     def _first_bars(self) -> tuple[int, ...]:

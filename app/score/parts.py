@@ -171,7 +171,8 @@ def wished_parts(
         shared = _shared(wish, chosen, notes, piece.tempo_map, min(MOST_VOICES, room))
         curves = next((stream.curves for stream in chosen if stream.curves), ())
         name = wish.name or chosen[0].name or chosen[0].instrument_name
-        lead = msgspec.structs.replace(chosen[0], curves=curves)
+        muted = tuple(sorted({span for stream in chosen for span in stream.muted}))
+        lead = msgspec.structs.replace(chosen[0], curves=curves, muted=muted)
         mine = _parts(lead, name, found, shared.voices, wish.written)
         parts += mine
         slurred += [(mine[0].name, note) for note in shared.shortened]
@@ -325,6 +326,7 @@ def _parts(
                 notes=transposed(notes, shift),
                 curves=stream.curves,
                 transposed_semitones=shift,
+                muted=stream.muted,
             )
         )
     return parts

@@ -62,12 +62,13 @@ import msgspec
 
 from app.encoding import shown
 from app.errors import FileError, Message
-from app.score.choose import PERCUSSION_CHANNEL, MapChoice, Stream, told_by_file
+from app.score.choose import PERCUSSION_CHANNEL, MapChoice, Stream, is_drum_kit, told_by_file
 from app.score.chunks import Container, Track, read_container
 from app.score.doublings import doubled_instruments
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
-from app.score.model import Marker, Metre, Part, Score, UnplayedPart
-from app.score.parts import PartWish, parts_of, wished_parts
+from app.score.model import MOST_VOICES, Marker, Metre, Part, PercussionHit, Score, UnplayedPart
+from app.score.mutes import muted_spans
+from app.score.parts import PartWish, parts_of, stream_name, wished_parts
 from app.score.repair import Repaired, last_suspicious, repaired
 from app.score.tempo import TempoChange, TempoMap
 from app.score.texts import decoded
@@ -145,6 +146,28 @@ def wished_score(
     return _score(contents, parts, unplayed, (*contents.warnings, *warnings))
 
 
+def uncast_score(contents: MidiContents) -> Score:
+    """The score in which every track but the percussion is a part as it stands, whoever might play it, for those who
+    only listen. No part has an instrument map."""
+    parts = tuple(
+        Part(
+            id=f"{stream.track + 1}.{stream.channel + 1}.{stream.change + 1}",
+            name=stream_name(stream),
+            track=stream.track,
+            voice=MOST_VOICES * stream.change,
+            channel=stream.channel,
+            program=stream.program,
+            instrument=None,
+            map_id="",
+            notes=tuple(sorted(stream.notes(), key=lambda note: (note.onset_tick, note.pitch))),
+            curves=stream.curves,
+        )
+        for stream in contents.streams
+        if not is_drum_kit(stream)
+    )
+    return _score(contents, parts)
+
+
 def _score(
     contents: MidiContents,
     parts: tuple[Part, ...] = (),
@@ -161,7 +184,19 @@ def _score(
         unplayed=unplayed,
         warnings=warnings,
         markers=contents.markers,
+        percussion=_percussion(contents.streams),
     )
+
+
+def _percussion(streams: Sequence[Stream]) -> tuple[PercussionHit, ...]:
+    """Every note of the percussion tracks."""
+    hits = (
+        hit
+        for stream in streams
+        if is_drum_kit(stream)
+        for hit in zip(stream.onset_ticks, stream.pitches, stream.velocities, strict=True)
+    )
+    return tuple(PercussionHit(tick, pitch, velocity) for tick, pitch, velocity in sorted(hits))
 
 
 def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
@@ -367,6 +402,7 @@ def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[Stream
             first = min(channels, key=lambda channel: events.channels[channel].numbers[0])
             curves = events.curves(channels)
             played_on = doubled_instruments(events, channels, name, said if len(groups) == 1 else (), notes.onset_ticks)
+            muted = muted_spans(events, channels, name, said if len(groups) == 1 else ())
             for change, instrument in enumerate(sorted(dict.fromkeys(played_on), key=bool)):
                 own = notes.where([one == instrument for one in played_on])
                 streams.append(
@@ -384,6 +420,7 @@ def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[Stream
                         curves=curves,
                         played_on=instrument,
                         change=change,
+                        muted=muted,
                     )
                 )
     return streams

@@ -4,7 +4,7 @@ What the file holds comes back as it was when `app.score.read` reads it: title, 
 markers; of every part its name, what plays it, every note's onset, length, pitch and velocity, and every step of its
 controller curves. What a MIDI file has no place for does not:
 
-- The notes of parts nobody plays, which a score does not keep either; ids of notes and parts, which count tracks and
+- The notes of parts nobody plays, the percussion among them; ids of notes and parts, which count tracks and
   note-ons. Voices that shared a track get one each. A part without notes is written and not read as one.
 - Who plays on, where a name says otherwise: a name beats everything else, so a "Violin" that a person gave to a flutist
   is a violin again. A part of which notes sound together is shared among players again. Both are told.

@@ -85,7 +85,9 @@ def edit_character(editor: Editor, id: str) -> None:
 def remove(editor: Editor, id: str) -> None:
     """Remove one of the person's own characters; asked first."""
     session = editor.session
-    used = [player.name for player in session.project.players if player.character_id == id]
+    project = session.project
+    used = [player.name for player in project.players if player.character_id == id]
+    used += [dancer.name for dancer in project.dancers if dancer.character_id == id]
     if not editor.questions.remove_character(character_name(id), tuple(used)):
         return
     try:

@@ -385,8 +385,8 @@ class StatusLine(QStatusBar):
 
 
 def problem_count(session: Session) -> int:
-    """Problems of all players, as far as plans are there."""
-    return sum(len(session.problems(player.id)) for player in session.performance.project.players)
+    """Problems of all players and dancers, as far as plans are there."""
+    return sum(len(session.problems(one.id)) for one in session.performance.project.performers)
 
 
 def severity_colour(severity: Severity, tokens: Tokens) -> str:

@@ -38,6 +38,9 @@ REED = DoubleReed(
 )  # fmt: skip
 
 
+FLICKS = ("Lt_a", "Lt_c2", "Lt_d2")
+FLICK_S = 0.15
+"""How long a flick key is held for an attack (estimated: long enough for the note to speak, then let go at once)."""
 JOINTS = Joints(SOCKET, UP, FRONT)
 place, wall, touch = JOINTS.place, JOINTS.wall, JOINTS.touch
 
@@ -165,6 +168,7 @@ class Bassoon:
                     touch(lefts.get(label, left), front, along, back, *size),
                     [cup],
                     travel_m=travel_m,
+                    attack_s=FLICK_S if label in FLICKS else None,
                 )
         JOINTS.thumb_over_low_keys(work, "whisper")
 

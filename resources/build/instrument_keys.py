@@ -546,15 +546,20 @@ class Keywork:
         touch_arm: bool = True,
         proxy_rod: bool = True,
         kind: str = "key",
+        attack_s: float | None = None,
     ) -> None:
-        """A key with a touch piece; cups that it closes stand open, cups that it opens lie on their holes."""
+        """A key with a touch piece; cups that it closes stand open, cups that it opens lie on their holes.
+
+        A key of ``attack_s`` is let go so long after an attack for which it was pressed.
+        """
         axis, angle = turn_of(rod, touch.point, touch.normal, travel_m)
         self.model.node(name, rod.nearest(touch.foot))
         self.add(touch.pieces, name)
         if touch_arm:
             self.add([(self.metal, arm(rod.wall, rod.nearest(touch.foot), touch.foot, clear_m=clear_m))], name)
         self._moving(name, rod, axis, angle, cups, (), clear_m, proxy_rod)
-        self._control(name, kind, label, part, finger=finger, node=name, motion=_motion(axis, angle, rod))
+        vent = {} if attack_s is None else {"attack_s": attack_s}
+        self._control(name, kind, label, part, finger=finger, **vent, node=name, motion=_motion(axis, angle, rod))
         self.contact(part, touch.point, touch.normal, node=name, control=name)
 
     def plateau(

@@ -225,6 +225,10 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>プレイヤー</translation>
     </message>
     <message>
+        <source>Performers</source>
+        <translation>出演者</translation>
+    </message>
+    <message>
         <source>Into</source>
         <translation>書き出し先</translation>
     </message>

@@ -514,6 +514,10 @@
         <translation>接触</translation>
     </message>
     <message>
+        <source>Dances</source>
+        <translation>ダンス</translation>
+    </message>
+    <message>
         <source>Instruments and characters</source>
         <translation>楽器とキャラクター</translation>
     </message>

@@ -136,6 +136,50 @@
             <translation>{file}、{line} 行目: {detail}</translation>
         </message>
         <message>
+            <source>the choreography has no source {source}; --prefer one of {sources}</source>
+            <translation>振り付けにソース {source} はありません。--prefer には次のいずれかを指定してください: {sources}</translation>
+        </message>
+        <message>
+            <source>{file} is not a choreography file or is damaged ({place}: {detail}); copy it again from where it is whole, or learn it again with 'suisou choreography learn'</source>
+            <translation>{file} は振り付けのファイルではないか、破損しています（{place}: {detail}）。破損していない元のファイルをコピーし直すか、'suisou choreography learn' で学習し直してください</translation>
+        </message>
+        <message>
+            <source>{file} was written by a newer version of the program (its file version is {version}, this program knows up to {known}); use the newer version</source>
+            <translation>{file} はより新しいバージョンのプログラムで書き出されています（ファイルのバージョンは {version}、このプログラムが対応するのは {known} まで）。新しいバージョンを使ってください</translation>
+        </message>
+        <message>
+            <source>the piece has no percussion: dancers take their rhythm from its melody, its bass and its accents</source>
+            <translation>曲に打楽器がないため、ダンサーはメロディ、低音、アクセントからリズムを取ります</translation>
+        </message>
+        <message>
+            <source>basic motion {number} is not danced here although it is pinned: the choreography does not have it, or another correction is too near; unpin it or pin another one</source>
+            <translation>固定された基本動作 {number} を、ここでは踊れません。振り付けにこの基本動作がないか、別の修正が近すぎます。固定を解除するか、別の基本動作を固定してください</translation>
+        </message>
+        <message>
+            <source>segment {number} is not danced here although it is selected: the choreography does not have it, or another correction is too near; unpin it or select another one</source>
+            <translation>選択されたセグメント {number} を、ここでは踊れません。振り付けにこのセグメントがないか、別の修正が近すぎます。固定を解除するか、別のセグメントを選んでください</translation>
+        </message>
+        <message>
+            <source>basic motion {number} is danced here although it is forbidden: nothing else fits; forbid fewer basic motions, or for a shorter time</source>
+            <translation>禁止された基本動作 {number} が、ここで踊られています。ほかに合う動作がありません。禁止する基本動作を減らすか、区間を短くしてください</translation>
+        </message>
+        <message>
+            <source>there is no motion to learn from in {motions}: the body is still, or the clips are too short</source>
+            <translation>{motions} には学習できる動きがありません。体が静止しているか、クリップが短すぎます</translation>
+        </message>
+        <message>
+            <source>{states} basic motions cannot be learned from {segments} motions; ask for fewer with --states</source>
+            <translation>{segments} 個の動きから {states} 個の基本動作は学習できません。--states の値を小さくしてください</translation>
+        </message>
+        <message>
+            <source>no percussion of {music} sounds during the motions of {motion}; correct the --offset of this pair, or leave it out to have it found</source>
+            <translation>{motion} の動きの間に {music} の打楽器が鳴りません。この組の --offset を修正するか、省略して自動検出させてください</translation>
+        </message>
+        <message>
+            <source>{file} has no percussion to learn from (notes on channel 10); pair the motion with a file that has a drum part</source>
+            <translation>{file} には学習に使う打楽器（チャンネル 10 のノート）がありません。ドラムパートのあるファイルと組み合わせてください</translation>
+        </message>
+        <message>
             <source>estimated offset of the recording</source>
             <translation>録音のオフセットの推定</translation>
         </message>
@@ -304,6 +348,70 @@
             <translation>ポーズを自動生成に戻す</translation>
         </message>
         <message>
+            <source>{dancer} dances basic motion {number}</source>
+            <translation>{dancer}に基本動作{number}を踊らせる</translation>
+        </message>
+        <message>
+            <source>{dancer} dances another segment</source>
+            <translation>{dancer}に別の区間を踊らせる</translation>
+        </message>
+        <message>
+            <source>{dancer} does not dance basic motion {number}</source>
+            <translation>{dancer}に基本動作{number}を踊らせない</translation>
+        </message>
+        <message>
+            <source>dance of {dancer} back to the generator's</source>
+            <translation>{dancer}の踊りを自動生成に戻す</translation>
+        </message>
+        <message>
+            <source>add a dancer</source>
+            <translation>ダンサーを追加</translation>
+        </message>
+        <message>
+            <source>duplicate {dancer}</source>
+            <translation>{dancer} を複製</translation>
+        </message>
+        <message>
+            <source>remove {dancer}</source>
+            <translation>{dancer} を削除</translation>
+        </message>
+        <message>
+            <source>rename {dancer}</source>
+            <translation>{dancer} の名前を変更</translation>
+        </message>
+        <message>
+            <source>choreography of {dancer}</source>
+            <translation>{dancer} の振り付け</translation>
+        </message>
+        <message>
+            <source>character of {dancer}</source>
+            <translation>{dancer} のキャラクター</translation>
+        </message>
+        <message>
+            <source>preferred source of {dancer}</source>
+            <translation>{dancer} の優先ソース</translation>
+        </message>
+        <message>
+            <source>mirror {dancer}</source>
+            <translation>{dancer} を左右反転</translation>
+        </message>
+        <message>
+            <source>variation of {dancer}</source>
+            <translation>{dancer} のバリエーション</translation>
+        </message>
+        <message>
+            <source>size of {dancer}'s motion</source>
+            <translation>{dancer} の動きの大きさ</translation>
+        </message>
+        <message>
+            <source>delay of {dancer}</source>
+            <translation>{dancer} の遅れ</translation>
+        </message>
+        <message>
+            <source>place {dancer} on the stage</source>
+            <translation>{dancer} をステージに配置</translation>
+        </message>
+        <message>
             <source>rename {player}</source>
             <translation>{player} の名前を変更</translation>
         </message>
@@ -448,6 +556,14 @@
             <translation>パート {part} はありません</translation>
         </message>
         <message>
+            <source>a project can have {most} dancers</source>
+            <translation>1 つのプロジェクトに置けるダンサーは {most} 人までです</translation>
+        </message>
+        <message>
+            <source>{file} is neither a choreography file (.choreography) nor a choreography that comes with the program; choose one of these</source>
+            <translation>{file} は、振り付けのファイル（.choreography）でも、プログラムに付属する振り付けでもありません。そのいずれかを選んでください</translation>
+        </message>
+        <message>
             <source>re-import the MIDI file</source>
             <translation>MIDI ファイルの再読み込み</translation>
         </message>
@@ -558,6 +674,26 @@
         <message>
             <source>{file}, line {line}: {what} is not supported</source>
             <translation>{file}、{line} 行目: {what} には対応していません</translation>
+        </message>
+        <message>
+            <source>{file}: no bone was found for {joints}; only the motion of a whole human body can be read</source>
+            <translation>{file}: {joints} のボーンが見つかりません。読み込めるのは人体全身のモーションだけです</translation>
+        </message>
+        <message>
+            <source>{file} is damaged: it has a joint farther away than any body goes; export it again</source>
+            <translation>{file} は破損しています。人の体ではありえないほど遠くに関節があります。書き出し直してください</translation>
+        </message>
+        <message>
+            <source>{file} is not a file of motion that can be read; export the motion as BVH, FBX or GLB</source>
+            <translation>{file} は読み込めるモーションのファイルではありません。モーションを BVH、FBX または GLB で書き出してください</translation>
+        </message>
+        <message>
+            <source>{file} has no animation; export it with its animation baked</source>
+            <translation>{file} にはアニメーションがありません。アニメーションをベイクして書き出してください</translation>
+        </message>
+        <message>
+            <source>{file} has too much motion to be read at once; export it in shorter parts</source>
+            <translation>{file} のモーションは一度に読み込むには多すぎます。短く分けて書き出してください</translation>
         </message>
         <message>
             <source>USD files need the package usd-core, which is not installed: pip install usd-core</source>
@@ -820,6 +956,10 @@
             <translation>音符 {after_note} を省いた素早いブレス: 休符でブレスしないまま {phrase_s:g} 秒続き、{lung_s:g} 秒分の息では足りません。息継ぎできる長さの音もありません</translation>
         </message>
         <message>
+            <source>a breath within a note that others of the line hold on: it takes {air_s:g} s of air, and there are {lung_s:g}</source>
+            <translation>同じ声部の他の奏者がのばしている音の途中のブレス: {air_s:g} 秒分の息が要りますが、{lung_s:g} 秒分しかありません</translation>
+        </message>
+        <message>
             <source>from note {note} on, {phrase_s:g} s must be played on one breath; it takes {air_s:g} s of air, and there are {lung_s:g}</source>
             <translation>音符 {note} から {phrase_s:g} 秒をひと息で吹く必要があります。{air_s:g} 秒分の息が要りますが、{lung_s:g} 秒分しかありません</translation>
         </message>
@@ -1010,6 +1150,14 @@
         <message>
             <source>{player} is the character {id!r}, which is not installed; choose another one or install it</source>
             <translation>{player} のキャラクター {id!r} が入っていません。別のキャラクターを選ぶか、追加してください</translation>
+        </message>
+        <message>
+            <source>{dancer} dances the choreography {name!r}, which does not come with this version of the program; choose a choreography file or one of: {known}</source>
+            <translation>{dancer} の振り付け {name!r} は、このバージョンには付属していません。振り付けのファイルか、次のいずれかを選んでください: {known}</translation>
+        </message>
+        <message>
+            <source>{dancer} dances the choreography {file}, which is not there; put the file back or choose another choreography</source>
+            <translation>{dancer} の振り付け {file} が見つかりません。ファイルを元の場所に戻すか、別の振り付けを選んでください</translation>
         </message>
         <message>
             <source>a remark of another version of the program ({remark})</source>
@@ -1708,6 +1856,10 @@
             <translation>このテイクからは拍を検出できません。</translation>
         </message>
         <message>
+            <source>dancers are not written into an Unreal project ({dancers}); export them to a folder and import their FBX files</source>
+            <translation>ダンサーは Unreal プロジェクトに書き出されません（{dancers}）。フォルダーに書き出し、その FBX ファイルを読み込んでください</translation>
+        </message>
+        <message>
             <source>{file} is not there; choose the .uproject file, or the folder that it is in</source>
             <translation>{file} がありません。.uproject ファイルか、それがあるフォルダーを選んでください</translation>
         </message>
@@ -1830,6 +1982,10 @@
         <message>
             <source>drawing the characters' portraits</source>
             <translation>キャラクターの肖像を描いています</translation>
+        </message>
+        <message>
+            <source>finding out what the dancers dance</source>
+            <translation>ダンサーの振り付けを決定中</translation>
         </message>
         <message>
             <source>looking for {host}</source>

@@ -2,6 +2,126 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="ja" sourcelanguage="en">
 <context>
+    <name>DancersSection</name>
+    <message>
+        <source>Dancers</source>
+        <translation>ダンサー</translation>
+    </message>
+    <message>
+        <source>From File …</source>
+        <translation>ファイルから …</translation>
+    </message>
+    <message>
+        <source>None</source>
+        <translation>なし</translation>
+    </message>
+    <message>
+        <source>Dancer</source>
+        <translation>ダンサー</translation>
+    </message>
+    <message>
+        <source>Choreographies</source>
+        <translation>振り付け</translation>
+    </message>
+    <message>
+        <source>Choreography</source>
+        <translation>振り付け</translation>
+    </message>
+    <message>
+        <source>Add a dancer</source>
+        <translation>ダンサーを追加</translation>
+    </message>
+    <message>
+        <source>Duplicate: another one dances the same</source>
+        <translation>複製：もう 1 人が同じ踊りを踊ります</translation>
+    </message>
+    <message>
+        <source>Remove the selected dancer</source>
+        <translation>選択したダンサーを削除</translation>
+    </message>
+    <message>
+        <source>Character</source>
+        <translation>キャラクター</translation>
+    </message>
+    <message>
+        <source>Preferred source</source>
+        <translation>優先ソース</translation>
+    </message>
+    <message>
+        <source>The capture whose motion is danced where it suits the music about as well</source>
+        <translation>音楽に同じくらい合うとき、このキャプチャの動きを優先します</translation>
+    </message>
+    <message>
+        <source>Mirrored</source>
+        <translation>左右反転</translation>
+    </message>
+    <message>
+        <source>Left and right exchanged</source>
+        <translation>左右を入れ替えます</translation>
+    </message>
+    <message>
+        <source>Another dance to the same music</source>
+        <translation>同じ音楽に別の踊りを作ります</translation>
+    </message>
+    <message>
+        <source>m</source>
+        <comment>metres</comment>
+        <translation>m</translation>
+    </message>
+    <message>
+        <source>Variation</source>
+        <translation>バリエーション</translation>
+    </message>
+    <message>
+        <source>Another number is another dance to the same music</source>
+        <translation>番号を変えると、同じ音楽に別の踊りになります</translation>
+    </message>
+    <message>
+        <source>Size of motion</source>
+        <translation>動きの大きさ</translation>
+    </message>
+    <message>
+        <source>Of trunk and arms: 1 as captured</source>
+        <translation>体幹と腕の動き：1 はキャプチャのまま</translation>
+    </message>
+    <message>
+        <source>Delay</source>
+        <translation>遅れ</translation>
+    </message>
+    <message>
+        <source>beats</source>
+        <translation>拍</translation>
+    </message>
+    <message>
+        <source>In a canon: so much later than the music</source>
+        <translation>カノン：音楽よりこれだけ遅れて踊ります</translation>
+    </message>
+    <message>
+        <source>X</source>
+        <translation>X</translation>
+    </message>
+    <message>
+        <source>To the right as the audience sees it, from the middle</source>
+        <translation>客席から見て右方向、中央から</translation>
+    </message>
+    <message>
+        <source>Z</source>
+        <translation>Z</translation>
+    </message>
+    <message>
+        <source>Towards the audience, from the middle</source>
+        <translation>客席に向かう方向、中央から</translation>
+    </message>
+    <message>
+        <source>Turn</source>
+        <translation>向き</translation>
+    </message>
+    <message>
+        <source>0 faces the audience, positive turns to the right as the audience sees it</source>
+        <translation>0 は客席向き、正の値は客席から見て右向き</translation>
+    </message>
+</context>
+<context>
     <name>ParameterSections</name>
     <message>
         <source>Player</source>

@@ -423,8 +423,16 @@
         <translation>録音を外す</translation>
     </message>
     <message>
+        <source>Dancer</source>
+        <translation>ダンサー</translation>
+    </message>
+    <message>
         <source>Add player</source>
         <translation>プレイヤーを追加</translation>
+    </message>
+    <message>
+        <source>Add dancer</source>
+        <translation>ダンサーを追加</translation>
     </message>
     <message>
         <source>Duplicate players</source>

@@ -134,6 +134,84 @@
     </message>
 </context>
 <context>
+    <name>DanceLane</name>
+    <message>
+        <source>Dance</source>
+        <translation>ダンス</translation>
+    </message>
+    <message>
+        <source>What each dancer dances. Click a motion to select it, up and down for another one, right-click for more; Backspace returns it to the generator</source>
+        <translation>各ダンサーの踊りです。クリックで動作を選択、上下キーで別の動作に変更、右クリックでその他の操作。Backspaceで自動生成に戻します</translation>
+    </message>
+    <message>
+        <source>Nobody dances yet. Add a dancer in the Players panel.</source>
+        <translation>ダンサーはまだいません。「プレイヤー」パネルで追加してください。</translation>
+    </message>
+    <message>
+        <source>No beat of the music is known.</source>
+        <translation>曲に拍がありません。</translation>
+    </message>
+    <message>
+        <source>Basic motion {number}, {seconds:.2f} s</source>
+        <translation>基本動作{number}、{seconds:.2f}秒</translation>
+    </message>
+    <message>
+        <source>From {source}, {start:.2f} s</source>
+        <translation>{source}の{start:.2f}秒から</translation>
+    </message>
+    <message>
+        <source>Pinned; Backspace returns it to the generator</source>
+        <translation>固定済み。Backspaceで自動生成に戻します</translation>
+    </message>
+    <message>
+        <source>Basic motion {number} is not danced here</source>
+        <translation>ここでは基本動作{number}を踊りません</translation>
+    </message>
+</context>
+<context>
+    <name>DanceMenu</name>
+    <message>
+        <source>Pin Basic Motion {number} Here</source>
+        <translation>ここで基本動作{number}に固定</translation>
+    </message>
+    <message>
+        <source>Do Not Dance Basic Motion {number} Here</source>
+        <translation>ここで基本動作{number}を禁止</translation>
+    </message>
+    <message>
+        <source>Do Not Dance Basic Motion {number} in This Piece</source>
+        <translation>この曲で基本動作{number}を禁止</translation>
+    </message>
+    <message>
+        <source>Allow Basic Motion {number} Again</source>
+        <translation>基本動作{number}の禁止を解除</translation>
+    </message>
+    <message>
+        <source>Return to Generator</source>
+        <translation>自動生成に戻す</translation>
+    </message>
+    <message>
+        <source>Return Whole Dance to Generator</source>
+        <translation>踊り全体を自動生成に戻す</translation>
+    </message>
+    <message>
+        <source>Other Basic Motion</source>
+        <translation>別の基本動作</translation>
+    </message>
+    <message>
+        <source>Basic Motion {number}</source>
+        <translation>基本動作{number}</translation>
+    </message>
+    <message>
+        <source>Other Segment of This Motion</source>
+        <translation>この動作の別の区間</translation>
+    </message>
+    <message>
+        <source>{source}, {start:.2f} s</source>
+        <translation>{source}、{start:.2f}秒</translation>
+    </message>
+</context>
+<context>
     <name>FingeringLane</name>
     <message>
         <source>Fingering</source>

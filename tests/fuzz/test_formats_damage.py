@@ -11,11 +11,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.choreography.model_file import decode_model
 from app.errors import AppError
 from app.formats.bvh import decode_bvh, encode_bvh
 from app.formats.fbx import encode_scene
 from app.formats.fbx.read import decode_scene
 from app.formats.gltf import decode_gltf
+from app.formats.gltf.write import encode_glb
+from tests.unit.choreography.test_model_file import CONTENT
 from tests.unit.formats import scenes
 from tests.unit.formats.gltf.test_read import character
 from tests.unit.formats.test_bvh import clip
@@ -25,7 +28,9 @@ GOOD: dict[str, tuple[bytes, Callable[[bytes], object]]] = {
     "fbx": (encode_scene(INSTRUMENT), lambda data: decode_scene(data, "x.fbx")),
     "fbx with morphs": (encode_scene(CHARACTER), lambda data: decode_scene(data, "x.fbx")),
     "bvh": (encode_bvh(clip(frames=3)), lambda data: decode_bvh(data.decode("utf-8", "replace"), "x.bvh")),
+    "choreography": (CONTENT, lambda data: decode_model(data, "x.choreography")),
     "glb": (character().glb(), lambda data: decode_gltf(data, "x.glb")),
+    "glb with animation": (encode_glb(CHARACTER), lambda data: decode_gltf(data, "x.glb", animated=True)),
 }
 
 

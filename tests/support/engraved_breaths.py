@@ -115,5 +115,6 @@ if __name__ == "__main__":
         print(
             "held out" if group else "tuned",
             totals,
-            f"{(rests + marks) / (rests + marks + elsewhere):.0%} at phrase ends",
+            f"{(rests + marks) / (rests + marks + elsewhere):.0%} at phrase ends,",
+            f"of the marks without a rest {marks / (marks + missed):.0%} are breathed at",
         )

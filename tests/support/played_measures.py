@@ -3,7 +3,8 @@
     python -m tests.support.played_measures FOLDER [SEED]
 
 prints a row for every MIDI file of a folder. A note of the one file is that of the other by track, pitch and its turn
-among the notes of this pitch. A breath is the same if it comes before the same note.
+among the notes of this pitch. A breath is the same if it comes before the same note. No player breathes within a slur:
+breaths of the engraved file before notes that the played version slurs to are counted too, and the share of the others.
 """
 
 from __future__ import annotations
@@ -14,7 +15,10 @@ from collections import Counter
 from pathlib import Path
 from typing import Final, NamedTuple
 
+import numpy as np
+
 from app.performance.ensemble import Performance
+from app.plan.line import slurs_next
 from app.project.model import map_choices, project_from_score
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
@@ -44,12 +48,15 @@ class Planned(NamedTuple):
         The notes before which somebody breathes in, after the first of each player.
     warnings : Counter
         By message id.
+    slurred_to : set
+        Notes to which the note before is slurred.
     """
 
     players: Counter[tuple[int, str]]
     fingerings: dict[_Key, str]
     breaths: set[_Key]
     warnings: Counter[str]
+    slurred_to: set[_Key]
 
 
 def planned(path: Path) -> Planned:
@@ -57,13 +64,16 @@ def planned(path: Path) -> Planned:
     maps = bundled_maps()
     score = read_midi(path, maps=map_choices(maps.values()))
     performance = Performance(project_from_score(score, maps))
-    rows, breaths, own = [], set(), {}
+    rows, breaths, slurred_to, own = [], set(), set(), {}
     for player in performance.project.players:
         part = performance.project.part(player)
         plan = performance.plan(player)
         labels = {event.note_id: event.label for event in plan.fingerings}
         breaths |= {event.id.removeprefix("breath:") for event in plan.breaths if event.kind == "breath"}
         breaths -= {note.id for note in part.notes[:1]}
+        ends = np.array([(note.onset_tick, note.onset_tick + note.duration_tick) for note in part.notes], np.int64)
+        slurred = slurs_next(*ends.reshape(-1, 2).T).tolist()
+        slurred_to |= {note.id for note, is_slurred in zip(part.notes[1:], slurred, strict=False) if is_slurred}
         rows += [
             (part.track, note.pitch, note.onset_tick, note.id, labels[note.id])
             for note in part.notes
@@ -77,13 +87,17 @@ def planned(path: Path) -> Planned:
         own[id_], fingerings[key] = key, label
     players = Counter((part.track, part.map_id) for part in score.parts)
     warnings = Counter(warning.id for warning in score.warnings)
-    return Planned(players, fingerings, {own[id_] for id_ in breaths if id_ in own}, warnings)
+    breaths, slurred_to = ({own[id_] for id_ in ids if id_ in own} for ids in (breaths, slurred_to))
+    return Planned(players, fingerings, breaths, warnings, slurred_to)
 
 
 def main(folder: Path, seed: int) -> None:
     """Print the table."""
-    print("file, players engraved, played, same; notes, same fingering %; breaths engraved, played, at the same note %")
-    total = [0] * 8
+    print(
+        "file, players engraved, played, same; notes, same fingering %; breaths engraved, played, "
+        "at the same note %, slurred to, of the others %"
+    )
+    total = [0] * 9
     for path in sorted(folder.glob("*.mid")):
         engraved = planned(path)
         with tempfile.TemporaryDirectory() as temporary:
@@ -95,6 +109,7 @@ def main(folder: Path, seed: int) -> None:
         figures = [
             engraved.players.total(), again.players.total(), (engraved.players & again.players).total(),
             len(engraved.fingerings), same, len(engraved.breaths), len(again.breaths), common,
+            len(engraved.breaths & again.slurred_to),
         ]  # fmt: skip
         total = [one + other for one, other in zip(total, figures, strict=True)]
         print(_row(path.stem, figures), dict(again.warnings - engraved.warnings) or "", flush=True)
@@ -102,10 +117,11 @@ def main(folder: Path, seed: int) -> None:
 
 
 def _row(name: str, figures: list[int]) -> str:
-    before, after, both, notes, same, engraved, found, common = figures
+    before, after, both, notes, same, engraved, found, common, slurred = figures
     return (
         f"{name[:40]:40} {before:3} {after:3} {both:3}; {notes:6} {100 * same / max(notes, 1):6.2f}; "
-        f"{engraved:5} {found:5} {100 * common / max(engraved, 1):6.1f}"
+        f"{engraved:5} {found:5} {100 * common / max(engraved, 1):6.1f} {slurred:5} "
+        f"{100 * common / max(engraved - slurred, 1):6.1f}"
     )
 
 

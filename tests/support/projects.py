@@ -12,9 +12,10 @@ from app.plan.corrections import Correction
 from app.plan.model import PlayerParameters
 from app.project import limits
 from app.project.casting import StagePosition
-from app.project.model import AudioTrack, Player, Project
+from app.project.dance_corrections import ForbidState, PinState, UseSegment
+from app.project.model import AudioTrack, Dancer, Player, Project
 from app.score.limits import too_long
-from app.score.model import ControllerCurve, Metre, Note, Part, Score, UnplayedPart
+from app.score.model import ControllerCurve, Metre, Note, Part, PercussionHit, Score, UnplayedPart
 from app.score.tempo import TempoChange, TempoMap
 from metadata.model import ARKIT_MORPHS, Expression
 
@@ -69,6 +70,12 @@ def scores(draw: st.DrawFn) -> Score:
             )
         ),
         warnings=tuple(draw(st.lists(st.just(Message("midi.patterns", {"patterns": 3})), max_size=2))),
+        percussion=tuple(
+            PercussionHit(*hit)
+            for hit in sorted(
+                draw(st.lists(st.tuples(st.integers(0, 9_000), st.integers(0, 127), st.integers(1, 127)), max_size=4))
+            )
+        ),
     )
 
 
@@ -92,6 +99,39 @@ def curves(draw: st.DrawFn) -> ControllerCurve:
     return ControllerCurve(kind, at, tuple(draw(st.floats(low, 1.0)) for _ in at))
 
 
+stages = st.builds(StagePosition, within(limits.STAGE_M), within(limits.STAGE_M), st.floats(-7.0, 7.0))
+
+
+@st.composite
+def dancers(draw: st.DrawFn, id: str, name: str, folder: str) -> Dancer:
+    return Dancer(
+        id=id,
+        name=name,
+        choreography=draw(
+            st.sampled_from(["salsa", f"{folder}/salsa.choreography", f"{folder}/踊り/a b.CHOREOGRAPHY"])
+            | st.sampled_from(["/elsewhere/x.choreography", "D:\\dances\\x.choreography"])
+        ),
+        character_id=draw(ids),
+        stage=draw(stages),
+        seed=draw(st.integers(*limits.SEED)),
+        delay_beats=draw(within(limits.DELAY_BEATS)),
+        mirrored=draw(st.booleans()),
+        source=draw(st.integers(-1, 9)),
+        size=draw(within(limits.DANCE_SIZE)),
+        colour=draw(st.sampled_from(["", "#0A1b2C"])),
+    )
+
+
+indices = st.integers(*limits.CHOREOGRAPHY_INDEX)
+dance_corrections = (
+    st.builds(PinState, ticks, indices)
+    | st.builds(UseSegment, ticks, indices)
+    | st.tuples(ticks, st.integers(1, 9_000), indices).map(
+        lambda values: ForbidState(values[0], values[0] + values[1], values[2])
+    )
+)
+
+
 @st.composite
 def players(draw: st.DrawFn, id: str, name: str, part_ids: list[str]) -> Player:
     return Player(
@@ -110,7 +150,7 @@ def players(draw: st.DrawFn, id: str, name: str, part_ids: list[str]) -> Player:
             cue_leader=draw(st.none() | st.booleans()),
             seed=draw(st.integers(0, 2**63 - 1)),
         ),
-        stage=StagePosition(draw(within(limits.STAGE_M)), draw(within(limits.STAGE_M)), draw(st.floats(-7.0, 7.0))),
+        stage=draw(stages),
         colour=draw(st.sampled_from(["", "#0A1b2C"])),
         muted=draw(st.booleans()),
         soloed=draw(st.booleans()),
@@ -156,15 +196,17 @@ def projects(draw: st.DrawFn, folder: str = "/music") -> Project:
     # What is longer cannot be saved.
     score = draw(scores().filter(lambda score: too_long(score) is None))
     part_ids = [part.id for part in score.parts]
-    player_ids = draw(st.lists(ids, max_size=3, unique=True)) if part_ids else []
-    names = draw(
-        st.lists(texts, min_size=len(player_ids), max_size=len(player_ids), unique_by=lambda name: name.casefold())
-    )
+    performer_ids = draw(st.lists(ids, max_size=5, unique=True))
+    split = draw(st.integers(0, min(len(performer_ids), 3))) if part_ids else 0
+    player_ids, dancer_ids = performer_ids[:split], performer_ids[split:][:2]
+    count = split + len(dancer_ids)
+    names = draw(st.lists(texts, min_size=count, max_size=count, unique_by=lambda name: name.casefold()))
+    danced = {id: tuple(draw(st.lists(dance_corrections, max_size=3))) for id in dancer_ids}
     path = st.sampled_from([f"{folder}/a.wav", f"{folder}/sub/録音.flac", "/elsewhere/x.mp3"])
     corrected = {id: tuple(draw(st.lists(corrections(), max_size=3))) for id in player_ids}
     return Project(
         score=score,
-        players=tuple(draw(players(id, name, part_ids)) for id, name in zip(player_ids, names, strict=True)),
+        players=tuple(draw(players(id, name, part_ids)) for id, name in zip(player_ids, names, strict=False)),
         corrections={id: corrected[id] for id in sorted(corrected, key=str.encode) if corrected[id]},
         seed=draw(st.integers(*limits.SEED)),
         preroll_beats=draw(within(limits.PREROLL_BEATS)),
@@ -182,4 +224,6 @@ def projects(draw: st.DrawFn, folder: str = "/music") -> Project:
             for part in sorted(score.parts, key=lambda part: part.id.encode())
             if draw(st.booleans())
         },
+        dancers=tuple(draw(dancers(id, name, folder)) for id, name in zip(dancer_ids, names[split:], strict=True)),
+        dance_corrections={id: danced[id] for id in sorted(danced, key=str.encode) if danced[id]},
     )

@@ -30,12 +30,15 @@ from unittest.mock import patch
 import mido
 from PySide6.QtWidgets import QApplication, QDialog, QLineEdit
 
+from app.choreography.model_file import write_model
 from app.errors import AppError, Message
 from app.plan.corrections import AddExpression
 from app.project import storage
 from app.project.autosave import Autosave
 from app.project.document import Change
 from app.project.edit.corrections import put
+from app.project.edit.dance_corrections import pin_state
+from app.project.edit.dancers import add_dancer, remove_dancers
 from app.project.edit.generation import vary_everyone
 from app.project.edit.notes import move
 from app.project.edit.piece import set_title
@@ -53,6 +56,7 @@ from tests.fuzz.harness.mutators import mutated
 from tests.fuzz.harness.readers import KINDS
 from tests.fuzz.harness.values import TEXTS
 from tests.gui.shell.conftest import Answers
+from tests.support.dances import model
 from tests.support.restless import QUARTET, Complaints, Restless
 
 MOST_LOST_S: Final = 5.0
@@ -62,6 +66,7 @@ PATIENCE_S: Final = 240.0
 WINDOW_PX: Final = (1280, 800)
 FIRST: Final = "duet <b>&amp; {file}.mid"
 SHORT_TICKS: Final = 8 * 480
+DANCE: Final = "steps.choreography"
 
 
 def digest(project: Project) -> str:
@@ -130,6 +135,15 @@ class RandomAnswers(Answers):
         return answer
 
 
+def dancing(project: Project, name: str, number: int, folder: Path) -> Project:
+    """Another dancer, of every other the choreography is there; of those who are there already a basic motion is
+    pinned, or one leaves."""
+    if number >= len(project.dancers):
+        return add_dancer(project, folder / ("gone.choreography" if number % 2 else DANCE), name)[0]
+    dancer = project.dancers[number]
+    return remove_dancers(project, [dancer.id]) if number == 2 else pin_state(project, dancer.id, 480 * number, number)
+
+
 def file_name(chance: random.Random) -> str:
     """A name that a file can have, hostile or not, without a suffix."""
     text = chance.choice((*TEXTS, *["work"] * 10))
@@ -153,12 +167,10 @@ class RandomUser(Restless):
         self.folder = folder
 
     def step(self) -> None:
-        """Do one thing; it is a matter of files in one of six."""
-        if self.random.random() < 0.17:
-            deed = self.random.choices((self.open, self.save, self.take_back, self.name, self.again), (3, 3, 3, 4, 2))[
-                0
-            ]
-            deed()
+        """Do one thing; one in four is a matter of files, or an edit that no click is likely to make."""
+        if self.random.random() < 0.25:
+            deeds = (self.open, self.save, self.take_back, self.name, self.again, self.edit)
+            self.random.choices(deeds, (3, 3, 3, 4, 2, 7))[0]()
             QApplication.processEvents()
             self.look_away()
         else:
@@ -178,6 +190,7 @@ class RandomUser(Restless):
             lambda project: set_parameters(project, [player.id], amplitude=chance.choice((0.1, 0.5, 1.9))),
             lambda project: put(project, player.id, [AddExpression(f"x{chance.randrange(9)}", "strained", 0, 960)]),
             lambda project: vary_everyone(project),
+            lambda project: dancing(project, text, chance.randrange(5), self.folder),
         ]
         if note is not None:
             edits.append(
@@ -377,7 +390,8 @@ def prepare(folder: Path, seed: int) -> None:
     files.mkdir(parents=True)
     shutil.copy(QUARTET, files / "quartet.mid")
     _write_short_piece(files / FIRST)
-    shutil.copy(seeds.DATA / "projects" / "version_6.suisou", files / "work.suisou")
+    shutil.copy(seeds.DATA / "projects" / "version_7.suisou", files / "work.suisou")
+    write_model(files / DANCE, model())
     for kind, suffix in (("midi", ".mid"), ("project", ".suisou"), ("audio", ".flac")):
         spec = KINDS[kind]
         good = spec.seeds()

@@ -45,6 +45,8 @@ class Studio:
         self.wait(lambda: self.session.playhead_s >= at_s)
         self.link.play(bytes((0xB0, 2, 100)))
         self.link.play(bytes((0x90, pitch, 90)))
-        self.wait(lambda: self.session.playhead_s >= at_s + length_s or not self.session.playing)
+        # The playhead moves in steps: one that has passed the end at once would give a note without length.
+        end_ns = self.clock.ns + round(length_s * 1e9)
+        self.wait(lambda: self.clock.ns >= end_ns)
         self.link.play(bytes((0x80, pitch, 0)))
         self.link.play(bytes((0xB0, 2, 0)))

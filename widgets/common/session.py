@@ -17,7 +17,7 @@ from app.performance.ensemble import Performance
 from app.plan.model import Problem
 from app.project.document import Change, Document
 from app.project.grid import Grid
-from app.project.model import Player, Project
+from app.project.model import Dancer, Player, Project
 from widgets.common.listening import Listening
 from widgets.common.live_players import LivePlayers
 from widgets.common.recording import Recording
@@ -79,6 +79,8 @@ class Session(QObject):
     selection_changed(), players_changed(), playhead_changed(float), playing_changed(bool), loop_changed(),
     grid_changed(), theme_changed(), time_display_changed(), follow_changed()
         The value of that name is another one.
+    dancer_changed()
+        Another dancer is selected, in the same project.
     folded_changed()
         Another part of a panel is folded.
     preview_changed()
@@ -102,6 +104,7 @@ class Session(QObject):
     problems_changed = Signal()
     selection_changed = Signal()
     players_changed = Signal()
+    dancer_changed = Signal()
     playhead_changed = Signal(float)
     playing_changed = Signal(bool)
     loop_changed = Signal()
@@ -139,6 +142,7 @@ class Session(QObject):
         self._problems: dict[str, tuple[tuple[Problem, ...], tuple[Problem, ...], tuple[Problem, ...]]] = {}
         self._selection = Selection()
         self._players: tuple[str, ...] = tuple(player.id for player in project.players[:1])
+        self._dancer_id = project.dancers[-1].id if project.dancers else ""
         self._playhead_s = 0.0
         self._playing = False
         self._loop_s: tuple[float, float] | None = None
@@ -174,11 +178,13 @@ class Session(QObject):
 
     def problems(self, player_id: str) -> tuple[Problem, ...]:
         """What is wrong with a player's plan and, as far as it was made, motion, by time; the same tuple until that
-        changes, and none before there are plans."""
+        changes, and none before there are plans. Of a dancer, who has no plan, what is wrong with the dance."""
         plan = self._performance.plans.get(player_id) if self._performance.planned else None
         planned, broken = () if plan is None else plan.problems, self._broken.get(player_id, ())
-        if not broken or plan is None:
+        if not broken:
             return planned
+        if plan is None:
+            return broken if player_id in self._performance.project.dancer_ids else planned
         known = self._problems.get(player_id)
         if known is None or known[0] is not planned or known[1] is not broken:
             together = tuple(sorted(planned + broken, key=lambda problem: problem.start_s))
@@ -220,6 +226,10 @@ class Session(QObject):
             kept = tuple(player.id for player in change.after.players[:1])
         moved = kept != self._players
         self._players = kept
+        dancers = [dancer.id for dancer in change.after.dancers]
+        other_dancer = bool(self._dancer_id or dancers) and self._dancer_id not in dancers
+        if other_dancer:
+            self._dancer_id = dancers[-1] if dancers else ""
         selected = self._selection
         self._selection = Selection() if change.opened else selected.within(change.after)
         if change.opened:
@@ -227,6 +237,8 @@ class Session(QObject):
         self.changed.emit(change)
         if moved:
             self.players_changed.emit()
+        if other_dancer and not change.opened:
+            self.dancer_changed.emit()
         if change.opened or self._selection is not selected:
             self.selection_changed.emit()
         if change.opened:
@@ -250,9 +262,24 @@ class Session(QObject):
             self._players = players
             self.players_changed.emit()
 
-    def colour(self, player: Player) -> str:
-        """A player's colour, ``#rrggbb``."""
-        return player.colour or self._tokens.player(self.project.players.index(player))
+    @property
+    def dancer(self) -> Dancer | None:
+        """The selected dancer; None in a project without dancers."""
+        return self.project.dancer(self._dancer_id) if self._dancer_id else None
+
+    def set_dancer(self, dancer_id: str) -> None:
+        """Select a dancer."""
+        if dancer_id != self._dancer_id:
+            self._dancer_id = dancer_id
+            self.dancer_changed.emit()
+
+    def colour(self, player: Player | Dancer) -> str:
+        """A player's or dancer's colour, ``#rrggbb``."""
+        if player.colour:
+            return player.colour
+        players = self.project.players
+        number = players.index(player) if isinstance(player, Player) else self.project.dancers.index(player)
+        return self._tokens.player(number if isinstance(player, Player) else len(players) + number)
 
     # The rest of the state
 

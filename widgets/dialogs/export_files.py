@@ -97,9 +97,11 @@ class ExportDialog(QDialog):
 
         self._players = QListWidget()
         self._players.setObjectName("export_players")
-        for player in self._project.players:
-            item = QListWidgetItem(player.name)
-            item.setData(Qt.ItemDataRole.UserRole, player.id)
+        performers = [(one.id, one.name) for one in self._project.players]
+        performers += [(one.id, one.name) for one in self._project.dancers]
+        for performer_id, name in performers:
+            item = QListWidgetItem(name)
+            item.setData(Qt.ItemDataRole.UserRole, performer_id)
             item.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsUserCheckable | Qt.ItemFlag.ItemIsSelectable)
             item.setCheckState(Qt.CheckState.Checked)
             item.setSizeHint(QSize(0, LEAST_TARGET_PX))
@@ -203,7 +205,7 @@ class ExportDialog(QDialog):
 
     @property
     def player_ids(self) -> tuple[str, ...]:
-        """The ticked players."""
+        """The ticked players and dancers."""
         items = (self._players.item(row) for row in range(self._players.count()))
         return tuple(
             str(item.data(Qt.ItemDataRole.UserRole)) for item in items if item.checkState() == Qt.CheckState.Checked
@@ -231,6 +233,7 @@ class ExportDialog(QDialog):
             bvh_names=self._bvh_names.currentData(),
             skeleton=self._skeleton.choice,
             asset=self._skeleton.asset,
+            dancers=tuple(dancer for dancer in project.dancers if dancer.id in self.player_ids),
         )
 
     def _chosen_players(self) -> tuple[Player, ...]:
@@ -350,11 +353,13 @@ class ExportDialog(QDialog):
     def _foreseen(self) -> str:
         """What will be written, replaced and removed."""
         performance = Performance(self._project)
+        into_folder = self._place.destination == "folder"
         seen = foresee(
             self._place.destination,
             self._place.path,
             performance,
-            self.player_ids,
+            # Dancers are not written into Unreal projects, as the report says.
+            self.player_ids if into_folder else tuple(player.id for player in self._chosen_players()),
             self._formats.formats,
             self._source,
             self._formats.sound,
@@ -377,7 +382,7 @@ class ExportDialog(QDialog):
         """Set every text anew."""
         self.setWindowTitle(self.tr("Export"))
         texts = {
-            "players": self.tr("Players"),
+            "players": self.tr("Performers") if self._project.dancers else self.tr("Players"),
             "into": self.tr("Into"),
             "files": self.tr("Files"),
             "bvh_names": self.tr("Bone names in BVH"),

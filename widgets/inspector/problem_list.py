@@ -1,4 +1,4 @@
-"""What the animator should look at: problems of all players' plans."""
+"""What the animator should look at: problems of all players' plans, and of dances."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from app.plan.model import Problem
-from app.project.model import Player
+from app.project.model import Dancer, Player
 from app.score.model import Score
 from widgets.common.combo import Combo, Option
 from widgets.common.musical_time import place_text
@@ -25,6 +25,8 @@ _KINDS = {
     "note": "note",
     "correction": "correction",
     "contact": "contact",
+    "dance": "dance",
+    "choreography": "dance",
     "project": "project",
 }
 
@@ -81,13 +83,13 @@ class ProblemList(QWidget):
     def show_problems(self) -> None:
         """Show what the newest plans have."""
         project = self._session.performance.project
-        found = [(player, problem) for player in project.players for problem in self._session.problems(player.id)]
+        found = [(one, problem) for one in project.performers for problem in self._session.problems(one.id)]
         self.counted.emit(len(found))
         if not self.isVisible():
             return
         chosen = set(self._session.players) if self._who.shown == SELECTED else None
         kind = self._kind.shown
-        current = {player.id: player for player in self._session.project.players}
+        current = {one.id: one for one in self._session.project.performers}
         wanted = [
             (player, problem)
             for player, problem in sorted(found, key=lambda item: item[1].start_s)
@@ -99,7 +101,8 @@ class ProblemList(QWidget):
             colour = self._session.colour(current[player.id]) if player.id in current else ""
             # What a line says comes from these; the player's notes are among them, which problems name.
             score = project.score
-            sources = (problem, player, project.part(player), score.tempo_map, score.metres, colour)
+            part = project.part(player) if isinstance(player, Player) else None
+            sources = (problem, player, part, score.tempo_map, score.metres, colour)
             known = before.get(id(problem))
             if known is None or not all(map(is_, known[0], sources)):
                 known = (sources, self._line(player, problem, colour, score))
@@ -118,7 +121,7 @@ class ProblemList(QWidget):
                 else self.tr("None of these. Choose other players or kinds above.")
             )
 
-    def _line(self, player: Player, problem: Problem, colour: str, score: Score) -> Line:
+    def _line(self, player: Player | Dancer, problem: Problem, colour: str, score: Score) -> Line:
         place = place_text(score, round(score.tempo_map.ticks(problem.start_s)))
         text = sentence(problem.message, self._session, player.id)
         return Line((player.id, problem), player.name, place, text, colour, "warning")
@@ -135,8 +138,10 @@ class ProblemList(QWidget):
     def _open(self, key: object) -> None:
         assert isinstance(key, tuple)
         player_id, problem = key
-        known = {player.id for player in self._session.project.players}
-        if player_id in known and player_id not in self._session.players:
+        project = self._session.project
+        if player_id in project.dancer_ids:
+            self._session.set_dancer(player_id)
+        elif player_id in {player.id for player in project.players} and player_id not in self._session.players:
             self._session.set_players((player_id,))
         if problem.note_id is not None:
             self._session.select(Selection(notes=frozenset((problem.note_id,))))
@@ -156,10 +161,11 @@ class ProblemList(QWidget):
             "note": self.tr("Notes"),
             "correction": self.tr("Corrections"),
             "contact": self.tr("Contacts"),
+            "dance": self.tr("Dances"),
             "project": self.tr("Instruments and characters"),
         }
         self._kind.set_options(
-            [Option(ALL, self.tr("All kinds")), *(Option(id, words[name]) for id, name in _KINDS.items())]
+            [Option(ALL, self.tr("All kinds")), *(Option(name, words[name]) for name in dict.fromkeys(_KINDS.values()))]
         )
         self._who.show_option(who)
         self._kind.show_option(kind)
@@ -177,4 +183,5 @@ class ProblemList(QWidget):
 
 
 def _kind(problem: Problem) -> str:
-    return problem.message.id.split(".")[0]
+    room = problem.message.id.split(".")[0]
+    return _KINDS.get(room, room)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QPoint, Qt
+from PySide6.QtCore import QEvent, QPoint, Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
@@ -26,6 +26,7 @@ from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
 from widgets.common.session import Session
 from widgets.common.text import sentence
+from widgets.players.dancers import DancersSection
 from widgets.players.newcomers import add_player, duplicate_players
 from widgets.players.parameters import ParameterSections
 from widgets.players.player_list import PlayerList, Row
@@ -33,6 +34,7 @@ from widgets.players.preset_section import PresetSection
 from widgets.players.stage_section import StageSection
 
 MENU = (
+    "dancers.add",
     "players.rename",
     "players.duplicate",
     "players.remove",
@@ -74,6 +76,7 @@ class PlayersPanel(QWidget):
         self._parameters = ParameterSections(session)
         self._stage = StageSection(session)
         self._presets = PresetSection(session)
+        self.dancers = DancersSection(session)
         self._variety = Section(session, "players_variety")
         self._spread = NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05)
         self._spread.setObjectName("spread")
@@ -116,13 +119,14 @@ class PlayersPanel(QWidget):
         lower_layout = QVBoxLayout(lower)
         lower_layout.setContentsMargins(0, 0, 0, 0)
         lower_layout.setSpacing(0)
-        for part in (self._parameters, self._stage, self._variety, self._presets):
+        for part in (self._parameters, self._stage, self._variety, self._presets, self.dancers):
             lower_layout.addWidget(part)
         lower_layout.addStretch(1)
         scroll = QScrollArea()
         scroll.setWidgetResizable(True)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         scroll.setWidget(lower)
+        self._scroll = scroll
         scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._divided = False
         self._splitter = QSplitter(Qt.Orientation.Vertical)
@@ -142,6 +146,7 @@ class PlayersPanel(QWidget):
         session.problems_changed.connect(self._show_list)
         session.players_changed.connect(self._players_changed)
         session.theme_changed.connect(self._dress)
+        session.dancer_changed.connect(self._show_dancers)
         self.list.chosen.connect(session.set_players)
         self.list.mute_clicked.connect(self._mute)
         self.list.arm_clicked.connect(self._arm)
@@ -178,6 +183,8 @@ class PlayersPanel(QWidget):
         before, after = change.before, change.after
         if before.players is not after.players or before.score.parts is not after.score.parts or change.opened:
             self._show_all()
+        elif before.dancers is not after.dancers:
+            self._stage.show_places()
 
     def _players_changed(self) -> None:
         self.list.show_selection()
@@ -228,6 +235,11 @@ class PlayersPanel(QWidget):
         self._reset.setEnabled(bool(chosen))
         whom = self.tr("selected players") if len(chosen) > 1 else self.tr("all players")
         self._variety.header.set_texts(self.tr("Variety"), whom)
+
+    def _show_dancers(self) -> None:
+        """Scroll to what the selected dancer dances, once the section has its new height."""
+        if self._session.dancer is not None:
+            QTimer.singleShot(0, self, lambda: self._scroll.verticalScrollBar().setValue(self.dancers.y()))
 
     # Editing
 

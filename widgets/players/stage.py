@@ -21,7 +21,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.project.casting import StagePosition
-from app.project.model import Player
+from app.project.model import Dancer, Player
 from widgets.common.session import Session
 
 DISC_M = 0.28
@@ -47,8 +47,8 @@ _ARROWS = {
 
 
 class StageView(QWidget):
-    """Players as discs with a nose, the audience below. Drag a disc to move (all that are selected), the nose to turn;
-    the arrows move too, with Ctrl they turn.
+    """Players as discs and dancers as rings, with a nose, the audience below. Drag a player to move (all that are
+    selected), or a dancer, the nose to turn; the arrows move too, with Ctrl they turn.
 
     Signals
     -------
@@ -69,6 +69,8 @@ class StageView(QWidget):
         self._session = session
         self.snaps = False
         self._grabbed: str | None = None
+        self._of_dancer = False
+        """Whether a dancer was taken hold of last, and not a player."""
         self._turning = False
         self._press = QPointF()
         self._start: dict[str, StagePosition] = {}
@@ -86,7 +88,7 @@ class StageView(QWidget):
         """Pixels per metre, and the metres that the middle of the view shows; held still during a drag."""
         if self._view is not None:
             return self._view
-        places = [player.stage for player in self._session.project.players]
+        places = [one.stage for one in self._session.project.performers]
         left = min((place.x_m for place in places), default=0.0) - MARGIN_M
         right = max((place.x_m for place in places), default=0.0) + MARGIN_M
         back = min((place.z_m for place in places), default=0.0) - MARGIN_M
@@ -113,24 +115,27 @@ class StageView(QWidget):
         """Radius of a player."""
         return max(self._frame()[0] * DISC_M, LEAST_DISC_PX)
 
-    def nose_point(self, player: Player) -> QPointF:
-        """The handle that turns a player."""
+    def nose_point(self, player: Player | Dancer) -> QPointF:
+        """The handle that turns a player or dancer."""
         length = max(self._frame()[0] * NOSE_M, LEAST_NOSE_PX)
         turn = player.stage.turn_rad
         return self.point(player.stage.x_m, player.stage.z_m) + QPointF(
             math.sin(turn) * length, math.cos(turn) * length
         )
 
-    def _at(self, position: QPointF) -> tuple[Player | None, bool]:
+    def _is_selected(self, one: Player | Dancer) -> bool:
+        dancer = self._session.dancer
+        return one.id in self._session.players or (dancer is not None and one.id == dancer.id)
+
+    def _at(self, position: QPointF) -> tuple[Player | Dancer | None, bool]:
         """Who is there, and whether by the nose. Only the selected show noses that can be taken."""
-        players = self._session.project.players
-        selected = [player for player in players if player.id in self._session.players]
-        for player in selected:
+        players = self._session.project.performers
+        for player in filter(self._is_selected, players):
             if _distance(self.nose_point(player), position) <= REACH_PX * 0.75:
                 return player, True
         reach = max(self.disc_px(), REACH_PX)
         near = [(_distance(self.point(player.stage.x_m, player.stage.z_m), position), player) for player in players]
-        within = [(distance, player.id not in self._session.players, player) for distance, player in near
+        within = [(distance, not self._is_selected(player), player) for distance, player in near
                   if distance <= reach]  # fmt: skip
         return (min(within, key=lambda item: item[:2])[2], False) if within else (None, False)
 
@@ -161,7 +166,9 @@ class StageView(QWidget):
         }
 
     def _places(self) -> dict[str, StagePosition]:
-        project = self._session.project
+        project, dancer = self._session.project, self._session.dancer
+        if self._of_dancer and dancer is not None:
+            return {dancer.id: dancer.stage}
         return {player_id: project.player(player_id).stage for player_id in self._session.players}
 
     def _end(self) -> None:
@@ -199,11 +206,11 @@ class StageView(QWidget):
             self.tr("grid {step} m").format(step=f"{step:g}"),
         )
 
-    def _paint_player(self, painter: QPainter, number: int, player: Player) -> None:
+    def _paint_performer(self, painter: QPainter, number: int, player: Player | Dancer) -> None:
         tokens = self._session.tokens
         centre, radius = self.point(player.stage.x_m, player.stage.z_m), self.disc_px()
         colour = QColor(self._session.colour(player))
-        selected = player.id in self._session.players
+        selected, dances = self._is_selected(player), isinstance(player, Dancer)
         nose = self.nose_point(player)
         if selected:
             painter.setPen(QPen(colour, 2.0))
@@ -218,12 +225,15 @@ class StageView(QWidget):
         painter.drawPolygon(
             QPolygonF([centre + forward * radius * 1.45, centre + side * radius * 0.7, centre - side * radius * 0.7])
         )
-        if selected:
+        if dances:
+            painter.setPen(QPen(QColor(tokens.text) if selected else colour, 2.0))
+            painter.setBrush(QColor(tokens.sunken))
+        elif selected:
             painter.setPen(QPen(QColor(tokens.text), 2.0))
         painter.drawEllipse(centre, radius, radius)
         font = painter.font()
         if radius >= 9:
-            painter.setPen(QColor("#101216" if colour.lightnessF() > 0.45 else "#ffffff"))
+            painter.setPen(colour if dances else QColor("#101216" if colour.lightnessF() > 0.45 else "#ffffff"))
             painter.drawText(
                 QRectF(centre.x() - radius, centre.y() - radius, 2 * radius, 2 * radius),
                 Qt.AlignmentFlag.AlignCenter,
@@ -247,10 +257,11 @@ class StageView(QWidget):
         painter.setClipPath(shape)
         painter.fillRect(self.rect(), QColor(tokens.sunken))
         self._paint_floor(painter)
-        numbered = list(enumerate(self._session.project.players, 1))
+        project = self._session.project
+        numbered: list[tuple[int, Player | Dancer]] = [*enumerate(project.players, 1), *enumerate(project.dancers, 1)]
         # The selected lie on top.
-        for number, player in sorted(numbered, key=lambda item: item[1].id in self._session.players):
-            self._paint_player(painter, number, player)
+        for number, player in sorted(numbered, key=lambda item: self._is_selected(item[1])):
+            self._paint_performer(painter, number, player)
         painter.restore()
         self._view = held
         painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -265,6 +276,11 @@ class StageView(QWidget):
         player, by_nose = self._at(event.position())
         if player is None:
             return
+        self._of_dancer = isinstance(player, Dancer)
+        if self._of_dancer:
+            self._session.set_dancer(player.id)
+            self._grab(player, by_nose, event.position())
+            return
         chosen = self._session.players
         adding = bool(event.modifiers() & (Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier))
         if adding and player.id in chosen and len(chosen) > 1:
@@ -274,8 +290,11 @@ class StageView(QWidget):
             self.chosen.emit((player.id, *chosen) if adding else (player.id,))
         elif len(chosen) > 1 and not by_nose and not adding:
             self._collapse = player.id
+        self._grab(player, by_nose, event.position())
+
+    def _grab(self, player: Player | Dancer, by_nose: bool, position: QPointF) -> None:
         self._view = self._frame()
-        self._grabbed, self._turning, self._press = player.id, by_nose, event.position()
+        self._grabbed, self._turning, self._press = player.id, by_nose, position
         self._start = self._places()
         self._token = None
 
@@ -310,7 +329,7 @@ class StageView(QWidget):
             if self._token is not None:
                 self.placed.emit(dict(self._start), self._token)
             self._end()
-        elif key in _ARROWS and self._grabbed is None and self._session.players:
+        elif key in _ARROWS and self._grabbed is None and self._places():
             x, z = _ARROWS[key]
             self._start = self._places()
             if event.modifiers() & Qt.KeyboardModifier.ControlModifier:

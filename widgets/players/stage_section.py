@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QGridLayout, QToolButton, QVBoxLayout, QWidget
 from app.errors import Message
 from app.project.casting import StagePosition
 from app.project.edit import players as edit
+from app.project.edit.dancers import place_dancers
 from widgets.common.icons import icon
 from widgets.common.number_slider import NumberSlider
 from widgets.common.section import Section
@@ -59,6 +60,7 @@ class StageSection(QWidget):
         self.view.released.connect(session.document.end_gesture)
         self.view.chosen.connect(session.set_players)
         session.theme_changed.connect(self._dress)
+        session.dancer_changed.connect(self.view.update)
         self._dress()
         self.retranslate()
 
@@ -83,7 +85,9 @@ class StageSection(QWidget):
         return Message("edit.place_players", {"count": len(self._session.players)})
 
     def _place(self, places: dict[str, StagePosition], token: object) -> None:
-        self._session.attempt(self._name(), lambda project: edit.place(project, places), token)
+        dancers = [self._session.project.dancer(id) for id in places if id in self._session.project.dancer_ids]
+        name = Message("edit.dancer_place", {"dancer": dancers[0].name}) if dancers else self._name()
+        self._session.attempt(name, lambda project: place_dancers(edit.place(project, places), places), token)
 
     def _set(self, name: str, value: float, token: object | None) -> None:
         wanted = math.radians(value) if name == "turn_rad" else value

@@ -13,10 +13,12 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from app.errors import AppError
 from app.performance.bodies import body_of, character_of, model_of, suited_to
 from app.project.casting import StagePosition
-from app.project.model import Player
+from app.project.model import Dancer, Player
 from app.rig import quaternion
+from app.rig.character_library import character_library, character_named
 from app.rig.model import Character, InstrumentModel, Skeleton
 from app.rig.skeleton import rest_positions
 from instrument_maps.library import find_map
@@ -31,16 +33,34 @@ Ints = npt.NDArray[np.intp]
 
 @dataclass(frozen=True, eq=False)
 class Kit:
-    """What a player is drawn from."""
+    """What a player or a dancer is drawn from.
+
+    Attributes
+    ----------
+    character : Character
+    held : (InstrumentModel, InstrumentMap) or None
+        None: a dancer.
+    """
 
     character: Character
-    instrument: InstrumentModel
-    map: InstrumentMap
+    held: tuple[InstrumentModel, InstrumentMap] | None
+
+    @property
+    def instrument(self) -> InstrumentModel:
+        """The model of what a player holds."""
+        assert self.held is not None
+        return self.held[0]
+
+    @property
+    def map(self) -> InstrumentMap:
+        """The map of what a player holds."""
+        assert self.held is not None
+        return self.held[1]
 
 
 @dataclass(frozen=True, eq=False)
 class Member:
-    """A player on the stage.
+    """A player or a dancer on the stage.
 
     Attributes
     ----------
@@ -60,7 +80,19 @@ class Member:
 def kit_of(player: Player) -> Kit:
     """Load what a player is drawn from. Raises AppError where something is missing or damaged."""
     instrument_map = suited_to(player, find_map(player.instrument_id)).instrument
-    return Kit(character_of(player), model_of(instrument_map), instrument_map)
+    return Kit(character_of(player), (model_of(instrument_map), instrument_map))
+
+
+def dancer_kit(dancer: Dancer) -> Kit:
+    """Load what a dancer is drawn from. Raises AppError where the character is missing or damaged."""
+    if dancer.character_id not in character_library().sources:
+        raise AppError("project.character_missing", player=dancer.name, id=dancer.character_id)
+    return Kit(character_named(dancer.character_id), None)
+
+
+def dancing_member(dancer: Dancer, kit: Kit) -> Member:
+    """A dancer at their place."""
+    return Member(dancer.id, kit, placed(dancer.stage), None)
 
 
 def member_of(player: Player, kit: Kit) -> Member:
@@ -158,7 +190,7 @@ class Stage:
         self.members = tuple(members)
         count = len(self.members)
         self.first_node = max((len(member.kit.character.skeleton.names) for member in members), default=0)
-        self._instruments = Instruments([(member.kit.instrument, member.kit.map) for member in members])
+        self._instruments = Instruments([member.kit.held for member in members])
         self.seat_bone = self.first_node + self._instruments.nodes
         self.bones = np.zeros((count, self.seat_bone + 1, 3, 4), np.float32)
         self.joints = np.zeros((count, self.first_node, 3, 4))

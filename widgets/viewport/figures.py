@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 
 from app.errors import Cancelled
 from app.performance.cast import LeftOut, attempt
-from app.project.model import Player, Project
+from app.project.model import Dancer, Player, Project
 from app.rig.character_library import character_revision
 from instrument_maps.library import library
 from widgets.common.tasks import Progress, StopWanted
-from widgets.viewport.cast import Kit, Member, Stage, kit_of, member_of
+from widgets.viewport.cast import Kit, Member, Stage, dancer_kit, dancing_member, kit_of, member_of
 from widgets.viewport.geometry import Crowd
 from widgets.viewport.renderer import Shapes, crowd_of, shapes_of
 
@@ -47,6 +47,12 @@ def cast_key(project: Project) -> CastKey:
             player.stage.turn_rad,
         )
         for player in project.players
+    ) + tuple(
+        (
+            *(dancer.id, dancer.character_id, "", "", 0, character_revision(dancer.character_id)),
+            *(dancer.stage.x_m, dancer.stage.z_m, dancer.stage.turn_rad),
+        )
+        for dancer in project.dancers
     )
 
 
@@ -71,20 +77,34 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_wante
             kits[pair] = kit_of(player)
         return member_of(player, kits[pair])
 
-    found = attempt(project.players, make)
-    members = list(found.made.values())
+    def make_dancer(dancer: Dancer) -> Member:
+        if stop_wanted():
+            raise Cancelled("work.stopped")
+        pair = (dancer.character_id, "")
+        if pair not in kits:
+            kits[pair] = dancer_kit(dancer)
+        return dancing_member(dancer, kits[pair])
+
+    found, dancers = attempt(project.players, make), attempt(project.dancers, make_dancer)
+    members = [*found.made.values(), *dancers.made.values()]
     stage = Stage(members)
     shapes = shapes_of(stage, before)
     progress(0.9)
     everyone = crowd_of(stage, shapes) if members else None
     progress(1.0)
-    return Loaded(cast_key(project), stage, shapes, found.left_out, everyone)
+    return Loaded(cast_key(project), stage, shapes, found.left_out + dancers.left_out, everyone)
 
 
 def moved(project: Project, loaded: Loaded) -> Loaded:
     """The same figures at the places of another value of the project, in the poses they had."""
     players: dict[str, Player] = {player.id: player for player in project.players}
-    members = [member_of(players[member.player_id], member.kit) for member in loaded.stage.members]
+    dancers: dict[str, Dancer] = {dancer.id: dancer for dancer in project.dancers}
+    members = [
+        dancing_member(dancers[member.player_id], member.kit)
+        if member.player_id in dancers
+        else member_of(players[member.player_id], member.kit)
+        for member in loaded.stage.members
+    ]
     stage = Stage(members)
     stage.pose({member.player_id: pose for member, pose in zip(members, loaded.stage.poses, strict=True)})
     return replace(loaded, key=cast_key(project), stage=stage)

@@ -27,8 +27,8 @@ class Instruments:
 
     Parameters
     ----------
-    kits : sequence of (InstrumentModel, InstrumentMap)
-        One for every row.
+    kits : sequence of (InstrumentModel, InstrumentMap) or None
+        One for every row; None for who holds nothing.
 
     Attributes
     ----------
@@ -36,11 +36,11 @@ class Instruments:
         How many the model has that has most.
     """
 
-    def __init__(self, kits: Sequence[tuple[InstrumentModel, InstrumentMap]]) -> None:
-        self.nodes = max((len(model.node_names) for model, _ in kits), default=0)
+    def __init__(self, kits: Sequence[tuple[InstrumentModel, InstrumentMap] | None]) -> None:
+        self.nodes = max((len(kit[0].node_names) for kit in kits if kit is not None), default=0)
         self._names = [
-            tuple(dict.fromkeys(name for part in instrument.moving_parts for name in part.controls))
-            for _, instrument in kits
+            () if kit is None else tuple(dict.fromkeys(name for part in kit[1].moving_parts for name in part.controls))
+            for kit in kits
         ]
         starts = np.cumsum([0, *(len(names) for names in self._names)])
         self._own = [slice(int(start), int(end)) for start, end in pairwise(starts)]
@@ -49,7 +49,10 @@ class Instruments:
         nodes: list[int] = []
         controls: list[list[int]] = []
         parts: list[MovingPart] = []
-        for row, (model, instrument) in enumerate(kits):
+        for row, kit in enumerate(kits):
+            if kit is None:
+                continue
+            model, instrument = kit
             for part in instrument.moving_parts:
                 rows.append(row)
                 nodes.append(model.node_names.index(part.node))

@@ -107,7 +107,11 @@ class Limbs:
         self._joints = np.array([anatomy.joints for anatomy in anatomies], np.intp)
         self._offsets = np.array([anatomy.offsets_m for anatomy in anatomies])
         self._radii = np.array([anatomy.radii_m for anatomy in anatomies])
-        capsules = [instrument_capsule(member.kit.instrument) for member in stage.members]
+        nothing = (np.zeros(3), np.zeros(3), 0.0)
+        capsules = [
+            nothing if member.kit.held is None else instrument_capsule(member.kit.instrument)
+            for member in stage.members
+        ]
         self._held = np.array([(first, last) for first, last, _ in capsules])
         self._held_radii = np.array([radius for _, _, radius in capsules])
         self._seated = np.array([member.seat_m is not None for member in stage.members], dtype=bool)

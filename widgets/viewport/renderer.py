@@ -88,7 +88,7 @@ def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
     instruments = {}
     height_m = 0.42
     for member in stage.members:
-        if member.kit.map.id not in instruments:
+        if member.kit.held is not None and member.kit.map.id not in instruments:
             instruments[member.kit.map.id] = instrument_levels(member.kit.instrument, stage.first_node)
         if member.seat_m is not None:
             height_m = float(member.seat_m[1])
@@ -100,7 +100,8 @@ def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
     parts: list[tuple[int, Geometry]] = []
     for row, member in enumerate(stage.members):
         parts.append((row, shapes.characters[member.kit.character.id][-1]))
-        parts.append((row, shapes.instruments[member.kit.map.id][-1]))
+        if member.kit.held is not None:
+            parts.append((row, shapes.instruments[member.kit.map.id][-1]))
         if member.seat_m is not None:
             parts.append((row, shapes.stool))
     return crowd(parts)
@@ -377,7 +378,8 @@ class Renderer:
         # A capsule is too coarse a likeness of an instrument to shade the instrument itself.
         program["u_shaded"] = 0.0
         bound: _Solid | None = None
-        for row in sorted(near, key=lambda row: (stage.members[row].kit.map.id, level[row])):
+        holding = [row for row in near if stage.members[row].kit.held is not None]
+        for row in sorted(holding, key=lambda row: (stage.members[row].kit.map.id, level[row])):
             solid = self._solid(shapes.instruments[stage.members[row].kit.map.id][level[row]])
             bound = self._draw_shared(solid, bound, row, mode)
         for row in near:

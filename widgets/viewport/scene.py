@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Signal
 
 from app.errors import Message
 from app.performance.cast import LeftOut
+from app.project.model import Dancer, Player
 from widgets.common.session import Session, Severity
 from widgets.common.text import message_text
 from widgets.viewport.camera import Camera
@@ -177,7 +178,8 @@ class Scene(QObject):
         if stage is None or not stage.shown.any():
             return None
         found = hit(Limbs(stage).capsules(), origin_m, direction)
-        return found[0] if found is not None else None
+        # Who dances is chosen in the list of dancers: nothing of the timeline is theirs.
+        return found[0] if found is not None and stage.members[found[0]].kit.held is not None else None
 
     def rings(self) -> dict[int, Color]:
         """Rings on the floor: the selected players' rows with their colours."""
@@ -200,7 +202,9 @@ class Scene(QObject):
         stage, state, session = self.stage, self._session.viewport, self._session
         if stage is None:
             return Marks()
-        players = {player.id: player for player in session.project.players}
+        project = session.project
+        players: dict[str, Player | Dancer] = {player.id: player for player in project.players}
+        players |= {dancer.id: dancer for dancer in project.dancers}
         rows, visible = self.rows(), self.visible(selected=False)
         known = [(row, players[own]) for row in visible if (own := stage.members[row].player_id) in players]
         names, skeletons = [], []
@@ -225,7 +229,7 @@ class Scene(QObject):
     def message(self) -> str:
         """What is said in the middle of the picture; empty where there is nothing to say."""
         loaded = self._loaded
-        if not self._session.project.players:
+        if not self._session.project.players and not self._session.project.dancers:
             return self.tr("No players yet. Open or import a piece to see it performed.")
         if loaded is None:
             return self.tr("Loading the players …")

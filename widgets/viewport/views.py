@@ -120,6 +120,8 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[Floats, Floats]:
         points.append(stage.joints[row, 1 : len(kit.character.skeleton.names), :, 3])
         head_m = stage.joint_m(row, "head")
         points.append(head_m[None] + [0.0, (face_size(kit.character) - 1.0) * HEAD_M, 0.0])
+        if kit.held is None:
+            continue
         low, high = model_bounds(kit.instrument)
         corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
         held = stage.node_matrix(row)

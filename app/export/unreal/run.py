@@ -168,13 +168,17 @@ def export_into(
     Cancelled
     """
     recover(project.folder, project.folder / SOURCES)
-    request = replace(request, formats=frozenset(("fbx",)), sound=False)
+    dancers = ", ".join(dancer.name for dancer in request.dancers)
+    request = replace(request, formats=frozenset(("fbx",)), sound=False, dancers=())
     cast = cast_of(request, wording, stop_wanted)
     left_out = tuple(one.player.id for one in cast.left_out)
     plan = plan_export(request.performance, cast.player_ids, request.source, project, left_out=left_out)
     with tree_into(project.folder, project.folder / SOURCES) as change:
         sources = change.new / plan.layout.sources
         report = _figures(request, cast, plan.layout, sources, wording, stop_wanted, progress)
+        if dancers:
+            warning = wording(Message("unreal.no_dancers", {"dancers": dancers}))
+            report = msgspec.structs.replace(report, warnings=(*report.warnings, warning))
         sound = _sound(request, plan.layout, sources, stop_wanted, progress)
         bones = _checked(request, cast, plan.layout, sources, sound, stop_wanted, progress)
         with_files = {path.as_posix(): own_file(sources / path) for path in files_below(sources)}

@@ -22,6 +22,7 @@ import signal
 import subprocess
 import zipfile
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any, Final
 
 import numpy as np
@@ -29,6 +30,7 @@ import numpy.typing as npt
 
 from app.errors import FileError
 from app.formats.files import read_file
+from app.formats.rates import exact_rate
 from app.own_process import own_process
 
 FloatArray = npt.NDArray[np.float64]
@@ -37,6 +39,9 @@ IntArray = npt.NDArray[np.int64]
 MOST_BYTES: Final = 2**30
 """Of a file; characters have a hundredth of it."""
 PATIENCE_S: Final = 180.0
+MOTION: Final = "motion"
+TRANSFORM: Final = 10
+"""As in the child, which this process does not import."""
 UNREADABLE, NO_MEMORY = 3, 4
 """What the child's end means."""
 _LIMITS: Final = frozenset(-number for name in ("SIGXCPU", "SIGKILL") if (number := getattr(signal, name, 0)))
@@ -150,6 +155,43 @@ class FbxContent:
     meshes: tuple[FbxMesh, ...]
 
 
+@dataclass(frozen=True, eq=False)
+class FbxMotion:
+    """What an animation does to the nodes of a file.
+
+    Attributes
+    ----------
+    nodes : tuple of FbxNode
+        As in `FbxContent`.
+    bound : tuple of (int, (4, 4) float64)
+        Nodes, and where each was when a mesh was bound to it.
+    fps : Fraction
+    transforms : (F, N, 10) float64
+        Of each node on its parent: translation in metres, rotation xyzw, scale. No frames: the file has no animation.
+    """
+
+    nodes: tuple[FbxNode, ...]
+    bound: tuple[tuple[int, FloatArray], ...]
+    fps: Fraction
+    transforms: FloatArray
+
+
+def read_foreign_motion(path: str | os.PathLike[str]) -> FbxMotion:
+    """Read the longest animation of an FBX file of any program. Raises as `read_foreign_fbx`."""
+    file = os.fspath(path)
+    content, arrays = _read(file, path, MOTION)
+    try:
+        nodes = _nodes(content)
+        bound = tuple((entry["node"], _matrix(entry["world_from_bone"])) for entry in content["bound"])
+        if any(not 0 <= node < len(nodes) for node, _ in bound):
+            raise ValueError("a skin without a bone")
+        empty = np.zeros((0, len(nodes), TRANSFORM))
+        transforms = _finite(arrays[content["transforms"]]) if content["frames"] else empty
+        return FbxMotion(nodes, bound, exact_rate(content["fps"]), transforms)
+    except (ValueError, KeyError, IndexError, TypeError) as error:
+        raise FileError("fbx.foreign_damaged", file=file, detail=str(error)) from error
+
+
 def read_foreign_fbx(path: str | os.PathLike[str]) -> FbxContent:
     """Read an FBX file of any program.
 
@@ -159,17 +201,28 @@ def read_foreign_fbx(path: str | os.PathLike[str]) -> FbxContent:
         If it cannot be read, is no FBX file, is damaged or absurdly large.
     """
     file = os.fspath(path)
-    printed = _child(read_file(path, MOST_BYTES), file)
+    content, arrays = _read(file, path)
     try:
-        with np.load(io.BytesIO(printed), allow_pickle=False) as packed:
-            arrays = {name: packed[name] for name in packed.files}
-        content = json.loads(arrays.pop("description").tobytes())
         return _content(content, arrays)
-    except (ValueError, KeyError, IndexError, TypeError, zipfile.BadZipFile) as error:
+    except (ValueError, KeyError, IndexError, TypeError) as error:
         raise FileError("fbx.foreign_damaged", file=file, detail=str(error)) from error
 
 
-def _child(data: bytes, file: str) -> bytes:
+def _read(
+    file: str, path: str | os.PathLike[str], *arguments: str
+) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
+    """The description and the arrays that the child prints. Raises FileError."""
+    printed = _child(read_file(path, MOST_BYTES), file, *arguments)
+    try:
+        with np.load(io.BytesIO(printed), allow_pickle=False) as packed:
+            arrays = {name: packed[name] for name in packed.files}
+        content: dict[str, Any] = json.loads(arrays.pop("description").tobytes())
+    except (ValueError, KeyError, zipfile.BadZipFile) as error:
+        raise FileError("fbx.foreign_damaged", file=file, detail=str(error)) from error
+    return content, arrays
+
+
+def _child(data: bytes, file: str, *arguments: str) -> bytes:
     """What the child printed of a file's bytes. Raises FileError."""
     try:
         ended: subprocess.CompletedProcess[bytes] = subprocess.run(
@@ -178,7 +231,7 @@ def _child(data: bytes, file: str) -> bytes:
             stderr=subprocess.DEVNULL,
             timeout=PATIENCE_S,
             check=False,
-            **own_process("app.formats.fbx.foreign_child"),
+            **own_process("app.formats.fbx.foreign_child", *arguments),
         )
     except subprocess.TimeoutExpired as error:
         raise FileError("fbx.too_large", file=file) from error
@@ -197,6 +250,11 @@ def _child(data: bytes, file: str) -> bytes:
 
 
 def _content(content: dict[str, Any], arrays: dict[str, npt.NDArray[Any]]) -> FbxContent:
+    nodes = _nodes(content)
+    return FbxContent(nodes, tuple(_mesh(mesh, arrays, len(nodes)) for mesh in content["meshes"]))
+
+
+def _nodes(content: dict[str, Any]) -> tuple[FbxNode, ...]:
     nodes = tuple(
         FbxNode(
             node["name"],
@@ -211,7 +269,7 @@ def _content(content: dict[str, Any], arrays: dict[str, npt.NDArray[Any]]) -> Fb
     for index, node in enumerate(nodes):
         if not -1 <= node.parent < index:
             raise ValueError(f"node {node.name!r} stands before its parent")
-    return FbxContent(nodes, tuple(_mesh(mesh, arrays, len(nodes)) for mesh in content["meshes"]))
+    return nodes
 
 
 def _matrix(rows: list[list[float]]) -> FloatArray:

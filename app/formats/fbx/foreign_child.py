@@ -25,6 +25,15 @@ FREE_NUMBERS, NUMBERS_PER_BYTE = 2**20, 4
 """What reading a file may take: so much, and so much more for its size. A file of a real program takes a fifth of it;
 arrays of equal values can be packed a thousand times as small."""
 
+FREE_MOTION_NUMBERS, FREE_MOTION_CPU_S = 2**24, 30
+"""What motion may take: few keys may stand for many frames. Two minutes of a hundred nodes at 60 frames per second."""
+MOTION: Final = "motion"
+"""The argument that asks for nodes and their animation in the place of meshes."""
+TRANSFORM: Final = 10
+"""Numbers of a transform: translation, rotation xyzw, scale."""
+MOST_S: Final = 24 * 3600.0
+USUAL_FPS, OTHERWISE_FPS = (1.0, 240.0), 30.0
+
 DEEPEST: Final = 500
 """How many nodes may hang from one another, as in glTF."""
 
@@ -172,13 +181,12 @@ def _morph(deformer: Any, channel: Any, written: _Written) -> list[dict[str, Any
     ]
 
 
-def read(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
-    """Nodes and meshes of a file's bytes, in metres, right-handed, Y up."""
-    scene = _keep(
+def _load(data: bytes, *, animated: bool) -> Any:
+    return _keep(
         ufbx.load_memory(
             data,
             file_format=ufbx.FileFormat.FBX,
-            ignore_animation=True,
+            ignore_animation=not animated,
             ignore_embedded=True,
             load_external_files=False,
             generate_missing_normals=True,
@@ -192,10 +200,12 @@ def read(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
             node_depth_limit=DEEPEST,
         )
     )
-    written = _Written(FREE_NUMBERS + NUMBERS_PER_BYTE * len(data))
+
+
+def _nodes(scene: Any, written: _Written) -> list[dict[str, Any]]:
     # Matrices, a name and the rest.
     written.take(64 * len(_keep(scene.nodes)))
-    nodes = [
+    return [
         {
             "name": node.name,
             "parent": -1 if (parent := _keep(node.parent)) is None else parent.typed_id,
@@ -207,18 +217,58 @@ def read(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
         }
         for node in _every(scene.nodes)
     ]
+
+
+def read(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
+    """Nodes and meshes of a file's bytes, in metres, right-handed, Y up."""
+    scene = _load(data, animated=False)
+    written = _Written(FREE_NUMBERS + NUMBERS_PER_BYTE * len(data))
+    nodes = _nodes(scene, written)
     meshes = [_mesh(mesh, written) for mesh in _every(scene.meshes)]
     return {"nodes": nodes, "meshes": meshes}, written.arrays
 
 
-def _limit(size: int) -> None:
+def read_motion(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
+    """Nodes of a file's bytes, where skins were bound, and the local transforms of the longest animation's frames."""
+    scene = _load(data, animated=True)
+    written = _Written(FREE_MOTION_NUMBERS + NUMBERS_PER_BYTE * len(data))
+    nodes = _nodes(scene, written)
+    bound = [
+        {"node": node.typed_id, "world_from_bone": _matrix(cluster.bind_to_world)}
+        for skin in _every(scene.skin_deformers)
+        for cluster in _every(skin.clusters)
+        if (node := _keep(cluster.bone_node)) is not None
+    ]
+    fps = float(_keep(scene.settings).frames_per_second)
+    fps = fps if USUAL_FPS[0] <= fps <= USUAL_FPS[1] else OTHERWISE_FPS
+    content = {"nodes": nodes, "bound": bound, "fps": fps, "frames": 0}
+    stacks = _every(scene.anim_stacks)
+    if not stacks:
+        return content, written.arrays
+    stack = max(stacks, key=lambda one: float(one.time_end) - float(one.time_begin))
+    length_s = float(stack.time_end) - float(stack.time_begin)
+    if not 0.0 <= length_s < MOST_S:
+        raise MemoryError
+    frames = round(length_s * fps) + 1
+    written.take(TRANSFORM * frames * len(nodes))
+    anim = _keep(stack.anim)
+    values = np.empty((frames, len(nodes), TRANSFORM))
+    for at, node in enumerate(_every(scene.nodes)):
+        for frame in range(frames):
+            # Tuples of tuples, which may be freed.
+            moved, turned, scaled = ufbx.evaluate_transform(anim, node, float(stack.time_begin) + frame / fps)
+            values[frame, at] = (*moved, *turned, *scaled)
+    return {**content, "frames": frames, "transforms": written.add(values)}, written.arrays
+
+
+def _limit(size: int, free_cpu_s: int) -> None:
     """Have the system end this process where a file of this size takes far too much."""
     try:
         import resource
     except ImportError:
         return  # Windows has no such limits; how long the parent waits is limited.
     used = resource.getrusage(resource.RUSAGE_SELF)
-    cpu_s = int(used.ru_utime + used.ru_stime) + FREE_CPU_S + CPU_S_PER_MB * size // 2**20
+    cpu_s = int(used.ru_utime + used.ru_stime) + free_cpu_s + CPU_S_PER_MB * size // 2**20
     resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, cpu_s))
     try:
         pages = int(Path("/proc/self/statm").read_text().split()[0])
@@ -235,8 +285,9 @@ def main() -> None:
     status = 0
     try:
         data = _keep(sys.stdin.buffer.read())
-        _limit(len(data))
-        content, arrays = read(data)
+        is_motion = sys.argv[1:] == [MOTION]
+        _limit(len(data), FREE_MOTION_CPU_S if is_motion else FREE_CPU_S)
+        content, arrays = read_motion(data) if is_motion else read(data)
         packed = io.BytesIO()
         text = np.frombuffer(json.dumps(content).encode(), dtype=np.uint8)
         np.savez(packed, allow_pickle=False, description=text, **arrays)

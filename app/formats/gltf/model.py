@@ -135,6 +135,37 @@ class GltfNode:
 
 
 @dataclass(frozen=True, eq=False)
+class GltfChannel:
+    """What an animation does to a part of a node's transform; see `app.formats.gltf.animation`.
+
+    Attributes
+    ----------
+    node : int
+    path : str
+        ``translation``, ``rotation`` or ``scale``.
+    interpolation : str
+        ``LINEAR``, ``STEP`` or ``CUBICSPLINE``.
+    times_s : ndarray, shape (K,)
+        Ascending.
+    values : ndarray, shape (K, W), or (3 * K, W) of cubic splines
+    """
+
+    node: int
+    path: str
+    interpolation: str
+    times_s: FloatArray
+    values: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class GltfAnimation:
+    """Channels that belong together."""
+
+    name: str
+    channels: tuple[GltfChannel, ...]
+
+
+@dataclass(frozen=True, eq=False)
 class GltfModel:
     """A whole file.
 
@@ -153,6 +184,8 @@ class GltfModel:
         Those of the scene that is shown.
     generator : str
         The program that wrote the file.
+    animations : tuple of GltfAnimation
+        Only where they were asked for.
     """
 
     nodes: tuple[GltfNode, ...]
@@ -164,3 +197,4 @@ class GltfModel:
     extras: Mapping[str, Any] = field(default_factory=dict)
     scene_extras: Mapping[str, Any] = field(default_factory=dict)
     generator: str = ""
+    animations: tuple[GltfAnimation, ...] = ()

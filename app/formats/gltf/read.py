@@ -22,12 +22,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from app.errors import FileError
+from app.errors import FileError, shortened
 from app.formats.files import read_file
 from app.formats.gltf.accessors import Accessors
 from app.formats.gltf.container import field, split
 from app.formats.gltf.model import (
     FloatArray,
+    GltfAnimation,
+    GltfChannel,
     GltfMaterial,
     GltfMesh,
     GltfModel,
@@ -45,6 +47,8 @@ DEEPEST = 500
 """How many nodes may hang from one another; strands of hair have some dozens of bones."""
 _FREE_NUMBERS = 2**19
 """A small file may show its meshes as often as comes to so many numbers."""
+_ANIMATED = {"translation": 3, "rotation": 4, "scale": 3}
+_INTERPOLATIONS = ("LINEAR", "STEP", "CUBICSPLINE")
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
 
@@ -59,8 +63,14 @@ class _Vertices(NamedTuple):
     morphs: tuple[GltfMorph, ...]
 
 
-def read_glb(path: str | os.PathLike[str]) -> GltfModel:
+def read_glb(path: str | os.PathLike[str], *, animated: bool = False) -> GltfModel:
     """Read a glTF file.
+
+    Parameters
+    ----------
+    path : str or path-like
+    animated : bool
+        Whether animations are read too; most files are read for what they show.
 
     Raises
     ------
@@ -69,10 +79,10 @@ def read_glb(path: str | os.PathLike[str]) -> GltfModel:
     """
     file = os.fspath(path)
     data = read_file(path, MOST_BYTES)
-    return decode_gltf(data, file)
+    return decode_gltf(data, file, animated=animated)
 
 
-def decode_gltf(data: bytes, file: str) -> GltfModel:
+def decode_gltf(data: bytes, file: str, *, animated: bool = False) -> GltfModel:
     """Model of a file's bytes, as `read_glb`."""
     reader = _Reader(*split(data, file), file, len(data))
     nodes = reader.nodes()
@@ -88,6 +98,7 @@ def decode_gltf(data: bytes, file: str) -> GltfModel:
         extras=reader.mapping(reader.document, "extras"),
         scene_extras=reader.scene_extras(),
         generator=str(field(reader.mapping(reader.document, "asset"), "generator") or ""),
+        animations=tuple(reader.animation(one) for one in reader.items("animations")) if animated else (),
     )
 
 
@@ -211,6 +222,28 @@ class _Reader(Accessors):
             # stored column by column
             matrices = values[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1).copy()
         return GltfSkin(self.text(skin, "name", ""), joints, matrices)
+
+    def animation(self, animation: object) -> GltfAnimation:
+        """Channels of nodes' transforms; those of morphs and of extensions are left out."""
+        nodes, samplers = self.items("nodes"), self.items("samplers", animation)
+        channels = []
+        for channel in self.items("channels", animation):
+            target = self.mapping(channel, "target")
+            path = self.text(target, "path", "")
+            node = self.optional_index(target, "node", len(nodes))
+            if node is None or path not in _ANIMATED:
+                continue
+            sampler = samplers[self.index(field(channel, "sampler"), len(samplers), "sampler")]
+            interpolation = self.text(sampler, "interpolation", "LINEAR")
+            times = self.real(field(sampler, "input"), 1)[:, 0]
+            values = self.real(field(sampler, "output"), _ANIMATED[path])
+            rows = len(times) * (3 if interpolation == "CUBICSPLINE" else 1)
+            if not len(times) or len(values) != rows or not (np.diff(times) > 0.0).all():
+                raise self.damaged("animation")
+            if interpolation not in _INTERPOLATIONS:
+                raise FileError("gltf.unsupported", file=self.file, what=shortened(interpolation, 40))
+            channels.append(GltfChannel(node, path, interpolation, times, values))
+        return GltfAnimation(self.text(animation, "name", ""), tuple(channels))
 
     def material(self, material: object) -> GltfMaterial:
         surface = field(material, "pbrMetallicRoughness")

@@ -19,7 +19,16 @@ from app.errors import AppError, MapError
 from app.plan.model import PlayerParameters
 from app.project import limits
 from app.project.anchors import moved
-from app.project.casting import SPACING_M, StagePosition, amplitude, chance, player_seed, stage_seats, usual_posture
+from app.project.casting import (
+    DANCER_ROOM_M,
+    SPACING_M,
+    StagePosition,
+    amplitude,
+    chance,
+    player_seed,
+    stage_seats,
+    usual_posture,
+)
 from app.project.footprint import footprint
 from app.project.ids import MADE_PART, fresh_note_ids, fresh_part_ids, fresh_player_ids
 from app.project.model import Player, Project, characters_for
@@ -86,8 +95,7 @@ def rename(project: Project, player_id: str, name: str) -> Project:
     wanted = clean_name(name)[: limits.MOST_NAME]
     if not wanted:
         raise AppError("player.no_name")
-    taken = [player.name for player in project.players if player.id != player_id]
-    return change(project, (player_id,), name=free_name(wanted, taken))
+    return change(project, (player_id,), name=free_name(wanted, project.performer_names(but=player_id)))
 
 
 def set_parameters(project: Project, player_ids: Collection[str], **values: Value) -> Project:
@@ -189,7 +197,7 @@ def add_player(
         Gets a number where another carries it.
     """
     [player_id], [part_id] = fresh_player_ids(project), fresh_part_ids(project)
-    called = free_name(clean_name(name) or instrument.name.en, [player.name for player in project.players])
+    called = free_name(clean_name(name) or instrument.name.en, project.performer_names())
     parts = project.score.parts
     part = Part(
         id=part_id,
@@ -223,7 +231,7 @@ def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Proj
     new_ids = fresh_player_ids(project, len(originals))
     part_ids = fresh_part_ids(project, len(originals))
     note_ids = iter(fresh_note_ids(project, sum(len(project.part(player).notes) for player in originals)))
-    names = [player.name for player in project.players]
+    names = project.performer_names()
     copies: dict[str, Player] = {}
     parts: list[Part] = []
     corrections = dict(project.corrections)
@@ -312,12 +320,15 @@ def _with_players(project: Project, players: Iterable[Player]) -> Project:
 
 
 def with_newcomers(project: Project, newcomers: tuple[Player, ...]) -> Project:
-    """The project with more players, of parts it has: on the arc if the others are, else each to the right of them."""
+    """The project with more players, of parts it has: on the arc if the others are, else each to the right of them and
+    of dancers beside them."""
     if len(project.players) + len(newcomers) > limits.MOST_PLAYERS:
         raise AppError("player.too_many", most=limits.MOST_PLAYERS)
     on_arc = _on_arc(project)
-    right_m = max((player.stage.x_m for player in project.players), default=-SPACING_M)
     middle_m = sum(player.stage.z_m for player in project.players) / max(len(project.players), 1)
+    beside = (dancer.stage for dancer in project.dancers if abs(dancer.stage.z_m - middle_m) < DANCER_ROOM_M)
+    there = (*(player.stage for player in project.players), *beside)
+    right_m = max((stage.x_m for stage in there), default=-SPACING_M)
     placed = [
         msgspec.structs.replace(player, stage=StagePosition(round(right_m + number * SPACING_M, 3), middle_m, 0.0))
         for number, player in enumerate(newcomers, 1)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from PySide6.QtCore import QCoreApplication
+
+from app.choreography.library import bundled_choreographies
 from app.errors import Message
 from app.project.edit import players as edit
 from app.project.model import Player
@@ -25,6 +28,11 @@ def add(session: Session) -> None:
     known = all_maps()
     instrument_id = front.instrument_id if front is not None and front.instrument_id in known else next(iter(known))
     newcomers.add_player(session, instrument_id)
+
+
+def add_dancer(session: Session) -> None:
+    """Add somebody who dances the first choreography that comes with the program."""
+    newcomers.add_dancer(session, bundled_choreographies()[0], QCoreApplication.translate("Action", "Dancer"))
 
 
 def duplicate(session: Session) -> None:
@@ -120,6 +128,10 @@ def reset(session: Session) -> None:
     )
 
 
+def _has_choreographies(session: Session) -> bool:
+    return bool(bundled_choreographies())
+
+
 def _has_players(session: Session) -> bool:
     return bool(session.players)
 
@@ -146,6 +158,14 @@ def _is_quiet(session: Session) -> bool:
 
 ACTIONS: tuple[Action, ...] = (
     Action("players.add", QT_TRANSLATE_NOOP("Action", "Add player"), add, "Edit/Players", icon="add"),
+    Action(
+        "dancers.add",
+        QT_TRANSLATE_NOOP("Action", "Add dancer"),
+        add_dancer,
+        "Edit/Players",
+        enabled=_has_choreographies,
+        icon="add",
+    ),
     Action(
         "players.duplicate",
         QT_TRANSLATE_NOOP("Action", "Duplicate players"),

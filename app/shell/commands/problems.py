@@ -14,8 +14,8 @@ _visited: WeakKeyDictionary[Session, tuple[str, Problem]] = WeakKeyDictionary()
 
 
 def problems(session: Session) -> list[tuple[str, Problem]]:
-    """The problems of all players with their player's id, in the order of time."""
-    found = [(player.id, problem) for player in session.project.players for problem in session.problems(player.id)]
+    """The problems of all players and dancers with their ids, in the order of time."""
+    found = [(one.id, problem) for one in session.project.performers for problem in session.problems(one.id)]
     return sorted(found, key=lambda item: item[1].start_s)
 
 
@@ -35,8 +35,11 @@ def go_to_problem(session: Session, step: int) -> None:
         index = before[-1] if before else -1
     player_id, problem = found[index % len(found)]
     _visited[session] = (player_id, problem)
-    others = tuple(id for id in session.players if id != player_id)
-    session.set_players((player_id, *others) if player_id in session.players else (player_id,))
+    if player_id in session.project.dancer_ids:
+        session.set_dancer(player_id)
+    else:
+        others = tuple(id for id in session.players if id != player_id)
+        session.set_players((player_id, *others) if player_id in session.players else (player_id,))
     notes = frozenset({problem.note_id}) if problem.note_id is not None else frozenset[str]()
     session.select(Selection(notes=notes))
     session.reveal(problem.start_s)
@@ -44,7 +47,7 @@ def go_to_problem(session: Session, step: int) -> None:
 
 
 def _has_problems(session: Session) -> bool:
-    return any(session.problems(player.id) for player in session.project.players)
+    return any(session.problems(one.id) for one in session.project.performers)
 
 
 ACTIONS: tuple[Action, ...] = (

@@ -292,6 +292,27 @@ def bvh(path: Path, folder: Path) -> None:
     read_bvh(path)
 
 
+def motion(path: Path, folder: Path) -> None:
+    """BVH clips of a body, up to what is learned from."""
+    import numpy as np
+
+    from app.choreography.cuts import segment
+    from app.choreography.features import features
+    from app.choreography.learn import FPS
+    from app.choreography.read_motion import read_motion
+    from app.choreography.resample import resampled
+
+    clip = resampled(read_motion(path).clip, FPS)
+    require(bool(np.isfinite(features(clip, segment(clip).cuts)).all()), "a feature is not finite")
+
+
+def choreography(path: Path, folder: Path) -> None:
+    """A learned choreography."""
+    from app.choreography.model_file import read_model
+
+    read_model(path)
+
+
 def audio(path: Path, folder: Path) -> None:
     """A recording in memory."""
     from app.audio.decode import decode
@@ -382,6 +403,7 @@ KINDS: Final[dict[str, Kind]] = {
         Kind("project", presence, seeds.presence, _JSON, ".json"),
         Kind("project", journal, seeds.journal, _TEXT, ".take-journal"),
         Kind("project", clip, seeds.clip, _JSON, ".json"),
+        Kind("project", choreography, seeds.choreography, _JSON, ".choreography"),
         Kind("tables", instrument_map, seeds.instrument_map, _TEXT, ".toml", 2.0),
         Kind("tables", metadata, seeds.metadata, _TEXT, ".toml"),
         Kind("tables", expression, seeds.expression, _TEXT, ".toml"),
@@ -393,6 +415,7 @@ KINDS: Final[dict[str, Kind]] = {
         Kind("figures", fbx, seeds.fbx, tuple(mutators.FBX), ".fbx", 2.0),
         Kind("figures", foreign_fbx, seeds.foreign_fbx, (*mutators.FBX, *mutators.TEXT), ".fbx"),
         Kind("figures", bvh, seeds.bvh, _TEXT, ".bvh"),
+        Kind("figures", motion, seeds.motion, _TEXT, ".bvh"),
         Kind("exchange", audio, seeds.audio, (), ".wav", 2.0),
         Kind("exchange", unreal_description, seeds.unreal_description, _JSON, ".json"),
         Kind("exchange", unreal_manifest, seeds.unreal_manifest, _JSON, ".json"),

@@ -175,6 +175,22 @@ def bvh() -> list[bytes]:
 
 
 @cache
+def motion() -> list[bytes]:
+    """A whole body."""
+    from tests.unit.choreography.test_read_motion import bvh as body
+
+    return [body(np.eye(3), 0.01).encode()]
+
+
+@cache
+def choreography() -> list[bytes]:
+    """What is learned of two short clips."""
+    from tests.unit.choreography.test_model_file import CONTENT
+
+    return [CONTENT]
+
+
+@cache
 def audio() -> list[bytes]:
     """A tenth of a second in every format that is read."""
     samples = 0.3 * np.sin(np.arange(2205) * 0.1)

@@ -10,7 +10,11 @@ from pytestqt.qtbot import QtBot
 
 from app.errors import Message
 from app.performance.ensemble import Performance
+from app.plan.model import Problem
 from app.project.edit import notes
+from app.project.edit.dancers import add_dancer
+from app.shell.commands.problems import problems
+from app.shell.status import problem_count
 from tests.gui.conftest import quartet_project
 from tests.support.tasks import ImmediateTasks
 from widgets.common.session import Session
@@ -72,3 +76,31 @@ def test_lines_are_those_of_a_list_made_anew(qt_app: object, qtbot: QtBot) -> No
     session.pitch_display.set(written=True)
     assert shown.list.lines.lines == fresh()
     session.deleteLater()
+
+
+def test_problems_of_dancers_are_listed_counted_and_gone_to(qt_app: object, qtbot: QtBot) -> None:
+    project, dancer_id = add_dancer(quartet_project(), "no_such_dance", "Dana")
+    project, other_id = add_dancer(project, "no_such_dance", "Otto")
+    session = Session(project, ImmediateTasks())
+    performance = Performance(project)
+    assert performance.plans
+    session.set_performance(performance)
+    shown = ProblemList(session)
+    qtbot.addWidget(shown)
+    shown.resize(300, 300)
+    shown.show()
+    known = shown.list.lines.rowCount()
+    problem = Problem(Message("dance.state_not_held", {"number": 3}), None, 2.0, 2.0)
+    session.set_broken({dancer_id: (problem,)})
+    lines = [line for line in shown.list.lines.lines if line.title == "Dana"]
+    assert shown.list.lines.rowCount() == known + 1
+    assert "3" in lines[0].detail
+    assert problem_count(session) == known + 1
+    assert (dancer_id, problem) in problems(session)
+    players = session.players
+    assert session.dancer is not None
+    assert session.dancer.id == other_id
+    with qtbot.waitSignal(session.revealed):
+        shown.list.opened.emit((dancer_id, problem))
+    assert session.dancer.id == dancer_id
+    assert session.players == players

@@ -580,6 +580,7 @@ CASES: dict[str, Case] = {
     "gesture.bell_height": gesture_case("bell_height"),
     "gesture.lower_instrument": gesture_case("lower_instrument"),
     # Players
+    "dancers.add": Case(lambda d: len(d.project.dancers) == len(d.before.dancers) + 1, edits=True),
     "players.add": Case(lambda d: len(d.project.players) == len(d.before.players) + 1, edits=True),
     "players.duplicate": Case(lambda d: len(d.project.players) == len(d.before.players) + 1, edits=True),
     "players.remove": Case(

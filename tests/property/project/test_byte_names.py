@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from app.capture.journal import Header, JournalWriter, read_journal
 from app.encoding import restored, stored
 from app.project.autosave import Autosave
-from app.project.model import AudioTrack
+from app.project.casting import StagePosition
+from app.project.model import AudioTrack, Dancer
 from app.project.presence import Presence, note_of
 from app.project.recovery import load_work, recoverable
 from app.project.storage import decode, encode, load, save
@@ -32,14 +33,19 @@ def test_a_project_finds_its_files(folder: str, media: str, name: str, moved: bo
     """Beside the project or elsewhere; moved together with it where they lie in one tree."""
     home = Path("/home/me") / folder
     where = home / media if moved else Path("/media") / media
+    dance = str(where / f"{name}.choreography")
     project = replace(
-        small_project(), source=str(where / f"{name}.mid"), audio=AudioTrack(str(where / f"{name}.wav"), 0.0)
+        small_project(),
+        source=str(where / f"{name}.mid"),
+        audio=AudioTrack(str(where / f"{name}.wav"), 0.0),
+        dancers=(Dancer("dancer:1", "Ana", dance, "man_adult", StagePosition(0.0, 3.0, 0.0)),),
     )
     content = encode(project, home / "piece.suisou")
     assert decode(content, home / "piece.suisou") == project
     if moved:
         elsewhere = decode(content, Path("/mnt/piece.suisou"))
         assert elsewhere.source == os.path.normpath(Path("/mnt") / media / f"{name}.mid")
+        assert elsewhere.dancers[0].choreography == os.path.normpath(Path("/mnt") / media / f"{name}.choreography")
 
 
 def test_through_real_files(tmp_path: Path) -> None:

@@ -35,9 +35,10 @@ from app.plan.corrections import (
     Vary,
 )
 from app.plan.model import PlayerPlan
+from app.project.casting import StagePosition
 from app.project.check import faults
 from app.project.document import Change, Document
-from app.project.edit import events, generation, notes, piece, players, takes, tempo
+from app.project.edit import dance_corrections, dancers, events, generation, notes, piece, players, takes, tempo
 from app.project.edit.corrections import put, take_back
 from app.project.edit.found_events import event_id_of, events_of
 from app.project.model import Project
@@ -186,6 +187,51 @@ def edit_players(data: st.DataObject, project: Project) -> Project:
             return players.change(project, chosen, instrument_id=data.draw(st.sampled_from(sorted(MAPS))))
         case _:
             return players.reseed(project, chosen)
+
+
+def edit_dancers(data: st.DataObject, project: Project) -> Project:
+    if not project.dancers:
+        return dancers.add_dancer(project, "salsa", data.draw(st.sampled_from(["Anna", "trumpet", ""])))[0]
+    chosen = [data.draw(st.sampled_from(project.dancers)).id]
+    match data.draw(st.integers(0, 8)):
+        case 0 if len(project.dancers) < 4:
+            return dancers.add_dancer(project, "/dances/a.choreography", "Anna")[0]
+        case 1 if len(project.dancers) < 4:
+            return dancers.duplicate_dancers(project, chosen)[0]
+        case 2:
+            return dancers.rename_dancer(project, chosen[0], data.draw(st.sampled_from(["ANNA", "trombone", "", "/"])))
+        case 3:
+            delay = data.draw(st.floats(-1.0, 9.0))
+            return dancers.change_dancers(project, chosen, delay_beats=delay, mirrored=data.draw(st.booleans()))
+        case 4:
+            return dancers.move_dancers(project, chosen, data.draw(st.integers(0, len(project.dancers))))
+        case 5:
+            return dancers.place_dancers(project, {chosen[0]: StagePosition(data.draw(st.floats(-9.0, 9.0)), 3.0, 0.5)})
+        case 6:
+            return dancers.set_choreography(project, chosen, data.draw(st.sampled_from(["waltz", "no such thing"])))
+        case _:
+            return generation.vary_dancers(project, chosen)
+
+
+def correct_dances(data: st.DataObject, project: Project) -> Project:
+    if not project.dancers:
+        return project
+    chosen = data.draw(st.sampled_from(project.dancers)).id
+    first, length = data.draw(spans)
+    index = data.draw(st.integers(0, 3))
+    match data.draw(st.integers(0, 5)):
+        case 0:
+            return dance_corrections.pin_state(project, chosen, first, index)
+        case 1:
+            return dance_corrections.use_segment(project, chosen, first, index)
+        case 2:
+            return dance_corrections.forbid_state(project, chosen, first, first + length, index)
+        case 3:
+            return dance_corrections.unpin(project, chosen, first, first + length)
+        case 4:
+            return dance_corrections.clear(project, chosen)
+        case _:
+            return dancers.remove_dancers(project, [chosen])
 
 
 def edit_piece(data: st.DataObject, project: Project) -> Project:
@@ -345,9 +391,9 @@ def edit_takes(data: st.DataObject, project: Project) -> Project:
             return takes.set_cleaning(project, player_id, take_id, data.draw(some_cleaning))
 
 
-KEEPING: list[Edit] = [edit_players, edit_piece, another_performance, read_again, edit_takes, edit_takes]
+KEEPING: list[Edit] = [edit_players, edit_dancers, edit_piece, another_performance, read_again, edit_takes, edit_takes]
 """Whatever these do, every correction is still there after it (it may have moved with the music)."""
-OTHERS: list[Edit] = [add_correction, forget_correction, edit_event, edit_notes, hang_on_another]
+OTHERS: list[Edit] = [correct_dances, add_correction, forget_correction, edit_event, edit_notes, hang_on_another]
 
 
 class Day(RuleBasedStateMachine):
@@ -394,6 +440,9 @@ class Day(RuleBasedStateMachine):
         for player in before.players:
             kinds = Counter(map(type, before.corrections.get(player.id, ())))
             assert kinds <= Counter(map(type, after.corrections.get(player.id, ()))), player.id
+        for dancer in before.dancers:
+            kinds = Counter(map(type, before.dance_corrections.get(dancer.id, ())))
+            assert kinds <= Counter(map(type, after.dance_corrections.get(dancer.id, ()))), dancer.id
         self.applied(after)
 
     @precondition(lambda self: self.document.project.players)

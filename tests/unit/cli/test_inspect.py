@@ -11,8 +11,8 @@ def found(*labels: str) -> dict[str, Any]:
     notes = [{"pitch": 60 + index, "fingering": label} for index, label in enumerate(labels)]
     player = {"name": "One", "instrument": "thing", "notes": notes, "breaths": [], "cues": []}
     return {
-        "duration_s": 1.0, "players": [player], "unplayed": [], "left_out": [], "warnings": [], "ticks_per_beat": 480,
-        "tempo": [{"bpm": 120.0}],
+        "duration_s": 1.0, "players": [player], "unplayed": [], "dancers": [], "left_out": [], "warnings": [],
+        "ticks_per_beat": 480, "tempo": [{"bpm": 120.0}],
     }  # fmt: skip
 
 

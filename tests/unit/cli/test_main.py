@@ -149,8 +149,8 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
     assert status == 0
     found = json.loads(out)
     assert set(found) == {
-        "duration_s", "ticks_per_beat", "tempo", "markers", "first_frame_s", "warnings", "unplayed", "left_out",
-        "players",
+        "duration_s", "ticks_per_beat", "tempo", "markers", "percussion_hits", "first_frame_s", "warnings", "unplayed",
+        "left_out", "players", "dancers",
     }  # fmt: skip
     assert set(found["tempo"][0]) == {"tick", "bpm"}
     for player in found["players"]:
@@ -159,7 +159,7 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
         for note in player["notes"]:
             assert set(note) == {
                 "id", "onset_tick", "duration_tick", "onset_s", "duration_s", "pitch", "velocity", "fingering",
-                "controls", "articulation", "bend", "loudness", "dynamic",
+                "controls", "articulation", "bend", "loudness", "dynamic", "muted",
             }  # fmt: skip
             assert all(0.0 <= value <= 1.0 for value in (*note["controls"].values(), note["loudness"]))
             assert note["articulation"] in ("tongued", "slurred", "staccato")

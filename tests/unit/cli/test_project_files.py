@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
@@ -13,7 +14,9 @@ import pytest
 
 from app.cli import main
 from app.plan.corrections import PinFingering
+from app.project.casting import StagePosition
 from app.project.edit.corrections import put
+from app.project.edit.dancers import add_dancer, place_dancers
 from app.project.storage import save
 from tests.unit.project.pieces import small_project
 
@@ -44,6 +47,22 @@ def test_inspect_shows_the_corrections_of_a_project(run: Run, project: Path) -> 
     status, out, _ = run("inspect", project, "--json")
     assert status == 0
     assert json.loads(out)["players"][0]["notes"][2]["fingering"] == "3"
+
+
+def test_inspect_tells_of_dancers(run: Run, tmp_path: Path) -> None:
+    danced, _ = add_dancer(small_project(), tmp_path / "salsa.choreography", "Ana", "woman_adult")
+    danced = place_dancers(danced, {"dancer:1": StagePosition(1.5, 3.0, math.pi / 2.0)})
+    save(danced, tmp_path / "danced.suisou")
+    found = json.loads(run("inspect", tmp_path / "danced.suisou", "--json")[1])
+    assert found["dancers"] == [
+        {
+            "name": "Ana", "choreography": str(tmp_path / "salsa.choreography"), "character": "woman_adult",
+            "x_m": 1.5, "z_m": 3.0, "turn_deg": 90.0, "seed": 0, "delay_beats": 0.0, "mirrored": False, "source": -1,
+            "size": 1.0,
+        }
+    ]  # fmt: skip
+    assert len(found["players"]) == 2
+    assert "woman_adult" in run("inspect", tmp_path / "danced.suisou")[1]
 
 
 def test_options_come_on_top_of_a_project(run: Run, project: Path) -> None:

@@ -89,6 +89,88 @@ def test_other_rotation_orders_are_read() -> None:
     assert (by_scipy.inv() * Rotation.from_quat(found.rotations_xyzw[0, 1])).magnitude() < 1e-12
 
 
+ARM = """HIERARCHY
+ROOT hips
+{
+OFFSET 1 2 3
+CHANNELS %s
+JOINT arm
+{
+OFFSET 10 20 30
+CHANNELS %s
+JOINT hand
+{
+OFFSET 5 6 7
+CHANNELS %s
+End Site
+{
+OFFSET 1 0 0
+}
+}
+}
+}
+MOTION
+Frames: 2
+Frame Time: %s
+%s
+"""
+SIX = "6 Xposition Yposition Zposition Zrotation Xrotation Yrotation"
+
+
+def test_the_root_has_its_channels_in_any_order() -> None:
+    root = "6 Yrotation Zposition Xrotation Xposition Yposition Zrotation"
+    values = "11 3 22 1 2 33\n11 6 22 4 5 33"
+    found = decode_bvh(ARM % (root, "0", "0", "0.04", values), "a.bvh")
+    np.testing.assert_array_equal(found.root_translation_cm, [[1, 2, 3], [4, 5, 6]])
+    turn = Rotation.from_euler("YXZ", [11, 22, 33], degrees=True).inv() * Rotation.from_quat(found.rotations_xyzw[1, 0])
+    assert turn.magnitude() < 1e-12
+    # Without positions it stays where it is: its offset is left out, as ever.
+    still = decode_bvh(ARM % ("1 Yposition", "0", "0", "0.04", "7 8"), "a.bvh")
+    np.testing.assert_array_equal(still.root_translation_cm, [[0, 7, 0], [0, 8, 0]])
+
+
+def test_positions_of_joints_take_the_place_of_their_offsets() -> None:
+    # The arm's are always the same, the hand's are not.
+    arm, hand = "11 21 31 0 0 90", ("5 6 7 0 0 0", "5 6 8 0 0 0")
+    values = "\n".join(f"0 0 0 0 0 0 {arm} {one}" for one in hand)
+    found = decode_bvh(ARM % (SIX, SIX, SIX, "0.04", values), "a.bvh")
+    np.testing.assert_array_equal(found.offsets_cm, [[0, 0, 0], [11, 21, 31], [5, 6, 7]])
+    assert list(found.translations_cm) == [2]
+    np.testing.assert_array_equal(found.translations_cm[2], [[5, 6, 7], [5, 6, 8]])
+
+
+def test_a_hinge_has_one_channel() -> None:
+    found = decode_bvh(ARM % ("0", "1 Xrotation", "2 Yrotation Xposition", "0.04", "30 40 9\n50 60 9"), "a.bvh")
+    for joint, axis, angles in ((1, "X", [[30], [50]]), (2, "Y", [[40], [60]])):
+        turns = Rotation.from_quat(found.rotations_xyzw[:, joint]) * Rotation.from_euler(axis, angles, True).inv()
+        assert turns.magnitude().max() < 1e-12
+    np.testing.assert_array_equal(found.offsets_cm[2], [9, 6, 7])
+
+
+@pytest.mark.parametrize(
+    ("written", "fps"),
+    [
+        (".03333", Fraction(30)),
+        ("0.0333", Fraction(30)),
+        ("0.033367", Fraction(30000, 1001)),
+        ("0.0333667", Fraction(30000, 1001)),
+        ("0.03337", Fraction(30000, 1001)),
+        ("0.0083333", Fraction(120)),
+        ("0.008333", Fraction(120)),
+        ("8.33333e-3", Fraction(120)),
+        ("0.016667", Fraction(60)),
+        ("0.0166", Fraction(5000, 83)),
+        ("0.0417", Fraction(24)),
+        ("0.04", Fraction(25)),
+        ("0.1", Fraction(10)),
+        ("0.03", Fraction(100, 3)),
+        (f"{2 / 37:.16f}", Fraction(37, 2)),
+    ],
+)
+def test_a_frame_time_of_few_digits_is_a_usual_rate(written: str, fps: Fraction) -> None:
+    assert decode_bvh(ARM % ("1 Xrotation", "0", "0", written, "1 2"), "a.bvh").fps == fps
+
+
 GOOD = clip()
 CONTRADICTIONS = {
     "no joint": replace(GOOD, names=(), parents=()),
@@ -98,6 +180,7 @@ CONTRADICTIONS = {
     "a name with a blank": replace(GOOD, names=("hips", "spine", "left leg", "neck", "knee", "arm", "foot")),
     "a leaf without an end": replace(GOOD, end_sites_cm={3: np.zeros(3)}),
     "offsets of other joints": replace(GOOD, offsets_cm=np.zeros((3, 3))),
+    "a moving joint": replace(GOOD, translations_cm={1: np.zeros((20, 3))}),
     "no frame": replace(GOOD, rotations_xyzw=np.zeros((0, 7, 4)), root_translation_cm=np.zeros((0, 3))),
     "other frames": replace(GOOD, root_translation_cm=np.zeros((3, 3))),
     "a place without end": replace(GOOD, root_translation_cm=np.full((20, 3), np.inf)),
@@ -125,7 +208,8 @@ TEXT = encode_bvh(clip(frames=2)).decode()
         (TEXT.replace("OFFSET 0.000000 0.000000 0.000000", "OFFSET 0 zero 0", 1), "bvh.syntax"),
         (TEXT.replace("CHANNELS 3", "CHANNELS 4", 1), "bvh.syntax"),
         (TEXT.replace("CHANNELS 3 Zrotation", "CHANNELS 3 Xrotation", 1), "bvh.unsupported"),
-        (TEXT.replace("CHANNELS 3 Z", "CHANNELS 4 Xposition Z", 1), "bvh.unsupported"),
+        (TEXT.replace("CHANNELS 3 Zrotation", "CHANNELS 3 Zscale", 1), "bvh.unsupported"),
+        (TEXT.replace("CHANNELS 3 Z", "CHANNELS 4 Xposition Z", 1), "bvh.motion"),
         (TEXT.replace("MOTION", "MOTION\nMOTION"), "bvh.motion"),
         (TEXT.replace("Frames: 2", "Frames: 3"), "bvh.motion"),
         (TEXT.replace("Frames: 2", "Frames: -2"), "bvh.motion"),

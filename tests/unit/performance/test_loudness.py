@@ -44,6 +44,15 @@ def test_breath_speaks_before_volume() -> None:
     assert note_loudness(part([(0, 20)], volume, breath)) == pytest.approx((0.4,))
 
 
+def test_expression_scales_what_the_velocities_say() -> None:
+    """A line marked forte by its velocities, whose expression moves about its usual level, stays forte."""
+    velocities = [64] * 10 + [112] * 10
+    notes = tuple(Note(f"1:{n}", 10 * n, 10, 60, velocity) for n, velocity in enumerate(velocities))
+    swelling = ControllerCurve("expression", tuple(range(0, 200, 5)), (0.53, 0.73) * 20)
+    made = Part("1.1.1", "x", 0, 0, 0, None, None, "m", notes, (swelling,))
+    assert note_loudness(made) == pytest.approx(tuple(velocity / 127 for velocity in velocities))
+
+
 def test_what_was_not_blown_sounds_by_its_velocity_and_the_rest_as_it_was_blown() -> None:
     breath = ControllerCurve("breath", (0, 10, 20, 45, 60), (0.4, 0.6, 0.0, 0.01, 0.5))
     made = part([(0, 20), (20, 10), (30, 10), (40, 10), (60, 10)], breath)

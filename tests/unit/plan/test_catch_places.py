@@ -74,6 +74,34 @@ def test_a_played_line_is_breathed_in_where_the_written_one_is(seed: int) -> Non
     assert found == expected
 
 
+def test_a_line_that_overlaps_throughout_is_breathed_in_where_a_detached_one_is() -> None:
+    """As a wind controller or a keyboard plays legato: only repeated notes do not overlap."""
+    lengths = [1, 1, 0.5, 0.5, 1, 1.5, 0.5, 1, 1] * 8
+    onsets = [round(sum(lengths[:place]) * Q) for place in range(len(lengths))]
+    rows = list(zip(onsets, (round(length * Q) for length in lengths), strict=True))
+    pitches = [65 + place // 2 % 3 for place in range(len(rows))]
+    repeated = [after == pitch for pitch, after in zip(pitches, [*pitches[1:], 0], strict=True)]
+    detached = [(onset, length, pitch) for (onset, length), pitch in zip(rows, pitches, strict=True)]
+    legato = [
+        (onset, length - 5 if same else length + 30, pitch)
+        for (onset, length, pitch), same in zip(detached, repeated, strict=True)
+    ]
+    expected, found = (breathed_before(line_of(*notes)) for notes in (detached, legato))
+    assert len(expected) >= 3
+    assert found == expected
+
+
+def test_a_breath_between_long_notes_takes_more_than_the_gap_of_an_early_release() -> None:
+    """Notes of two seconds that end 130 ms early: longer than a gasp, but no rest."""
+    notes = line_of(*((4 * place * Q, round(3.74 * Q), 65 + place % 2) for place in range(8)))
+    clock = PlainClock()
+    line = Line("p", notes, valves(), PlayerParameters(lung_s=7.0))
+    plan = make_plans(Piece(clock, (PlainMetre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
+    caught = [event for event in plan.breaths if event.reason.id == "breath.catch"]
+    assert caught
+    assert all(event.end_s - event.start_s == pytest.approx(0.4) for event in caught)
+
+
 def breathed_before(notes: tuple[PlainNote, ...]) -> list[int]:
     """Places of the notes that catch breaths come before."""
     ends = {note.onset_tick / Q: place for place, note in enumerate(notes)}

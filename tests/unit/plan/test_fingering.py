@@ -8,7 +8,7 @@ from app.plan.figures import trill_steps
 from app.plan.fingering import plan_fingerings
 from app.plan.generate import Line
 from app.plan.line import line_times
-from app.plan.model import FingeringEvent, Problem
+from app.plan.model import FingeringEvent, Problem, grips_of
 from app.plan.search import PHRASE_SILENCE_S
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
@@ -179,3 +179,25 @@ def test_events_carry_their_notes_times_and_ids() -> None:
     assert (events[0].start_tick, events[0].end_tick) == (480, 900)
     assert events[0].end_s == events[1].start_s == pytest.approx(900 / 960)
     assert PHRASE_SILENCE_S > 0
+
+
+def test_a_bassoon_flicks_at_the_attack_and_holds_the_note_without() -> None:
+    """Short notes are vented throughout, and so is a note whose fingering is set by hand."""
+    notes = line_of((0, 480, 50), (480, 900, 57), (1920, 960, 60), (3840, 100, 57), (4320, 960, 45))
+    instrument = bundled_maps()["bassoon"]
+    times = line_times(Line("p", notes, instrument), PlainClock())
+    events, _ = plan_fingerings(notes, times, instrument, {})
+    grips = [(grip.note_id, round(grip.start_s, 3), round(grip.end_s, 3), grip.label) for grip in grips_of(events)]
+    assert grips == [
+        ("1:1", 0.0, 0.5, "L1 L2 Lt_w"),
+        ("1:2", 0.5, 0.65, "L1 L2 L3 Lt_a R1 R2"),
+        ("1:2", 0.65, 1.438, "L1 L2 L3 R1 R2"),
+        ("1:3", 2.0, 2.15, "L1 L2 L3 Lt_c2"),
+        ("1:3", 2.15, 3.0, "L1 L2 L3"),
+        ("1:4", 4.0, 4.104, "L1 L2 L3 Lt_a R1 R2"),
+        ("1:5", 4.5, 5.5, "L1 L2 L3 Lt_w R1 R2"),
+    ]
+    assert [event.note_id for event in events] == [note.id for note in notes]
+    pinned, _ = plan_fingerings(notes, times, instrument, {"1:2": "L1 L2 L3 Lt_a R1 R2"})
+    assert [grip.label for grip in grips_of(pinned) if grip.note_id == "1:2"] == ["L1 L2 L3 Lt_a R1 R2"]
+    assert grips_of(events[:1]) == events[:1]

@@ -3,26 +3,29 @@
 from __future__ import annotations
 
 import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
 
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.line import line_times
-from app.plan.lungs import notated, written_onsets
+from app.plan.notation import DIVISIONS, notated, simplest_places, written_onsets
 from tests.support.plan import PlainClock, line_of, valves
 
 QUARTER = 480
+BARS = np.arange(0, 9600, 4 * QUARTER)
 
 
 def test_played_onsets_stand_where_they_would_be_written() -> None:
     # Eighths, triplets and sixteenths, up to 15 ms early or late at 120 quarters a minute.
     written = np.array([0, 240, 480, 640, 800, 960, 1080, 1200, 1320, 1440])
     late = np.array([9, -14, 3, 14, -7, -11, 5, 14, -3, -9])
-    assert written_onsets(np.maximum(written + late, 0), QUARTER).tolist() == written.tolist()
+    assert written_onsets(np.maximum(written + late, 0), QUARTER, BARS).tolist() == written.tolist()
 
 
 def test_written_onsets_are_kept_to_the_tick() -> None:
     thirty_seconds = np.arange(0, 1920, 60)
-    assert written_onsets(thirty_seconds, QUARTER) is thirty_seconds
-    assert written_onsets(np.append(thirty_seconds, 1931), QUARTER)[-1] == 1931
+    assert written_onsets(thirty_seconds, QUARTER, BARS) is thirty_seconds
+    assert written_onsets(np.append(thirty_seconds, 1931), QUARTER, BARS)[-1] == 1931
 
 
 def test_a_silence_is_no_longer_than_the_written_step() -> None:
@@ -34,3 +37,31 @@ def test_a_silence_is_no_longer_than_the_written_step() -> None:
     assert (score.silence_tick[1:] <= np.diff(score.onset_tick)).all()
     assert (score.played_end_tick >= score.onset_tick).all()
     assert make_plans(Piece(clock), (line,), time_frame((line,), clock))["p"].breaths
+
+
+def test_a_played_note_stands_at_the_simplest_place_near() -> None:
+    """At a fast tempo a few milliseconds are a large part of a beat: no 12th of a quarter is meant."""
+    clock = PlainClock(((0, 200.0),))
+    late_s = [0.0, 0.012, -0.013, 0.011, -0.012, 0.0, 0.013, 0.01]
+    onsets = [round(QUARTER * (place + 1 + late * 200.0 / 60.0)) for place, late in enumerate(late_s)]
+    line = Line("p", line_of(*((onset, 430, 65) for onset in onsets)), valves())
+    score = notated(line_times(line, clock), Piece(clock))
+    assert score.onset_tick.tolist() == [QUARTER * (place + 1) for place in range(len(onsets))]
+    # They end 20 to 60 ms early, which is no rest.
+    assert score.silence_tick[1:].tolist() == [0] * (len(onsets) - 1)
+
+
+@given(st.lists(st.tuples(st.integers(0, 4000), st.integers(0, 240), st.integers(0, 240)), min_size=1, max_size=12))
+def test_simplest_places_are_the_first_of_a_slow_search(rows: list[tuple[int, int, int]]) -> None:
+    near, before, behind = (np.array(column) for column in zip(*rows, strict=True))
+    found = simplest_places(near - before, near + behind, near, QUARTER).tolist()
+    for place, low, high, at in zip(found, near - before, near + behind, near, strict=True):
+        for level in DIVISIONS:
+            ticks = {QUARTER * step // division for division in level for step in range(12 * 10 * division)}
+            fits = [tick for tick in ticks if low <= tick <= high]
+            if fits:
+                assert place in fits
+                assert abs(place - at) == min(abs(tick - at) for tick in fits)
+                break
+        else:
+            assert abs(place - at) <= QUARTER / 24

@@ -19,9 +19,10 @@ from app.plan.corrections import (
     Vary,
 )
 from app.plan.model import PlayerParameters
-from app.project.casting import stage_arc
-from app.project.model import AudioTrack, CompSpan, Player, PlayerTakes, Project
-from app.score.model import ControllerCurve, Marker, Metre, Note, Part, Score, UnplayedPart
+from app.project.casting import StagePosition, stage_arc
+from app.project.dance_corrections import ForbidState, PinState, UseSegment
+from app.project.model import AudioTrack, CompSpan, Dancer, Player, PlayerTakes, Project
+from app.score.model import ControllerCurve, Marker, Metre, Note, Part, PercussionHit, Score, UnplayedPart
 from app.score.take import Cleaning, Take, Wiring
 from app.score.tempo import TempoChange, TempoMap
 from metadata.model import Expression
@@ -79,6 +80,7 @@ def full_project(folder: str = "/music") -> Project:
         ),
         warnings=(Message("midi.zero_length_notes", {"track": 1, "count": 2}),),
         markers=(Marker(0, "はじめ"), Marker(960, "A"), Marker(960, "Più mosso"), Marker(9600, "Coda")),
+        percussion=(PercussionHit(0, 36, 100), PercussionHit(0, 42, 60), PercussionHit(480, 22, 127)),
     )
     trumpet, trombone = small.players
     parameters = PlayerParameters(0.1, 0.6, 1.1, 2.1, 8.5, 0.9, 0.8, 0.7, 0.6, "seated", False, 7, 0.2)
@@ -140,5 +142,25 @@ def full_project(folder: str = "/music") -> Project:
                 before_notes=first.notes,
                 before_curves=first.curves,
             )
+        },
+        dancers=(
+            Dancer(
+                "dancer:1",
+                "踊り手",
+                f"{folder}/dances/salsa.choreography",
+                "man_adult",
+                StagePosition(0.5, 2.0, -0.3),
+                2**62 + 1,
+                4.5,
+                True,
+                2,
+                0.75,
+                "#00ff7f",
+            ),
+            Dancer("dancer:2", "Dancer 2", "not_bundled", "nobody", StagePosition(-0.5, 2.25, 0.0)),
+        ),
+        dance_corrections={
+            "dancer:1": (PinState(480, 3), ForbidState(0, 1920, 5), UseSegment(960, 17)),
+            "dancer:2": (UseSegment(-240, 0),),
         },
     )

@@ -25,7 +25,7 @@ from app.project.model import Project
 from app.project.presence import Presence, editors, is_open_elsewhere
 from app.project.recovery import Recoverable, discard, load_work, recoverable, recoverable_of
 from app.project.storage import encode, file_hash, load, save
-from tests.unit.project.pieces import small_project
+from tests.unit.project.pieces import full_project, small_project
 
 Editor = Callable[[], Autosave]
 
@@ -405,6 +405,21 @@ def test_an_editor_whose_folder_is_cleared_away_is_seen_again(editor: Editor, fo
 
 
 # After a crash
+
+
+def test_dancers_that_were_never_saved_are_recovered_with_their_files(
+    editor: Editor, folder: Path, tmp_path: Path
+) -> None:
+    autosave = editor()
+    autosave.opened(None)
+    danced = full_project(str(tmp_path / "media"))
+    autosave.changed(danced, 0.0)
+    written = write(autosave, 4.0)
+    assert written is not None
+    assert written.parent == folder
+    crash(autosave)
+    (item,) = recoverable(folder)
+    assert load_work(item)[0] == danced
 
 
 SCRIPT = """

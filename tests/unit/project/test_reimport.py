@@ -21,15 +21,17 @@ from app.plan.corrections import (
     SetBreath,
     SetCue,
 )
+from app.project.casting import StagePosition
+from app.project.dance_corrections import ForbidState, PinState, UseSegment
 from app.project.edit.corrections import put
 from app.project.edit.notes import add_note
 from app.project.edit.players import add_player, remove_players, set_parameters
 from app.project.edit.tempo import scale_tempo, set_metre, set_tempo
 from app.project.midi_out import export_midi
-from app.project.model import Project, map_choices, project_from_score
+from app.project.model import Dancer, Project, map_choices, project_from_score
 from app.project.reimport import orphaned, reattached, reimport
 from app.project.storage import load, save
-from app.score.model import Marker, Note, Part, Score
+from app.score.model import Marker, Note, Part, PercussionHit, Score
 from app.score.parts import usual_wishes
 from app.score.read import read_contents, read_midi, wished_score
 from app.score.tempo import TempoChange, TempoMap
@@ -471,3 +473,28 @@ def test_markers_are_those_of_the_file_and_edits_of_tempo_and_metre_leave_them(t
     assert read(tmp_path / "piece.mid").score.markers == came.score.markers
     changed = reimport(edited, from_file(came.score, markers=(Marker(BAR, "C"),)), MAPS).project
     assert changed.score.markers == (Marker(BAR, "C"),)
+
+
+def test_dancers_stay_and_their_corrections_move_with_the_music() -> None:
+    project = small_project()
+    dancer = Dancer("dancer:1", "Flute", "salsa", "man_adult", StagePosition(0.0, 2.0, 0.0))
+    corrections = (PinState(480, 2), ForbidState(0, 960, 1), UseSegment(960, 7))
+    project = replace(project, dancers=(dancer,), dance_corrections={"dancer:1": corrections})
+    # A bar is put before the piece, and a flute comes in; the file has percussion now.
+    parts = tuple(
+        msgspec.structs.replace(
+            part,
+            notes=tuple(msgspec.structs.replace(note, onset_tick=note.onset_tick + BAR) for note in part.notes),
+        )
+        for part in project.score.parts
+    )
+    flute = Part("3.1.1", "Flute", 3, 0, 3, 73, "flute", "flute", (Note("3:1", 20_000, 480, 80, 80),))
+    hits = (PercussionHit(BAR, 36, 90),)
+    found = reimport(project, from_file(project.score, parts=(*parts, flute), percussion=hits), MAPS)
+    assert found.project.score.percussion == hits
+    assert found.project.dancers == (dancer,)
+    assert found.project.dance_corrections["dancer:1"] == (
+        PinState(BAR + 480, 2), ForbidState(BAR, BAR + 960, 1), UseSegment(BAR + 960, 7),
+    )  # fmt: skip
+    assert [player.name for player in found.project.players] == ["trumpet", "trombone", "Flute 2"]
+    assert reimport(found.project, found.project.score, MAPS).project is found.project

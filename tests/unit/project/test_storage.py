@@ -81,8 +81,8 @@ def test_every_version_that_ever_was_can_be_read(version: int) -> None:
     assert json.loads(path.read_bytes())["schema_version"] == version
     expected = full_project(str(SAMPLES))
     # What the MIDI file held is kept from version 2 on, how its parts were transposed from 3 on, takes from 4 on, its
-    # markers from 5 on, how much air is used up before a breath and where unplayed parts sound from 6 on: before, none
-    # had to be.
+    # markers from 5 on, how much air is used up before a breath and where unplayed parts sound from 6 on, what
+    # percussion strikes and dancers from 7 on: before, none had to be.
     if version < 3:
         parts = tuple(msgspec.structs.replace(part, transposed_semitones=0) for part in expected.score.parts)
         expected = replace(expected, score=msgspec.structs.replace(expected.score, parts=parts))
@@ -96,6 +96,9 @@ def test_every_version_that_ever_was_can_be_read(version: int) -> None:
         unplayed = tuple(msgspec.structs.replace(part, sounding=()) for part in expected.score.unplayed)
         score = msgspec.structs.replace(expected.score, unplayed=unplayed)
         expected = replace(expected, players=players, score=score)
+    if version < 7:
+        score = msgspec.structs.replace(expected.score, percussion=())
+        expected = replace(expected, score=score, dancers=(), dance_corrections={})
     later = {name: {} for name, first in (("read_notes", 2), ("takes", 4)) if version < first}
     assert load(path) == replace(expected, **later)
 
@@ -166,6 +169,30 @@ def test_a_newer_file_is_refused_by_its_version_alone() -> None:
         ("corrections__nobody", [{"correction": "set_cue", "note_id": "1:1"}], "corrections['nobody']"),
         ("expressions__0__weights__browDownLeft", 1.5, "expressions[0].weights"),
         ("expressions__0__weights__moustache", 0.5, "expressions[0].weights.moustache"),
+        ("score__percussion__1__tick", -1, "score.percussion[1].tick"),
+        ("score__percussion__1__tick", 481, "score.percussion[2].tick"),
+        ("score__percussion__1__pitch", 128, "score.percussion[1].pitch"),
+        ("score__percussion__1__velocity", 0, "score.percussion[1].velocity"),
+        ("score__percussion__1__sound", "snare", "score.percussion[1].sound"),
+        ("dancers__0__id", "1.1.1", "dancers[0].id"),
+        ("dancers__1__id", "dancer:1", "dancers[1].id"),
+        ("dancers__0__name", "CON", "dancers[0].name"),
+        ("dancers__1__choreography", "../salsa", "dancers[1].choreography"),
+        ("dancers__1__choreography", "", "dancers[1].choreography"),
+        ("dancers__1__choreography", "salsa.choreography\0", "dancers[1].choreography"),
+        ("dancers__1__choreography", "../../etc/passwd", "dancers[1].choreography"),
+        ("dancers__1__stage__z_m", 1e9, "dancers[1].stage.z_m"),
+        ("dancers__1__size", 2.0, "dancers[1].size"),
+        ("dancers__1__delay_beats", -1.0, "dancers[1].delay_beats"),
+        ("dancers__1__source", -2, "dancers[1].source"),
+        ("dancers__1__seed", -1, "dancers[1].seed"),
+        ("dancers__1__colour", "red", "dancers[1].colour"),
+        ("dancers__1__instrument_id", "flute", "dancers[1].instrument_id"),
+        ("dance_corrections__dancer:1__1__end_tick", 0, "dance_corrections['dancer:1'][1].end_tick"),
+        ("dance_corrections__dancer:1__0__state", -1, "dance_corrections['dancer:1'][0].state"),
+        ("dance_corrections__dancer:1__2__segment", "x", "dance_corrections['dancer:1'][2].segment"),
+        ("dance_corrections__dancer:1__2__correction", "fly", "dance_corrections['dancer:1'][2]"),
+        ("dance_corrections__x", [{"correction": "pin_state", "tick": 0, "state": 0}], "dance_corrections['x']"),
         ("fps", "0", "fps"),
         ("fps", "60/0", "fps"),
         ("fps", "1000", "fps"),
@@ -191,6 +218,7 @@ def test_what_is_wrong_is_named_by_its_place(path: str, value: object, place: st
 def test_whose_value_is_wrong_is_named(path: str, value: object) -> None:
     project = full_project()
     name = project.players[0].name
+    assert str(refused(changed(project, dancers__0__size=9.0)).arguments["detail"]).endswith("(dancer '踊り手')")
     assert f"(player {name!r})" in str(refused(changed(project, **{path: value})).arguments["detail"])
 
 
@@ -203,6 +231,8 @@ def test_more_bars_than_any_piece_has_are_refused() -> None:
     )  # fmt: skip
     arguments = refused(content).arguments
     assert arguments["place"] == "score.parts"
+    percussion = [{"tick": 2**31 - 1, "pitch": 36, "velocity": 1}]
+    assert refused(changed(project, score__percussion=percussion)).arguments["place"] == "score.parts"
     assert "200000 bars" in str(arguments["detail"])
 
 
@@ -235,6 +265,21 @@ def test_media_move_with_the_folder(tmp_path: Path) -> None:
     assert load(tmp_path / "elsewhere.suisou").audio == moved.audio
 
 
+def test_choreographies_move_with_the_folder_and_bundled_names_stay(tmp_path: Path) -> None:
+    first = tmp_path / "first"
+    (first / "dances").mkdir(parents=True)
+    (first / "dances" / "salsa.choreography").touch()
+    project = replace(full_project(str(first)), players=(), corrections={}, takes={})
+    save(project, first / "piece.suisou")
+    assert '"choreography": "dances/salsa.choreography"' in (first / "piece.suisou").read_text()
+    assert '"choreography": "not_bundled"' in (first / "piece.suisou").read_text()
+    shutil.move(first, tmp_path / "second")
+    moved = load(tmp_path / "second" / "piece.suisou")
+    assert moved.dancers[0].choreography == str(tmp_path / "second" / "dances" / "salsa.choreography")
+    assert moved.dancers[1] == project.dancers[1]
+    assert "project.choreography_file_missing" not in [message.id for message in missing(moved)]
+
+
 @pytest.mark.parametrize("path", ["C:\\Music\\take.wav", "\\\\server\\share\\take.wav", "/nowhere/at/all/take.wav"])
 def test_paths_of_other_systems_stay_what_they_are(tmp_path: Path, path: str) -> None:
     project = replace(small_project(), audio=AudioTrack(path))
@@ -247,8 +292,14 @@ def test_what_is_not_installed_stays_and_is_told() -> None:
     project = full_project()
     back = decode(encode(project, Path("/music/a.suisou")), Path("/music/a.suisou"))
     assert back == project
-    assert [message.id for message in missing(back)] == ["project.instrument_missing", "project.character_missing"]
-    assert "not_installed" in text(missing(back)[0])
+    found = missing(back)
+    assert [message.id.removeprefix("project.") for message in found] == [
+        "instrument_missing", "character_missing", "choreography_file_missing", "character_missing",
+        "choreography_missing",
+    ]  # fmt: skip
+    assert "not_installed" in text(found[0])
+    assert "/music/dances/salsa.choreography" in text(found[2])
+    assert "not_bundled" in text(found[4])
     assert missing(small_project()) == ()
 
 

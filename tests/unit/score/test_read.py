@@ -8,8 +8,8 @@ import pytest
 
 from app.errors import FileError
 from app.score.limits import LAST_TICK, MOST_NAME, MOST_PARTS, MOST_STREAMS
-from app.score.model import MOST_VOICES, Marker, Metre
-from app.score.read import read_midi
+from app.score.model import MOST_VOICES, Marker, Metre, PercussionHit
+from app.score.read import read_contents, read_midi, uncast_score
 from tests.unit.score.midi_bytes import END, MAPS, chunk, header, heard, ids, meta, note, one_track, score_of
 
 SCALE = [60, 62, 64, 65]
@@ -453,3 +453,22 @@ def test_names_are_cut_to_what_can_be_shown() -> None:
     long = b"\0\xff\x03" + bytes([0x90, 0x00]) + b"T" * 2048
     score = score_of(header(1, 2) + chunk(b"MTrk", long + END) + chunk(b"MTrk", long + note(60) + END))
     assert len(score.title) == len(score.unplayed[0].name) == MOST_NAME
+
+
+# --- percussion -------------------------------------------------------------------------------------------------------
+
+
+def test_every_note_of_the_percussion_is_a_hit_and_no_part(tmp_path: Path) -> None:
+    drums = (
+        note(42, channel=9) + note(36, channel=9) + bytes([0, 0x99, 22, 1, 0, 0x99, 3, 127, 9, 0x89, 22, 0, 0, 3, 0])
+    )
+    data = header(1, 2) + chunk(b"MTrk", SCALE_BYTES + END) + chunk(b"MTrk", drums + END)
+    score = score_of(data)
+    hits = [(0, 42, 64), (48, 36, 64), (96, 3, 127), (96, 22, 1)]
+    assert score.percussion == tuple(PercussionHit(*hit) for hit in hits)
+    assert len(score.parts) == 1
+    assert one_track(SCALE_BYTES).percussion == ()
+    (tmp_path / "piece.mid").write_bytes(data)
+    uncast = uncast_score(read_contents(tmp_path / "piece.mid"))
+    assert heard(uncast) == SCALE_NOTES
+    assert uncast.percussion == score.percussion

@@ -6,6 +6,7 @@ from widgets.timeline.lane import Lane
 from widgets.timeline.lanes.acting import ActingLane
 from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.lanes.curves import CurvesLane
+from widgets.timeline.lanes.dance import DanceLane
 from widgets.timeline.lanes.fingering import FingeringLane
 from widgets.timeline.lanes.problems import ProblemsLane
 from widgets.timeline.lanes.takes import TakesLane
@@ -18,6 +19,7 @@ LANES: tuple[type[Lane], ...] = (
     BreathLane,
     ActingLane,
     CurvesLane,
+    DanceLane,
     ProblemsLane,
 )
 """In the order of a new window, from the top; the piano roll stands before them all but the first."""

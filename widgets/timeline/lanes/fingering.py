@@ -63,7 +63,7 @@ class Fingerings:
 
 def fingerings(plan: PlayerPlan, pressable: tuple[Control, ...], slides: tuple[Control, ...]) -> Fingerings:
     """A plan's fingerings for drawing."""
-    events = plan.fingerings
+    events = plan.grips
     start_s = np.array([event.start_s for event in events], np.float64)
     end_s = np.array([event.end_s for event in events], np.float64)
 

@@ -1,0 +1,68 @@
+"""Basic motions: classes of motions whose poses are alike, found by k-means (H2)."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+from sklearn.cluster import KMeans
+from threadpoolctl import threadpool_limits
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+
+SPREAD: Final = 0.09
+"""Without a given number the fewest basic motions are taken whose motions are this near to their mean: root mean square
+over motions, poses and points of the body, in parts of the body's height (15 cm at 1.7 m). The silhouette does not
+serve: dance is a continuum, and of the CMU clips it prefers two classes, whatever they dance."""
+LEAST_MOTIONS: Final = 3
+"""But not more than one basic motion for so many motions, or there is nothing to count."""
+STARTS: Final = 8
+"""Of k-means; the best result counts."""
+
+
+def classify(features: FloatArray, states: int | None, seed: int) -> IntArray:
+    """The basic motion of each motion.
+
+    Parameters
+    ----------
+    features : (S, D) float64
+        See `app.choreography.features`; in time order.
+    states : int or None
+        How many there are; None to choose by `SPREAD` and `LEAST_MOTIONS`.
+    seed : int
+
+    Returns
+    -------
+    (S,) int64
+        Numbered by first appearance; each is used. The same for the same features and seed, to the bit, on however many
+        cores. There are fewer than `states` where fewer motions differ.
+    """
+    differ = len(np.unique(features, axis=0))
+    if states is not None:
+        return _k_means(features, min(states, differ), seed)[0]
+    fewest, most = 1, max(1, min(differ, len(features) // LEAST_MOTIONS))
+    # The spread falls with the number of classes, but for bad luck of k-means.
+    while fewest < most:
+        middle = (fewest + most) // 2
+        if _k_means(features, middle, seed)[1] <= SPREAD:
+            most = middle
+        else:
+            fewest = middle + 1
+    return _k_means(features, most, seed)[0]
+
+
+def _k_means(features: FloatArray, states: int, seed: int) -> tuple[IntArray, float]:
+    """Classes by first appearance, and the motions' spread about their means (see `SPREAD`)."""
+    if not len(features):
+        return np.zeros(0, np.int64), 0.0
+    # With several threads the order of sums, and with it the last bit, would be chance.
+    with threadpool_limits(limits=1):
+        # NumPy's generator of old, which scikit-learn uses, takes 32 bits.
+        found = KMeans(states, n_init=STARTS, random_state=seed % 2**32).fit(features)
+    _, first, classes = np.unique(found.labels_, return_index=True, return_inverse=True)
+    by_appearance = np.argsort(np.argsort(first))
+    # A point has three coordinates.
+    spread = np.sqrt(3.0 * found.inertia_ / features.size)
+    return np.asarray(by_appearance[classes], np.int64), float(spread)

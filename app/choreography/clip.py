@@ -1,0 +1,79 @@
+"""A motion of the 16 segments, as it was captured or generated."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+import numpy.typing as npt
+
+from app.choreography.body import body_skeleton
+from app.rig.model import Skeleton
+from app.rig.skeleton import JointTransforms, forward
+
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class BodyShape:
+    """Size of a body in the T-pose facing +Z, metres.
+
+    Attributes
+    ----------
+    offsets_m : (16, 3) float64
+        See `app.choreography.body.body_skeleton`.
+    ends_m : (5, 3) float64
+        From the joint of each of `app.choreography.body.ENDS` to its end.
+    skeleton : Skeleton
+        The root, then the segments.
+    """
+
+    offsets_m: FloatArray
+    ends_m: FloatArray
+    skeleton: Skeleton
+
+    @classmethod
+    def of(cls, offsets_m: FloatArray, ends_m: FloatArray) -> BodyShape:
+        """Shape of these offsets, with its skeleton."""
+        return cls(offsets_m, ends_m, body_skeleton(offsets_m))
+
+
+@dataclass(frozen=True, eq=False)
+class MotionClip:
+    """A motion of a body. Frame ``n`` is at ``n / fps``; metres, Y up.
+
+    Attributes
+    ----------
+    shape : BodyShape
+    fps : Fraction
+    hips_m : (F, 3) float64
+        Place of the hips in the world; the floor is at Y = 0.
+    rotations : (F, 16, 4) float64
+        Of each segment relative to the one that carries it (the hips': to the world), xyzw, unit, each frame on the
+        same side as the one before; the identity in the T-pose.
+    """
+
+    shape: BodyShape
+    fps: Fraction
+    hips_m: FloatArray
+    rotations: FloatArray
+
+    def __len__(self) -> int:
+        """Number of frames."""
+        return len(self.hips_m)
+
+    @property
+    def length_s(self) -> float:
+        """Time from the first to the last frame."""
+        return float((len(self) - 1) / self.fps)
+
+    def span(self, start: int, stop: int) -> MotionClip:
+        """Frames ``start`` to ``stop`` (half-open)."""
+        return MotionClip(self.shape, self.fps, self.hips_m[start:stop], self.rotations[start:stop])
+
+    def world(self) -> JointTransforms:
+        """World transforms: joint 0 is the root on the floor, joint ``1 + n`` segment ``n``."""
+        still = np.zeros((len(self), 1, 4))
+        still[..., 3] = 1.0
+        return forward(self.shape.skeleton, np.concatenate([still, self.rotations], axis=1), self.hips_m)

@@ -1,0 +1,68 @@
+"""What makes two motions alike: the poses at their minimum, maximum and minimum, as the paper has it.
+
+A pose is where its joints and ends are, over the floor below the hips, seen from where the body faces at the accent,
+and in parts of the body's height. So it depends neither on where the body dances nor where it looks nor how tall it is,
+distances between poses are distances between points of the body, and no angle can wrap; a turn of the body during the
+motion stays in it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.choreography.body import ENDS, SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.cuts import Cut
+from app.rig import quaternion
+from app.rig.skeleton import rest_positions
+
+FloatArray = npt.NDArray[np.float64]
+
+POSES: Final = 3
+"""Start, accent, end."""
+LEAST_HEIGHT_M: Final = 0.1
+_UP = (0.0, 1.0, 0.0)
+_HEAD = SEGMENTS.index("head")
+
+
+def features(clip: MotionClip, cuts: Sequence[Cut]) -> FloatArray:
+    """Features of motions of a clip.
+
+    Returns
+    -------
+    (C, 3 * 21 * 3) float64
+        Of each cut the three poses, of each pose the `points_m` of the body over its height.
+    """
+    if not cuts:
+        return np.zeros((0, POSES * (len(SEGMENTS) + len(ENDS)) * 3))
+    accents = [cut.accent for cut in cuts]
+    frames = np.array([[cut.start, cut.accent, min(cut.end, len(clip) - 1)] for cut in cuts])
+    below_hips = clip.hips_m * (1.0, 0.0, 1.0)
+    points = points_m(clip) - below_hips[:, None]
+    back = quaternion.conjugate(facing(clip)[accents])
+    seen = quaternion.rotate(back[:, None, None], points[frames])
+    return np.asarray(seen / height_m(clip)).reshape(len(cuts), -1)
+
+
+def facing(clip: MotionClip) -> FloatArray:
+    """(F, 4) turn about +Y from +Z to where the hips face; their lean and roll are left out."""
+    _, twist = quaternion.swing_twist(clip.rotations[:, 0], _UP)
+    return twist
+
+
+def points_m(clip: MotionClip) -> FloatArray:
+    """(F, 21, 3) places of the joints of `SEGMENTS`, then of `ENDS`, in the world."""
+    world = clip.world()
+    last = [1 + SEGMENTS.index(name) for name in ENDS]
+    ends = world.positions_m[:, last] + quaternion.rotate(world.rotations[:, last], clip.shape.ends_m)
+    return np.concatenate([world.positions_m[:, 1:], ends], axis=1)
+
+
+def height_m(clip: MotionClip) -> float:
+    """From the floor to the crown in the T-pose; at least `LEAST_HEIGHT_M`, also where bones have no length."""
+    crown_m = rest_positions(clip.shape.skeleton)[1 + _HEAD, 1] + clip.shape.ends_m[ENDS.index("head"), 1]
+    return max(LEAST_HEIGHT_M, float(crown_m))

@@ -1,0 +1,226 @@
+"""Feet that stand stay where they stand: the legs of a motion are solved again for tips of feet that do not slide."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
+
+from app.choreography.body import ENDS, FEET, SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.contacts import BoolArray, tips_m
+from app.choreography.limbs import bend
+from app.rig import quaternion
+from app.rig.ik import Side, leg
+
+FloatArray = npt.NDArray[np.float64]
+
+LEG: Final = ("UpperLeg", "LowerLeg", "Foot")
+AHEAD: Final = (0.0, 0.0, 1.0)
+"""Where a knee points, of a thigh."""
+SIDES: Final[tuple[Side, Side]] = ("left", "right")
+BRIDGED_S: Final = 0.06
+"""A foot that leaves the floor for less has not left it."""
+LEAST_S: Final = 0.1
+"""One that stands for less is passing."""
+REACHED_M: Final = 0.08
+"""One that is higher over the floor, carried up there by a join, is still coming down."""
+DRIFTS_M: Final = 0.10
+"""A foot whose tip is carried farther than this while it should stand takes a step instead."""
+STEP_S: Final = 0.30
+STEP_HIGH_M: Final = 0.03
+SAME_M: Final = 0.04
+"""Places nearer to each other than this are one, if the foot hardly leaves the floor between them."""
+SETTLE_S: Final = 0.20
+"""Within this time after it leaves the floor, and before it comes to stand, a foot goes over to its own path."""
+REACH_SHARE: Final = 0.985
+"""Of a leg's length, how far a foot that stands may be; the hips come down where it would be farther."""
+SINK_S: Final = 0.12
+"""Standard deviation in time of that."""
+
+
+@dataclass(frozen=True)
+class Stand:
+    """Frames ``start`` to ``stop`` (half-open) in which a foot stands (0: left) with its tip at a place."""
+
+    foot: int
+    start: int
+    stop: int
+    place_m: tuple[float, float, float]
+
+
+def stands(clip: MotionClip, contacts: BoolArray) -> tuple[Stand, ...]:
+    """Where feet stand.
+
+    Parameters
+    ----------
+    clip : MotionClip
+    contacts : (F, 2) bool
+        Of the left and the right foot, as captured. A foot that the motion carries away while it should stand, by a
+        join or a turn, is taken to step meanwhile.
+    """
+    fps, tips = float(clip.fps), tips_m(clip)
+    found = []
+    for foot in range(2):
+        on_floor_m = _tip_height_m(clip, foot)
+        low = tips[:, foot, 1] < on_floor_m + REACHED_M
+        for start, stop in _spans(contacts[:, foot] & low, fps):
+            for first, last in _still(tips[start:stop, foot], fps):
+                middle = np.median(tips[start + first : start + last, foot], axis=0)
+                place = (float(middle[0]), on_floor_m, float(middle[2]))
+                found.append(Stand(foot, start + first, start + last, place))
+    own = [_apart([stand for stand in found if stand.foot == foot], fps) for foot in range(2)]
+    return tuple(sorted(own[0] + own[1], key=lambda stand: (stand.start, stand.foot)))
+
+
+def _apart(standing: list[Stand], fps: float) -> list[Stand]:
+    """Stands of a foot, ascending, with time between them to go from one place to the next.
+
+    A foot that comes down again where it was goes on standing there.
+    """
+    found: list[Stand] = []
+    for stand in standing:
+        if found:
+            way_m = float(np.linalg.norm(np.subtract(stand.place_m, found[-1].place_m)))
+            short = STEP_S * fps - (stand.start - found[-1].stop)
+            if short > 0.0 and way_m <= SAME_M:
+                found[-1] = replace(found[-1], stop=stand.stop)
+                continue
+            if short > 0.0:
+                give = math.ceil(0.5 * short)
+                found[-1] = replace(found[-1], stop=found[-1].stop - give)
+                stand = replace(stand, start=stand.start + give)
+                if found[-1].stop - found[-1].start < LEAST_S * fps:
+                    found.pop()
+        if stand.stop - stand.start >= LEAST_S * fps:
+            found.append(stand)
+    return found
+
+
+def planted(clip: MotionClip, standing: tuple[Stand, ...]) -> MotionClip:
+    """The motion with its feet where they stand; between two stands they go over from one correction to the other."""
+    if not standing:
+        return clip
+    tips = tips_m(clip)
+    targets = tips.copy()
+    for foot in range(2):
+        own = [stand for stand in standing if stand.foot == foot]
+        targets[:, foot] += _correction(tips[:, foot], own, float(clip.fps))
+    clip = replace(clip, hips_m=_sunk(clip, targets, standing))
+    rotations, world = clip.rotations.copy(), clip.world()
+    for foot, side in enumerate(SIDES):
+        turned = world.rotations[:, 1 + SEGMENTS.index(FEET[foot])]
+        ankle = targets[:, foot] - quaternion.rotate(turned, clip.shape.ends_m[ENDS.index(FEET[foot])])
+        bend(clip, world, ("hips", *(f"{side}{part}" for part in LEG)), ankle, AHEAD, rotations)
+    return replace(clip, rotations=_continuous(rotations))
+
+
+def _tip_height_m(clip: MotionClip, foot: int) -> float:
+    """Height of a tip over the floor in the T-pose."""
+    side = SIDES[foot]
+    names = ("hips", f"{side}UpperLeg", f"{side}LowerLeg", f"{side}Foot")
+    height = sum(clip.shape.offsets_m[SEGMENTS.index(name), 1] for name in names)
+    return float(height + clip.shape.ends_m[ENDS.index(FEET[foot]), 1])
+
+
+def _spans(contact: BoolArray, fps: float) -> list[tuple[int, int]]:
+    """Stretches of contact, bridged where the foot left for a moment; too short ones left out."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], contact.astype(np.int8), [0]])))
+    spans: list[tuple[int, int]] = []
+    for start, stop in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        if spans and start - spans[-1][1] < BRIDGED_S * fps:
+            spans[-1] = spans[-1][0], stop
+        else:
+            spans.append((start, stop))
+    return [(start, stop) for start, stop in spans if stop - start >= LEAST_S * fps]
+
+
+def _still(tip_m: FloatArray, fps: float) -> list[tuple[int, int]]:
+    """Parts of a stretch (N, 3) in which a tip stays within `DRIFTS_M` of its middle: else it is cut where it goes
+    fastest, and a step is left out there."""
+    frames = len(tip_m)
+    if frames < LEAST_S * fps:
+        return []
+    off = np.linalg.norm((tip_m - np.median(tip_m, axis=0))[:, [0, 2]], axis=1)
+    if off.max() <= DRIFTS_M:
+        return [(0, frames)]
+    speed = np.linalg.norm(np.gradient(tip_m, axis=0)[:, [0, 2]], axis=1) if frames > 1 else np.zeros(frames)
+    middle = int(gaussian_filter1d(speed, 0.05 * fps, mode="nearest").argmax())
+    half = max(1, round(0.5 * STEP_S * fps))
+    first = _still(tip_m[: max(0, middle - half)], fps)
+    later = min(frames, middle + half)
+    return first + [(start + later, stop + later) for start, stop in _still(tip_m[later:], fps)]
+
+
+def _correction(tip_m: FloatArray, standing: list[Stand], fps: float) -> FloatArray:
+    """(F, 3) from a tip to where it has to be."""
+    result = np.zeros_like(tip_m)
+    for stand in standing:
+        result[stand.start : stand.stop] = stand.place_m - tip_m[stand.start : stand.stop]
+    ends = [None, *standing], [*standing, None]
+    for before, after in zip(*ends, strict=True):
+        start = 0 if before is None else before.stop
+        stop = len(tip_m) if after is None else after.start
+        if stop <= start:
+            continue
+        times = np.arange(start, stop)
+        if before is not None:
+            value, slope = _edge(result, start - 1, -1)
+            fade = min(SETTLE_S * fps, 0.5 * (stop - start + 1))
+            result[start:stop] += _eased(value, slope, (times - (start - 1)) / fade, fade)
+        if after is not None:
+            value, slope = _edge(result, stop, 1)
+            fade = min(SETTLE_S * fps, 0.5 * (stop - start + 1))
+            result[start:stop] += _eased(value, -slope, (stop - times) / fade, fade)
+        # A foot that should have stood all the time lifts for its step.
+        if before is not None and after is not None and stop - start <= 1.5 * STEP_S * fps:
+            way = np.linalg.norm(np.subtract(after.place_m, before.place_m))
+            low = np.maximum(0.0, STEP_HIGH_M - np.ptp(tip_m[start:stop, 1])) * min(1.0, way / DRIFTS_M)
+            result[start:stop, 1] += low * np.sin(np.pi * (times - start + 1) / (stop - start + 1)) ** 2
+    return result
+
+
+def _edge(correction: FloatArray, frame: int, inwards: int) -> tuple[FloatArray, FloatArray]:
+    """Value and slope per frame of a correction at the edge of a stand; ``inwards`` is where the stand is not."""
+    inside = frame + (1 if inwards > 0 else -1)
+    inside = min(max(inside, 0), len(correction) - 1)
+    slope = (correction[inside] - correction[frame]) * (1 if inwards > 0 else -1)
+    return correction[frame], slope
+
+
+def _eased(value: FloatArray, slope: FloatArray, u: FloatArray, fade: float) -> FloatArray:
+    """(N, 3) cubic that begins with a value and a slope per frame and ends at rest at ``u`` = 1."""
+    u = np.minimum(u, 1.0)[:, None]
+    return np.asarray((1.0 - u) ** 2 * (1.0 + 2.0 * u) * value + (1.0 - u) ** 2 * u * fade * slope)
+
+
+def _sunk(clip: MotionClip, targets: FloatArray, standing: tuple[Stand, ...]) -> FloatArray:
+    """(F, 3) hips, lower where a foot that stands would be out of reach."""
+    world, fps = clip.world(), float(clip.fps)
+    sink = np.zeros(len(clip))
+    for stand in standing:
+        limb = leg(clip.shape.skeleton, SIDES[stand.foot])
+        here = slice(stand.start, stand.stop)
+        turned = world.rotations[here, limb.end]
+        end = clip.shape.ends_m[ENDS.index(FEET[stand.foot])]
+        ankle = targets[here, stand.foot] - quaternion.rotate(turned, end)
+        way = world.positions_m[here, limb.upper] - ankle
+        across2 = np.square(way[:, [0, 2]]).sum(axis=1)
+        allowed = np.sqrt(np.maximum((REACH_SHARE * limb.length_m) ** 2 - across2, 0.25 * limb.length_m**2))
+        sink[here] = np.maximum(sink[here], way[:, 1] - allowed)
+    if not sink.any():
+        return clip.hips_m
+    wide = 2 * round(2.5 * SINK_S * fps) + 1
+    smooth = gaussian_filter1d(maximum_filter1d(sink, wide, mode="nearest"), SINK_S * fps, mode="nearest")
+    return np.asarray(clip.hips_m - smooth[:, None] * (0.0, 1.0, 0.0))
+
+
+def _continuous(rotations: FloatArray) -> FloatArray:
+    turned = np.einsum("fji,fji->fj", rotations[1:], rotations[:-1]) < 0.0
+    sides = np.concatenate([np.ones((1, rotations.shape[1])), np.where(turned, -1.0, 1.0)]).cumprod(axis=0)
+    continuous: FloatArray = rotations * sides[..., None]
+    return continuous

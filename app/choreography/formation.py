@@ -1,0 +1,96 @@
+"""Several dancers to one piece: what they have in common, and where they stand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Final, Literal, get_args
+
+import numpy as np
+
+from app.choreography.clip import MotionClip
+from app.choreography.generate import Choreographer, Dance, Manner
+from app.choreography.rhythm import Rhythm, delayed
+
+Formation = Literal["unison", "canon", "mirror", "individual"]
+FORMATIONS: Final[tuple[Formation, ...]] = get_args(Formation)
+
+CANON_BEATS: Final = 4.0
+"""In canon each dancer begins so many felt beats after the one before."""
+APART_M: Final[dict[Formation, float]] = {"unison": 2.0, "canon": 3.0, "mirror": 3.0, "individual": 3.6}
+"""From dancer to dancer in the row: those who dance alike at a time do not meet however far they go, the others keep
+about `app.choreography.generate.STAGE_M` near to their places."""
+ENDS_S: Final = 2.0
+"""All come to rest within this time after the last beat that any of them hears."""
+
+
+@dataclass(frozen=True)
+class Role:
+    """What one of several dancers does.
+
+    Attributes
+    ----------
+    manner : Manner
+    delay_beats : float
+        The dance begins so many felt beats after the music.
+    x_m : float
+        The dancer's place in the row, towards the left of one who faces the audience.
+    """
+
+    manner: Manner
+    delay_beats: float
+    x_m: float
+
+
+def roles(formation: Formation, dancers: int, manner: Manner, sources: int) -> tuple[Role, ...]:
+    """The roles of dancers in a row, from the audience's left.
+
+    Parameters
+    ----------
+    formation : {"unison", "canon", "mirror", "individual"}
+        All dance the same; the same one after the other; the same, every other one as in a mirror; or each a dance of
+        its own, with a seed, a preferred source and a size of its own.
+    dancers : int
+    manner : Manner
+        Of the first, from which those of the others follow.
+    sources : int
+        Of the model.
+    """
+    found = []
+    for number in range(dancers):
+        own = manner
+        if formation == "mirror":
+            own = replace(manner, mirrored=manner.mirrored != bool(number % 2))
+        if formation == "individual" and number:
+            random = np.random.default_rng([manner.seed, number])
+            own = replace(
+                manner,
+                seed=int(random.integers(2**31)),
+                source=number % sources if manner.source is None else manner.source,
+                size=manner.size * float(random.uniform(0.85, 1.15)),
+            )
+        place_m = APART_M[formation] * (number - 0.5 * (dancers - 1))
+        found.append(Role(own, CANON_BEATS * number if formation == "canon" else 0.0, place_m))
+    return tuple(found)
+
+
+def dance_together(
+    choreographer: Choreographer, rhythm: Rhythm, cast: tuple[Role, ...], fps: Fraction
+) -> tuple[Dance, ...]:
+    """The dances of some roles, each at its place, all of one length. The same arguments give the same to the bit."""
+    heard = [delayed(rhythm, role.delay_beats) if role.delay_beats else rhythm for role in cast]
+    end_s = max((float(one.beats_s[-1]) for one in heard if len(one.beats_s)), default=0.0) + ENDS_S
+    return tuple(
+        _at(choreographer.dance(one, role.manner, fps, end_s=end_s), role.x_m)
+        for one, role in zip(heard, cast, strict=True)
+    )
+
+
+def _at(dance: Dance, x_m: float) -> Dance:
+    """The dance at a place in the row."""
+    if x_m == 0.0:
+        return dance
+    move = np.array((x_m, 0.0, 0.0))
+    clip: MotionClip = replace(dance.clip, hips_m=dance.clip.hips_m + move)
+    standing = (replace(one, place_m=(one.place_m[0] + x_m, *one.place_m[1:])) for one in dance.standing)
+    return replace(dance, clip=clip, standing=tuple(standing))

@@ -1,0 +1,122 @@
+"""Hands stay out of the body: where a dance would put one into trunk, head or thighs, its arm is bent away.
+
+The body is a few capsules, for only its segments are known; how deep a hand is in them is smoothed over time, so that
+a hand goes round the body and does not snap to its surface.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
+
+from app.choreography.body import ENDS, SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.features import height_m
+from app.choreography.limbs import bend
+from app.rig import quaternion
+from app.rig.skeleton import JointTransforms
+
+FloatArray = npt.NDArray[np.float64]
+
+CAPSULES: Final = (
+    ("hips", "chest", 0.060),
+    ("chest", "head", 0.058),
+    ("leftUpperLeg", "leftLowerLeg", 0.035),
+    ("rightUpperLeg", "rightLowerLeg", 0.035),
+    ("head", "crown", 0.050),
+)
+"""From joint to joint, with the radius in parts of the body's height. Captured hands lie on the body: their wrists are
+no nearer to its middle than this but for one frame in a hundred."""
+ALONG: Final = (0.0, 0.5, 1.0)
+"""Points of a hand that are looked at, from the wrist to the fingertips."""
+AHEAD_M: Final = 0.03
+"""A point in the middle of the body is pushed to the front."""
+SMOOTH_S: Final = 0.08
+"""Standard deviation in time of a push."""
+PASSES: Final = 2
+"""A hand that is pushed out of one part may come into another."""
+LEAST_M: Final = 0.002
+ELBOW: Final = (0.0, 0.0, -1.0)
+"""Where an elbow points, of an upper arm."""
+
+
+def out_of_body(clip: MotionClip) -> MotionClip:
+    """The motion with its hands outside of its body; the same value where they are."""
+    for _ in range(PASSES):
+        clip = _pushed(clip)
+    return clip
+
+
+def _pushed(clip: MotionClip) -> MotionClip:
+    world = clip.world()
+    pushes = {side: _push_m(clip, world, side) for side in ("left", "right")}
+    if not any(push.any() for push in pushes.values()):
+        return clip
+    rotations = clip.rotations.copy()
+    for side, push in pushes.items():
+        limb = ("chest", *(f"{side}{part}" for part in ("UpperArm", "LowerArm", "Hand")))
+        wrist = world.positions_m[:, 1 + SEGMENTS.index(limb[-1])]
+        moved = np.flatnonzero(push.any(axis=1))
+        if len(moved):
+            here = slice(int(moved[0]), int(moved[-1]) + 1)
+            part = JointTransforms(world.joints, world.positions_m[here], world.rotations[here])
+            bend(clip, part, limb, (wrist + push)[here], ELBOW, rotations[here])
+    turned = np.einsum("fji,fji->fj", rotations[1:], rotations[:-1]) < 0.0
+    sides = np.concatenate([np.ones((1, rotations.shape[1])), np.where(turned, -1.0, 1.0)]).cumprod(axis=0)
+    return replace(clip, rotations=rotations * sides[..., None])
+
+
+def depths_m(clip: MotionClip) -> FloatArray:
+    """(F, 2) how deep the left and the right hand are in the body; 0 outside."""
+    world = clip.world()
+    return np.stack([np.linalg.norm(_deepest_m(clip, world, side), axis=1) for side in ("left", "right")], axis=1)
+
+
+def _push_m(clip: MotionClip, world: JointTransforms, side: str) -> FloatArray:
+    """(F, 3) by how much a hand is moved: at least as far as it is inside, and smooth."""
+    fps = float(clip.fps)
+    deepest = _deepest_m(clip, world, side)
+    depth = np.linalg.norm(deepest, axis=1)
+    if depth.max(initial=0.0) < LEAST_M:
+        return np.zeros_like(deepest)
+    width = 2 * round(2.0 * SMOOTH_S * fps) + 1
+    size = gaussian_filter1d(maximum_filter1d(depth, width, mode="nearest"), SMOOTH_S * fps, mode="nearest")
+    way = gaussian_filter1d(deepest, SMOOTH_S * fps, axis=0, mode="nearest", truncate=8.0)
+    length = np.linalg.norm(way, axis=1)
+    push = way * (size / np.maximum(length, 1e-9))[:, None]
+    return np.asarray(np.where((size > 1e-5)[:, None], push, 0.0))
+
+
+def _deepest_m(clip: MotionClip, world: JointTransforms, side: str) -> FloatArray:
+    """(F, 3) the shortest way out of the body for the point of a hand that is deepest in it; 0 outside."""
+    hand = 1 + SEGMENTS.index(f"{side}Hand")
+    along = quaternion.rotate(world.rotations[:, hand], clip.shape.ends_m[ENDS.index(f"{side}Hand")])
+    ahead = quaternion.rotate(world.rotations[:, 1 + SEGMENTS.index("chest")], np.array((0.0, 0.0, AHEAD_M)))
+    result, depths = np.zeros((len(clip), 3)), np.zeros(len(clip))
+    for first, last, part in CAPSULES:
+        radius = part * height_m(clip)
+        start, end = (_place_m(clip, world, name) for name in (first, last))
+        axis = end - start
+        squared = np.maximum(np.einsum("fi,fi->f", axis, axis), 1e-9)
+        for share in ALONG:
+            point = world.positions_m[:, hand] + share * along
+            at = np.clip(np.einsum("fi,fi->f", point - start, axis) / squared, 0.0, 1.0)
+            away = point - (start + at[:, None] * axis)
+            depth = radius - np.linalg.norm(away, axis=1)
+            out = away + np.clip(depth / radius, 0.0, 1.0)[:, None] * ahead
+            out /= np.maximum(np.linalg.norm(out, axis=1), 1e-9)[:, None]
+            deeper = depth > depths
+            result[deeper], depths[deeper] = (depth[:, None] * out)[deeper], depth[deeper]
+    return result
+
+
+def _place_m(clip: MotionClip, world: JointTransforms, name: str) -> FloatArray:
+    """(F, 3) a joint, or the crown."""
+    if name != "crown":
+        return world.positions_m[:, 1 + SEGMENTS.index(name)]
+    head = 1 + SEGMENTS.index("head")
+    return world.positions_m[:, head] + quaternion.rotate(world.rotations[:, head], clip.shape.ends_m[0])

@@ -1,0 +1,106 @@
+"""Where motions can follow one another, and how one goes over into the next so that no seam shows (H6).
+
+Two motions are compared at a join as clouds of points of the body, shortly before, at and shortly after it, so that
+poses and velocities both count; the second is turned about the vertical and moved over the floor to where it fits best
+(L. Kovar, M. Gleicher, F. Pighin, "Motion Graphs", SIGGRAPH 2002). What is left between them is carried on and fades
+out with the velocity it had (D. Bollo, "Inertialization", GDC 2018): the quintic that starts with a given value and
+slope and ends at rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.choreography.body import ENDS, SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.features import height_m, points_m
+
+FloatArray = npt.NDArray[np.float64]
+ComplexArray = npt.NDArray[np.complex128]
+
+AROUND_S: Final = (-0.1, 0.0, 0.1)
+"""Times about a join at which bodies are compared."""
+_HEAVY: Final = {"leftFoot": 2.0, "rightFoot": 2.0, "leftHand": 0.7, "rightHand": 0.7, "head": 0.7}
+"""Of feet, which stand, a difference shows most; hands may be anywhere."""
+FADE_S: Final = 0.45
+"""Within this time what is left between two motions has faded."""
+
+
+class Clouds:
+    """Bodies about some frames, to be compared with one another.
+
+    Parameters
+    ----------
+    clips : sequence of MotionClip
+    places : sequence of (clip, frame)
+
+    Attributes
+    ----------
+    flat : (N, P) complex128
+        Places on the floor as ``z + i x``, metres (of a body of 1.7 m), from their weighted middle.
+    middle : (N,) complex128
+    height : (N, P) float64
+    """
+
+    def __init__(self, clips: Sequence[MotionClip], places: Sequence[tuple[int, int]]) -> None:
+        points = [points_m(clip) * (STATURE_M / height_m(clip)) for clip in clips]
+        found = []
+        for clip, frame in places:
+            steps = [frame + round(offset_s * float(clips[clip].fps)) for offset_s in AROUND_S]
+            found.append(points[clip][np.clip(steps, 0, len(clips[clip]) - 1)].reshape(-1, 3))
+        cloud = np.array(found).reshape(len(found), -1, 3)
+        flat = cloud[..., 2] + 1j * cloud[..., 0]
+        self.middle: ComplexArray = flat @ _WEIGHTS
+        self.flat: ComplexArray = flat - self.middle[:, None]
+        self.height: FloatArray = cloud[..., 1]
+
+
+STATURE_M: Final = 1.7
+_WEIGHTS: FloatArray = np.tile([_HEAVY.get(name, 1.0) for name in (*SEGMENTS, *ENDS)], len(AROUND_S))
+_WEIGHTS /= _WEIGHTS.sum()
+
+
+def distances_m(before: Clouds, after: Clouds) -> FloatArray:
+    """(N, M) root mean square distance of the bodies' points, each pair laid over one another as well as can be."""
+    turned = np.abs((before.flat.conj() * _WEIGHTS) @ after.flat.T)
+    flat = _square(np.abs(before.flat), np.abs(after.flat)) - 2.0 * turned
+    high = _square(before.height, after.height) - 2.0 * (before.height * _WEIGHTS) @ after.height.T
+    return np.asarray(np.sqrt(np.maximum(flat + high, 0.0)))
+
+
+def _square(before: FloatArray, after: FloatArray) -> FloatArray:
+    summed: FloatArray = (before**2 @ _WEIGHTS)[:, None] + (after**2 @ _WEIGHTS)[None, :]
+    return summed
+
+
+def best_turn_rad(before: Clouds, after: Clouds) -> FloatArray:
+    """(N,) turn about +Y that lays each body of ``after`` over the one of ``before``."""
+    return np.asarray(np.angle((after.flat.conj() * before.flat) @ _WEIGHTS))
+
+
+def faded(value: FloatArray, slope: FloatArray, times_s: FloatArray, fade_s: float = FADE_S) -> FloatArray:
+    """A difference that fades out.
+
+    Parameters
+    ----------
+    value, slope : (...)
+        At time 0, and its rate of change per second.
+    times_s : (T,) float64
+        From 0 on.
+    fade_s : float
+
+    Returns
+    -------
+    (T, ...) float64
+        The quintic with this value and slope and no bend at 0, and nothing of all three from ``fade_s`` on.
+    """
+    u = np.clip(times_s / fade_s, 0.0, 1.0).reshape(-1, *(1,) * np.ndim(value))
+    rest = 1.0 - u
+    # Basis of the quintic: value 1 and slope 0, value 0 and slope 1 at the start; bend 0; all 0 at the end.
+    held = rest**3 * (1.0 + 3.0 * u + 6.0 * u * u)
+    moved = rest**3 * u * (1.0 + 3.0 * u)
+    return np.asarray(held * value + moved * (fade_s * np.asarray(slope)))

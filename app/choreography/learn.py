@@ -1,0 +1,148 @@
+"""Learn a choreography from pairs of motion and music.
+
+Source: K. Kameda, I. Watanabe, M. Yamamoto, "Music Driven Computer Animation Based On HMM": motions are cut
+(`app.choreography.cuts`) and classified (`app.choreography.basic_motions`), then the states are visible and their
+probabilities are counted (`app.choreography.hidden_markov`).
+
+Messages
+--------
+learn.no_motion : motions
+learn.states : states, segments
+learn.no_overlap : motion, music
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.choreography.basic_motions import classify
+from app.choreography.clip import MotionClip
+from app.choreography.cuts import segment
+from app.choreography.features import features
+from app.choreography.hidden_markov import count
+from app.choreography.model import ChoreographyModel, MotionSegment, Source
+from app.choreography.music_offset import find_offset
+from app.choreography.resample import resampled
+from app.choreography.rhythm import Rhythm
+from app.errors import UsageError
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+
+FPS: Final = Fraction(60)
+"""Of the motion in a model."""
+SMOOTHING: Final = 1.0
+"""Observations added to every distribution, see `app.choreography.hidden_markov.count`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """A motion and the music that it was danced to.
+
+    Attributes
+    ----------
+    motion : MotionClip
+    motion_name : str
+        Of the file, without folders.
+    rhythm : Rhythm
+    music_name : str
+    offset_s : float or None
+        The music's first tick is at this time of the motion; None to find it.
+    credits : str
+        See `app.choreography.model.Source`.
+    """
+
+    motion: MotionClip
+    motion_name: str
+    rhythm: Rhythm
+    music_name: str
+    offset_s: float | None = None
+    credits: str = ""
+
+
+def learn(
+    pairs: Sequence[Pair],
+    *,
+    states: int | None,
+    seed: int,
+    name: str,
+    progress: Callable[[float, str], None] = lambda fraction, label: None,
+) -> ChoreographyModel:
+    """Basic motions and their grammar.
+
+    Parameters
+    ----------
+    pairs : sequence of Pair
+    states : int or None
+        Number of basic motions; None to choose it (`app.choreography.basic_motions.SPREAD`).
+    seed : int
+        Of k-means. The same pairs, states and seed give the same model, to the bit.
+    name : str
+    progress : callable
+        Called with the share of the work that is done, and with what is done now.
+
+    Raises
+    ------
+    UsageError
+        If nothing moves, there are fewer motions than states, or music and motion of a pair do not meet.
+    """
+    clips, sources, cuts = [], [], []
+    for number, pair in enumerate(pairs):
+        progress(number / (len(pairs) + 1), pair.motion_name)
+        clip = _stored(resampled(pair.motion, FPS))
+        clips.append(clip)
+        sources.append(_source(pair, clip))
+        cuts.append(segment(clip).cuts)
+    progress(len(pairs) / (len(pairs) + 1), name)
+    total = sum(map(len, cuts))
+    if not total:
+        raise UsageError("learn.no_motion", motions=", ".join(pair.motion_name for pair in pairs))
+    if states is not None and states > total:
+        raise UsageError("learn.states", states=states, segments=total)
+    found = classify(np.concatenate([features(*each) for each in zip(clips, cuts, strict=True)]), states, seed)
+    segments = tuple(
+        MotionSegment(clip, cut.start, cut.accent, cut.end, int(state))
+        for (clip, cut), state in zip(
+            ((clip, cut) for clip, those in enumerate(cuts) for cut in those), found, strict=True
+        )
+    )
+    of_clips = [[one for one in segments if one.clip == clip] for clip in range(len(clips))]
+    transition, emission, initial = count(
+        [np.array([one.state for one in those], np.int64) for those in of_clips],
+        [_symbols(pair, source, those) for pair, source, those in zip(pairs, sources, of_clips, strict=True)],
+        int(found.max()) + 1,
+        smoothing=SMOOTHING,
+    )
+    progress(1.0, name)
+    return ChoreographyModel(name, tuple(sources), tuple(clips), segments, transition, emission, initial)
+
+
+def _stored(clip: MotionClip) -> MotionClip:
+    """The clip as a file keeps it (float32), so that a model is the same before it is written and after."""
+    return replace(
+        clip,
+        hips_m=clip.hips_m.astype(np.float32).astype(np.float64),
+        rotations=clip.rotations.astype(np.float32).astype(np.float64),
+    )
+
+
+def _source(pair: Pair, clip: MotionClip) -> Source:
+    if pair.offset_s is not None:
+        return Source(pair.motion_name, pair.music_name, pair.offset_s, None, pair.credits)
+    found = find_offset(clip, pair.rhythm)
+    return Source(pair.motion_name, pair.music_name, found.offset_s, found.confidence, pair.credits)
+
+
+def _symbols(pair: Pair, source: Source, segments: Sequence[MotionSegment]) -> list[IntArray]:
+    """The symbols that sound during each motion of a clip."""
+    bounds = np.array([(one.start, one.end) for one in segments], np.float64).reshape(-1, 2) / float(FPS)
+    first, last = np.searchsorted(pair.rhythm.hits_s, bounds - source.offset_s).T
+    if segments and not (last > first).any():
+        raise UsageError("learn.no_overlap", motion=pair.motion_name, music=pair.music_name)
+    return [pair.rhythm.symbols[start:stop] for start, stop in zip(first, last, strict=True)]

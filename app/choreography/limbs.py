@@ -1,0 +1,91 @@
+"""Legs and arms of a motion whose ends are somewhere else."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.choreography.body import SEGMENTS
+from app.choreography.clip import MotionClip
+from app.rig import quaternion
+from app.rig.ik import SOFT_SHARE
+from app.rig.skeleton import JointTransforms
+
+FloatArray = npt.NDArray[np.float64]
+
+STRAIGHT: Final = 0.03
+BENT: Final = 0.09
+"""Of a knee that is off its straight leg by less than the one part of the leg's length, and more than the other."""
+
+
+def bend(
+    clip: MotionClip,
+    world: JointTransforms,
+    limb: tuple[str, ...],
+    ankle: FloatArray,
+    ahead: tuple[float, float, float],
+    rotations: FloatArray,
+) -> None:
+    """Turn thigh and shank, or upper and lower arm, by as little as brings the ankle or the wrist to a place.
+
+    The foot keeps its turn in the world, the knee stays in the plane it was in, and a leg whose ankle is there already
+    is left as it is. So with arms.
+
+    Parameters
+    ----------
+    clip : MotionClip
+    world : JointTransforms
+        Of the clip.
+    limb : tuple of str
+        Segments: what carries the limb, its two parts, and its foot or hand.
+    ankle : (F, 3) float64
+        The place.
+    ahead : 3 floats
+        Where the knee of a straight limb points, of its upper part.
+    rotations : (F, 16, 4) float64
+        Where the limb's new rotations are written.
+    """
+    hip_at, thigh_at, shank_at, foot_at = (1 + SEGMENTS.index(name) for name in limb)
+    hip, knee, was = (world.positions_m[:, at] for at in (thigh_at, shank_at, foot_at))
+    thigh, shank, foot = (world.rotations[:, at] for at in (thigh_at, shank_at, foot_at))
+    upper, lower = (float(np.linalg.norm(clip.shape.offsets_m[at - 1])) for at in (shank_at, foot_at))
+    line = ankle - hip
+    wanted = np.linalg.norm(line, axis=-1)
+    natural = np.linalg.norm(was - hip, axis=-1)
+    distance = np.maximum(_softly(wanted, upper + lower), np.minimum(wanted, natural))
+    distance = np.maximum(distance, abs(upper - lower) + 1e-4)
+    way = line / np.maximum(wanted, 1e-9)[:, None]
+    points = quaternion.rotate(thigh, np.array(ahead))
+    # The knee stays off the line from hip to ankle where it was, whose plane turns with the line alone; of a leg that
+    # is straight, or a little more than straight, it goes where the thigh faces, for there is no plane to keep.
+    before = (was - hip) / np.maximum(natural, 1e-9)[:, None]
+    off = knee - hip - before * np.einsum("fi,fi->f", knee - hip, before)[:, None]
+    carried = quaternion.rotate(quaternion.between(before, way), off)
+    forward = _unit(points - way * np.einsum("fi,fi->f", points, way)[:, None])
+    bent = np.linalg.norm(carried, axis=-1, keepdims=True) / (upper + lower)
+    share = np.clip((bent - STRAIGHT) / (BENT - STRAIGHT), 0.0, 1.0)
+    share = share * share * (3.0 - 2.0 * share)
+    pole = _unit(share * _unit(carried) + (1.0 - share) * forward)
+    along = (upper * upper - lower * lower + distance * distance) / (2.0 * distance)
+    aside = np.sqrt(np.maximum(upper * upper - along * along, 0.0))
+    new_knee = way * along[:, None] + pole * aside[:, None]
+    new_thigh = quaternion.multiply(quaternion.between(_unit(knee - hip), _unit(new_knee)), thigh)
+    new_shank = quaternion.multiply(
+        quaternion.between(_unit(was - knee), _unit(way * distance[:, None] - new_knee)), shank
+    )
+    rotations[:, thigh_at - 1] = quaternion.multiply(quaternion.conjugate(world.rotations[:, hip_at]), new_thigh)
+    rotations[:, shank_at - 1] = quaternion.multiply(quaternion.conjugate(new_thigh), new_shank)
+    rotations[:, foot_at - 1] = quaternion.multiply(quaternion.conjugate(new_shank), foot)
+
+
+def _unit(vector: FloatArray) -> FloatArray:
+    return np.asarray(vector / np.maximum(np.linalg.norm(vector, axis=-1, keepdims=True), 1e-9))
+
+
+def _softly(distance: FloatArray, longest: float) -> FloatArray:
+    """Full extension is approached, so that the knee does not snap."""
+    band = SOFT_SHARE * longest
+    over = np.maximum(distance - (longest - band), 0.0)
+    return np.asarray(np.where(over > 0.0, longest - band * np.exp(-over / band), distance))

@@ -1,0 +1,90 @@
+"""A learned choreography: basic motions, their grammar, and the motion they are made of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.choreography.clip import MotionClip
+
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Source:
+    """A pair of motion and music that was learned from.
+
+    Attributes
+    ----------
+    motion_name, music_name : str
+        Names of the files, without folders.
+    offset_s : float
+        The music's first tick is at this time of the motion.
+    offset_confidence : float or None
+        0..1; None where the user gave the offset.
+    credits : str
+        Provenance and licence of the motion, as text; empty if not given.
+    """
+
+    motion_name: str
+    music_name: str
+    offset_s: float
+    offset_confidence: float | None
+    credits: str
+
+
+@dataclass(frozen=True)
+class MotionSegment:
+    """One motion between two minima of the angular acceleration: frames of one clip of the model.
+
+    Attributes
+    ----------
+    clip : int
+    start, accent, end : int
+        Frames at the minimum, the maximum and the next minimum; the segment is ``start`` to ``end`` (half-open), and
+        the next segment of the clip, if it follows at once, begins at ``end``.
+    state : int
+        The basic motion that it is an instance of.
+    """
+
+    clip: int
+    start: int
+    accent: int
+    end: int
+    state: int
+
+
+@dataclass(frozen=True, eq=False)
+class ChoreographyModel:
+    """What is stored in a ``.choreography`` file.
+
+    Attributes
+    ----------
+    name : str
+    sources : tuple of Source
+    clips : tuple of MotionClip
+        The mended motion of each source, all at one frame rate, each with the shape of its own body.
+    segments : tuple of MotionSegment
+        By clip, then start.
+    transition : (K, K) float64
+        ``A[i, j]``: probability of state j after state i, smoothed; rows sum to 1.
+    emission : (K, 47) float64
+        ``B[i, o]``: probability of percussion symbol o in state i, smoothed; rows sum to 1.
+    initial : (K,) float64
+        Smoothed; sums to 1.
+    """
+
+    name: str
+    sources: tuple[Source, ...]
+    clips: tuple[MotionClip, ...]
+    segments: tuple[MotionSegment, ...]
+    transition: FloatArray
+    emission: FloatArray
+    initial: FloatArray
+
+    @property
+    def states(self) -> int:
+        """Number of basic motions."""
+        return len(self.initial)

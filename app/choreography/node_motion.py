@@ -1,0 +1,202 @@
+"""Animations of FBX and glTF files, as `app.choreography.read_motion` has those of BVH files.
+
+Nodes have turns of their own at rest, and scales; joints of BVH files have neither. So each node becomes a joint that
+turns as the node turns away from its rest, below one root for all. At rest it is where its skin was bound, or where the
+file has it without animation. The longest animation counts.
+
+Messages
+--------
+motion.no_animation : file
+motion.too_long : file
+and what the readers say
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError
+from app.formats.bvh import BvhClip
+from app.formats.fbx.foreign import read_foreign_motion
+from app.formats.gltf.animation import sampled
+from app.formats.gltf.model import GltfAnimation, GltfModel
+from app.formats.rates import exact_rate
+from app.rig import quaternion
+from app.rig.figure_build import SINGULAR, nearest_rotations, rest_pose
+from app.rig.figure_gltf import bind_pose
+from app.rig.source import read_source
+
+FloatArray = npt.NDArray[np.float64]
+
+MOST_TRANSFORMS: Final = 2**23
+"""Frames times nodes: a quarter of an hour of 150 nodes at 60 frames per second."""
+MOST_FPS: Final = 240.0
+LEAST_BAKED_FPS: Final = 20.0
+"""Keys that are farther apart were set by hand: what is between them is sampled at `OTHERWISE_FPS`."""
+OTHERWISE_FPS: Final = Fraction(60)
+ROOT: Final = "file"
+
+
+@dataclass(frozen=True, eq=False)
+class _Nodes:
+    """An animated hierarchy in metres, Y up.
+
+    Attributes
+    ----------
+    names, parents
+        In any order; -1: none.
+    other : collection of int
+        Nodes that are no bones, unless bones hang from them: meshes, cameras, lights.
+    rest : (N, 4, 4) float64
+        World transforms.
+    fps : Fraction
+    translations_m, rotations, scales : (F, N, 3), (F, N, 4), (F, N, 3) float64
+        On the parent.
+    """
+
+    names: Sequence[str]
+    parents: Sequence[int]
+    other: Collection[int]
+    rest: FloatArray
+    fps: Fraction
+    translations_m: FloatArray
+    rotations: FloatArray
+    scales: FloatArray
+
+
+def read_fbx_motion(path: Path) -> BvhClip:
+    """The longest animation of an FBX file. Raises FileError."""
+    content = read_foreign_motion(path)
+    if len(content.transforms) < 2:
+        raise FileError("motion.no_animation", file=str(path))
+    parents = [node.parent for node in content.nodes]
+    posed = np.array([node.world_from_node for node in content.nodes])
+    bound = {node: world for node, world in content.bound if abs(np.linalg.det(world)) > SINGULAR}
+    return _clip(
+        _Nodes(
+            [node.name for node in content.nodes],
+            parents,
+            {at for at, node in enumerate(content.nodes) if node.kind not in ("BONE", "EMPTY", "UNKNOWN")},
+            rest_pose(parents, posed, bound),
+            content.fps,
+            content.transforms[..., :3],
+            content.transforms[..., 3:7],
+            content.transforms[..., 7:],
+        )
+    )
+
+
+def read_gltf_motion(path: Path) -> BvhClip:
+    """The longest animation of a glTF file (.glb, .gltf). Raises FileError."""
+    source = read_source(path, animated=True)
+    gltf = source.gltf
+    animation = max(gltf.animations, key=_length_s, default=None)
+    if animation is None or _length_s(animation) <= 0.0:
+        raise FileError("motion.no_animation", file=str(path))
+    first_s = min(channel.times_s[0] for channel in animation.channels)
+    fps = _usual_fps(animation)
+    count = round(_length_s(animation) * float(fps)) + 1
+    if count * len(gltf.nodes) > MOST_TRANSFORMS:
+        raise FileError("motion.too_long", file=str(path))
+    values = _sampled(gltf, animation, first_s + np.arange(count) / float(fps))
+    parents = [node.parent for node in gltf.nodes]
+    rest = rest_pose(parents, source.world_from_node, bind_pose(source))
+    other = {at for at, node in enumerate(gltf.nodes) if node.mesh is not None}
+    return _clip(_Nodes([node.name for node in gltf.nodes], parents, other, rest, fps, *values))
+
+
+def _length_s(animation: GltfAnimation) -> float:
+    if not animation.channels:
+        return 0.0
+    first = min(channel.times_s[0] for channel in animation.channels)
+    return float(max(channel.times_s[-1] for channel in animation.channels) - first)
+
+
+def _usual_fps(animation: GltfAnimation) -> Fraction:
+    """The rate that the densest keys are at, where they are baked; glTF has none of its own."""
+    keys = max((channel.times_s for channel in animation.channels), key=len)
+    # Times are float32 seconds: steps of long animations are coarse.
+    fps = float((len(keys) - 1) / (keys[-1] - keys[0]))
+    return exact_rate(fps, 1e-4) if LEAST_BAKED_FPS <= fps <= MOST_FPS else OTHERWISE_FPS
+
+
+def _sampled(gltf: GltfModel, animation: GltfAnimation, times_s: FloatArray) -> list[FloatArray]:
+    """Translations, rotations and scales (F, N, W) of all nodes; what is not animated is as the file has it."""
+    kept: dict[str, tuple[str, int]] = {
+        "translation": ("translation", 3),
+        "rotation": ("rotation_xyzw", 4),
+        "scale": ("scale", 3),
+    }
+    values = {}
+    for path, (field, width) in kept.items():
+        still = np.array([getattr(node, field) for node in gltf.nodes]).reshape(-1, width)
+        values[path] = np.tile(still, (len(times_s), 1, 1))
+    for channel in animation.channels:
+        values[channel.path][:, channel.node] = sampled(channel, times_s)
+    return [values[path] for path in kept]
+
+
+def _clip(nodes: _Nodes) -> BvhClip:
+    """Joints that turn as the nodes turn away from their rest."""
+    order = _bones(nodes.parents, nodes.other)
+    joint_of = {node: 1 + at for at, node in enumerate(order)}
+    frames = len(nodes.rotations)
+    rest_turns, rest_places = nearest_rotations(nodes.rest), nodes.rest[:, :3, 3]
+    world = np.empty((len(nodes.names), frames, 4))
+    scale = np.empty((len(nodes.names), 3))
+    rotations = np.zeros((frames, 1 + len(order), 4))
+    rotations[..., 3] = 1.0
+    offsets = np.zeros((1 + len(order), 3))
+    translations: dict[int, FloatArray] = {}
+    above = np.zeros((frames, 4))
+    above[:, 3] = 1.0
+    for node in order:
+        parent, joint = nodes.parents[node], joint_of[node]
+        carrier = world[parent] if parent >= 0 else above
+        rest_of_carrier = rest_turns[parent] if parent >= 0 else quaternion.IDENTITY
+        size = scale[parent] if parent >= 0 else np.ones(3)
+        world[node] = quaternion.multiply(carrier, nodes.rotations[:, node])
+        # A scale that changes is a squash that bones of bodies do not have.
+        scale[node] = size * nodes.scales[0, node]
+        turned_carrier = quaternion.multiply(carrier, quaternion.conjugate(rest_of_carrier))
+        turned = quaternion.multiply(world[node], quaternion.conjugate(rest_turns[node]))
+        rotations[:, joint] = quaternion.multiply(quaternion.conjugate(turned_carrier), turned)
+        offsets[joint] = rest_places[node] - (rest_places[parent] if parent >= 0 else 0.0)
+        moved = quaternion.rotate(rest_of_carrier, size * nodes.translations_m[:, node])
+        if np.abs(moved - offsets[joint]).max() > 1e-6:
+            translations[joint] = 100.0 * moved
+    return BvhClip(
+        names=(ROOT, *(nodes.names[node] or f"node_{node}" for node in order)),
+        parents=(-1, *(joint_of.get(nodes.parents[node], 0) for node in order)),
+        offsets_cm=100.0 * offsets,
+        end_sites_cm={},
+        fps=nodes.fps,
+        root_translation_cm=np.zeros((frames, 3)),
+        rotations_xyzw=rotations,
+        translations_cm=translations,
+    )
+
+
+def _bones(parents: Sequence[int], other: Collection[int]) -> list[int]:
+    """Nodes that are bones or carry bones, parents first."""
+    children: dict[int, list[int]] = {}
+    for node, parent in enumerate(parents):
+        children.setdefault(parent, []).append(node)
+    order: list[int] = []
+    pending = children.get(-1, [])[::-1]
+    while pending:
+        node = pending.pop()
+        order.append(node)
+        pending += children.get(node, [])[::-1]
+    kept: set[int] = set()
+    for node in reversed(order):
+        if node not in other or any(child in kept for child in children.get(node, [])):
+            kept.add(node)
+    return [node for node in order if node in kept]

@@ -1,0 +1,68 @@
+"""The percussion of a piece as the symbols of a choreography, and the beats that are felt.
+
+Rules, none of which invents a symbol:
+
+- A hit is a note of a percussion track on channel 10 (General MIDI System Level 1). The edges of the hi-hat, notes 22
+  and 26 of common electronic kits, are the closed and the open hi-hat, 42 and 46. Other notes outside 35 to 81 name
+  none of the 47 sounds and are left out.
+- Hits at one time stay hits of their own, by symbol; the same symbol several times at one tick is one hit, as strong
+  as the strongest.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from app.choreography.rhythm import SYMBOLS, FloatArray, IntArray, Rhythm
+from app.plan.felt_beat import felt_beats
+from app.score.model import Score
+
+SAME_SOUND: Final = {22: 42, 26: 46}
+"""Of notes outside the 47 sounds, the sound that they are the edge of."""
+
+
+def score_rhythm(score: Score) -> Rhythm:
+    """Beats of a piece, and what its percussion plays; without hits if it has no percussion."""
+    strongest: dict[tuple[int, int], int] = {}
+    for struck in score.percussion:
+        symbol = SAME_SOUND.get(struck.pitch, struck.pitch) - SYMBOLS[0]
+        if 0 <= symbol < len(SYMBOLS):
+            hit = (struck.tick, symbol)
+            strongest[hit] = max(strongest.get(hit, 0), struck.velocity)
+    hits = sorted(strongest)
+    beats_s, bar_beats = piece_beats(score)
+    return Rhythm(
+        beats_s=beats_s,
+        bar_beats=bar_beats,
+        hits_s=score.tempo_map.seconds(np.array([tick for tick, _ in hits], np.float64)),
+        symbols=np.array([symbol for _, symbol in hits], np.int64),
+        strengths=np.array([strongest[hit] for hit in hits], np.float64) / 127.0,
+        derived=False,
+    )
+
+
+def piece_beats(score: Score) -> tuple[FloatArray, IntArray]:
+    """Felt beats to the end of the bar in which the piece ends, and the place of each in its bar.
+
+    Every bar begins with a beat; the beats of a pickup are counted back from the first whole bar, as its last ones.
+
+    Returns
+    -------
+    beats_s : (N,) float64
+    bar_beats : (N,) int64
+    """
+    end = score.sounding_end_tick
+    first = 0 if score.pickup_ticks else 1
+    lines = np.array([score.tick_of_bar(bar) for bar in range(first, score.bar_of_tick(max(end - 1, 0)) + 2)], np.int64)
+    bars = lines[:-1]
+    changes = felt_beats(score.tempo_map, score.metres, bars)
+    places = np.searchsorted([tick for tick, _ in changes], bars, side="right") - 1
+    beat_ticks = [changes[place][1] for place in places]
+    ticks = [np.arange(start, stop, beat) for start, stop, beat in zip(bars, lines[1:], beat_ticks, strict=True)]
+    counts = [np.arange(len(bar)) for bar in ticks]
+    if score.pickup_ticks and len(ticks) > 1:
+        ticks[0] = np.arange(lines[1] - beat_ticks[1], -1, -beat_ticks[1])[::-1]
+        counts[0] = len(ticks[1]) - np.arange(len(ticks[0]), 0, -1)
+    return score.tempo_map.seconds(np.concatenate(ticks).astype(np.float64)), np.concatenate(counts)

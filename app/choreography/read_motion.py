@@ -1,0 +1,364 @@
+"""Motion capture of others as a motion of the 16 segments.
+
+Bones are found by `app.rig.humanoid`; the rest pose is turned upright, ahead and into the T-pose by `app.rig.t_pose`.
+Joints between two segments (collars, buttocks, neck, further vertebrae) are folded into the segment beyond them: its
+world rotation is that of the file, its offset the mean over the clip of where its joint is on the segment that
+carries it.
+
+Messages
+--------
+motion.far : file
+motion.format : file
+motion.incomplete : file, joints
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial.transform import Rotation
+
+from app.choreography.body import ENDS, FEET, PARENT_OF, SEGMENTS
+from app.choreography.clip import BodyShape, MotionClip
+from app.choreography.flips import Flip, lead_in, mend_flips, mend_steps
+from app.choreography.node_motion import read_fbx_motion, read_gltf_motion
+from app.errors import FileError
+from app.formats.bvh import BvhClip, read_bvh
+from app.rig import quaternion
+from app.rig.figure import Figure
+from app.rig.humanoid import JointMapping, map_joints
+from app.rig.t_pose import Rest, facing_ahead, rest_of, turned_figure, turns_to_t_pose, upright
+from metadata.model import REQUIRED_JOINTS
+
+FloatArray = npt.NDArray[np.float64]
+
+UNITS_M: Final = {"cm": 0.01, "m": 1.0, "inch": 0.0254, "CMU": 0.0254 / 0.45}
+"""Lengths that BVH files are written in, metres; CMU: a 0.45th of an inch (its ASF files, and BVH made of them)."""
+FARTHEST_CM: Final = 1e9
+"""No unit makes a body's way so long; larger numbers are damage."""
+HEIGHTS_M: Final = (1.35, 2.15)
+"""A unit that makes the figure as high as this is taken; the first of `UNITS_M` that does."""
+HEIGHT_M: Final = 1.7
+"""Of a figure that no unit fits."""
+FLOOR_PERCENTILE: Final = 2.0
+"""The floor is where the lower foot is in the lowest part of the frames."""
+HAND_PART: Final = 0.108
+CROWN_PART: Final = 0.13
+FOOT_PART: Final = 0.12
+"""Wrist to fingertips, head joint to crown and ankle to toes, of the figure's height, where the file has no end
+(D. Winter, "Biomechanics and Motor Control of Human Movement", 4th ed. 2009, fig. 4.1)."""
+
+
+@dataclass(frozen=True, eq=False)
+class ReadMotion:
+    """A motion and what was guessed about its file.
+
+    Attributes
+    ----------
+    clip : MotionClip
+    profile : str
+        Table of bone names; empty where the joints were found by shape.
+    unit : str
+        Key of `UNITS_M`; empty where none fits and the figure was scaled to `HEIGHT_M`.
+    unit_m : float
+    up : str
+        Axis of the file that points up, e.g. ``"+Z"``.
+    file_fps : Fraction
+        As the file says; the clip's may have been given.
+    floor_m : float
+        Height of the floor in the file's frame, upright and in metres.
+    lead_in : int
+        Frames left out at the start: a rest pose before the motion (`app.choreography.flips.lead_in`).
+    flips : tuple of Flip
+        What was mended.
+    joints_doubtful : tuple of str
+        Whose bones were guessed.
+    apart_m : float
+        How far from its place in the file, relative to the hips, a joint is at most: a segment keeps its world
+        rotation, but its joint has one place on the segment that carries it, also where collars or a neck move.
+    """
+
+    clip: MotionClip
+    profile: str
+    unit: str
+    unit_m: float
+    up: str
+    file_fps: Fraction
+    floor_m: float
+    lead_in: int
+    flips: tuple[Flip, ...]
+    joints_doubtful: tuple[str, ...]
+    apart_m: float
+
+    @property
+    def start_s(self) -> float:
+        """Time of the file at which the clip begins."""
+        return float(self.lead_in / self.clip.fps)
+
+
+def read_motion(path: str | os.PathLike[str], fps: Fraction | None = None) -> ReadMotion:
+    """Read the motion of any humanoid.
+
+    Parameters
+    ----------
+    path : str or path-like
+        A BVH, FBX or glTF file.
+    fps : Fraction, optional
+        The true frame rate, where the file's is wrong.
+
+    Raises
+    ------
+    FileError
+        If it is none of these or has no animation, or a leg, an arm, the hips or the head cannot be found in it.
+    """
+    readers = {".bvh": read_bvh, ".fbx": read_fbx_motion, ".glb": read_gltf_motion, ".gltf": read_gltf_motion}
+    file = Path(path)
+    reader = readers.get(file.suffix.lower())
+    if reader is None:
+        raise FileError("motion.format", file=str(file))
+    return motion_of(reader(file), str(file), fps)
+
+
+def motion_of(bvh: BvhClip, file: str, fps: Fraction | None = None) -> ReadMotion:
+    """Motion of a clip; ``file`` is for messages. See `read_motion`."""
+    lengths = (bvh.offsets_cm, bvh.root_translation_cm, *bvh.end_sites_cm.values(), *bvh.translations_cm.values())
+    if any((np.abs(one) > FARTHEST_CM).any() for one in lengths):
+        raise FileError("motion.far", file=file)
+    figure, mapping = _mapped(_figure(bvh, file))
+    _require_whole(mapping, file)
+    world = _world(bvh)
+    turn, up = _up(world.positions, mapping.bones)
+    standing = upright(figure, mapping.bones)
+    standing = facing_ahead(standing, mapping.bones, _foot_tips(bvh, standing, mapping.bones))
+    if standing is not figure:
+        # Which side is left depends on where ahead is.
+        mapping = map_joints(standing)
+        _require_whole(mapping, file)
+    bones = _segment_bones(mapping.bones)
+    rest = rest_of(standing)
+    t_turns = _t_turns(standing, mapping.bones, bones)
+    t_pose = np.array([quaternion.multiply(t_turns[name], rest.rotations[bone]) for name, bone in bones.items()])
+    held = list(bones.values())
+    rotations = quaternion.multiply(turn, quaternion.multiply(world.rotations[:, held], quaternion.conjugate(t_pose)))
+    positions = quaternion.rotate(turn, world.positions[:, held])
+    offsets = _offsets(positions, rotations)
+    ends = _ends(bvh, bones, rest, t_turns)
+    offsets[0] = 0.0
+    high = _height(offsets, ends)
+    unit, unit_m = _unit(high)
+    ends = _lengthened(ends, high) * unit_m
+    offsets, positions = offsets * unit_m, positions * unit_m
+    offsets[0, 1] = -_lowest(offsets, ends)
+    floor_m = _floor(positions, rotations, ends)
+    hips = positions[:, 0] - (0.0, floor_m, 0.0)
+    whole = MotionClip(BodyShape.of(offsets, ends), fps or bvh.fps, hips, _local(rotations))
+    before = lead_in(whole)
+    apart_m = _apart(whole.span(before, len(whole)), (positions - positions[:, :1])[before:])
+    clip, flips = mend_flips(whole.span(before, len(whole)))
+    clip, steps = mend_steps(clip)
+    clip = replace(clip, hips_m=clip.hips_m - clip.hips_m[0] * (1.0, 0.0, 1.0))
+    return ReadMotion(
+        clip, mapping.profile, unit, unit_m, up, bvh.fps, floor_m, before, flips + steps, mapping.doubtful, apart_m
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _World:
+    positions: FloatArray
+    rotations: FloatArray
+
+
+def _figure(bvh: BvhClip, file: str) -> Figure:
+    """The rest pose, in the file's unit: nothing that reads it depends on the size."""
+    still = np.zeros((len(bvh.names), 4))
+    still[:, 3] = 1.0
+    return Figure(file, "bvh", bvh.names, bvh.parents, np.asarray(bvh.offsets_cm, np.float64), still, ())
+
+
+def _require_whole(mapping: JointMapping, file: str) -> None:
+    missing = [joint for joint in SEGMENTS if joint not in ("spine", "chest") and joint not in mapping.bones]
+    if missing:
+        raise FileError("motion.incomplete", file=file, joints=", ".join(missing))
+
+
+def _mapped(figure: Figure) -> tuple[Figure, JointMapping]:
+    """Joints of the figure; where bones are found by shape and not all are, of the figure turned as it stands best."""
+    mapping = map_joints(figure)
+    if set(REQUIRED_JOINTS) <= set(mapping.bones):
+        return figure, mapping
+    found = []
+    for turn in Rotation.create_group("O").as_matrix():
+        turned = turned_figure(figure, turn)
+        other = map_joints(turned)
+        if set(REQUIRED_JOINTS) <= set(other.bones):
+            places = rest_of(turned).positions_m
+            way = places[other.bones["head"]] - 0.5 * sum(places[other.bones[name]] for name in FEET)
+            found.append((float(way[1] / max(float(np.linalg.norm(way)), 1e-9)), turned, other))
+    _, figure, mapping = max(found, key=lambda one: one[0], default=(0.0, figure, mapping))
+    return figure, mapping
+
+
+def _foot_tips(bvh: BvhClip, figure: Figure, bones: Mapping[str, int]) -> dict[str, FloatArray]:
+    """Where feet without toes end: at their end sites or at the farthest of what hangs from them."""
+    rest = rest_of(figure)
+    tips = {}
+    for side in ("left", "right"):
+        foot = bones[f"{side}Foot"]
+        ankle = rest.positions_m[foot]
+        ends = [rest.positions_m[bone] for bone, parent in enumerate(figure.parents) if parent == foot]
+        if foot in bvh.end_sites_cm:
+            ends.append(ankle + quaternion.rotate(rest.rotations[foot], bvh.end_sites_cm[foot]))
+        if ends:
+            tips[side] = max(ends, key=lambda end: float(np.linalg.norm((end - ankle)[[0, 2]])))
+    return tips
+
+
+def _world(bvh: BvhClip) -> _World:
+    """Where the file's joints are in each frame, in its own space."""
+    rotations = np.array(bvh.rotations_xyzw, np.float64)
+    positions = np.empty((*rotations.shape[:2], 3))
+    for joint, parent in enumerate(bvh.parents):
+        if parent < 0:
+            positions[:, joint] = bvh.root_translation_cm
+        else:
+            way = bvh.translations_cm.get(joint, bvh.offsets_cm[joint])
+            moved = quaternion.rotate(rotations[:, parent], way)
+            positions[:, joint] = positions[:, parent] + moved
+            rotations[:, joint] = quaternion.multiply(rotations[:, parent], rotations[:, joint])
+    return _World(positions, rotations)
+
+
+def _up(positions: FloatArray, bones: Mapping[str, int]) -> tuple[FloatArray, str]:
+    """Turn that takes the motion's up to +Y, and the axis that it was: where heads are above feet most of the time."""
+    feet = 0.5 * (positions[:, bones["leftFoot"]] + positions[:, bones["rightFoot"]])
+    way = np.median(positions[:, bones["head"]] - feet, axis=0)
+    axis = int(np.argmax(np.abs(way)))
+    sign = 1.0 if way[axis] >= 0.0 else -1.0
+    names = f"{'+' if sign > 0 else '-'}{'XYZ'[axis]}"
+    turns = {
+        "+Y": Rotation.identity(),
+        "-Y": Rotation.from_euler("z", 180.0, degrees=True),
+        "+Z": Rotation.from_euler("x", -90.0, degrees=True),
+        "-Z": Rotation.from_euler("x", 90.0, degrees=True),
+        "+X": Rotation.from_euler("z", 90.0, degrees=True),
+        "-X": Rotation.from_euler("z", -90.0, degrees=True),
+    }
+    return np.asarray(turns[names].as_quat(), np.float64), names
+
+
+def _segment_bones(bones: Mapping[str, int]) -> dict[str, int]:
+    """The bone of each segment; the chest is the highest of the trunk, which arms and head hang from."""
+    column = [bones[name] for name in ("spine", "chest", "upperChest") if name in bones]
+    chest = column[-1] if column else bones["hips"]
+    spine = column[0] if len(column) > 1 else bones["hips"]
+    return {name: {"spine": spine, "chest": chest}.get(name, bones.get(name, -1)) for name in SEGMENTS}
+
+
+def _t_turns(figure: Figure, joints: Mapping[str, int], bones: Mapping[str, int]) -> dict[str, FloatArray]:
+    turns = turns_to_t_pose(figure, rest_of(figure), joints)
+    return {name: turns.get(name, quaternion.IDENTITY) for name in bones}
+
+
+def _offsets(positions: FloatArray, rotations: FloatArray) -> FloatArray:
+    """(16, 3) mean place of each segment's joint on the segment that carries it."""
+    offsets = np.zeros((len(SEGMENTS), 3))
+    for at, name in enumerate(SEGMENTS[1:], start=1):
+        above = SEGMENTS.index(PARENT_OF[name])
+        way = positions[:, at] - positions[:, above]
+        offsets[at] = quaternion.rotate(quaternion.conjugate(rotations[:, above]), way).mean(axis=0)
+    return offsets
+
+
+def _ends(bvh: BvhClip, bones: Mapping[str, int], rest: Rest, turns: Mapping[str, FloatArray]) -> FloatArray:
+    """(5, 3) the farthest point that hangs from each last segment, in the T-pose; zero where nothing does."""
+    places, upright_turn = rest.positions_m, rest.rotations[0]  # Bones of these files have no turns of their own.
+    ends = np.zeros((len(ENDS), 3))
+    for at, name in enumerate(ENDS):
+        below = {bones[name]}
+        for bone, parent in enumerate(bvh.parents):
+            if parent in below:
+                below.add(bone)
+        points = [places[bone] for bone in sorted(below)]
+        hanging = [(bone, end) for bone, end in bvh.end_sites_cm.items() if bone in below]
+        points += [places[bone] + quaternion.rotate(upright_turn, end) for bone, end in hanging]
+        ways = quaternion.rotate(turns[name], np.array(points) - places[bones[name]])
+        along = {"head": (0.0, 1.0, 0.0), "leftHand": (1.0, 0.0, 0.0), "rightHand": (-1.0, 0.0, 0.0)}
+        reach = ways @ np.array(along.get(name, (0.0, 0.0, 1.0)))
+        # A head reaches up over what sticks out of it (eyes); the others as far as the farthest.
+        ends[at] = ways[int(np.argmax(reach))] if name != "head" else (0.0, float(reach.max()), 0.0)
+    return ends
+
+
+def _apart(clip: MotionClip, seen: FloatArray) -> float:
+    """How far from where the file has it, relative to the hips (F, 16, 3), a joint is at most."""
+    joints = clip.world().positions_m[:, 1:]
+    return float(np.linalg.norm(joints - joints[:, :1] - seen, axis=-1).max())
+
+
+def _height(offsets: FloatArray, ends: FloatArray) -> float:
+    places = _t_places(offsets)
+    crown = places[SEGMENTS.index("head")] + ends[ENDS.index("head")]
+    return float(crown[1] - _lowest(offsets, ends))
+
+
+def _t_places(offsets: FloatArray) -> FloatArray:
+    places = offsets.copy()
+    for at, name in enumerate(SEGMENTS[1:], start=1):
+        places[at] += places[SEGMENTS.index(PARENT_OF[name])]
+    return places
+
+
+def _lowest(offsets: FloatArray, ends: FloatArray) -> float:
+    """Height of the lowest point of the feet in the T-pose, from where the hips' offset leads."""
+    places = _t_places(offsets)
+    heights = [places[SEGMENTS.index(name), 1] + min(0.0, float(ends[ENDS.index(name), 1])) for name in ENDS[3:]]
+    return float(min(heights))
+
+
+def _unit(height: float) -> tuple[str, float]:
+    if height <= 0.0:
+        return "", 1.0
+    fits = [(name, unit) for name, unit in UNITS_M.items() if HEIGHTS_M[0] <= height * unit <= HEIGHTS_M[1]]
+    return fits[0] if fits else ("", HEIGHT_M / height)
+
+
+def _lengthened(ends: FloatArray, height: float) -> FloatArray:
+    """Ends that a file lacks (shorter than a third of what is usual), as long as usual."""
+    ways = ((0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 1.0))
+    parts = (CROWN_PART, HAND_PART, HAND_PART, FOOT_PART, FOOT_PART)
+    result = ends.copy()
+    for at, (way, part) in enumerate(zip(ways, parts, strict=True)):
+        if np.linalg.norm(ends[at]) < part * height / 3.0:
+            result[at] = np.array(way) * part * height
+    return result
+
+
+def _floor(positions: FloatArray, rotations: FloatArray, ends: FloatArray) -> float:
+    """Height of the lower foot's lower point in the lowest frames."""
+    heights = []
+    for name in ENDS[3:]:
+        at = SEGMENTS.index(name)
+        toe = positions[:, at] + quaternion.rotate(rotations[:, at], ends[ENDS.index(name)])
+        sole = positions[:, at] + quaternion.rotate(rotations[:, at], ends[ENDS.index(name)] * (0.0, 1.0, 0.0))
+        heights += [toe[:, 1], sole[:, 1]]
+    return float(np.percentile(np.min(heights, axis=0), FLOOR_PERCENTILE))
+
+
+def _local(rotations: FloatArray) -> FloatArray:
+    """Relative to the segment that carries each, every frame on the side of the one before."""
+    local = rotations.copy()
+    for at, name in enumerate(SEGMENTS[1:], start=1):
+        above = SEGMENTS.index(PARENT_OF[name])
+        local[:, at] = quaternion.multiply(quaternion.conjugate(rotations[:, above]), rotations[:, at])
+    local = quaternion.normalize(local)
+    flips = np.einsum("fji,fji->fj", local[1:], local[:-1]) < 0.0
+    sides = np.concatenate([np.ones((1, len(SEGMENTS))), np.where(flips, -1.0, 1.0)]).cumprod(axis=0)
+    continuous: FloatArray = local * sides[..., None]
+    return continuous

@@ -1,0 +1,76 @@
+"""Files of a motion, of its music and of who made it, as a pair to learn from.
+
+Messages
+--------
+learn.no_percussion : file
+and what the readers say
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Final
+
+from app.choreography.learn import Pair
+from app.choreography.percussion import score_rhythm
+from app.choreography.read_motion import ReadMotion, read_motion
+from app.encoding import guessed, shown
+from app.errors import FileError
+from app.formats.files import read_file
+from app.score.read import read_contents, uncast_score
+
+CREDITS_SUFFIX: Final = ".txt"
+MOST_CREDITS_BYTES: Final = 2**20
+
+
+@dataclass(frozen=True, eq=False)
+class ReadPair:
+    """A pair, and what was guessed about its motion's file."""
+
+    pair: Pair
+    motion: ReadMotion
+
+
+def read_pair(
+    motion: Path,
+    music: Path,
+    *,
+    offset_s: float | None = None,
+    fps: Fraction | None = None,
+    credits: Path | None = None,
+) -> ReadPair:
+    """Read a pair.
+
+    Parameters
+    ----------
+    motion : Path
+        A BVH, FBX or glTF file.
+    music : Path
+        A MIDI file with percussion.
+    offset_s : float, optional
+        The music's first tick is at this time of the motion's file, of which the pair's clip may be a later part
+        (`ReadMotion.start_s`); without it the offset is to be found.
+    fps : Fraction, optional
+        The true frame rate of the motion, where its file's is wrong.
+    credits : Path, optional
+        Provenance and licence of the motion; without it a text file beside the motion is taken that has its name, if
+        there is one.
+
+    Raises
+    ------
+    AppError
+        A file cannot be read, or is none of the kind.
+    """
+    read = read_motion(motion, fps)
+    rhythm = score_rhythm(uncast_score(read_contents(music)))
+    if not len(rhythm.hits_s):
+        raise FileError("learn.no_percussion", file=str(music))
+    beside = motion.with_suffix(CREDITS_SUFFIX)
+    if credits is None and os.path.isfile(beside):
+        credits = beside
+    text = "" if credits is None else guessed(read_file(credits, MOST_CREDITS_BYTES)).strip()
+    of_clip_s = None if offset_s is None else offset_s - read.start_s
+    return ReadPair(Pair(read.clip, shown(motion.name), rhythm, shown(music.name), of_clip_s, text), read)

@@ -1,0 +1,326 @@
+"""A motion of the 16 segments on the skeleton of a character.
+
+Every segment's world rotation is the character's joint's. What a character has beyond the segments follows: vertebrae
+and neck turn between their neighbours, the collar bones rise with arms that are lifted above the shoulders, fingers are
+loosely bent. The path is scaled with the length of the legs; the tips of the feet go to their scaled places by
+inverse kinematics, so that planted feet stay planted whatever the proportions, and no sole is below the floor.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
+
+from app.choreography.body import ENDS, SEGMENTS
+from app.choreography.clip import BodyShape, MotionClip
+from app.choreography.feet import SINK_S
+from app.motion.model import Motion
+from app.rig import quaternion
+from app.rig.ik import Side, leg, solve_limb
+from app.rig.model import Character, Skeleton
+from app.rig.skeleton import rest_positions
+
+FloatArray = npt.NDArray[np.float64]
+
+SIDES: Final[tuple[Side, Side]] = ("left", "right")
+TRUNK: Final[tuple[str, ...]] = ("spine", "chest", "upperChest")
+COLLAR_SHARE: Final = 0.25
+"""Of an arm's rise above the horizontal, the part that the collar bone takes before the shoulder joint (of the rise of
+an arm about a third is the shoulder girdle's: V. Inman and others, J. Bone Joint Surg. 26, 1944; the collar bone's
+joint is farther in, so less of it shows)."""
+COLLAR_SOFT_RAD: Final = 0.15
+"""Angle about the horizontal over which that begins."""
+FINGER_BEND_RAD: Final = {"Proximal": 0.30, "Intermediate": 0.40, "Distal": 0.20}
+"""Of loosely bent fingers; the little finger by `FINGER_GROWS` more than the index."""
+FINGER_GROWS: Final = {"Index": 0.8, "Middle": 1.0, "Ring": 1.15, "Little": 1.3}
+THUMB_BEND_RAD: Final = {"ThumbMetacarpal": 0.10, "ThumbProximal": 0.15, "ThumbDistal": 0.20}
+HEEL_PART: Final = 0.3
+"""The heel is behind the ankle by this part of the way from the ankle to the toes."""
+TIP_PART: Final = 0.4
+"""The tip of the foot is beyond the joint of the toes by this part of the same way."""
+FOOT_PART: Final = 1.6
+"""The joint of the toes is ahead of the ankle by so much of the ankle's height, where a skeleton has none."""
+FLOOR_SOFT_M: Final = 0.002
+"""Over this height a foot that comes down is stopped by the floor."""
+REACH_SHARE: Final = 0.992
+"""Of a leg's length, how far a foot on the floor may be."""
+LOW_M: Final = 0.08
+"""An ankle no higher than this over where it is when the foot stands belongs to a foot on the floor."""
+STANDING_M_S: Final = 0.2
+"""A foot slower than this stands."""
+KNEE_AHEAD: Final = 0.02
+"""Part of the leg's length by which the knee of a straight leg points ahead."""
+
+
+def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0) -> Motion:
+    """Put a motion on a character.
+
+    Parameters
+    ----------
+    clip : MotionClip
+    character : Character
+    first_frame_s : float
+        Time of the clip's first frame in the performance.
+
+    Returns
+    -------
+    Motion
+        Without morphs and controls; no instrument.
+    """
+    skeleton, frames = character.skeleton, len(clip)
+    source = clip.world()
+    segments = {name: source.rotations[:, 1 + at] for at, name in enumerate(SEGMENTS)}
+    places_m = {name: source.positions_m[:, 1 + at] for at, name in enumerate(SEGMENTS)}
+    scale = _socket_height_m(skeleton) / _clip_socket_height_m(clip.shape)
+    hips_m = _hips_path(skeleton, clip, segments["hips"], places_m, scale)
+    world = _world_rotations(skeleton, segments, frames)
+    ankles_m = {side: _ankle_path(skeleton, side, clip.shape, segments, places_m, scale) for side in SIDES}
+    floor_m = _floor_m(skeleton, segments, ankles_m, float(clip.fps))
+    hips_m -= floor_m
+    for side in SIDES:
+        ankles_m[side] -= floor_m
+    hips_m[:, 1] -= _sink_m(skeleton, clip, world, hips_m, ankles_m)
+    sockets_m = _socket_paths(skeleton, world, hips_m)
+    legs = {side: _leg(skeleton, side, segments, places_m, world, sockets_m[side], ankles_m[side]) for side in SIDES}
+    local = np.tile(quaternion.IDENTITY, (frames, len(skeleton.names), 1))
+    for joint, parent in enumerate(skeleton.parents):
+        if joint in world:
+            above = world.get(parent)
+            local[:, joint] = (
+                world[joint] if above is None else quaternion.multiply(quaternion.conjugate(above), world[joint])
+            )
+    for side in SIDES:
+        for joint, turned in legs[side].items():
+            local[:, joint] = turned
+    _bend_fingers(skeleton, local)
+    return Motion(
+        fps=clip.fps,
+        first_frame_s=first_frame_s,
+        rotations=_continuous(local).astype(np.float32),
+        hips_m=hips_m.astype(np.float32),
+        morphs={},
+        controls={},
+        instrument_position_m=np.zeros((frames, 3), np.float32),
+        instrument_rotation=np.tile(quaternion.IDENTITY, (frames, 1)).astype(np.float32),
+    )
+
+
+def _socket_height_m(skeleton: Skeleton) -> float:
+    """Height of the hip joints in the T-pose."""
+    rest = rest_positions(skeleton)
+    return float(np.mean([rest[skeleton.index(f"{side}UpperLeg"), 1] for side in SIDES]))
+
+
+def _clip_socket_height_m(shape: BodyShape) -> float:
+    offsets = shape.offsets_m
+    return float(offsets[0, 1] + np.mean([offsets[SEGMENTS.index(f"{side}UpperLeg"), 1] for side in SIDES]))
+
+
+def _hips_path(
+    skeleton: Skeleton,
+    clip: MotionClip,
+    turned: FloatArray,
+    places_m: dict[str, FloatArray],
+    scale: float,
+) -> FloatArray:
+    """(F, 3) hips of the character: the middle of its hip joints goes the clip's scaled path."""
+    middle = 0.5 * (places_m["leftUpperLeg"] + places_m["rightUpperLeg"])
+    offset = np.mean([skeleton.offsets_m[skeleton.index(f"{side}UpperLeg")] for side in SIDES], axis=0)
+    return scale * middle - quaternion.rotate(turned, offset)
+
+
+def _world_rotations(skeleton: Skeleton, segments: dict[str, FloatArray], frames: int) -> dict[int, FloatArray]:
+    """World rotations (F, 4) of the joints above the legs, and of the root."""
+    there = set(skeleton.names)
+    world = {0: np.tile(quaternion.IDENTITY, (frames, 1)), skeleton.index("hips"): segments["hips"]}
+    trunk = [name for name in TRUNK if name in there]
+    for at, name in enumerate(trunk):
+        share = 1.0 if len(trunk) == 1 else at / (len(trunk) - 1)
+        world[skeleton.index(name)] = quaternion.slerp(segments["spine"], segments["chest"], np.full(frames, share))
+    if "neck" in there:
+        world[skeleton.index("neck")] = quaternion.slerp(segments["chest"], segments["head"], np.full(frames, 0.5))
+    world[skeleton.index("head")] = segments["head"]
+    for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
+        upper = segments[f"{side}UpperArm"]
+        if f"{side}Shoulder" in there:
+            world[skeleton.index(f"{side}Shoulder")] = quaternion.multiply(
+                segments["chest"], _collar(segments["chest"], upper, sign)
+            )
+        for name in ("UpperArm", "LowerArm", "Hand"):
+            world[skeleton.index(f"{side}{name}")] = segments[f"{side}{name}"]
+    return world
+
+
+def _collar(chest: FloatArray, upper: FloatArray, sign: float) -> FloatArray:
+    """Rotation (F, 4) of a collar bone in the chest's frame."""
+    along = quaternion.rotate(quaternion.multiply(quaternion.conjugate(chest), upper), np.array([sign, 0.0, 0.0]))
+    rise = np.arcsin(np.clip(along[:, 1], -1.0, 1.0))
+    lifted = COLLAR_SHARE * COLLAR_SOFT_RAD * np.logaddexp(0.0, rise / COLLAR_SOFT_RAD)
+    # A hanging arm leaves the collar bone where it is, to the bit.
+    lifted = np.where(rise < -6.0 * COLLAR_SOFT_RAD, 0.0, lifted)
+    return quaternion.from_axis_angle(np.array([0.0, 0.0, sign]), lifted)
+
+
+def _socket_paths(skeleton: Skeleton, world: dict[int, FloatArray], hips_m: FloatArray) -> dict[Side, FloatArray]:
+    """(F, 3) the hip joint of each side."""
+    hips = skeleton.index("hips")
+    return {
+        side: hips_m + quaternion.rotate(world[hips], skeleton.offsets_m[skeleton.index(f"{side}UpperLeg")])
+        for side in SIDES
+    }
+
+
+def _ankle_path(
+    skeleton: Skeleton,
+    side: Side,
+    shape: BodyShape,
+    segments: dict[str, FloatArray],
+    places_m: dict[str, FloatArray],
+    scale: float,
+) -> FloatArray:
+    """(F, 3) where an ankle of the character goes: its tip of the foot goes the scaled path of the clip's.
+
+    So the tip of a foot that stands stays where it is while the heel rises, however long the foot.
+    """
+    foot = f"{side}Foot"
+    tip = shape.ends_m[ENDS.index(foot)]
+    flat_m = _clip_ankle_height_m(shape, side) + float(tip[1])
+    path = places_m[foot] + quaternion.rotate(segments[foot], tip) - (0.0, flat_m, 0.0)
+    return np.asarray(scale * path - quaternion.rotate(segments[foot], foot_tip_m(skeleton, side)))
+
+
+def foot_tip_m(skeleton: Skeleton, side: Side) -> FloatArray:
+    """(3,) the tip of a foot's sole, from the ankle, in the T-pose."""
+    way, ankle_m = _sole_way_m(skeleton, side)
+    return np.array([(1.0 + TIP_PART) * way[0], -ankle_m, (1.0 + TIP_PART) * way[2]])
+
+
+def _sole_way_m(skeleton: Skeleton, side: Side) -> tuple[FloatArray, float]:
+    """(3,) from the ankle to the joint of the toes in the T-pose, and the height of the ankle."""
+    rest = rest_positions(skeleton)
+    ankle, toes = rest[skeleton.index(f"{side}Foot")], f"{side}Toes"
+    way = rest[skeleton.index(toes)] - ankle if toes in skeleton.names else np.array([0.0, 0.0, FOOT_PART * ankle[1]])
+    return way, float(ankle[1])
+
+
+def _floor_m(
+    skeleton: Skeleton, segments: dict[str, FloatArray], ankles_m: dict[Side, FloatArray], fps: float
+) -> FloatArray:
+    """(3,) the height at which soles are while their feet stand: feet of a capture are seldom quite on its floor."""
+    heights = []
+    for side in SIDES:
+        if len(ankles_m[side]) < 2:
+            continue
+        slow = np.linalg.norm(np.gradient(ankles_m[side], axis=0), axis=-1) * fps < STANDING_M_S
+        heights.append(_sole_m(skeleton, side, segments[f"{side}Foot"], ankles_m[side])[slow])
+    standing = np.concatenate(heights) if heights else np.zeros(0)
+    # What is lower than half of them stood; a foot that is held still in the air is higher.
+    return np.array([0.0, float(np.percentile(standing, 30.0)) if len(standing) else 0.0, 0.0])
+
+
+def _sink_m(
+    skeleton: Skeleton,
+    clip: MotionClip,
+    world: dict[int, FloatArray],
+    hips_m: FloatArray,
+    ankles_m: dict[Side, FloatArray],
+) -> FloatArray:
+    """(F,) how far the hips come down, so that legs of other proportions reach feet that are on the floor."""
+    sink, sockets_m, fps = np.zeros(len(clip)), _socket_paths(skeleton, world, hips_m), float(clip.fps)
+    height_m = {side: rest_positions(skeleton)[skeleton.index(f"{side}Foot"), 1] for side in SIDES}
+    for side in SIDES:
+        length_m = leg(skeleton, side).length_m
+        way = sockets_m[side] - ankles_m[side]
+        allowed = np.sqrt(
+            np.maximum((REACH_SHARE * length_m) ** 2 - np.square(way[:, [0, 2]]).sum(axis=1), 0.25 * length_m**2)
+        )
+        low = ankles_m[side][:, 1] < height_m[side] + LOW_M
+        sink = np.maximum(sink, np.where(low, way[:, 1] - allowed, 0.0))
+    if not sink.any():
+        return sink
+    wide = 2 * round(2.5 * SINK_S * fps) + 1
+    return np.asarray(gaussian_filter1d(maximum_filter1d(sink, wide, mode="nearest"), SINK_S * fps, mode="nearest"))
+
+
+def _leg(
+    skeleton: Skeleton,
+    side: Side,
+    segments: dict[str, FloatArray],
+    places_m: dict[str, FloatArray],
+    world: dict[int, FloatArray],
+    socket_m: FloatArray,
+    ankle_m: FloatArray,
+) -> dict[int, FloatArray]:
+    """Rotations of a leg, by joint, that bring the ankle to its place with the sole on the floor or above it."""
+    limb = leg(skeleton, side)
+    target, foot = _over_the_floor(skeleton, side, segments[f"{side}Foot"], ankle_m)
+    hip, knee, ankle = (places_m[f"{side}{name}"] for name in ("UpperLeg", "LowerLeg", "Foot"))
+    length_m = float(np.linalg.norm(knee[0] - hip[0]) + np.linalg.norm(ankle[0] - knee[0]))
+    # A straight leg does not say where its knee points: its thigh does.
+    ahead = quaternion.rotate(segments[f"{side}UpperLeg"], np.array([0.0, 0.0, 1.0]))
+    pole = knee - 0.5 * (hip + ankle) + KNEE_AHEAD * length_m * ahead
+    pose = solve_limb(limb, socket_m, world[skeleton.index("hips")], target, foot, pole)
+    return {limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}
+
+
+def _over_the_floor(
+    skeleton: Skeleton, side: Side, foot: FloatArray, ankle_m: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Place of the ankle (F, 3) and turn of the foot (F, 4): the tip is lifted to the floor; a heel that would be
+    below it is raised about the tip, which stays."""
+    tip, (way, height_m) = foot_tip_m(skeleton, side), _sole_way_m(skeleton, side)
+    heel = np.array([-HEEL_PART * way[0], -height_m, -HEEL_PART * way[2]])
+    tip_m = ankle_m + quaternion.rotate(foot, tip)
+    tip_m[:, 1] += _lift_m(tip_m[:, 1])
+    along = quaternion.rotate(foot, heel - tip)[:, 1]
+    length_m = float(np.linalg.norm(heel - tip))
+    raised = np.minimum(along + _lift_m(tip_m[:, 1] + along), 0.999 * length_m)
+    tilt = np.arcsin(raised / length_m) - np.arcsin(np.clip(along / length_m, -0.999, 0.999))
+    foot = quaternion.multiply(foot, quaternion.from_axis_angle(np.array([1.0, 0.0, 0.0]), np.maximum(tilt, 0.0)))
+    return tip_m - quaternion.rotate(foot, tip), foot
+
+
+def _lift_m(height_m: FloatArray) -> FloatArray:
+    """(F,) how far what is at a height is lifted to be no lower than the floor; it is stopped within a little way."""
+    soft = FLOOR_SOFT_M * np.logaddexp(0.0, -height_m / FLOOR_SOFT_M)
+    return np.asarray(np.where(height_m < 4.0 * FLOOR_SOFT_M, soft, 0.0))
+
+
+def _clip_ankle_height_m(shape: BodyShape, side: Side) -> float:
+    """Height of the ankle over the sole, of a body that stands in the T-pose."""
+    height = sum(shape.offsets_m[SEGMENTS.index(name), 1] for name in ("hips", f"{side}UpperLeg", f"{side}LowerLeg"))
+    return float(height + shape.offsets_m[SEGMENTS.index(f"{side}Foot"), 1])
+
+
+def _sole_m(skeleton: Skeleton, side: Side, foot: FloatArray, ankle_m: FloatArray) -> FloatArray:
+    """(F,) height of the lowest point of a sole: heel, ball or tip."""
+    way, height_m = _sole_way_m(skeleton, side)
+    sole = [np.array([part * way[0], -height_m, part * way[2]]) for part in (-HEEL_PART, 1.0, 1.0 + TIP_PART)]
+    lowest: FloatArray = np.min([ankle_m[:, 1] + quaternion.rotate(foot, point)[:, 1] for point in sole], axis=0)
+    return lowest
+
+
+def _bend_fingers(skeleton: Skeleton, local: FloatArray) -> None:
+    """Fingers loosely bent, towards the palm, which faces down in the T-pose."""
+    for joint, name in enumerate(skeleton.names):
+        for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
+            if not name.startswith(side):
+                continue
+            for finger, grows in FINGER_GROWS.items():
+                for part, bend in FINGER_BEND_RAD.items():
+                    if name == f"{side}{finger}{part}":
+                        local[:, joint] = quaternion.from_axis_angle(np.array([0.0, 0.0, -sign]), bend * grows)
+            for part, bend in THUMB_BEND_RAD.items():
+                if name == f"{side}{part}":
+                    local[:, joint] = quaternion.from_axis_angle(np.array([0.0, sign, 0.0]), -bend)
+
+
+def _continuous(rotations: FloatArray) -> FloatArray:
+    """Each frame on the side of the one before."""
+    turned = np.einsum("fji,fji->fj", rotations[1:], rotations[:-1]) < 0.0
+    sides = np.concatenate([np.ones((1, rotations.shape[1])), np.where(turned, -1.0, 1.0)]).cumprod(axis=0)
+    continuous: FloatArray = quaternion.normalize(rotations) * sides[..., None]
+    return continuous

@@ -1,0 +1,59 @@
+"""The music that a dancer moves to: its beats and what is struck."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+
+SYMBOLS: Final = tuple(range(35, 82))
+"""The 47 percussion sounds of General MIDI System Level 1: symbol n is note 35 + n."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rhythm:
+    """Beats and percussion hits of a piece, in seconds from its first tick.
+
+    Attributes
+    ----------
+    beats_s : (N,) float64
+        Ascending; felt beats from the first tick to behind the last hit or note.
+    bar_beats : (N,) int
+        Place of each beat in its bar, from 0: 0 is a downbeat.
+    hits_s : (H,) float64
+        Ascending.
+    symbols : (H,) int
+        0..46, see `SYMBOLS`.
+    strengths : (H,) float64
+        0..1, the velocity of each hit.
+    derived : bool
+        The piece has no percussion: the symbols were derived from melody, bass and accents.
+    """
+
+    beats_s: FloatArray
+    bar_beats: IntArray
+    hits_s: FloatArray
+    symbols: IntArray
+    strengths: FloatArray
+    derived: bool
+
+
+def delayed(rhythm: Rhythm, beats: float) -> Rhythm:
+    """The rhythm as a voice of a canon has it that comes in so many beats later, in the tempo that holds then."""
+    if len(rhythm.beats_s) < 2:
+        return rhythm
+    count = np.arange(len(rhythm.beats_s), dtype=np.float64)
+    # Behind the last beat its tempo goes on.
+    more = np.arange(1, int(np.ceil(beats)) + 2)
+    all_s = np.concatenate([rhythm.beats_s, rhythm.beats_s[-1] + more * (rhythm.beats_s[-1] - rhythm.beats_s[-2])])
+    numbers = np.arange(len(all_s), dtype=np.float64)
+
+    def later_s(places: FloatArray) -> FloatArray:
+        return np.asarray(np.interp(places + beats, numbers, all_s))
+
+    return replace(rhythm, beats_s=later_s(count), hits_s=later_s(np.interp(rhythm.hits_s, rhythm.beats_s, count)))

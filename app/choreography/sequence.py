@@ -1,0 +1,331 @@
+"""Which segment of a model is danced when: the Viterbi algorithm over segments with their accents on the beats (H5).
+
+A state of the search is a segment whose accent is at a place of the grid of beats and half beats. Going from one to
+the next counts
+
+- the model: transition and emission probabilities, as logarithms of how much likelier than by chance they are, so that
+  few long motions and many short ones are compared fairly;
+- how well the second fits on the first (`app.choreography.joins`); the segment that follows in the capture fits best;
+- how much faster or slower than captured both must be danced between their accents, within `SPEEDS`;
+- an accent off the beat;
+- a little chance, by the seed, so that a choreography does not repeat itself, and a cost of segments danced lately.
+
+With one segment for each state, no costs and one place a step this is the Viterbi algorithm of
+`app.choreography.hidden_markov`.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.choreography.rhythm import Rhythm
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+
+SPEEDS: Final = (0.67, 1.5)
+"""A motion is danced no slower and no faster than this, beside the speed it was captured at."""
+MOST_STEPS: Final = 8
+"""From one accent to the next there are at most so many places of the grid."""
+
+
+@dataclass(frozen=True)
+class Weights:
+    """What counts how much, in natural logarithms of probability.
+
+    Attributes
+    ----------
+    join_per_m : float
+        Of the distance at a join.
+    speed : float
+        Of a motion that is danced at a limit of `SPEEDS`; by the square in between.
+    off_beat : float
+        Of an accent between two beats.
+    model : float
+        Of the model's log odds.
+    chance : float
+        Scale of the seed's noise, of Gumbel's distribution.
+    lately : float
+        Of each time that a segment was danced within `LATELY_S`.
+    """
+
+    join_per_m: float = 40.0
+    speed: float = 1.5
+    off_beat: float = 1.2
+    model: float = 1.0
+    chance: float = 0.6
+    lately: float = 2.0
+
+
+LATELY_S: Final = 12.0
+PHRASE_BEATS: Final = 16
+"""So many beats are searched at a time; what was danced in them then counts as danced lately."""
+NEVER: Final = -1e9
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Places in time for accents.
+
+    Attributes
+    ----------
+    times_s : (G,) float64
+        Ascending.
+    on_beat : (G,) bool
+    """
+
+    times_s: FloatArray
+    on_beat: npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Candidates:
+    """Segments to choose from.
+
+    Attributes
+    ----------
+    states : (S,) int
+    before_s, after_s : (S,) float64
+        From start to accent and from accent to end, as captured.
+    joins_m : (S, S) float64
+        How far the end of the one is from the start of the other.
+    log_transition : (S, S) float64
+        Log odds of the second's state after the first's.
+    log_emission : (S, 47) float64
+        Log odds of each symbol during the segment.
+    """
+
+    states: IntArray
+    before_s: FloatArray
+    after_s: FloatArray
+    joins_m: FloatArray
+    log_transition: FloatArray
+    log_emission: FloatArray
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """What the user decided.
+
+    Attributes
+    ----------
+    pinned : mapping of int to int
+        State by place of the grid: an accent of this state is there.
+    segments : mapping of int to int
+        Segment by place.
+    forbidden : frozenset of (place, state)
+    """
+
+    pinned: Mapping[int, int] = field(default_factory=dict)
+    segments: Mapping[int, int] = field(default_factory=dict)
+    forbidden: frozenset[tuple[int, int]] = frozenset()
+
+
+def grid_of(rhythm: Rhythm) -> Grid:
+    """Beats, and the middles between them."""
+    beats = rhythm.beats_s
+    if len(beats) < 2:
+        return Grid(beats, np.ones(len(beats), bool))
+    times = np.empty(2 * len(beats) - 1)
+    times[::2], times[1::2] = beats, 0.5 * (beats[1:] + beats[:-1])
+    return Grid(times, np.arange(len(times)) % 2 == 0)
+
+
+def symbol_scores(grid: Grid, rhythm: Rhythm, candidates: Candidates) -> FloatArray:
+    """(G, S) log odds of what is struck from half way after the place before to half way to the next, in each segment.
+
+    Hits count by their strength; several at a place count no more than the strongest would twice, for they are one
+    moment of the music.
+    """
+    score = np.zeros((len(grid.times_s), len(candidates.states)))
+    if not len(grid.times_s) or not len(rhythm.hits_s):
+        return score
+    edges = 0.5 * (grid.times_s[1:] + grid.times_s[:-1])
+    places = np.searchsorted(edges, rhythm.hits_s, side="right")
+    weights = np.zeros(len(grid.times_s))
+    np.add.at(weights, places, rhythm.strengths)
+    np.add.at(score, places, rhythm.strengths[:, None] * candidates.log_emission[:, rhythm.symbols].T)
+    strongest = np.zeros(len(grid.times_s))
+    np.maximum.at(strongest, places, rhythm.strengths)
+    return np.asarray(
+        score * np.where(weights > 0.0, np.minimum(1.0, 2.0 * strongest / np.maximum(weights, 1e-9)), 0.0)[:, None]
+    )
+
+
+def choose(
+    grid: Grid,
+    scores: FloatArray,
+    candidates: Candidates,
+    *,
+    seed: int,
+    weights: Weights | None = None,
+    wishes: Wishes | None = None,
+    initial: FloatArray | None = None,
+    final: FloatArray | None = None,
+) -> list[tuple[int, int]]:
+    """The best segments for a piece.
+
+    Parameters
+    ----------
+    grid : Grid
+    scores : (G, S) float64
+        See `symbol_scores`.
+    candidates : Candidates
+    seed : int
+    weights : Weights, optional
+    wishes : Wishes, optional
+    initial, final : (S,) float64, optional
+        Log odds of each segment as the first, and as the last.
+
+    Returns
+    -------
+    list of (place, segment)
+        Places ascending. Empty without places or segments.
+    """
+    weights, wishes = weights or Weights(), wishes or Wishes()
+    count, segments = len(grid.times_s), len(candidates.states)
+    if not count or not segments:
+        return []
+    random = np.random.default_rng(seed)
+    search = _Search(grid, scores, candidates, weights, wishes, initial)
+    chosen: list[tuple[int, int]] = []
+    step = 2 * PHRASE_BEATS
+    for first in range(0, count, step):
+        stop = min(count, first + step)
+        # What comes next is looked at too, so that a phrase does not end where nothing goes on.
+        seen = min(count, stop + MOST_STEPS)
+        noise = weights.chance * (random.gumbel(size=segments) + random.gumbel(size=(seen - first, segments)))
+        since_s = grid.times_s[first] - LATELY_S
+        lately = np.zeros(segments)
+        for place, segment in chosen:
+            lately[segment] += grid.times_s[place] >= since_s
+        before = chosen[-1] if chosen and search.reaches(chosen[-1][0], first) else None
+        ends = np.zeros(segments) if final is None or seen < count else weights.model * final
+        found = search.phrase(before, first, seen, noise - weights.lately * lately, ends)
+        chosen += [row for row in found if row[0] < stop or seen == count]
+        if seen == count:
+            break
+    return chosen
+
+
+class _Search:
+    """The search over a grid; what does not depend on the phrase is worked out once."""
+
+    def __init__(
+        self,
+        grid: Grid,
+        scores: FloatArray,
+        candidates: Candidates,
+        weights: Weights,
+        wishes: Wishes,
+        initial: FloatArray | None,
+    ) -> None:
+        self._grid, self._candidates, self._weights, self._wishes = grid, candidates, weights, wishes
+        self._wished = sorted({*wishes.pinned, *wishes.segments})
+        self._forbidden: dict[int, list[int]] = {}
+        for place, state in wishes.forbidden:
+            self._forbidden.setdefault(place, []).append(state)
+        self._scores = weights.model * scores - weights.off_beat * ~grid.on_beat[:, None]
+        self._initial = np.zeros(len(candidates.states)) if initial is None else weights.model * initial
+        base = weights.model * candidates.log_transition - weights.join_per_m * candidates.joins_m
+        np.fill_diagonal(base, NEVER)
+        self._base = base.astype(np.float32)
+        self._lasts_s = candidates.after_s[:, None] + candidates.before_s[None, :]
+        self._between: dict[int, npt.NDArray[np.float32]] = {}
+        self._longest_s = float(self._lasts_s.max()) / SPEEDS[0] if self._lasts_s.size else 0.0
+        self._shortest_s = float(self._lasts_s.min()) / SPEEDS[1] if self._lasts_s.size else 0.0
+
+    def phrase(
+        self, before: tuple[int, int] | None, first: int, stop: int, extra: FloatArray, ends: FloatArray
+    ) -> list[tuple[int, int]]:
+        """The best way through the places ``first`` to ``stop``, going on from an accent before.
+
+        ``extra`` (stop - first, S) is added to the score of each accent, ``ends`` (S,) to that of the last one.
+        """
+        times = self._grid.times_s
+        count = stop - first
+        best = np.full((count, len(self._initial)), float(NEVER) * 10.0)
+        came = np.full((count, len(self._initial), 2), -1, np.int64)
+        scores, every = np.empty_like(self._base), np.arange(len(self._initial))
+        for place in range(first, stop):
+            row = place - first
+            own = self._scores[place] + extra[row] + self._allowed(place)
+            if before is None and row == 0:
+                best[row] = self._initial + own
+            elif before is not None:
+                gap_s = times[place] - times[before[0]]
+                if self._possible(gap_s):
+                    reached = self._moves(gap_s)[:, before[1]] + own
+                    better = reached > best[row]
+                    best[row, better] = reached[better]
+                    came[row, better] = -1
+            for earlier in range(max(first, place - MOST_STEPS), place):
+                gap_s = times[place] - times[earlier]
+                if not self._possible(gap_s) or self._skips(earlier, place):
+                    continue
+                np.add(self._moves(gap_s), best[earlier - first].astype(np.float32), out=scores)
+                from_segment = scores.argmax(axis=1)
+                reached = scores[every, from_segment] + own
+                better = reached > best[row]
+                best[row, better] = reached[better]
+                came[row, better, 0], came[row, better, 1] = earlier, from_segment[better]
+        return self._way_back(best + ends, came, first, stop)
+
+    def reaches(self, place: int, later: int) -> bool:
+        """Whether an accent at a place can be followed by one from ``later`` on."""
+        gaps_s = self._grid.times_s[later : place + MOST_STEPS + 1] - self._grid.times_s[place]
+        return any(self._possible(gap_s) for gap_s in gaps_s)
+
+    def _way_back(self, best: FloatArray, came: IntArray, first: int, stop: int) -> list[tuple[int, int]]:
+        """From the best accent near the end."""
+        reached = best.max(axis=1)
+        # The phrase ends with an accent as late as one can be; a place or two later need not have one.
+        last = max((row for row in range(stop - first) if reached[row] > NEVER / 2.0), default=-1)
+        if last < 0:
+            return []
+        row = max(range(max(0, last - 1), last + 1), key=lambda at: float(reached[at]))
+        segment = int(best[row].argmax())
+        way = [(first + row, segment)]
+        while came[row, segment, 0] >= 0:
+            place, segment = int(came[row, segment, 0]), int(came[row, segment, 1])
+            row = place - first
+            way.append((place, segment))
+        return way[::-1]
+
+    def _allowed(self, place: int) -> FloatArray:
+        """Nothing for the segments that may be at a place, never for the others."""
+        wishes, states = self._wishes, self._candidates.states
+        cost = np.zeros(len(states))
+        if place in wishes.segments:
+            cost[np.arange(len(states)) != wishes.segments[place]] = NEVER / 100.0
+        elif place in wishes.pinned:
+            cost[states != wishes.pinned[place]] = NEVER / 100.0
+        elif place in self._forbidden:
+            cost[np.isin(states, self._forbidden[place])] = NEVER / 100.0
+        return cost
+
+    def _skips(self, earlier: int, place: int) -> bool:
+        """Whether going from one place to the other leaves out one that has to have an accent."""
+        return bisect_right(self._wished, earlier) < bisect_left(self._wished, place)
+
+    def _possible(self, gap_s: float) -> bool:
+        return self._shortest_s <= gap_s <= self._longest_s
+
+    def _moves(self, gap_s: float) -> npt.NDArray[np.float32]:
+        """(S, S) score of going to the one's accent from the other's in a time; times are told apart to one in 50."""
+        key = round(50.0 * float(np.log(gap_s)))
+        if key not in self._between:
+            off = np.log(self._lasts_s / np.exp(key / 50.0))
+            limit = np.log(SPEEDS[1])
+            cost = self._weights.speed * np.square(off / limit)
+            moves = self._base - cost.astype(np.float32)
+            moves[np.abs(off) > limit + 0.02] += np.float32(NEVER)
+            # A row for each end: the search for the best start runs through memory.
+            self._between[key] = np.ascontiguousarray(moves.T)
+        return self._between[key]

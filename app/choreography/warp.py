@@ -1,0 +1,160 @@
+"""A dance goes a little faster or slower here and there, so that it arrives on the beats.
+
+A body arrives where the summed speed of its points has a minimum: where it stops or turns. These are the beats of a
+motion (Li et al., "AI Choreographer: Music Conditioned 3D Dance Generation with AIST++", ICCV 2021), which is why they,
+and not the moments of greatest acceleration, have to meet those of the music. Which arrival is put on which beat is
+found for the whole dance at once, within the limits of speed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import PchipInterpolator
+
+from app.choreography.sequence import SPEEDS, Grid
+
+FloatArray = npt.NDArray[np.float64]
+
+REST_S: Final = 0.4
+"""A dance begins and ends with so much of the motion before and after it, ever slower: it comes out of standing."""
+MOST_S: Final = 0.6
+"""No arrival is moved farther than this."""
+LOOK_BACK: Final = 6
+"""So many arrivals in a row may be left where they are."""
+ARRIVES: Final = 1.0
+ARRIVES_BETWEEN: Final = 0.1
+ANCHOR: Final = 0.05
+"""Worth of an arrival on a beat, of one in the middle between two, and of a segment that stays where it was put."""
+SPEED: Final = 0.2
+"""Cost of going from one to the next at a limit of `SPEEDS`; by the square in between."""
+MOVED: Final = 0.2
+"""Cost of an arrival that is moved by `MOST_S`; by the square for less: what is danced to a sound stays near it."""
+_TOLERANCE: Final = 0.06
+"""Of the limits of speed: what was chosen by rounded times stays possible."""
+_STEP_S: Final = 0.002
+
+
+@dataclass(frozen=True, eq=False)
+class TimeMap:
+    """Which moment of a dance's motions, laid end to end, is seen when; without a kink, never backwards.
+
+    Attributes
+    ----------
+    times_s : (N,) float64
+        In the piece, ascending.
+    along_s : (N,) float64
+        Along the motions as they were captured, ascending.
+    """
+
+    times_s: FloatArray
+    along_s: FloatArray
+
+    @cached_property
+    def _inside(self) -> PchipInterpolator:
+        return PchipInterpolator(self.times_s, self.along_s)
+
+    @cached_property
+    def _samples(self) -> tuple[FloatArray, FloatArray]:
+        count = max(2, int(np.ptp(self.times_s) / _STEP_S))
+        times_s = np.linspace(self.times_s[0], self.times_s[-1], count)
+        return times_s, np.maximum.accumulate(self._inside(times_s))
+
+    def at(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """How far along the motions are at some times, and how fast they go: 1 as captured, 0 at rest."""
+        slope = self._inside.derivative()
+        first_s, last_s = float(self.times_s[0]), float(self.times_s[-1])
+        inside = np.clip(times_s, first_s, last_s)
+        along, speeds = self._inside(inside), slope(inside)
+        early, late = times_s < first_s, times_s > last_s
+        for outside, edge_s, sign in ((early, first_s, 1.0), (late, last_s, -1.0)):
+            left = np.exp(sign * (times_s[outside] - edge_s) / REST_S)
+            along[outside] -= sign * float(slope(edge_s)) * REST_S * (1.0 - left)
+            speeds[outside] = float(slope(edge_s)) * left
+        return along, speeds
+
+    def when(self, along_s: FloatArray) -> FloatArray:
+        """The times at which moments of the motions are seen."""
+        times_s, along = self._samples
+        return np.asarray(np.interp(along_s, along, times_s))
+
+
+def arriving(plain: TimeMap, arrivals: FloatArray, grid: Grid) -> TimeMap:
+    """The map that puts arrivals on beats, where the limits of speed allow it.
+
+    Parameters
+    ----------
+    plain : TimeMap
+        With a knot at each segment's place; its first and last knot are the ends of the dance.
+    arrivals : (A,) float64
+        Along the motions, ascending.
+    grid : Grid
+    """
+    anchors = [
+        (float(along), float(time)) for time, along in zip(plain.times_s[1:-1], plain.along_s[1:-1], strict=True)
+    ]
+    items: list[_Item] = [_Item(along, ((time, ANCHOR),)) for along, time in anchors]
+    for along, time in zip(arrivals.tolist(), plain.when(arrivals).tolist(), strict=True):
+        near = range(*np.searchsorted(grid.times_s, time + np.array([-MOST_S, MOST_S])).tolist())
+        options = []
+        for at in near:
+            place_s = float(grid.times_s[at])
+            moved = MOVED * ((place_s - time) / MOST_S) ** 2
+            options.append((place_s, (ARRIVES if grid.on_beat[at] else ARRIVES_BETWEEN) - moved))
+        items.append(_Item(along, tuple(options)))
+    met = _met(sorted(items, key=lambda item: item.along_s))
+    if not met:
+        return plain
+    (first_s, first_along), (last_s, last_along) = met[0], met[-1]
+    # Before the first and after the last beat that is met it goes as captured.
+    ends = (
+        (first_s - (first_along - plain.along_s[0]), plain.along_s[0]),
+        (last_s + (plain.along_s[-1] - last_along), plain.along_s[-1]),
+    )
+    knots = np.array([ends[0], *met, ends[1]])
+    apart = np.ones(len(knots), bool)
+    apart[0], apart[-1] = first_along - knots[0, 1] > 1e-3, knots[-1, 1] - last_along > 1e-3
+    return TimeMap(knots[apart, 0], knots[apart, 1]) if apart.sum() > 1 else plain
+
+
+@dataclass(frozen=True)
+class _Item:
+    """A moment of the motions, and the times where it may be put, each with its worth."""
+
+    along_s: float
+    options: tuple[tuple[float, float], ...]
+
+
+def _met(items: Sequence[_Item]) -> list[tuple[float, float]]:
+    """Pairs of time and moment, both ascending: the worthiest way through the items, by dynamic programming."""
+    limit = float(np.log(SPEEDS[1]))
+    best: list[list[tuple[float, tuple[int, int] | None]]] = []
+    for at, item in enumerate(items):
+        here: list[tuple[float, tuple[int, int] | None]] = []
+        for time_s, worth in item.options:
+            reached, came = 0.0, None
+            for earlier in range(max(0, at - LOOK_BACK), at):
+                way_s = item.along_s - items[earlier].along_s
+                for number, (before_s, _) in enumerate(items[earlier].options):
+                    if way_s < 1e-3 or time_s - before_s < 1e-3:
+                        continue
+                    off = abs(math.log(way_s / (time_s - before_s))) / limit
+                    value = best[earlier][number][0] - SPEED * off * off
+                    if off <= 1.0 + _TOLERANCE and value > reached:
+                        reached, came = value, (earlier, number)
+            here.append((reached + worth, came))
+        best.append(here)
+    ends = [(value, at, number) for at, here in enumerate(best) for number, (value, _) in enumerate(here)]
+    way: tuple[int, int] | None = max(ends)[1:] if ends else None
+    found: list[tuple[float, float]] = []
+    while way is not None:
+        item, number = items[way[0]], way[1]
+        found.append((item.options[number][0], item.along_s))
+        way = best[way[0]][number][1]
+    return found[::-1]

@@ -1,0 +1,19 @@
+"""A motion of the 16 segments as a BVH file."""
+
+from __future__ import annotations
+
+import os
+
+from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
+from app.choreography.clip import MotionClip
+from app.formats.bvh import write_bvh
+
+
+def write_motion(path: str | os.PathLike[str], clip: MotionClip) -> None:
+    """Write a BVH file of the body's joints, named as the segments, whole or not at all. Raises FileError."""
+    names = list(SEGMENTS)
+    parents = [names.index(parent) if parent in names else -1 for parent in PARENT_OF.values()]
+    ends_cm = {names.index(name): 100.0 * end_m for name, end_m in zip(ENDS, clip.shape.ends_m, strict=True)}
+    write_bvh(
+        path, names, parents, 100.0 * clip.shape.offsets_m, clip.fps, 100.0 * clip.hips_m, clip.rotations, ends_cm
+    )

@@ -1,0 +1,56 @@
+"""What an animation's channels are at given times.
+
+Source: Khronos, "glTF 2.0 Specification", section 3.11 and appendix C (interpolation).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.formats.gltf.model import FloatArray, GltfChannel, IntArray
+
+
+def sampled(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
+    """Values (T, W) of a channel; before its first and after its last key it stands still. Rotations are unit ones."""
+    known = channel.times_s
+    after = np.clip(np.searchsorted(known, times_s, side="right"), 1, max(1, len(known) - 1))
+    before = after - 1
+    after = np.minimum(after, len(known) - 1)
+    length_s = known[after] - known[before]
+    share = np.clip((times_s - known[before]) / np.where(length_s > 0.0, length_s, 1.0), 0.0, 1.0)[:, None]
+    if channel.interpolation == "CUBICSPLINE":
+        found = _spline(channel.values.reshape(len(known), 3, -1), before, after, share, length_s[:, None])
+    elif channel.interpolation == "STEP":
+        found = channel.values[np.where(share[:, 0] < 1.0, before, after)]
+    elif channel.path == "rotation":
+        found = _slerp(channel.values[before], channel.values[after], share)
+    else:
+        found = channel.values[before] * (1.0 - share) + channel.values[after] * share
+    if channel.path != "rotation":
+        return found
+    size = np.linalg.norm(found, axis=1, keepdims=True)
+    return np.where(size > 1e-9, found / np.maximum(size, 1e-9), (0.0, 0.0, 0.0, 1.0))
+
+
+def _spline(keys: FloatArray, before: IntArray, after: IntArray, share: FloatArray, length_s: FloatArray) -> FloatArray:
+    """Hermite's cubic between keys (K, 3, W): tangent on the way in, value, tangent on the way out."""
+    t, t2, t3 = share, share**2, share**3
+    return np.asarray(
+        (2.0 * t3 - 3.0 * t2 + 1.0) * keys[before, 1]
+        + length_s * (t3 - 2.0 * t2 + t) * keys[before, 2]
+        + (3.0 * t2 - 2.0 * t3) * keys[after, 1]
+        + length_s * (t3 - t2) * keys[after, 0]
+    )
+
+
+def _slerp(a: FloatArray, b: FloatArray, share: FloatArray) -> FloatArray:
+    """Between quaternions (T, 4) by the shorter way."""
+    cosine = np.einsum("ti,ti->t", a, b)[:, None]
+    b = np.where(cosine < 0.0, -b, b)
+    angle = np.arccos(np.clip(np.abs(cosine), 0.0, 1.0))
+    sine = np.sin(angle)
+    near = sine < 1e-6
+    safe = np.where(near, 1.0, sine)
+    of_a = np.where(near, 1.0 - share, np.sin((1.0 - share) * angle) / safe)
+    of_b = np.where(near, share, np.sin(share * angle) / safe)
+    return np.asarray(of_a * a + of_b * b)

@@ -1,0 +1,41 @@
+"""Choreographies: learning them from motion and music, dancing them, and their files."""
+
+from __future__ import annotations
+
+from typing import Final
+
+TEMPLATES: Final[dict[str, str]] = {
+    "generate.no_source": "the choreography has no source {source}; --prefer one of {sources}",
+    "choreography.damaged": (
+        "{file} is not a choreography file or is damaged ({place}: {detail}); copy it again from where it is whole, "
+        "or learn it again with 'suisou choreography learn'"
+    ),
+    "choreography.newer": (
+        "{file} was written by a newer version of the program (its file version is {version}, this program knows up "
+        "to {known}); use the newer version"
+    ),
+    "dance.no_percussion": (
+        "the piece has no percussion: dancers take their rhythm from its melody, its bass and its accents"
+    ),
+    "dance.state_not_held": (
+        "basic motion {number} is not danced here although it is pinned: the choreography does not have it, or another "
+        "correction is too near; unpin it or pin another one"
+    ),
+    "dance.segment_not_held": (
+        "segment {number} is not danced here although it is selected: the choreography does not have it, or another "
+        "correction is too near; unpin it or select another one"
+    ),
+    "dance.state_not_avoided": (
+        "basic motion {number} is danced here although it is forbidden: nothing else fits; forbid fewer basic motions, "
+        "or for a shorter time"
+    ),
+    "learn.no_motion": "there is no motion to learn from in {motions}: the body is still, or the clips are too short",
+    "learn.states": "{states} basic motions cannot be learned from {segments} motions; ask for fewer with --states",
+    "learn.no_overlap": (
+        "no percussion of {music} sounds during the motions of {motion}; correct the --offset of this pair, or leave "
+        "it out to have it found"
+    ),
+    "learn.no_percussion": (
+        "{file} has no percussion to learn from (notes on channel 10); pair the motion with a file that has a drum part"
+    ),
+}

@@ -1,0 +1,332 @@
+"""How the dancers of a project move: generated from their choreographies to its music, on their characters.
+
+A dance is generated for the whole performance at once, whatever frames are asked for: where a dancer goes depends on
+everything before. It is made once for each frame rate and kept while nothing changes that it is made from.
+
+Messages: those of `app.choreography.model_file`; ``project.character_missing``; those of
+`app.project.storage.choreography_missing`; and of corrections that a dance does
+not hold, with basic motions and segments counted from 1: ``dance.state_not_held`` (number), ``dance.segment_not_held``
+(number), ``dance.state_not_avoided`` (number).
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from functools import lru_cache
+from threading import Lock
+from typing import Final
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.choreography.derived_rhythm import heard_rhythm
+from app.choreography.generate import Choreographer, Dance, Manner, Step
+from app.choreography.library import choreography_path
+from app.choreography.model_file import read_model
+from app.choreography.retarget import retarget
+from app.choreography.rhythm import Rhythm, delayed
+from app.choreography.sequence import Grid, Wishes, grid_of
+from app.errors import AppError, Cancelled, Message
+from app.identity_cache import IdentityCache
+from app.motion.curve import Envelopes
+from app.motion.model import Motion
+from app.motion.perform import frame_count
+from app.performance.ensemble import Performance
+from app.performance.span import FrameSpan
+from app.plan.model import Problem, TimeFrame
+from app.project.casting import StagePosition, chance
+from app.project.dance_corrections import DanceCorrection, ForbidState, PinState, UseSegment
+from app.project.model import Dancer
+from app.project.storage import choreography_missing
+from app.rig.character_library import character_library, character_named
+from app.rig.model import Character
+from app.score.tempo import TempoMap
+
+FloatArray = npt.NDArray[np.float64]
+
+BLINK_S: Final = (0.08, 0.05, 0.16)
+"""Closing, shut and opening."""
+BLINKS_EVERY_S: Final = (1.8, 6.0)
+
+_DANCING: IdentityCache[Dancing] = IdentityCache(64)
+_RHYTHMS: IdentityCache[Rhythm] = IdentityCache(8)
+_heard: deque[Rhythm] = deque(maxlen=4)
+_heard_lock = Lock()
+
+
+class Dancing:
+    """One dancer's dance to a piece. It is kept for dancers who dance alike: ask the project what they are called and
+    where they stand.
+
+    Parameters
+    ----------
+    dancer : Dancer
+        The seed is the dancer's and the project's together.
+    choreographer : Choreographer
+    rhythm : Rhythm
+        As the dancer hears it.
+    corrections : sequence of DanceCorrection
+    tempo_map : TempoMap
+        Of the piece: when the corrections' ticks are.
+    character : Character
+    time_frame : TimeFrame
+    """
+
+    def __init__(
+        self,
+        dancer: Dancer,
+        choreographer: Choreographer,
+        rhythm: Rhythm,
+        corrections: Sequence[DanceCorrection],
+        tempo_map: TempoMap,
+        character: Character,
+        time_frame: TimeFrame,
+    ) -> None:
+        self.dancer, self.choreographer, self.rhythm, self.character = dancer, choreographer, rhythm, character
+        self.time_frame = time_frame
+        self._corrections, self._tempo_map = corrections, tempo_map
+        self._problems: tuple[Problem, ...] = ()
+        self._made: tuple[Fraction, Dance, Motion] | None = None
+        self._steps: tuple[Step, ...] | None = None
+        self._lock = Lock()
+
+    def steps(self) -> tuple[Step, ...]:
+        """Which segments are danced when, at every frame rate."""
+        with self._lock:
+            if self._steps is None:
+                self._steps = self._made[1].steps if self._made is not None else self._chosen()
+            return self._steps
+
+    def _chosen(self) -> tuple[Step, ...]:
+        wishes = wishes_of(self._corrections, grid_of(self.rhythm), self._tempo_map)
+        return self.choreographer.steps(self.rhythm, self._manner, wishes=wishes)
+
+    @property
+    def _manner(self) -> Manner:
+        return manner_of(self.dancer, len(self.choreographer.model.sources))
+
+    def dance(self, fps: Fraction) -> Dance:
+        """The dance, from the first frame of the performance to its last."""
+        return self._whole(fps)[0]
+
+    def motion(self, fps: Fraction, first: int, count: int) -> Motion:
+        """Some frames of the performance. The same frames are the same bits in every span."""
+        _, whole = self._whole(fps)
+        here = slice(first, first + count)
+        return replace(
+            whole,
+            first_frame_s=whole.first_frame_s + first * fps.denominator / fps.numerator,
+            rotations=whole.rotations[here],
+            hips_m=whole.hips_m[here],
+            morphs={name: weights[here] for name, weights in whole.morphs.items()},
+            instrument_position_m=whole.instrument_position_m[here],
+            instrument_rotation=whole.instrument_rotation[here],
+        )
+
+    def changed_s(self, before: object) -> FloatArray:
+        """Spans (K, 2) in which this is other motion than another: one change may alter all that follows."""
+        frame = self.time_frame
+        return np.zeros((0, 2)) if self is before else np.array([[frame.first_frame_s, frame.end_s]])
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """Corrections that the dance does not hold; none before it is generated."""
+        return self._problems
+
+    def _whole(self, fps: Fraction) -> tuple[Dance, Motion]:
+        with self._lock:
+            if self._made is None or self._made[0] != fps:
+                frame = self.time_frame
+                count = frame_count(frame, fps)
+                grid = grid_of(self.rhythm)
+                dance = self.choreographer.dance(
+                    self.rhythm,
+                    self._manner,
+                    fps,
+                    wishes=wishes_of(self._corrections, grid, self._tempo_map),
+                    first_s=frame.first_frame_s,
+                    # Half a frame less: rounding must not add one.
+                    end_s=frame.first_frame_s + (count - 0.5) * fps.denominator / fps.numerator,
+                )
+                self._problems = not_held(self._corrections, dance.steps, grid, self._tempo_map)
+                motion = retarget(dance.clip, self.character, frame.first_frame_s)
+                times_s = frame.first_frame_s + np.arange(count) * fps.denominator / fps.numerator
+                shut = _blinks(self.dancer, frame).sample(times_s).astype(np.float32)
+                self._made = fps, dance, replace(motion, morphs={"eyeBlinkLeft": shut, "eyeBlinkRight": shut})
+            return self._made[1], self._made[2]
+
+
+def manner_of(dancer: Dancer, sources: int) -> Manner:
+    """How a dancer dances; a source that the choreography does not have is none."""
+    source = dancer.source if 0 <= dancer.source < sources else None
+    return Manner(seed=dancer.seed, source=source, size=dancer.size, mirrored=dancer.mirrored)
+
+
+def choreographer_of(choreography: str) -> Choreographer:
+    """A choreography by name or path, read again when its file is another one. Raises FileError."""
+    path = choreography_path(choreography)
+    try:
+        status = path.stat()
+        version = (status.st_mtime_ns, status.st_size)
+    except OSError:
+        version = (0, 0)
+    return _choreographer(choreography, version)
+
+
+@lru_cache(maxsize=8)
+def _choreographer(choreography: str, version: tuple[int, int]) -> Choreographer:
+    return Choreographer(read_model(choreography_path(choreography)))
+
+
+def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
+    """A dancer's dance; made ready, not generated yet.
+
+    Raises
+    ------
+    AppError
+        The choreography or the character is missing or damaged.
+    """
+    if dancer.character_id not in character_library().sources:
+        raise AppError("project.character_missing", player=dancer.name, id=dancer.character_id)
+    for message in choreography_missing(dancer):
+        raise AppError(message.id, **message.arguments)
+    choreographer, character = choreographer_of(dancer.choreography), character_named(dancer.character_id)
+    project = performance.project
+    # Another seed of the piece is another performance by everyone.
+    dancer = msgspec.structs.replace(dancer, seed=(dancer.seed + project.seed) % 2**63)
+    rhythm = delayed(rhythm_of(performance), dancer.delay_beats) if dancer.delay_beats else rhythm_of(performance)
+    rhythm = _same_rhythm(rhythm)
+    corrections = project.dance_corrections.get(dancer.id, ())
+    frame = _same_frame(performance.time_frame.first_frame_s, performance.time_frame.end_s)
+
+    def made() -> Dancing:
+        return Dancing(dancer, choreographer, rhythm, corrections, project.score.tempo_map, character, frame)
+
+    return _DANCING.get((_same_dancer(dancer), choreographer, rhythm, corrections, character, frame), made)
+
+
+def dancer_motion(
+    performance: Performance,
+    dancer: Dancer,
+    span: FrameSpan,
+    stop_wanted: Callable[[], bool] = lambda: False,
+    progress: Callable[[float], None] = lambda share: None,
+) -> Motion:
+    """One dancer's motion over some frames. Raises AppError as `dancing_of`, and Cancelled."""
+    if stop_wanted():
+        raise Cancelled("work.stopped")
+    motion = dancing_of(performance, dancer).motion(span.fps, span.first, span.count)
+    progress(1.0)
+    return motion
+
+
+def rhythm_of(performance: Performance) -> Rhythm:
+    """What all dancers hear of the piece."""
+    score = performance.project.score
+    return _RHYTHMS.get((score,), lambda: _same_rhythm(heard_rhythm(score)))
+
+
+def wishes_of(corrections: Sequence[DanceCorrection], grid: Grid, tempo_map: TempoMap) -> Wishes:
+    """Corrections, which hold for ticks, on the nearest places of a grid; of several for one place the last counts."""
+    if not len(grid.times_s):
+        return Wishes()
+    pinned, segments, forbidden = dict[int, int](), dict[int, int](), set[tuple[int, int]]()
+    for item in corrections:
+        match item:
+            case PinState():
+                pinned[place_of(item.tick, grid, tempo_map)] = item.state
+            case UseSegment():
+                segments[place_of(item.tick, grid, tempo_map)] = item.segment
+            case ForbidState():
+                forbidden |= {(at, item.state) for at in _places(item, grid, tempo_map)}
+    return Wishes(pinned, segments, frozenset(forbidden))
+
+
+def not_held(
+    corrections: Sequence[DanceCorrection], steps: Sequence[Step], grid: Grid, tempo_map: TempoMap
+) -> tuple[Problem, ...]:
+    """A problem for every correction that these steps do not hold: there is no such basic motion or segment, or other
+    corrections are against it. The corrections stay."""
+    there = {step.place: step for step in steps}
+    wishes = wishes_of(corrections, grid, tempo_map)
+    pinned = {*wishes.pinned, *wishes.segments}
+    found = []
+    for item in corrections:
+        if isinstance(item, ForbidState):
+            places = _places(item, grid, tempo_map)
+            # What is pinned counts.
+            danced = [
+                step for step in steps if step.place in places and step.state == item.state and step.place not in pinned
+            ]
+            if danced:
+                message = Message("dance.state_not_avoided", {"number": item.state + 1})
+                found.append(Problem(message, None, danced[0].start_s, danced[-1].end_s))
+            continue
+        step = there.get(place_of(item.tick, grid, tempo_map)) if len(grid.times_s) else None
+        if isinstance(item, PinState):
+            held = step is not None and step.state == item.state
+            message = Message("dance.state_not_held", {"number": item.state + 1})
+        else:
+            held = step is not None and step.segment == item.segment
+            message = Message("dance.segment_not_held", {"number": item.segment + 1})
+        if not held:
+            time_s = tempo_map.seconds(float(item.tick))
+            found.append(Problem(message, None, time_s, time_s))
+    return tuple(found)
+
+
+def place_of(tick: int, grid: Grid, tempo_map: TempoMap) -> int:
+    """The place of a grid that is nearest to a tick."""
+    return int(np.abs(grid.times_s - tempo_map.seconds(float(tick))).argmin())
+
+
+def _places(item: ForbidState, grid: Grid, tempo_map: TempoMap) -> range:
+    """The places of a grid in a span of ticks."""
+    start_s, end_s = (tempo_map.seconds(float(tick)) for tick in (item.start_tick, item.end_tick))
+    first, stop = np.searchsorted(grid.times_s, (start_s - 1e-6, end_s - 1e-6))
+    return range(int(first), int(stop))
+
+
+def _blinks(dancer: Dancer, frame: TimeFrame) -> Envelopes:
+    rows, number = list[tuple[float, float, float, float, float]](), 0
+    least_s, most_s = BLINKS_EVERY_S
+    time_s = frame.first_frame_s
+    while True:
+        time_s += least_s + (most_s - least_s) * chance("blink", dancer.seed, dancer.id, number) ** 1.5
+        number += 1
+        if time_s >= frame.end_s:
+            return Envelopes.of(rows)
+        shut_s = time_s + BLINK_S[0]
+        rows.append((time_s, shut_s, shut_s + BLINK_S[1], shut_s + BLINK_S[1] + BLINK_S[2], 1.0))
+
+
+@lru_cache(maxsize=64)
+def _same_frame(first_frame_s: float, end_s: float) -> TimeFrame:
+    return TimeFrame(first_frame_s, end_s)
+
+
+def _same_dancer(dancer: Dancer) -> Dancer:
+    """One object for dancers who dance alike, wherever they stand and whatever they are called."""
+    return _interned(msgspec.structs.replace(dancer, name="", colour="", stage=StagePosition(0.0, 0.0, 0.0)))
+
+
+@lru_cache(maxsize=256)
+def _interned(dancer: Dancer) -> Dancer:
+    return dancer
+
+
+def _same_rhythm(rhythm: Rhythm) -> Rhythm:
+    """One object for equal rhythms: an edit of notes seldom changes what dancers hear."""
+    with _heard_lock:
+        for known in _heard:
+            if all(np.array_equal(getattr(known, name), getattr(rhythm, name)) for name in _RHYTHM_FIELDS):
+                return known
+        _heard.append(rhythm)
+        return rhythm
+
+
+_RHYTHM_FIELDS: Final = ("beats_s", "bar_beats", "hits_s", "symbols", "strengths")

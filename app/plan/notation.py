@@ -1,0 +1,167 @@
+"""Where notes that somebody played would stand in a score: a musician decides by that, not by how each turned out."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.line import IntArray, LineTimes, Piece
+from app.plan.model import FloatArray
+
+WRITTEN_SHARE = 0.9
+"""Where so many notes lie on fractions of a quarter, nobody played them into the file ..."""
+PLAYED_LEAST = 4
+"""... nor where fewer than this lie elsewhere."""
+DIVISIONS = ((1,), (2,), (3, 4), (6, 8), (12,))
+"""Divisions of a quarter, the simplest first."""
+NEAREST = 1.0 / 24.0
+"""Quarters within which there is always a place of the finest division."""
+EARLY_OR_LATE_S = 0.025
+"""How far from its place a note begins."""
+EARLY_RELEASE_S = 0.08
+"""How much sooner than written a note ends ..."""
+RELEASE_SHARE = 0.1
+"""... or which part of the time to the next onset, if that is more, ..."""
+RELEASE_NOTE_SHARE = 0.5
+"""... but no more than this part of what sounds of it, ..."""
+LATE_RELEASE = 0.05
+"""... and how much later, in quarters."""
+STEADY_QUARTERS = 24
+"""The tempo of the score is the median of so many quarters before and after: a shorter ritardando is none."""
+PLACES = 48
+"""Places of a quarter that are told apart, however finely a file counts."""
+SHORTEST_REST = 0.2
+"""Quarters of silence below which no score writes a rest."""
+
+
+def written_onsets(
+    onsets: IntArray, quarter_ticks: int, bars: IntArray, reach_ticks: IntArray | None = None
+) -> IntArray:
+    """(N,): where notes that somebody played would stand in a score.
+
+    Onsets that mostly lie on fractions of a quarter are written ones, and are kept as they are.
+
+    Parameters
+    ----------
+    onsets : (N,) int64
+    quarter_ticks : int
+    bars : (B,) int64
+        Where bars begin: places are counted from there.
+    reach_ticks : (N,) int64, optional
+        How far from its place each may lie, beside `NEAREST`.
+    """
+    if are_written(onsets, quarter_ticks):
+        return onsets
+    least = quarter_ticks * NEAREST
+    reach = np.maximum(least, 0.0 if reach_ticks is None else reach_ticks)
+    begins = bar_starts(onsets, bars)
+    since = onsets - begins
+    return begins + simplest_places(since - reach, since + reach, since, quarter_ticks)
+
+
+def bar_starts(ticks: IntArray, bars: IntArray) -> IntArray:
+    """(N,): where the bar of each time begins; the first bar's begin before it, 0 without bars."""
+    if not len(bars):
+        return np.zeros_like(ticks)
+    return np.asarray(bars[np.maximum(np.searchsorted(bars, ticks, side="right") - 1, 0)])
+
+
+def are_written(ticks: IntArray, quarter_ticks: int) -> bool:
+    """Whether times lie where a score has them, a few aside."""
+    elsewhere = np.count_nonzero(ticks * 24 % quarter_ticks)
+    return bool(elsewhere < max(PLAYED_LEAST, (1.0 - WRITTEN_SHARE) * len(ticks) + 1e-6))
+
+
+def notated(times: LineTimes, piece: Piece) -> LineTimes:
+    """The line as a score would have it.
+
+    Onsets stand at the simplest places near. Where the ends were played, a note lasts until the next onset if it may
+    have been released early, and otherwise to the simplest place where a rest may begin.
+    """
+    clock, quarter = piece.clock, piece.clock.ticks_per_quarter
+    end_tick = times.played_end_tick
+    ends_are_written = are_written(end_tick, quarter)
+    if ends_are_written and are_written(times.onset_tick, quarter):
+        return times
+    steps = np.diff(times.onset_tick)
+    shortest = np.minimum(np.append(steps, quarter), np.insert(steps, 0, quarter))
+    near = np.rint(clock.ticks(times.onset_s + EARLY_OR_LATE_S)).astype(np.int64) - times.onset_tick
+    bars = piece.bars(int(times.onset_tick[0]), int(end_tick[-1]) + 1)
+    onset = written_onsets(times.onset_tick, quarter, bars, np.minimum(near, np.minimum(shortest, quarter) // 4))
+    following, end = onset[1:], end_tick[:-1]
+    if ends_are_written:
+        written = np.minimum(end, following)
+    else:
+        early = np.rint(clock.ticks(times.played_end_s[:-1] + EARLY_RELEASE_S)).astype(np.int64) - end
+        sounding = RELEASE_NOTE_SHARE * (end - times.onset_tick[:-1])
+        latest = end + np.minimum(np.maximum(early, RELEASE_SHARE * np.diff(onset)), sounding)
+        begins = bar_starts(end, bars)
+        since = end - begins
+        rest_from = begins + simplest_places(since - LATE_RELEASE * quarter, latest - begins, since, quarter)
+        shortest_rest = round(SHORTEST_REST * quarter)
+        is_rest = (latest < following) & (following - end >= shortest_rest)
+        written = np.where(is_rest, np.minimum(rest_from, following - shortest_rest), following)
+    written = np.maximum(written, onset[:-1])
+    last = int(end_tick[-1] - times.onset_tick[-1])
+    if not ends_are_written:
+        last = max(int(np.ceil(2 * (last / quarter - LATE_RELEASE)) * quarter // 2), 1)
+    ends = np.append(written, onset[-1] + last)
+    return dataclasses.replace(
+        times,
+        onset_tick=onset,
+        played_end_tick=ends,
+        silence_tick=np.append(times.silence_tick[:1], following - written),
+        onset_s=clock.seconds(onset.astype(np.float64)),
+        played_end_s=clock.seconds(ends.astype(np.float64)),
+    )
+
+
+def at_score_tempo(times: LineTimes, piece: Piece) -> LineTimes:
+    """The line without ritardandi and other short changes of tempo: they do not change where a musician breathes."""
+    quarter = piece.clock.ticks_per_quarter
+    grid = np.arange(times.onset_tick[0] // quarter, -(-int(times.played_end_tick[-1]) // quarter) + 1) * quarter
+    seconds = piece.clock.seconds(grid.astype(np.float64))
+    lasts_s = np.diff(seconds)
+    if np.ptp(lasts_s) < 1e-6:
+        return times
+    around = np.pad(lasts_s, STEADY_QUARTERS, mode="reflect" if len(lasts_s) > STEADY_QUARTERS else "edge")
+    steady_s = np.median(np.lib.stride_tricks.sliding_window_view(around, 2 * STEADY_QUARTERS + 1), axis=1)
+    at_s = seconds[0] + np.concatenate(([0.0], np.cumsum(steady_s)))
+    return dataclasses.replace(
+        times,
+        onset_s=np.interp(times.onset_tick, grid, at_s),
+        played_end_s=np.interp(times.played_end_tick, grid, at_s),
+    )
+
+
+def simplest_places(
+    first: npt.NDArray[np.floating] | IntArray,
+    last: npt.NDArray[np.floating] | IntArray,
+    near: npt.NDArray[np.floating] | IntArray,
+    quarter_ticks: int,
+) -> IntArray:
+    """(N,): of the places between ``first`` and ``last`` those of the simplest division, and of these the nearest.
+
+    Parameters
+    ----------
+    first, last, near : (N,)
+        Ticks; where no division has a place between, the nearest one of the finest is taken.
+    quarter_ticks : int
+    """
+    at: FloatArray = np.asarray(near, np.float64) / quarter_ticks
+    low, high = first / quarter_ticks - 1e-9, last / quarter_ticks + 1e-9
+    finest = DIVISIONS[-1][0]
+    result = np.rint(at * finest) / finest
+    found = np.zeros(len(at), dtype=bool)
+    for level in DIVISIONS:
+        best, distance = result, np.full(len(at), np.inf)
+        for division in level:
+            place = np.clip(np.rint(at * division), np.ceil(low * division), np.floor(high * division)) / division
+            off = np.where((place >= low) & (place <= high), np.abs(place - at), np.inf)
+            best, distance = np.where(off < distance, place, best), np.minimum(off, distance)
+        here = ~found & np.isfinite(distance)
+        result = np.where(here, best, result)
+        found |= here
+    return np.asarray(np.rint(result * quarter_ticks), np.int64)

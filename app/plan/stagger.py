@@ -1,0 +1,199 @@
+"""Players in unison or in octaves breathe one after another: not before the same notes, and within held notes too.
+
+Messages
+--------
+breath.staggered(air_s, lung_s): "A breath within a note that others of the line hold on: it takes {air_s} s of air, and
+    there are {lung_s}."
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from app.errors import Message
+from app.plan.corrections import WITHIN
+from app.plan.line import LineTimes, Piece
+from app.plan.model import BreathEvent, FloatArray, Note
+from app.plan.notation import PLACES, notated
+
+UNISON_NOTES = 4
+"""So many notes in a row that others have too are a unison; fewer may meet by chance."""
+HELD_S = 5.0
+"""Shorter notes are not breathed in."""
+ABOUT = 0.8
+"""Who holds a note for this part of its length holds it on while another breathes."""
+HELD_SHARE = 0.75
+"""Part of the lungs that a player spends on one note."""
+BREATH_S = 0.4
+APART_S = 2.0
+"""Breaths of a section that are this far apart are not noticed."""
+FROM_EDGES_S = 1.0
+"""Nobody breathes so soon after a held note begins, or before it ends."""
+TRIED = 17
+"""Times that are compared for each breath."""
+
+Place: TypeAlias = tuple[int, int]
+"""Where a note stands (`PLACES` a quarter), and its pitch class."""
+
+
+class SharedLine(NamedTuple):
+    """What others who play the same need to know of a line.
+
+    Attributes
+    ----------
+    places : tuple of Place
+        Of its notes.
+    known : frozenset of Place
+        The same without order.
+    held_s : tuple of (int, float)
+        Notes that last at least `HELD_S`, and how long.
+    """
+
+    places: tuple[Place, ...]
+    known: frozenset[Place]
+    held_s: tuple[tuple[int, float], ...]
+
+    def holds(self, place: Place, length_s: float) -> bool:
+        """Whether a note of this length is held here about as long."""
+        return place in self.known and any(
+            self.places[index] == place and own_s >= ABOUT * length_s for index, own_s in self.held_s
+        )
+
+
+class Breathed(NamedTuple):
+    """Where a player of a line breathes: catch breaths by the place of the note after, others within held notes."""
+
+    line: SharedLine
+    caught: frozenset[Place]
+    within: tuple[tuple[Place, float], ...]
+
+
+class Shared(NamedTuple):
+    """What a player's breaths keep clear of.
+
+    Attributes
+    ----------
+    caught : frozenset of int
+        Notes before which others of the unison take catch breaths.
+    held : tuple of (int, tuple of float)
+        Held notes that others hold too, with the times (seconds) at which those breathe in them.
+    """
+
+    caught: frozenset[int] = frozenset()
+    held: tuple[tuple[int, tuple[float, ...]], ...] = ()
+
+
+ALONE = Shared()
+
+
+def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
+    """The places of a line's notes, as a score would have them."""
+    if not len(times.onset_tick):
+        return SharedLine((), frozenset(), ())
+    quarter = piece.clock.ticks_per_quarter
+    onsets = np.rint(notated(times, piece).onset_tick * PLACES / quarter).astype(np.int64)
+    places = tuple(zip(onsets.tolist(), (times.pitch % 12).tolist(), strict=True))
+    held_s = tuple(
+        (index, float(times.duration_s[index])) for index in np.flatnonzero(times.duration_s >= HELD_S).tolist()
+    )
+    return SharedLine(places, frozenset(places), held_s)
+
+
+def shared_with(line: SharedLine, others: Sequence[SharedLine], breathed: Sequence[Breathed]) -> Shared:
+    """What a player must keep clear of.
+
+    Parameters
+    ----------
+    line : SharedLine
+    others : sequence of SharedLine
+        Of all other players.
+    breathed : sequence of Breathed
+        Of those whose breaths are placed already.
+    """
+    caught: set[int] = set()
+    for other in breathed:
+        met = other.caught & line.known
+        if met:
+            caught.update(
+                index for index, place in enumerate(line.places) if place in met and _in_unison(line, other.line, index)
+            )
+    held = []
+    for index, length_s in line.held_s:
+        place = line.places[index]
+        if any(other.holds(place, length_s) for other in others):
+            taken = (at_s for other in breathed for own, at_s in other.within if own == place)
+            held.append((index, tuple(sorted(taken))))
+    return Shared(frozenset(caught), tuple(held))
+
+
+def _in_unison(line: SharedLine, other: SharedLine, index: int) -> bool:
+    least, count = min(UNISON_NOTES, len(line.places), len(other.places)), 1
+    for step in (-1, 1):
+        place = index + step
+        while count < least and 0 <= place < len(line.places) and line.places[place] in other.known:
+            count, place = count + 1, place + step
+    return count >= least
+
+
+def within_held(
+    notes: Sequence[Note], times: LineTimes, piece: Piece, used: FloatArray, lung_s: float, shared: Shared
+) -> tuple[BreathEvent, ...]:
+    """A breath within each note that takes most of a player's air or more, as far as others hold it on.
+
+    Parameters
+    ----------
+    used : (N + 1,) float
+        `app.plan.lungs.air_used_s`.
+    lung_s : float
+    """
+    events = []
+    for index, others_s in shared.held:
+        air_s = float(used[index + 1] - used[index])
+        if air_s <= HELD_SHARE * lung_s:
+            continue
+        first_s, last_s = float(times.onset_s[index]), float(times.played_end_s[index])
+        middle_s = (first_s + last_s) / 2.0
+        tried = np.linspace(first_s + FROM_EDGES_S, last_s - FROM_EDGES_S - BREATH_S, TRIED)
+        apart = np.min(np.abs(tried[:, None] - np.array([*others_s, math.inf])), axis=1)
+        start_s = float(tried[np.lexsort((np.abs(tried - middle_s), -np.minimum(apart, APART_S)))[0]])
+        reason = Message("breath.staggered", {"air_s": round(air_s, 2), "lung_s": round(lung_s, 2)})
+        events.append(
+            BreathEvent(
+                id=f"{WITHIN}:{notes[index].id}",
+                kind="breath",
+                start_tick=round(piece.clock.ticks(start_s)),
+                end_tick=round(piece.clock.ticks(start_s + BREATH_S)),
+                start_s=start_s,
+                end_s=start_s + BREATH_S,
+                depth=1.0,
+                reason=reason,
+            )
+        )
+    return tuple(events)
+
+
+def breathed_of(
+    line: SharedLine, notes: Sequence[Note], caught: frozenset[str], events: Sequence[BreathEvent]
+) -> Breathed:
+    """Where a player breathes, for those who play the same.
+
+    Parameters
+    ----------
+    caught : frozenset of str
+        Notes before which a catch breath is taken.
+    events : sequence of BreathEvent
+        All breaths of the player.
+    """
+    within = {event.id.split(":", 1)[1]: event.start_s for event in events if event.id.startswith(f"{WITHIN}:")}
+    if not caught and not within:
+        return Breathed(line, frozenset(), ())
+    rows = list(zip(notes, line.places, strict=True))
+    return Breathed(
+        line,
+        frozenset(place for note, place in rows if note.id in caught),
+        tuple((place, within[note.id]) for note, place in rows if note.id in within),
+    )

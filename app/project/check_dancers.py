@@ -1,0 +1,58 @@
+"""What makes dancers and the corrections of their dances sound."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from app.choreography.library import is_choreography
+from app.choreography.model_file import SUFFIX
+from app.project import limits
+from app.project.dance_corrections import DanceCorrection, ForbidState, PinState
+from app.project.fault import Fault, about, between, id_faults, look_faults, text_faults, unique
+from app.project.model import Dancer, Project
+
+
+def dancer_faults(project: Project) -> Iterator[Fault]:
+    """Everything that is wrong with dancers, one by one as it is found."""
+    dancers, players = project.dancers, project.players
+    if len(dancers) > limits.MOST_DANCERS:
+        yield "dancers", f"at most {limits.MOST_DANCERS}"
+    yield from unique("dancers", (dancer.id for dancer in dancers), taken=(player.id for player in players))
+    names = (dancer.name.casefold() for dancer in dancers)
+    yield from unique("dancers", names, "name", taken=(player.name.casefold() for player in players))
+    for index, dancer in enumerate(dancers):
+        yield from about(dancer, _one_dancer_faults(dancer, f"dancers[{index}]"))
+    known = {dancer.id: dancer for dancer in dancers}
+    for id, corrections in project.dance_corrections.items():
+        if id not in known:
+            yield f"dance_corrections[{id!r}]", "there is no dancer of this id"
+        for index, correction in enumerate(corrections):
+            found = _dance_correction_faults(correction, f"dance_corrections[{id!r}][{index}]")
+            yield from about(known.get(id), found)
+
+
+def _one_dancer_faults(dancer: Dancer, place: str) -> Iterator[Fault]:
+    yield from id_faults(f"{place}.id", dancer.id)
+    yield from id_faults(f"{place}.character_id", dancer.character_id)
+    yield from text_faults(f"{place}.name", dancer.name)
+    yield from text_faults(f"{place}.choreography", dancer.choreography)
+    if not is_choreography(dancer.choreography):
+        yield f"{place}.choreography", f"must be the path of a {SUFFIX} file or the name of a bundled choreography"
+    yield from look_faults(dancer, place)
+    yield from between(f"{place}.seed", dancer.seed, limits.SEED)
+    yield from between(f"{place}.delay_beats", dancer.delay_beats, limits.DELAY_BEATS)
+    yield from between(f"{place}.source", dancer.source, (-1, limits.CHOREOGRAPHY_INDEX[1]))
+    yield from between(f"{place}.size", dancer.size, limits.DANCE_SIZE)
+
+
+def _dance_correction_faults(correction: DanceCorrection, place: str) -> Iterator[Fault]:
+    ticks = (-limits.LAST_TICK, limits.LAST_TICK)
+    if isinstance(correction, ForbidState):
+        yield from between(f"{place}.start_tick", correction.start_tick, ticks)
+        yield from between(f"{place}.end_tick", correction.end_tick, (correction.start_tick + 1, limits.LAST_TICK))
+    else:
+        yield from between(f"{place}.tick", correction.tick, ticks)
+    if isinstance(correction, PinState | ForbidState):
+        yield from between(f"{place}.state", correction.state, limits.CHOREOGRAPHY_INDEX)
+    else:
+        yield from between(f"{place}.segment", correction.segment, limits.CHOREOGRAPHY_INDEX)

@@ -1,0 +1,50 @@
+"""What an animator corrected of a dance, in musical time: generating the dance again solves around it."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import msgspec
+
+
+class _Correction(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_field="correction"):
+    pass
+
+
+class PinState(_Correction, frozen=True, tag="pin_state"):
+    """Dance this basic motion at this tick.
+
+    Attributes
+    ----------
+    tick : int
+    state : int
+        Index of the choreography's basic motion.
+    """
+
+    tick: int
+    state: int
+
+
+class ForbidState(_Correction, frozen=True, tag="forbid_state"):
+    """Do not dance this basic motion from one tick to another (half-open)."""
+
+    start_tick: int
+    end_tick: int
+    state: int
+
+
+class UseSegment(_Correction, frozen=True, tag="use_segment"):
+    """Dance this segment of the learned motion at this tick, and so its basic motion.
+
+    Attributes
+    ----------
+    tick : int
+    segment : int
+        Index of the choreography's segment.
+    """
+
+    tick: int
+    segment: int
+
+
+DanceCorrection: TypeAlias = PinState | ForbidState | UseSegment

@@ -1,0 +1,225 @@
+"""Edits of dancers: who dances, what, where and how.
+
+Messages
+--------
+player.no_name(): a name must have at least one sign that can be seen.
+dancer.too_many(most): a project has no room for more dancers.
+dancer.no_choreography(file): this is neither a choreography file nor a bundled choreography.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Final
+
+import msgspec
+
+from app.choreography.library import is_bundled_name, is_choreography
+from app.encoding import shown
+from app.errors import AppError
+from app.project import limits
+from app.project.casting import DANCER_ROOM_M, ELBOW_M, StagePosition
+from app.project.edit.players import free_name, instrument_of
+from app.project.footprint import footprint
+from app.project.ids import fresh_dancer_ids
+from app.project.model import Dancer, Project
+from app.project.names import clean_name
+from app.rig.character_library import bundled_characters
+
+MOST_IN_ROW: Final = 5
+BOUNDS: Final[Mapping[str, limits.Bounds]] = {
+    "seed": limits.SEED,
+    "delay_beats": limits.DELAY_BEATS,
+    "source": (-1, limits.CHOREOGRAPHY_INDEX[1]),
+    "size": limits.DANCE_SIZE,
+}
+"""Lowest and highest value of the numbers of a dancer."""
+
+
+def add_dancer(
+    project: Project, choreography: str | os.PathLike[str], name: str, character_id: str | None = None
+) -> tuple[Project, str]:
+    """Add a dancer at a free place in front of the players; the dancer's id comes with the project.
+
+    Parameters
+    ----------
+    choreography : str or path
+        A ``.choreography`` file, or the name of a bundled choreography.
+    name : str
+        Gets a number where another performer carries it.
+    character_id : str, optional
+        By default the bundled character that is seen least often.
+
+    Raises
+    ------
+    AppError
+        ``player.no_name``, ``dancer.too_many``, ``dancer.no_choreography``.
+    """
+    [dancer_id] = fresh_dancer_ids(project)
+    dancer = Dancer(
+        id=dancer_id,
+        name=free_name(_visible(name), project.performer_names()),
+        choreography=_choreography(choreography),
+        character_id=_seldom_seen(project) if character_id is None else character_id,
+        stage=StagePosition(0.0, 0.0, 0.0),
+    )
+    return _with_more(project, [dancer]), dancer_id
+
+
+def remove_dancers(project: Project, dancer_ids: Collection[str]) -> Project:
+    """Send dancers away, with their corrections."""
+    kept = tuple(dancer for dancer in project.dancers if dancer.id not in dancer_ids)
+    if len(kept) == len(project.dancers):
+        return project
+    corrections = {id: items for id, items in project.dance_corrections.items() if id not in dancer_ids}
+    return replace(project, dancers=kept, dance_corrections=corrections)
+
+
+def duplicate_dancers(project: Project, dancer_ids: Collection[str]) -> tuple[Project, tuple[str, ...]]:
+    """Let others dance the same, with the same corrections and the same seed, so in unison; their ids come with the
+    project. Each is listed behind the one they double."""
+    originals = [dancer for dancer in project.dancers if dancer.id in dancer_ids]
+    new_ids = fresh_dancer_ids(project, len(originals))
+    names = project.performer_names()
+    copies: dict[str, Dancer] = {}
+    corrections = dict(project.dance_corrections)
+    for dancer, new_id in zip(originals, new_ids, strict=True):
+        names.append(free_name(dancer.name, names))
+        copies[dancer.id] = msgspec.structs.replace(dancer, id=new_id, name=names[-1], colour="")
+        if dancer.id in corrections:
+            corrections[new_id] = corrections[dancer.id]
+    result = _with_more(replace(project, dance_corrections=corrections), list(copies.values()))
+    order: list[Dancer] = []
+    for dancer in project.dancers:
+        order.append(result.dancer(dancer.id))
+        if dancer.id in copies:
+            order.append(result.dancer(copies[dancer.id].id))
+    return _with_dancers(result, order), new_ids
+
+
+def rename_dancer(project: Project, dancer_id: str, name: str) -> Project:
+    """Call a dancer something else; a name that another performer carries gets a number. Raises AppError
+    ``player.no_name``."""
+    called = free_name(_visible(name), project.performer_names(but=dancer_id))
+    return _changed(project, (dancer_id,), {"name": called})
+
+
+def change_dancers(project: Project, dancer_ids: Collection[str], **fields: Any) -> Project:
+    """Set fields of `Dancer` (``character_id``, ``delay_beats``, ``mirrored`` ...) for several dancers; numbers are
+    held within their bounds. See `rename_dancer`, `set_choreography` and `place_dancers` for the others."""
+    return _changed(project, dancer_ids, {name: _held(name, value) for name, value in fields.items()})
+
+
+def set_choreography(project: Project, dancer_ids: Collection[str], choreography: str | os.PathLike[str]) -> Project:
+    """Let dancers dance another choreography. Corrections stay: their basic motions and segments are then those of its
+    list. Raises AppError ``dancer.no_choreography``."""
+    return _changed(project, dancer_ids, {"choreography": _choreography(choreography)})
+
+
+def place_dancers(project: Project, places: Mapping[str, StagePosition]) -> Project:
+    """Put dancers, by id, somewhere on the stage."""
+    return _with_dancers(
+        project,
+        (msgspec.structs.replace(dancer, stage=places.get(dancer.id, dancer.stage)) for dancer in project.dancers),
+    )
+
+
+def move_dancers(project: Project, dancer_ids: Collection[str], before: int) -> Project:
+    """Put dancers, in their order, before the one who has the number ``before`` now; nobody moves on the stage."""
+    carried = [dancer for dancer in project.dancers if dancer.id in dancer_ids]
+    ahead = [dancer for dancer in project.dancers[:before] if dancer.id not in dancer_ids]
+    behind = [dancer for dancer in project.dancers[before:] if dancer.id not in dancer_ids]
+    return _with_dancers(project, [*ahead, *carried, *behind])
+
+
+def free_places(project: Project, count: int) -> tuple[StagePosition, ...]:
+    """Places in front of the players for so many more dancers, facing the audience: rows, filled from the middle, in
+    which nobody stands yet."""
+    taken = [dancer.stage for dancer in project.dancers]
+    found: list[StagePosition] = []
+    places = _rows(_front_m(project))
+    while len(found) < count:
+        place = next(places)
+        if all(math.hypot(place.x_m - one.x_m, place.z_m - one.z_m) > DANCER_ROOM_M - 1e-6 for one in taken):
+            found.append(place)
+    return tuple(found)
+
+
+def _front_m(project: Project) -> float:
+    """How near to the audience the first row is: no player's instrument reaches a dancer."""
+    reaches_m = (
+        player.stage.z_m + max(room.left_m, room.right_m, room.ahead_m, ELBOW_M)
+        for player in project.players
+        for room in [footprint(instrument_of(player))]
+    )
+    return round(max((reach_m + DANCER_ROOM_M for reach_m in reaches_m), default=0.0), 3)
+
+
+def _rows(front_m: float) -> Iterator[StagePosition]:
+    """Places row by row towards the audience, from the middle: 0, to the right, to the left and so on. Where the stage
+    ends they go on in its last row."""
+    row = 0
+    while True:
+        z_m = min(front_m + row * DANCER_ROOM_M, limits.STAGE_M[1])
+        wide = z_m == limits.STAGE_M[1]
+        for place in range(int(limits.STAGE_M[1] / DANCER_ROOM_M) if wide else MOST_IN_ROW):
+            x_m = (place + 1) // 2 * DANCER_ROOM_M * (1.0 if place % 2 else -1.0)
+            yield StagePosition(round(x_m, 3) + 0.0, round(z_m, 3), 0.0)
+        row += 1
+
+
+def _with_more(project: Project, dancers: Sequence[Dancer]) -> Project:
+    if len(project.dancers) + len(dancers) > limits.MOST_DANCERS:
+        raise AppError("dancer.too_many", most=limits.MOST_DANCERS)
+    places = free_places(project, len(dancers))
+    placed = (msgspec.structs.replace(dancer, stage=place) for dancer, place in zip(dancers, places, strict=True))
+    return _with_dancers(project, (*project.dancers, *placed))
+
+
+def _with_dancers(project: Project, dancers: Iterable[Dancer]) -> Project:
+    new = tuple(dancers)
+    return project if new == project.dancers else replace(project, dancers=new)
+
+
+def _changed(project: Project, dancer_ids: Collection[str], fields: Mapping[str, Any]) -> Project:
+    return _with_dancers(
+        project,
+        (
+            msgspec.structs.replace(dancer, **fields) if dancer.id in dancer_ids else dancer
+            for dancer in project.dancers
+        ),
+    )
+
+
+def _visible(name: str) -> str:
+    called = clean_name(name)[: limits.MOST_NAME]
+    if not called:
+        raise AppError("player.no_name")
+    return called
+
+
+def _choreography(choreography: str | os.PathLike[str]) -> str:
+    text = os.fspath(choreography)
+    if is_bundled_name(text):
+        return text
+    path = os.path.abspath(text)  # noqa: PTH100 - a symbolic link is what the user chose
+    if not is_choreography(path) or len(path) > limits.MOST_TEXT:
+        raise AppError("dancer.no_choreography", file=shown(text))
+    return path
+
+
+def _seldom_seen(project: Project) -> str:
+    seen = Counter(player.character_id for player in project.players)
+    seen.update(dancer.character_id for dancer in project.dancers)
+    return min(bundled_characters(), key=lambda id: seen[id])
+
+
+def _held(name: str, value: Any) -> Any:
+    if name not in BOUNDS:
+        return value
+    low, high = BOUNDS[name]
+    return type(value)(min(max(value, low), high))

@@ -1,0 +1,84 @@
+"""A fault of a project, and what is checked of values of any kind: bounds, order, lengths and uniqueness."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
+from typing import Final, TypeAlias
+
+from app.errors import shortened
+from app.project import limits
+from app.project.model import Dancer, Player
+
+Fault: TypeAlias = tuple[str, str]
+"""The key path, and what is wrong there."""
+
+COLOUR: Final = re.compile(r"#[0-9a-fA-F]{6}", re.ASCII)
+MOST_NAME: Final = 60
+"""Characters of a performer's name in a message."""
+
+
+def about(performer: Player | Dancer | None, found: Iterable[Fault]) -> Iterator[Fault]:
+    """Faults that concern one performer, who is named: a number in a list says little to a reader."""
+    who = "dancer" if isinstance(performer, Dancer) else "player"
+    for place, detail in found:
+        yield place, detail if performer is None else f"{detail} ({who} {shortened(performer.name, MOST_NAME)!r})"
+
+
+def within(prefix: str, found: Iterable[Fault]) -> Iterator[Fault]:
+    """Faults of what lies at a key."""
+    for place, detail in found:
+        yield f"{prefix}.{place}", detail
+
+
+def between(place: str, value: float, bounds: limits.Bounds) -> Iterator[Fault]:
+    """A number outside its bounds."""
+    # Also not where it is no number at all, or a whole one that no float can hold.
+    if not bounds[0] <= value <= bounds[1]:
+        yield place, f"must be from {bounds[0]:.15g} to {bounds[1]:.15g}"
+
+
+def in_order(place: str, ticks: Sequence[int]) -> Iterator[Fault]:
+    """Ticks that do not begin with 0 and ascend."""
+    if not ticks:
+        yield place, "must not be empty"
+        return
+    if ticks[0] != 0:
+        yield f"{place}[0].tick", "must be 0"
+    for index, (tick, following) in enumerate(pairwise(ticks), 1):
+        if following <= tick:
+            yield f"{place}[{index}].tick", "ticks must ascend"
+            return
+    if ticks[-1] > limits.LAST_TICK:
+        yield f"{place}[{len(ticks) - 1}].tick", f"must be at most {limits.LAST_TICK}"
+
+
+def unique(place: str, values: Iterable[str], field: str = "id", taken: Iterable[str] = ()) -> Iterator[Fault]:
+    """Values of a list that appear twice, or are ``taken`` elsewhere."""
+    seen = set(taken)
+    for index, value in enumerate(values):
+        if value in seen:
+            yield f"{place}[{index}].{field}", f"{value!r} appears twice"
+        seen.add(value)
+
+
+def text_faults(place: str, value: str) -> Iterator[Fault]:
+    """A text that is too long."""
+    if len(value) > limits.MOST_TEXT:
+        yield place, f"at most {limits.MOST_TEXT} characters"
+
+
+def id_faults(place: str, value: str) -> Iterator[Fault]:
+    """An id that is empty or too long."""
+    if not 0 < len(value) <= limits.MOST_ID:
+        yield place, f"must have from 1 to {limits.MOST_ID} characters"
+
+
+def look_faults(performer: Player | Dancer, place: str) -> Iterator[Fault]:
+    """Of where a performer is on the stage, and of the colour."""
+    if performer.colour and not COLOUR.fullmatch(performer.colour):
+        yield f"{place}.colour", 'must be empty or like "#3366cc"'
+    yield from between(f"{place}.stage.x_m", performer.stage.x_m, limits.STAGE_M)
+    yield from between(f"{place}.stage.z_m", performer.stage.z_m, limits.STAGE_M)
+    yield from between(f"{place}.stage.turn_rad", performer.stage.turn_rad, limits.TURN_RAD)

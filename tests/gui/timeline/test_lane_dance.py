@@ -1,0 +1,179 @@
+"""The lane of dances by mouse and keys, judged by the project and by what is danced then."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import msgspec
+import pytest
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QAction
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QMenu
+from pytestqt.qtbot import QtBot
+
+from app.choreography.model_file import write_model
+from app.errors import Message
+from app.performance.dancers import dancing_of
+from app.project.casting import StagePosition
+from app.project.dance_corrections import ForbidState, PinState, UseSegment
+from app.project.edit.dancers import set_choreography
+from app.project.grid import Grid
+from app.project.model import Dancer, Project
+from app.score.model import Note
+from tests.gui.timeline.conftest import TPQ, scale_project
+from tests.gui.timeline.lane_hands import click, planned
+from tests.support.dances import model
+from tests.support.tasks import ImmediateTasks
+from tests.support.windows import show_in_front
+from widgets.common.session import Session
+from widgets.timeline.lanes.dance import DanceLane
+from widgets.timeline.panel import TimelinePanel
+
+MARY, NINA = "dancer:1", "dancer:2"
+
+
+def danced_project(folder: Path) -> Project:
+    """Eight bars of quarters, and two dancers."""
+    path = folder / "steps.choreography"
+    write_model(path, model())
+    project = scale_project()
+    notes = tuple(Note(f"1:{number}", TPQ * number, TPQ - 40, 60, 80) for number in range(32))
+    parts = (msgspec.structs.replace(project.score.parts[0], notes=notes), *project.score.parts[1:])
+    dancers = tuple(
+        Dancer(id, name, str(path), "woman_adult", StagePosition(0.0, 2.0, 0.0), seed=seed)
+        for id, name, seed in ((MARY, "Mary", 3), (NINA, "Nina", 8))
+    )
+    return replace(project, score=msgspec.structs.replace(project.score, parts=parts), dancers=dancers)
+
+
+@pytest.fixture
+def lane(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> Iterator[DanceLane]:
+    session = Session(danced_project(tmp_path), ImmediateTasks())
+    planned(session)
+    panel = TimelinePanel(session)
+    qtbot.addWidget(panel)
+    panel.resize(1200, 900)
+    lane = panel.lanes["dance"]
+    assert isinstance(lane, DanceLane)
+    lane.set_folded(False)
+    show_in_front(panel)
+    panel.axis.show(0.0, 12.0)
+    session.set_grid(Grid(Fraction(1)))
+    yield lane
+    session.timeline_view = None
+    session.deleteLater()
+
+
+def place(lane: DanceLane, number: int, row: int = 0) -> QPointF:
+    """The middle of a dancer's step."""
+    step = lane.dances[lane.dancers[row].id].steps[number]
+    return QPointF(lane.axis.x_px((step.start_s + step.end_s) / 2), lane.row_rect(row).center().y())
+
+
+def states(lane: DanceLane, dancer_id: str = MARY) -> list[int]:
+    """What the project's dancer dances, worked out anew."""
+    performance = lane.session.performance
+    return [step.state for step in dancing_of(performance, lane.session.project.dancer(dancer_id)).steps()]
+
+
+def state_at(lane: DanceLane, tick: int, dancer_id: str = MARY) -> int:
+    dance = lane.dances[dancer_id]
+    return dance.steps[dance.ticks.index(tick)].state
+
+
+def corrections(lane: DanceLane, dancer_id: str = MARY) -> tuple[object, ...]:
+    return lane.session.project.dance_corrections.get(dancer_id, ())
+
+
+def entries(menu: QMenu) -> dict[str, QAction]:
+    return {action.text(): action for action in menu.actions() if action.text()}
+
+
+def menu_at(lane: DanceLane, at: QPointF) -> QMenu:
+    QTest.mouseClick(lane.plot, Qt.MouseButton.RightButton, Qt.KeyboardModifier.NoModifier, at.toPoint())
+    menu = QApplication.activePopupWidget()
+    assert isinstance(menu, QMenu)
+    return menu
+
+
+def test_each_dancer_has_a_row_of_steps_that_is_what_is_danced(lane: DanceLane) -> None:
+    assert [step.state for step in lane.dances[MARY].steps] == states(lane)
+    assert [step.state for step in lane.dances[NINA].steps] == states(lane, NINA) != states(lane)
+    click(lane, place(lane, 4, row=1))
+    assert lane.selected_step == (NINA, 4)
+    QTest.keyClick(lane.plot, Qt.Key.Key_Right)
+    assert lane.selected_step == (NINA, 5)
+
+
+def test_down_dances_another_basic_motion_there_and_backspace_returns_it(lane: DanceLane) -> None:
+    before = states(lane)
+    tick = lane.dances[MARY].ticks[5]
+    click(lane, place(lane, 5))
+    QTest.keyClick(lane.plot, Qt.Key.Key_Down)
+    wanted = (before[5] + 1) % 4
+    assert corrections(lane) == (PinState(tick, wanted),)
+    assert state_at(lane, tick) == wanted
+    QTest.keyClick(lane.plot, Qt.Key.Key_Down)
+    assert corrections(lane) == (PinState(tick, (wanted + 1) % 4),)
+    assert not corrections(lane, NINA)
+    QTest.keyClick(lane.plot, Qt.Key.Key_Backspace)
+    assert corrections(lane) == ()
+    assert [step.state for step in lane.dances[MARY].steps] == before
+    lane.session.document.undo()
+    assert corrections(lane) == (PinState(tick, (wanted + 1) % 4),)
+    assert state_at(lane, tick) == (wanted + 1) % 4
+
+
+def test_a_segment_is_chosen_from_the_menu(lane: DanceLane) -> None:
+    dance = lane.dances[MARY]
+    tick, before = dance.ticks[6], dance.steps[6]
+    menu = menu_at(lane, place(lane, 6))
+    segments = menu.findChild(QMenu, "dance_segments")
+    assert segments is not None
+    segments.actions()[0].trigger()
+    [used] = corrections(lane)
+    assert isinstance(used, UseSegment)
+    assert used.tick == tick
+    assert used.segment != before.segment
+    after = lane.dances[MARY]
+    step = after.steps[after.ticks.index(tick)]
+    assert (step.segment, step.state) == (used.segment, before.state)
+    menu.close()
+
+
+def test_what_is_forbidden_is_not_danced_until_it_is_allowed_again(lane: DanceLane) -> None:
+    state = states(lane)[4]
+    menu = menu_at(lane, place(lane, 4))
+    entries(menu)[f"Do Not Dance Basic Motion {state + 1} in This Piece"].trigger()
+    menu.close()
+    assert [type(item) for item in corrections(lane)] == [ForbidState]
+    assert state not in {step.state for step in lane.dances[MARY].steps}
+    menu = menu_at(lane, place(lane, 4))
+    entries(menu)[f"Allow Basic Motion {state + 1} Again"].trigger()
+    menu.close()
+    assert corrections(lane) == ()
+    menu = menu_at(lane, place(lane, 4))
+    entries(menu)[f"Do Not Dance Basic Motion {state + 1} Here"].trigger()
+    menu.close()
+    [item] = corrections(lane)
+    assert isinstance(item, ForbidState)
+    assert item.end_tick - item.start_tick < 4 * TPQ
+    dance = lane.dances[MARY]
+    there = [step.state for step, tick in zip(dance.steps, dance.ticks, strict=True)
+             if item.start_tick <= tick < item.end_tick]  # fmt: skip
+    assert state not in there
+
+
+def test_an_unreadable_choreography_is_said_in_its_row_alone(lane: DanceLane, tmp_path: Path) -> None:
+    path = tmp_path / "broken.choreography"
+    path.write_text("{")
+    broken = set_choreography(lane.session.project, (NINA,), path)
+    lane.session.document.apply(Message("edit.add_breath"), broken)
+    assert lane.dances[NINA].error is not None
+    assert lane.dances[MARY].steps
+    lane.hover(lane.mouse_at(lane.row_rect(1).center()))
+    assert "broken.choreography" in lane.plot.toolTip()

@@ -1,0 +1,61 @@
+"""A foot takes time to go from one place to the next."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.choreography.body import SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.contacts import BoolArray, tips_m
+from app.choreography.feet import STEP_S, Stand, planted, stands
+from app.rig import quaternion
+from tests.support.dance_measures import angular_jumps
+from tests.support.dances import still
+
+
+def carried(way_m: float) -> tuple[MotionClip, BoolArray]:
+    """A body that stands, and is carried sideways within a moment in which its feet leave the floor, as by a join."""
+    clip = still(120)
+    share = np.clip((np.arange(120) - 57) / 6.0, 0.0, 1.0)
+    hips = clip.hips_m + way_m * share[:, None] * (1.0, 0.0, 0.0) - np.array((0.0, 0.03, 0.0))
+    contacts = np.ones((120, 2), bool)
+    contacts[58:63] = False
+    return replace(clip, hips_m=hips), contacts
+
+
+def test_a_foot_that_comes_down_elsewhere_takes_a_step() -> None:
+    clip, contacts = carried(0.15)
+    standing = stands(clip, contacts)
+    for foot in range(2):
+        before, after = (stand for stand in standing if stand.foot == foot)
+        assert after.start - before.stop >= STEP_S * 60
+        assert before.place_m[0] == pytest.approx(tips_m(clip)[0, foot, 0])
+        assert after.place_m[0] == pytest.approx(before.place_m[0] + 0.15, abs=1e-6)
+    # The hips alone move the hip joints by 1.5 m/s at once: 3 rad/s for a leg whose foot stays.
+    assert angular_jumps(planted(clip, standing)).max() < 4.0
+
+
+def test_a_foot_that_comes_down_where_it_was_goes_on_standing() -> None:
+    clip, contacts = carried(0.02)
+    standing = stands(clip, contacts)
+    assert [(stand.foot, stand.start, stand.stop) for stand in standing] == [(0, 0, 120), (1, 0, 120)]
+    tips = tips_m(planted(clip, standing))
+    assert np.ptp(tips[..., [0, 2]], axis=0).max() < 1e-6
+
+
+def test_a_knee_that_is_a_little_more_than_straight_bends_forwards() -> None:
+    clip = still(60)
+    turns = clip.rotations.copy()
+    back = 0.05 * np.sin(np.arange(60) / 8.0)
+    for name, part in (("leftUpperLeg", -0.5), ("leftLowerLeg", 1.0)):
+        turns[:, SEGMENTS.index(name)] = quaternion.from_axis_angle(np.array([1.0, 0.0, 0.0]), part * back)
+    # Below where the leg is straight the foot, which stands, has no room.
+    sunk = replace(clip, rotations=turns, hips_m=clip.hips_m - np.array((0.0, 0.04, 0.0)))
+    found = planted(sunk, (Stand(0, 0, 60, (0.1, 0.0, 0.2)),))
+    places_m = found.world().positions_m
+    hip, knee, ankle = (places_m[:, 1 + SEGMENTS.index(f"left{name}")] for name in ("UpperLeg", "LowerLeg", "Foot"))
+    assert (knee[:, 2] - 0.5 * (hip + ankle)[:, 2]).min() > 0.05
+    assert angular_jumps(found).max() < 0.5

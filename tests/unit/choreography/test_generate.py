@@ -1,0 +1,174 @@
+"""Dances as an animator would look at them: on the beat, without a seam, on feet that stand, at their place."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+from scipy.spatial.transform import Rotation
+
+from app.choreography.clip import MotionClip
+from app.choreography.contacts import foot_contacts, tips_m
+from app.choreography.generate import Choreographer, Dance, Manner, mirrored
+from app.choreography.joins import faded
+from app.choreography.sequence import Wishes
+from tests.support.dance_measures import alignments, kinematic_beats_s
+from tests.support.dances import beaten, model, stepping
+
+FPS = Fraction(60)
+
+
+@cache
+def choreographer() -> Choreographer:
+    return Choreographer(model())
+
+
+@cache
+def dance(seed: int = 0, beats: int = 64, beat_s: float = 0.55) -> Dance:
+    return choreographer().dance(beaten(beats, beat_s), Manner(seed=seed), FPS)
+
+
+def spins(clip: MotionClip) -> npt.NDArray[np.float64]:
+    """(F - 1, 16, 3) angular velocities, rad/s, by scipy."""
+    turns = Rotation.from_quat(clip.rotations.reshape(-1, 4))
+    frames, joints = clip.rotations.shape[:2]
+    steps = turns[: (frames - 1) * joints].inv() * turns[joints:]
+    return steps.as_rotvec().reshape(frames - 1, joints, 3) * float(clip.fps)
+
+
+def test_the_body_arrives_on_the_beats() -> None:
+    found, beats = dance(), beaten(64, 0.55)
+    assert len(found.steps) > 25
+    for one, other in pairwise(found.steps):
+        assert one.start_s < one.end_s == other.start_s
+        assert one.start_s <= one.accent_s <= one.end_s
+        assert abs(one.accent_s - 0.275 * one.place) < 0.65
+    assert found.clip.length_s > beats.beats_s[-2]
+    for aligned in alignments(found.first_s + kinematic_beats_s(found.clip), 0.275 * np.arange(127)):
+        # Of shifts by whole beats, the nearest do as well.
+        assert aligned.found > 0.97 * aligned.chance_95
+        assert aligned.found > aligned.chance + 0.3
+
+
+def test_no_seam_shows() -> None:
+    found = dance()
+    assert len(found.seams) > 5
+    jumps = np.linalg.norm(np.diff(spins(found.clip), axis=0), axis=-1).max(axis=1)
+    source = [np.linalg.norm(np.diff(spins(clip), axis=0), axis=-1).max(axis=1) for clip in model().clips]
+    at_seams = max(jumps[max(0, seam - 3) : seam + 3].max() for seam in found.seams)
+    assert at_seams <= 1.25 * np.percentile(np.concatenate(source), 99.9)
+    hips = np.diff(found.clip.hips_m, 3, axis=0) * 60.0**2
+    assert np.abs(hips).max() < 0.5
+
+
+def test_standing_feet_stand() -> None:
+    found = dance()
+    assert len(found.standing) > 20
+    tips = tips_m(found.clip)
+    for stand in found.standing:
+        off = np.linalg.norm(tips[stand.start : stand.stop, stand.foot] - stand.place_m, axis=-1)
+        assert off.max() < 1e-3
+    # Found again in the result, by what is seen of it alone.
+    seen = foot_contacts(found.clip)
+    slides = np.linalg.norm(np.diff(tips, axis=0), axis=-1) * 60.0
+    slow = slides[seen[1:] & seen[:-1]]
+    assert np.mean(slow) < 0.05
+
+
+def test_bones_keep_their_length_and_rotations_their_unit() -> None:
+    clip = dance().clip
+    assert np.abs(np.linalg.norm(clip.rotations, axis=-1) - 1.0).max() < 1e-9
+    assert np.einsum("fji,fji->fj", clip.rotations[1:], clip.rotations[:-1]).min() > 0.0
+
+
+def test_a_dancer_keeps_to_the_place_and_faces_the_audience() -> None:
+    clip = dance().clip
+    assert np.linalg.norm(clip.hips_m[:, [0, 2]], axis=1).max() < 1.8
+    ahead = Rotation.from_quat(clip.rotations[:, 0]).apply((0.0, 0.0, 1.0))
+    assert ahead[:, 2].mean() > 0.5
+
+
+def test_it_begins_and_ends_at_rest_whenever_it_is_seen() -> None:
+    found = choreographer().dance(beaten(16), Manner(), FPS, first_s=-3.0, end_s=14.0)
+    speed = np.linalg.norm(spins(found.clip), axis=-1).max(axis=1)
+    assert speed[:30].max() < 0.1
+    assert speed[-30:].max() < 0.1
+    assert len(found.clip) == 17 * 60
+
+
+def test_a_cut_of_it_is_the_same_dance() -> None:
+    whole = dance()
+    again = choreographer().dance(beaten(64, 0.55), Manner(), Fraction(30))
+    assert again.steps == whole.steps
+
+
+def test_to_the_bit() -> None:
+    again = Choreographer(model()).dance(beaten(64, 0.55), Manner(), FPS)
+    assert np.array_equal(again.clip.rotations, dance().clip.rotations)
+    assert np.array_equal(again.clip.hips_m, dance().clip.hips_m)
+
+
+def test_a_mirror_shows_left_as_right_and_twice_the_same() -> None:
+    clip = stepping(4)
+    seen = mirrored(clip)
+    there, back = clip.world().positions_m, seen.world().positions_m
+    left, right = 1 + 4, 1 + 7
+    assert np.allclose(back[:, left], there[:, right] * (-1.0, 1.0, 1.0), atol=1e-9)
+    assert np.allclose(mirrored(seen).rotations, clip.rotations)
+    danced = choreographer().dance(beaten(16), Manner(mirrored=True), FPS)
+    plain = choreographer().dance(beaten(16), Manner(), FPS)
+    assert np.allclose(danced.clip.hips_m * (-1.0, 1.0, 1.0), plain.clip.hips_m, atol=1e-9)
+
+
+def test_size_makes_arms_swing_farther_and_leaves_steps() -> None:
+    small, plain, large = (choreographer().dance(beaten(32), Manner(size=size), FPS).clip for size in (0.5, 1.0, 1.4))
+    swings = [np.linalg.norm(spins(clip)[:, 4], axis=-1).mean() for clip in (small, plain, large)]
+    assert swings[0] < 0.7 * swings[1] < 0.7 * swings[2]
+    assert np.allclose(small.hips_m, large.hips_m)
+
+
+def test_a_source_can_be_preferred() -> None:
+    of = [one.clip for one in model().segments]
+    shares = [
+        np.mean([of[step.segment] for step in choreographer().steps(beaten(64), Manner(source=source))])
+        for source in (0, 1)
+    ]
+    assert shares[0] + 0.3 < shares[1]
+
+
+def test_pins_hold() -> None:
+    found = choreographer().steps(beaten(32), Manner(), wishes=Wishes(pinned={20: 2}))
+    assert next(step for step in found if step.place == 20).state == 2
+
+
+def test_no_segment_comes_more_than_three_times_in_a_row() -> None:
+    runs, last = 1, -1
+    for step in dance().steps:
+        runs = runs + 1 if step.segment == last else 1
+        last = step.segment
+        assert runs <= 3
+
+
+def test_nothing_is_danced_to_nothing() -> None:
+    empty = beaten(2)
+    silent = type(empty)(np.zeros(0), np.zeros(0, int), np.zeros(0), np.zeros(0, int), np.zeros(0), False)
+    found = choreographer().dance(silent, Manner(), FPS, first_s=-1.0, end_s=1.0)
+    assert len(found.clip) == 120
+    assert found.steps == ()
+    assert np.ptp(found.clip.rotations, axis=0).max() == 0.0
+
+
+def test_what_fades_begins_as_it_was_and_ends_at_rest() -> None:
+    times = np.linspace(0.0, 0.6, 601)
+    curve = faded(np.array([1.0]), np.array([-2.0]), times, 0.5)[:, 0]
+    slope = np.gradient(curve, times)
+    assert curve[0] == 1.0
+    assert slope[1] == pytest.approx(-2.0, abs=0.05)
+    assert np.abs(curve[times >= 0.5]).max() == 0.0
+    assert np.abs(slope[-80:]).max() < 1e-9
+    assert math.isfinite(np.abs(np.gradient(slope, times)).max())

@@ -1,0 +1,135 @@
+"""The same motion in FBX, GLB and BVH files is the same motion, whatever turns the bones have at rest."""
+
+from __future__ import annotations
+
+import json
+import struct
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from app.choreography import node_motion
+from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.read_motion import read_motion
+from app.errors import FileError
+from app.formats.fbx import encode_scene
+from app.formats.gltf.write import encode_glb
+from app.formats.scene import Bone, Clip, Scene
+from app.rig import quaternion
+from tests.unit.choreography.test_features import random_clip
+
+FloatArray = npt.NDArray[np.float64]
+CLIP = random_clip(5, 91)
+IDENTITY = np.array((0.0, 0.0, 0.0, 1.0))
+
+
+def scene_of(clip: MotionClip, seed: int, animated: bool = True) -> Scene:
+    """The clip on bones that have turns of their own at rest, below a root that lies on its back."""
+    names = ("Armature", *SEGMENTS, *(f"{name}_end" for name in ENDS))
+    parents = [-1, 0, *(1 + SEGMENTS.index(above) for above in list(PARENT_OF.values())[1:])]
+    parents += [1 + SEGMENTS.index(name) for name in ENDS]
+    offsets = np.concatenate([np.zeros((1, 3)), clip.shape.offsets_m, clip.shape.ends_m])
+    rest = quaternion.normalize(np.random.default_rng(seed).normal(size=(len(names), 4)))
+    rest[0] = quaternion.from_axis_angle((1.0, 0.0, 0.0), -np.pi / 2.0)
+    turns = np.zeros((len(clip), len(names), 4))
+    turns[..., 3] = 1.0
+    turns[:, 1 : 1 + len(SEGMENTS)] = clip.rotations
+    back = quaternion.conjugate(np.array([rest[parent] if parent >= 0 else IDENTITY for parent in parents]))
+    bones = tuple(
+        Bone(names[at], parents[at], 100.0 * quaternion.rotate(back[at], offsets[at]), local)
+        for at, local in enumerate(quaternion.multiply(back, rest))
+    )
+    hips_cm = 100.0 * quaternion.rotate(back[1], clip.hips_m)
+    rotations = quaternion.multiply(back, quaternion.multiply(turns, rest))
+    if not animated:
+        return Scene(bones)
+    return Scene(bones, (), Clip("dance", clip.fps, len(clip), rotations, {1: hips_cm}))
+
+
+def relative_m(clip: MotionClip) -> FloatArray:
+    places: FloatArray = clip.world().positions_m[:, 1:]
+    return places - places[:, :1]
+
+
+@pytest.mark.parametrize(("suffix", "encode"), [(".fbx", encode_scene), (".glb", encode_glb)])
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_motion_is_the_same_from_every_format(tmp_path: Path, suffix: str, encode: object, seed: int) -> None:
+    path = tmp_path / f"dance{suffix}"
+    assert callable(encode)
+    path.write_bytes(encode(scene_of(CLIP, seed)))
+    read = read_motion(path)
+    assert (read.clip.fps, read.file_fps, len(read.clip), read.up) == (60, 60, len(CLIP), "+Y")
+    assert read.clip.shape.offsets_m == pytest.approx(CLIP.shape.offsets_m, abs=1e-4)
+    assert relative_m(read.clip) == pytest.approx(relative_m(CLIP), abs=2e-4)
+    way = read.clip.hips_m - read.clip.hips_m[0]
+    assert way == pytest.approx(CLIP.hips_m - CLIP.hips_m[0], abs=2e-4)
+    # Rotations, not only places: the identity is the T-pose, whatever the bones' own axes are.
+    alike = np.abs(np.einsum("fsi,fsi->fs", read.clip.rotations, CLIP.rotations))
+    assert alike.min() > np.cos(np.radians(0.1) / 2.0)
+
+
+@pytest.mark.parametrize(("suffix", "encode"), [(".fbx", encode_scene), (".glb", encode_glb)])
+def test_a_file_without_animation_says_so(tmp_path: Path, suffix: str, encode: object) -> None:
+    path = tmp_path / f"still{suffix}"
+    assert callable(encode)
+    path.write_bytes(encode(scene_of(CLIP, 1, animated=False)))
+    with pytest.raises(FileError) as caught:
+        read_motion(path)
+    assert caught.value.message.id == "motion.no_animation"
+
+
+def test_other_files_are_refused(tmp_path: Path) -> None:
+    for name, problem in (("a.mp4", "motion.format"), ("a.fbx", "fbx.foreign_damaged"), ("a.glb", "gltf.not_gltf")):
+        (tmp_path / name).write_bytes(b"something else")
+        with pytest.raises(FileError) as caught:
+            read_motion(tmp_path / name)
+        assert caught.value.message.id == problem
+
+
+def test_more_motion_than_memory_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(node_motion, "MOST_TRANSFORMS", 100)
+    (tmp_path / "a.glb").write_bytes(encode_glb(scene_of(CLIP, 1)))
+    with pytest.raises(FileError) as caught:
+        read_motion(tmp_path / "a.glb")
+    assert caught.value.message.id == "motion.too_long"
+
+
+def test_scaled_armatures_are_multiplied_out(tmp_path: Path) -> None:
+    """As Blender writes what it had from FBX: a root of a hundredth, its bones a hundred times as large."""
+    data = encode_glb(scene_of(CLIP, 3))
+    length = struct.unpack_from("<I", data, 12)[0]
+    document = json.loads(data[20 : 20 + length])
+    names = [node.get("name") for node in document["nodes"]]
+    document["nodes"][names.index("Armature")]["scale"] = [0.01] * 3
+    hips = document["nodes"][names.index("hips")]
+    hips["scale"] = [100.0] * 3
+    hips["translation"] = [100.0 * value for value in hips["translation"]]
+    animation = document["animations"][0]
+    samplers, hips_at = animation["samplers"], names.index("hips")
+    (moved,) = (
+        channel["sampler"]
+        for channel in animation["channels"]
+        if channel["target"] == {"node": hips_at, "path": "translation"}
+    )
+    # The way of the hips is a hundred times as long too: its keys are written anew.
+    clip = scene_of(CLIP, 3).clip
+    assert clip is not None
+    keys = np.asarray(clip.translations_cm[1], "<f4")
+    binary = data[20 + length + 8 :] + keys.tobytes()
+    document["bufferViews"].append({"buffer": 0, "byteOffset": len(data) - 28 - length, "byteLength": keys.size * 4})
+    document["accessors"].append(
+        {"bufferView": len(document["bufferViews"]) - 1, "componentType": 5126, "count": len(keys), "type": "VEC3"}
+    )
+    samplers[moved]["output"] = len(document["accessors"]) - 1
+    document["buffers"][0]["byteLength"] = len(binary)
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    head = struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + len(binary), len(text), 0x4E4F534A)
+    (tmp_path / "a.glb").write_bytes(head + text + struct.pack("<II", len(binary), 0x004E4942) + binary)
+    read = read_motion(tmp_path / "a.glb", Fraction(60))
+    assert relative_m(read.clip) == pytest.approx(relative_m(CLIP), abs=2e-4)
+    assert read.clip.hips_m - read.clip.hips_m[0] == pytest.approx(CLIP.hips_m - CLIP.hips_m[0], abs=2e-4)

@@ -1,0 +1,186 @@
+"""Motion of others on the 16 segments: where the joints are, against bvhio; units, axes, what is refused."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+from scipy.spatial.transform import Rotation
+
+from app.choreography.body import SEGMENTS
+from app.choreography.read_motion import read_motion
+from app.errors import FileError
+from app.rig import quaternion
+
+CLIPS = Path("/work/shared/data/mocap")
+LIMBS = {"UpperArm": 0, "LowerArm": 1, "Hand": 2, "UpperLeg": 3, "LowerLeg": 4, "Foot": 5}
+POSER = ("Shldr", "ForeArm", "Hand", "Thigh", "Shin", "Foot")
+MIXAMO = ("Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot")
+ACCAD = ("Shoulder", "Elbow", "Wrist", "Hip", "Knee", "Ankle")
+KNOWN = {
+    # Names of the limbs' joints in the file, tolerance of arms in metres (a shrug is not among the 16 segments), up.
+    "cmu_salsa_01": (POSER, "l", 1e-6, "+Y"),
+    "cmu_martial_04": (POSER, "l", 1e-6, "+Y"),
+    "animateddrawings_cmu1_jumping_jacks": (ACCAD, "Left", 0.006, "+Y"),
+    "animateddrawings_fair1_wave_hello": (MIXAMO, "Left", 0.06, "+Z"),
+}
+
+
+@pytest.mark.filterwarnings("ignore:Importing PyGLM:PendingDeprecationWarning")
+@pytest.mark.skipif(not CLIPS.exists(), reason="no clips")
+@pytest.mark.parametrize("name", KNOWN)
+def test_limbs_are_where_another_reader_has_them(name: str) -> None:
+    import bvhio  # warns at its first import
+
+    names, side, tolerance_m, up = KNOWN[name]
+    read = read_motion(CLIPS / f"{name}.bvh")
+    assert read.up == up
+    # The neck moves the head by up to 26 mm.
+    assert read.apart_m < 0.03 + tolerance_m
+    ours = read.clip.world().positions_m
+    frames = np.linspace(0, len(read.clip) - 1, 5).astype(int)
+    root = bvhio.readAsHierarchy(str(CLIPS / f"{name}.bvh"))
+    for frame in frames:
+        root.loadPose(int(frame) + read.lead_in)
+        hips = root.PositionWorld
+        for part, at in LIMBS.items():
+            joint = next(one for one, _, _ in root.layout() if one.Name == side + names[at])
+            way = np.array(joint.PositionWorld - hips, dtype=np.float64) * read.unit_m
+            if up == "+Z":
+                way = way[[0, 2, 1]] * (1.0, 1.0, -1.0)
+            seen = ours[frame, 1 + SEGMENTS.index("left" + part)] - ours[frame, 1]
+            allowed = 1e-5 + (tolerance_m if at < 3 else 0.0)
+            apart = np.linalg.norm(seen - way)
+            assert apart < allowed, (frame, part)
+            assert apart < read.apart_m + 1e-6, (frame, part)
+
+
+def bvh(turn: npt.NDArray[np.float64], unit_m: float, frames: int = 20, toes: bool = True) -> str:
+    """A small figure of 1.7 m, turned and in a unit of its own, that stands and lifts nothing."""
+    joints = {
+        "Hips": ("", (0, 0, 0)),
+        "Spine": ("Hips", (0, 0.1, 0)),
+        "Spine1": ("Spine", (0, 0.2, 0)),
+        "Head": ("Spine1", (0, 0.35, 0)),
+        "HeadTop": ("Head", (0, 0.2, 0)),
+    }
+    for side, sign in (("Left", 1.0), ("Right", -1.0)):
+        joints |= {
+            f"{side}Arm": ("Spine1", (sign * 0.2, 0.2, 0)),
+            f"{side}ForeArm": (f"{side}Arm", (sign * 0.1, -0.25, 0)),
+            f"{side}Hand": (f"{side}ForeArm", (sign * 0.1, -0.22, 0)),
+            f"{side}UpLeg": ("Hips", (sign * 0.1, 0, 0)),
+            f"{side}Leg": (f"{side}UpLeg", (0, -0.42, 0)),
+            f"{side}Foot": (f"{side}Leg", (0, -0.4, 0)),
+        }
+        if toes:
+            joints[f"{side}ToeBase"] = (f"{side}Foot", (0, -0.05, 0.15))
+
+    def lines(name: str) -> list[str]:
+        parent, offset = joints[name]
+        x, y, z = turn @ np.array(offset) / unit_m
+        kind = "JOINT" if parent else "ROOT"
+        channels = "3 Zrotation Xrotation Yrotation"
+        if not parent:
+            channels = f"6 Xposition Yposition Zposition {channels[2:]}"
+        below = [line for child, (above, _) in joints.items() if above == name for line in lines(child)]
+        tip = turn @ (0.0, -0.05, 0.15) / unit_m if name.endswith("Foot") else np.zeros(3)
+        below = below or ["End Site", "{", f"OFFSET {tip[0]:.6f} {tip[1]:.6f} {tip[2]:.6f}", "}"]
+        return [f"{kind} {name}", "{", f"OFFSET {x:.6f} {y:.6f} {z:.6f}", f"CHANNELS {channels}", *below, "}"]
+
+    place = turn @ np.array([3.0, 5.0, 2.0]) / unit_m
+    row = " ".join([*(f"{value:.6f}" for value in place), *["0"] * 3 * len(joints)])
+    return "\n".join(["HIERARCHY", *lines("Hips"), "MOTION", f"Frames: {frames}", "Frame Time: 0.025", *[row] * frames])
+
+
+Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+
+
+@pytest.mark.parametrize(("unit", "unit_m"), [("m", 1.0), ("cm", 0.01), ("inch", 0.0254), ("CMU", 0.0254 / 0.45)])
+@pytest.mark.parametrize(("turn", "up"), [(np.eye(3), "+Y"), (Z_UP, "+Z")], ids=["y", "z"])
+def test_a_figure_of_any_unit_and_axes_stands_on_the_floor(
+    tmp_path: Path, turn: npt.NDArray[np.float64], up: str, unit: str, unit_m: float
+) -> None:
+    (tmp_path / "a.bvh").write_text(bvh(turn, unit_m), encoding="utf-8")
+    read = read_motion(tmp_path / "a.bvh", Fraction(60))
+    assert (read.unit, read.up, read.file_fps, read.clip.fps) == (unit, up, 40, 60)
+    shape = read.clip.shape
+    assert shape.offsets_m[0] == pytest.approx((0.0, 0.87, 0.0), abs=1e-4)
+    # The rest pose hangs its arms; the T-pose has them along +X.
+    assert shape.offsets_m[SEGMENTS.index("leftLowerArm")] == pytest.approx((np.hypot(0.1, 0.25), 0, 0), abs=1e-4)
+    assert read.clip.hips_m[0] == pytest.approx((0.0, 0.87, 0.0), abs=1e-4)
+    way = read.clip.world().positions_m[0, 1 + SEGMENTS.index("leftHand")] - read.clip.hips_m[0]
+    assert way == pytest.approx((0.4, 0.03, 0.0), abs=1e-4)
+
+
+@pytest.mark.parametrize("yaw_deg", [0.0, 90.0, 180.0, -90.0, 135.0])
+@pytest.mark.parametrize("axes", [np.eye(3), Z_UP], ids=["y", "z"])
+@pytest.mark.parametrize("toes", [True, False], ids=["toes", "end sites"])
+def test_a_rest_pose_that_faces_elsewhere_keeps_its_sides(
+    tmp_path: Path, axes: npt.NDArray[np.float64], yaw_deg: float, toes: bool
+) -> None:
+    yaw = Rotation.from_euler("y", yaw_deg, degrees=True).as_matrix()
+    (tmp_path / "a.bvh").write_text(bvh(axes @ yaw, 0.01, toes=toes), encoding="utf-8")
+    clip = read_motion(tmp_path / "a.bvh").clip
+    # The body faces where it faces in the file, and its left hand is at its left.
+    assert quaternion.rotate(clip.rotations[0, 0], (0.0, 0.0, 1.0)) == pytest.approx(yaw[:, 2], abs=1e-6)
+    way = clip.world().positions_m[0, 1 + SEGMENTS.index("leftHand")] - clip.hips_m[0]
+    assert way == pytest.approx(yaw @ (0.4, 0.03, 0.0), abs=1e-4)
+
+
+X_UP = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+SIDEWAYS = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
+
+
+@pytest.mark.parametrize(
+    ("axes", "way_m"),
+    [
+        (np.eye(3), (0.4, 0.03, 0.0)),
+        (Z_UP, (0.4, 0.03, 0.0)),
+        (Z_UP.T, (0.4, 0.03, 0.0)),
+        (X_UP, (0.4, 0.03, 0.0)),
+        (SIDEWAYS, (0.0, 0.03, -0.4)),
+    ],
+    ids=["y", "z", "-z", "x", "sideways"],
+)
+def test_bones_without_names_are_found_by_shape_whatever_is_up(
+    tmp_path: Path, axes: npt.NDArray[np.float64], way_m: tuple[float, float, float]
+) -> None:
+    text = bvh(axes, 0.01)
+    names = re.findall(r"(?:ROOT|JOINT) (\S+)", text)
+    for number, name in enumerate(names):
+        text = re.sub(rf"(ROOT|JOINT) {name}\n", rf"\1 b{number}\n", text)
+    (tmp_path / "a.bvh").write_text(text, encoding="utf-8")
+    read = read_motion(tmp_path / "a.bvh")
+    assert read.profile == ""
+    way = read.clip.world().positions_m[0, 1 + SEGMENTS.index("leftHand")] - read.clip.hips_m[0]
+    assert way == pytest.approx(way_m, abs=1e-4)
+
+
+def test_what_is_no_whole_body_is_refused_with_what_lacks(tmp_path: Path) -> None:
+    (tmp_path / "b.bvh").write_text(
+        "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n}\nMOTION\nFrames: 1\n"
+        "Frame Time: 0.1\n0 0 0",
+        encoding="utf-8",
+    )
+    with pytest.raises(FileError) as caught:
+        read_motion(tmp_path / "b.bvh")
+    assert caught.value.message.id == "motion.incomplete"
+
+
+def test_joints_beyond_any_body_are_damage(tmp_path: Path) -> None:
+    text = bvh(np.eye(3), 0.01)
+    (tmp_path / "a.bvh").write_text(text.replace("300.000000 500.000000", "3e300 500.000000"), encoding="utf-8")
+    with pytest.raises(FileError) as caught:
+        read_motion(tmp_path / "a.bvh")
+    assert caught.value.message.id == "motion.far"
+
+
+def test_a_body_without_size_is_read_without_a_fault(tmp_path: Path) -> None:
+    text = re.sub("OFFSET .*", "OFFSET 0 0 0", bvh(np.eye(3), 0.01))
+    (tmp_path / "a.bvh").write_text(text, encoding="utf-8")
+    assert np.isfinite(read_motion(tmp_path / "a.bvh").clip.world().positions_m).all()

@@ -1,0 +1,146 @@
+"""A motion of the 16 segments on our characters, worked out again joint by joint with scipy."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+from scipy.spatial.transform import Rotation, Slerp
+
+from app.choreography.body import SEGMENTS
+from app.choreography.clip import BodyShape, MotionClip
+from app.choreography.retarget import retarget
+from app.motion.model import Motion
+from app.rig.character_library import bundled_characters, character_named
+from app.rig.model import Character
+from app.rig.skeleton import rest_positions
+
+FRAMES = 240
+HIPS_M, ANKLE_M = 0.95, 0.08
+ARM, LEG = [(0.18, 0.22, 0), (0.3, 0, 0), (0.26, 0, 0)], [(0.1, -0.04, 0), (0, -0.43, 0), (0, -0.40, 0)]
+MIRRORED = np.array((-1, 1, 1))
+SHAPE = BodyShape.of(
+    np.array([(0, HIPS_M, 0), (0, 0.1, 0), (0, 0.2, 0), (0, 0.3, 0), *ARM, *(ARM * MIRRORED), *LEG, *(LEG * MIRRORED)]),
+    np.array([(0, 0.25, 0), (0.18, 0, 0), (-0.18, 0, 0), (0, -ANKLE_M, 0.2), (0, -ANKLE_M, 0.2)], np.float64),
+)
+Array = npt.NDArray[np.float64]
+
+
+def still(frames: int = FRAMES) -> MotionClip:
+    rotations = np.zeros((frames, len(SEGMENTS), 4))
+    rotations[..., 3] = 1.0
+    return MotionClip(SHAPE, Fraction(60), np.tile((0.0, HIPS_M, 0.0), (frames, 1)), rotations)
+
+
+def moving(seed: int = 3) -> MotionClip:
+    """Smooth turns of everything, up to about 60 degrees, on a path, knees bent so that no leg is stretched."""
+    random = np.random.default_rng(seed)
+    keys = np.linspace(0, FRAMES - 1, 9)
+    clip = still()
+    rotations = clip.rotations.copy()
+    for at in range(len(SEGMENTS)):
+        turns = Rotation.from_rotvec(random.normal(0.0, 0.35, (len(keys), 3)))
+        rotations[:, at] = Slerp(keys, turns)(np.arange(FRAMES)).as_quat()
+    for side in ("left", "right"):
+        for name, angle in (("UpperLeg", -0.6), ("LowerLeg", 1.1)):
+            at = SEGMENTS.index(side + name)
+            rotations[:, at] = (
+                Rotation.from_rotvec((angle, 0, 0)) * Rotation.from_quat(rotations[:, at]) ** 0.2
+            ).as_quat()
+    hips = clip.hips_m + np.stack([np.linspace(0, 1, FRAMES), np.full(FRAMES, 0.1), np.linspace(0, -0.5, FRAMES)], 1)
+    return replace(clip, rotations=rotations, hips_m=hips)
+
+
+def joints(character: Character, motion: Motion, frame: int) -> dict[str, tuple[Array, Rotation]]:
+    """Where every joint is, by a loop."""
+    skeleton, found = character.skeleton, dict[str, tuple[Array, Rotation]]()
+    for at, (name, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
+        turn = Rotation.from_quat(motion.rotations[frame, at].astype(np.float64))
+        offset = motion.hips_m[frame].astype(np.float64) if name == "hips" else skeleton.offsets_m[at]
+        if parent < 0:
+            found[name] = offset, turn
+        else:
+            place, above = found[skeleton.names[parent]]
+            found[name] = place + above.apply(offset), above * turn
+    return found
+
+
+@pytest.mark.parametrize("character", [character_named(name) for name in bundled_characters()], ids=lambda one: one.id)
+def test_a_standing_body_stands(character: Character) -> None:
+    found = joints(character, retarget(still(), character), 7)
+    rest = rest_positions(character.skeleton)
+    for name, (place, turn) in found.items():
+        if "Proximal" in name or "Intermediate" in name or "Distal" in name or "Thumb" in name:
+            continue
+        # The collar bones of arms held out begin to rise; a straight leg keeps a little bend in its knee.
+        loose = 0.05 if "Shoulder" in name else 0.25 if "Leg" in name else 5e-3
+        assert turn.magnitude() < loose, name
+        near_m = 0.08 if "LowerLeg" in name else 0.025
+        assert np.linalg.norm(place - rest[character.skeleton.index(name)]) < near_m, name
+
+
+def test_segments_and_joints_turn_alike() -> None:
+    character, clip = character_named("woman_adult"), moving()
+    motion, world = retarget(clip, character), clip.world()
+    for frame in (0, 60, 133, FRAMES - 1):
+        found = joints(character, motion, frame)
+        for at, name in enumerate(SEGMENTS):
+            wide = "UpperLeg" in name or "LowerLeg" in name
+            joint = {"chest": "upperChest"}.get(name, name)
+            off = found[joint][1].inv() * Rotation.from_quat(world.rotations[frame, 1 + at])
+            # Legs go where the ankles have to be.
+            assert off.magnitude() < (0.35 if wide else 2e-3), (name, frame)
+
+
+def test_tips_of_feet_go_their_scaled_path_and_stay_where_they_stand() -> None:
+    character, clip = character_named("man_adult"), moving()
+    motion, world = retarget(clip, character), clip.world()
+    rest = rest_positions(character.skeleton)
+    scale = rest[character.skeleton.index("leftUpperLeg"), 1] / (HIPS_M - 0.04)
+    for side in ("left", "right"):
+        foot = 1 + SEGMENTS.index(side + "Foot")
+        turns = Rotation.from_quat(world.rotations[:, foot])
+        source = world.positions_m[:, foot] + turns.apply(SHAPE.ends_m[3 if side == "left" else 4])
+        found = [joints(character, motion, frame)[side + "Foot"] for frame in range(0, FRAMES, 40)]
+        ankle, toes = (rest[character.skeleton.index(side + name)] for name in ("Foot", "Toes"))
+        tip = np.array([1.4 * (toes - ankle)[0], -ankle[1], 1.4 * (toes - ankle)[2]])
+        tips = np.array([place + turn.apply(tip) for place, turn in found])
+        way = np.diff(source[::40], axis=0)[:, [0, 2]] * scale
+        assert np.abs(np.diff(tips, axis=0)[:, [0, 2]] - way).max() < 1e-3
+
+
+def test_no_sole_is_below_the_floor() -> None:
+    character, clip = character_named("woman_adult"), moving()
+    sunk = replace(clip, hips_m=clip.hips_m - (0.0, 0.25, 0.0))
+    motion = retarget(sunk, character)
+    rest = rest_positions(character.skeleton)
+    for frame in range(0, FRAMES, 20):
+        found = joints(character, motion, frame)
+        for side in ("left", "right"):
+            place, turn = found[side + "Foot"]
+            ankle, toes = (rest[character.skeleton.index(side + name)] for name in ("Foot", "Toes"))
+            for part in (-0.3, 1.0, 1.4):
+                way = part * (toes - ankle)
+                assert (place + turn.apply((way[0], -ankle[1], way[2])))[1] > -1e-3
+
+
+def test_collars_rise_with_lifted_arms_only() -> None:
+    character, clip = character_named("woman_adult"), still(3)
+    rotations = clip.rotations.copy()
+    at = SEGMENTS.index("leftUpperArm")
+    for frame, rise_deg in enumerate((-75, 0, 75)):
+        rotations[frame, at] = Rotation.from_euler("z", rise_deg, degrees=True).as_quat()
+    motion = retarget(replace(clip, rotations=rotations), character)
+    heights = [joints(character, motion, frame)["leftUpperArm"][0][1] for frame in range(3)]
+    assert heights[0] <= heights[1] < heights[1] + 0.02 < heights[2]
+    wrists = [joints(character, motion, frame)["leftHand"][0][1] for frame in range(3)]
+    assert wrists == sorted(wrists)
+
+
+def test_one_frame_is_a_motion() -> None:
+    motion = retarget(still(1), character_named("woman_adult"), first_frame_s=-2.0)
+    assert motion.frames == 1
+    assert motion.first_frame_s == -2.0

@@ -1,0 +1,55 @@
+"""Arrivals are put on beats, within the limits of speed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from app.choreography.sequence import SPEEDS, Grid, grid_of
+from app.choreography.warp import REST_S, TimeMap, arriving
+from tests.support.dances import beaten
+
+
+def even(length_s: float, every_s: float) -> TimeMap:
+    """As captured, with a knot every so often."""
+    times_s = np.arange(0.0, length_s + 1e-9, every_s)
+    return TimeMap(times_s, times_s.copy())
+
+
+def test_arrivals_beside_the_beats_come_on_them() -> None:
+    grid = grid_of(beaten(21))
+    arrivals = 0.5 * np.arange(1, 19) + np.random.default_rng(1).uniform(-0.08, 0.08, 18)
+    found = arriving(even(10.0, 2.0), arrivals, grid)
+    assert found.when(arrivals) == pytest.approx(0.5 * np.arange(1, 19), abs=1e-3)
+    # Not so the map before.
+    assert np.abs(even(10.0, 2.0).when(arrivals) - 0.5 * np.arange(1, 19)).max() > 0.05
+
+
+def test_no_motion_is_hurried_or_held_beyond_the_limits() -> None:
+    # Arrivals every 0.3 s to beats every second: most cannot meet one.
+    arrivals = 0.3 * np.arange(1, 60) + np.random.default_rng(2).uniform(-0.1, 0.1, 59)
+    found = arriving(even(18.0, 1.0), arrivals, grid_of(beaten(19, 1.0)))
+    speeds = np.diff(found.along_s) / np.diff(found.times_s)
+    assert speeds.min() > SPEEDS[0] / 1.03
+    assert speeds.max() < SPEEDS[1] * 1.03
+    on_beat = np.abs(found.when(arrivals) - np.round(found.when(arrivals))) < 0.01
+    assert on_beat.sum() >= 12
+
+
+def test_without_beats_or_arrivals_it_goes_as_planned() -> None:
+    plain = even(4.0, 1.0)
+    for arrivals, grid in ((np.zeros(0), grid_of(beaten(9))), (np.array([1.2]), Grid(np.zeros(0), np.zeros(0, bool)))):
+        times_s = np.linspace(0.0, 4.0, 50)
+        assert arriving(plain, arrivals, grid).at(times_s)[0] == pytest.approx(times_s)
+
+
+def test_time_runs_out_before_and_after() -> None:
+    along, speeds = even(4.0, 1.0).at(np.array([-10.0, -REST_S, 0.0, 2.0, 4.0, 14.0]))
+    assert along == pytest.approx([-REST_S, -REST_S * (1 - np.exp(-1)), 0.0, 2.0, 4.0, 4.0 + REST_S], abs=1e-6)
+    assert speeds == pytest.approx([0.0, np.exp(-1), 1.0, 1.0, 1.0, 0.0], abs=1e-6)
+
+
+def test_there_and_back() -> None:
+    way = TimeMap(np.array([0.0, 1.0, 1.8, 4.0]), np.array([0.0, 0.8, 2.0, 4.5]))
+    times_s = np.linspace(0.0, 4.0, 33)
+    assert way.when(way.at(times_s)[0]) == pytest.approx(times_s, abs=1e-4)

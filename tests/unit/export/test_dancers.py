@@ -1,0 +1,98 @@
+"""Dancers' files, read back: bones, feet that stand, what the report says, and BVH by the reader of others' motion."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import msgspec
+import numpy as np
+import pytest
+
+from app.choreography.model_file import write_model
+from app.choreography.read_motion import read_motion
+from app.export.report import Report
+from app.export.request import Request
+from app.export.run import export
+from app.messages import text
+from app.performance.dancers import dancing_of
+from app.performance.ensemble import Performance
+from app.performance.span import whole_span
+from app.project.casting import StagePosition
+from app.project.model import Dancer, Project
+from tests.support.dances import model
+from tests.unit.performance.test_dancers import played
+
+FPS = Fraction(60)
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Report, Path, Project]:
+    folder = tmp_path_factory.mktemp("dancers")
+    write_model(folder / "steps.choreography", model())
+    dances = str(folder / "steps.choreography")
+    dancers = (
+        Dancer("dancer:1", "Dancer: 1/2", dances, "woman_adult", StagePosition(0.0, 2.0, 0.0)),
+        Dancer("dancer:2", "Gone", str(folder / "gone.choreography"), "man_adult", StagePosition(1.0, 2.0, 0.0)),
+    )
+    project = replace(played(), dancers=dancers)
+    performance = Performance(project)
+    span = whole_span(performance.time_frame, FPS)
+    formats = frozenset(("fbx", "bvh"))
+    request = Request(performance, (), folder / "out", formats, span, None, "piece.mid", "test", dancers=dancers)
+    return export(request, text), folder / "out", project
+
+
+def test_who_can_dance_is_written_and_the_other_named(written: tuple[Report, Path, Project]) -> None:
+    report, folder, _ = written
+    assert [one.name for one in report.dancers] == ["Dancer: 1/2"]
+    assert [one.player for one in report.left_out] == ["Gone"]
+    files = report.dancers[0].files
+    assert set(files) == {"character_fbx", "character_bvh"}
+    assert sorted(path.name for path in folder.iterdir()) == sorted([*files.values(), "report.json"])
+    assert report.file_count == 3
+    told = json.loads((folder / "report.json").read_text())
+    assert told["dancers"][0]["stage"] == {"x_m": 0.0, "z_m": 2.0, "turn_deg": 0.0}
+    assert told["dancers"][0]["choreography"] == "steps"
+
+
+def test_bones_keep_their_length_and_feet_stand(written: tuple[Report, Path, Project]) -> None:
+    measures = written[0].dancers[0].measures
+    assert measures is not None
+    assert measures.standing_s > 5.0
+    assert measures.kept
+    assert measures.slide_most_mm_s < 20.0
+    assert measures.below_mm < 2.0
+
+
+def test_the_bvh_file_moves_as_the_dance_does(written: tuple[Report, Path, Project]) -> None:
+    report, folder, project = written
+    performance = Performance(project)
+    dancing = dancing_of(performance, project.dancers[0])
+    read = read_motion(folder / report.dancers[0].files["character_bvh"]).clip
+    dance = dancing.dance(FPS).clip
+    assert len(read) == len(dance) == report.frames
+    # Arms of the capture and of the file go the same ways: directions of upper arms in the world.
+    ours, theirs = dance.world(), read.world()
+    for joint, nxt in ((5, 6), (8, 9)):
+        ways = [world.positions_m[:, nxt] - world.positions_m[:, joint] for world in (ours, theirs)]
+        one, other = (way / np.linalg.norm(way, axis=1, keepdims=True) for way in ways)
+        assert np.einsum("fi,fi->f", one, other).min() > 0.97
+
+
+def test_a_dancer_who_was_moved_and_renamed_is_written_as_now(
+    written: tuple[Report, Path, Project], tmp_path: Path
+) -> None:
+    """Dances are kept for dancers who dance alike, wherever they stand and whatever they are called."""
+    _, _, project = written
+    now = msgspec.structs.replace(project.dancers[0], name="Now", stage=StagePosition(-2.0, 4.0, 0.0))
+    performance = Performance(replace(project, dancers=(now,)))
+    span = whole_span(performance.time_frame, FPS)
+    request = Request(
+        performance, (), tmp_path / "out", frozenset(("bvh",)), span, None, "piece.mid", "test", dancers=(now,)
+    )
+    [told] = export(request, text).dancers
+    assert (told.name, told.stage.x_m, told.stage.z_m) == ("Now", -2.0, 4.0)
+    assert (tmp_path / "out" / "Now.bvh").is_file()

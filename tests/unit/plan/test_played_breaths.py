@@ -1,0 +1,84 @@
+"""Somebody who plays a line breathes where its score says: not elsewhere because of a few milliseconds."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable
+
+import numpy as np
+import pytest
+
+from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.line import MEZZOFORTE, marked
+from app.plan.model import PlayerPlan
+from tests.support.plan import PlainClock, PlainNote, line_of, valves
+
+Q = 480
+BPM = 66.0
+STEPS = (2, 1, 1, 1.5, 0.5, 1, 1, 3, 1) * 12
+PITCHES = (60, 62, 64, 65, 67, 69, 67, 65, 62, 60, 59, 55, 57)
+
+
+def score() -> tuple[PlainNote, ...]:
+    """Two minutes without a rest."""
+    onsets = np.concatenate(([0.0], np.cumsum(STEPS)))
+    return line_of(
+        *(
+            (round(onset * Q), round(step * Q), PITCHES[index % len(PITCHES)])
+            for index, (onset, step) in enumerate(zip(onsets, STEPS, strict=False))
+        )
+    )
+
+
+def as_played(notes: Iterable[PlainNote], seed: int) -> tuple[PlainNote, ...]:
+    """Each note up to 15 ms early or late, and released 25 ms and a part of its length before the next."""
+    chance = random.Random(seed)
+    per_s = Q * BPM / 60.0
+    result = []
+    for note in notes:
+        early = 0.025 + 0.04 * note.duration_tick / per_s
+        onset = max(round(note.onset_tick + chance.uniform(-0.015, 0.015) * per_s), 0)
+        result.append((onset, round(note.duration_tick - early * per_s), note.pitch))
+    return line_of(*result)
+
+
+def plan(notes: tuple[PlainNote, ...], clock: PlainClock, loudness: tuple[float, ...] = ()) -> PlayerPlan:
+    line = Line("p", notes, valves(), loudness=loudness)
+    return make_plans(Piece(clock), (line,), time_frame((line,), clock))["p"]
+
+
+def breaths(plan_: PlayerPlan) -> set[str]:
+    return {event.id for event in plan_.breaths if event.kind == "breath"}
+
+
+STEADY = PlainClock(((0, BPM),))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_played_line_is_breathed_as_its_score(seed: int) -> None:
+    written, found = breaths(plan(score(), STEADY)), breaths(plan(as_played(score(), seed), STEADY))
+    assert len(written) > 10
+    assert len(written & found) >= 0.9 * len(written)
+
+
+@pytest.mark.parametrize("bpm", [76.0, 88.0])
+def test_a_ritardando_moves_at_most_the_breath_it_needs(bpm: float) -> None:
+    notes = score()
+    slower_tick = notes[-1].onset_tick - 8 * Q
+    steady, slowing = PlainClock(((0, bpm),)), PlainClock(((0, bpm), (slower_tick, 0.7 * bpm)))
+    before = {f"breath:{note.id}" for note in notes if note.onset_tick < slower_tick - 8 * Q}
+    written, found = plan(notes, steady), plan(notes, slowing)
+    assert len(breaths(written) & before - breaths(found)) <= 1
+    assert not found.problems
+
+
+def test_small_swells_move_no_breath() -> None:
+    notes = score()
+    swells = tuple(MEZZOFORTE + 0.15 * float(np.sin(index * 1.1)) for index in range(len(notes)))
+    assert breaths(plan(notes, STEADY, swells)) == breaths(plan(notes, STEADY))
+
+
+def test_the_mark_nearest_to_a_loudness() -> None:
+    assert marked(np.array([0.0, 0.60, MEZZOFORTE, 0.68, 1.0])).tolist() == pytest.approx(
+        [16 / 127, MEZZOFORTE, MEZZOFORTE, MEZZOFORTE, 126 / 127]
+    )

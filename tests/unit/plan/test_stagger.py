@@ -1,0 +1,127 @@
+"""Players who play the same breathe one after another: in part of a piece, in octaves, and within held notes."""
+
+from __future__ import annotations
+
+import itertools
+import random
+
+import pytest
+
+from app.plan.corrections import Correction, RemoveEvent
+from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.model import PlayerParameters, PlayerPlan
+from tests.support.plan import PlainClock, PlainMetre, line_of, valves
+
+Q = 480
+METRES = (PlainMetre(0, 4, 4),)
+Row = tuple[int, int, int]
+
+
+def plans(*parts: list[Row], corrections: tuple[Correction, ...] = (), lung_s: float = 7.0) -> list[PlayerPlan]:
+    """Plans at 120 of players whose notes are (onset, duration, pitch) in ticks."""
+    clock = PlainClock()
+    parameters = PlayerParameters(lung_s=lung_s)
+    lines = tuple(
+        Line(f"p{number}", line_of(*rows, track=number), valves(), parameters, corrections if number == 1 else ())
+        for number, rows in enumerate(parts, 1)
+    )
+    return list(make_plans(Piece(clock, METRES), lines, time_frame(lines, clock)).values())
+
+
+def running(first: int, count: int, low: int = 60) -> list[Row]:
+    return [((first + place) * Q, Q, low + place % 5) for place in range(count)]
+
+
+TUNE = (60, 62, 64, 65, 67, 65, 64, 62)
+
+
+def joined(own: int, shift: int) -> list[Row]:
+    """Quarters without a rest: between the 16th and the 80th the same tune, around it one of the player's own."""
+    pitches = [
+        TUNE[place % 8] + shift if 16 <= place < 80 else TUNE[(place * own) % 8] + own - 1 for place in range(96)
+    ]
+    return [(place * Q, Q, pitch) for place, pitch in enumerate(pitches)]
+
+
+def caught(plan: PlayerPlan) -> set[float]:
+    """Quarters before which catch breaths end."""
+    return {round(event.end_tick * 4 / Q) / 4 for event in plan.breaths if event.reason.id == "breath.catch"}
+
+
+def within(plan: PlayerPlan) -> list[float]:
+    return [event.start_s for event in plan.breaths if event.id.startswith("within:")]
+
+
+def test_a_unison_in_a_part_of_the_piece_is_staggered() -> None:
+    own = [(place * Q, Q // 2, 62 + place % 3) for place in range(0, 30, 2)]
+    other = [(place * Q, Q, 67 - place % 4) for place in range(1, 30, 4)]
+    together = running(32, 64)
+    first, second = plans(own + together, other + [(onset, length, pitch + 12) for onset, length, pitch in together])
+    both = [{tick for tick in caught(plan) if tick > 32} for plan in (first, second)]
+    assert min(map(len, both)) >= 2
+    assert not both[0] & both[1]
+
+
+@pytest.mark.parametrize("shift", [0, 12])
+def test_a_tune_that_another_player_joins_is_staggered(shift: int) -> None:
+    made = plans(joined(1, 0), joined(3, shift))
+    within_tune = [{tick for tick in caught(plan) if 16 <= tick < 80} for plan in made]
+    assert min(map(len, within_tune)) >= 4
+    # At the edges the lines differ.
+    assert not {tick for tick in within_tune[0] & within_tune[1] if 18 <= tick < 78}
+
+
+def test_a_unison_as_it_was_played_is_staggered_too() -> None:
+    by_chance = random.Random(1)
+    parts = [
+        [(max(onset + by_chance.randint(-14, 14), 0), length - 40, pitch) for onset, length, pitch in running(0, 64)]
+        for _ in range(2)
+    ]
+    first, second = plans(*parts)
+    assert min(len(caught(first)), len(caught(second))) >= 2
+    written = [{round(place) for place in caught(plan)} for plan in (first, second)]
+    assert not written[0] & written[1]
+
+
+def test_notes_that_meet_by_chance_are_no_unison() -> None:
+    line = running(0, 64)
+    alone = plans(line)[0]
+    other = [(onset, length, pitch + (1 if place % 3 else 0)) for place, (onset, length, pitch) in enumerate(line)]
+    beside = plans(other, line)[1]
+    assert caught(beside) == caught(alone)
+
+
+@pytest.mark.parametrize("count", [2, 3, 4])
+def test_a_long_held_note_is_handed_on(count: int) -> None:
+    held = [(0, 24 * Q, 62), (26 * Q, Q, 64)]
+    made = plans(
+        *([(onset, length, pitch + 12 * (number % 2)) for onset, length, pitch in held] for number in range(count))
+    )
+    times = sorted(time for plan in made for time in within(plan))
+    assert len(times) == count
+    assert all(after - before >= 1.5 for before, after in itertools.pairwise(times))
+    assert all(1.0 <= time <= 10.6 for time in times)
+    assert not [problem for plan in made for problem in plan.problems if problem.message.id == "breath.too_long"]
+
+
+def test_a_held_note_out_of_a_line_without_rests_is_handed_on() -> None:
+    line = [*running(0, 8), (8 * Q, 24 * Q, 62), *running(32, 8)]
+    made = plans(line, [(onset, length, pitch - 12) for onset, length, pitch in line])
+    assert all(len(within(plan)) == 1 and 4.0 < within(plan)[0] < 16.0 for plan in made)
+
+
+def test_who_holds_a_note_alone_does_not_break_it() -> None:
+    (plan,) = plans([(0, 24 * Q, 62)])
+    assert within(plan) == []
+    assert [problem.message.id for problem in plan.problems] == ["breath.too_long"]
+
+
+def test_a_note_that_others_only_touch_is_not_broken() -> None:
+    assert within(plans([(0, 24 * Q, 62)], [(0, Q, 62), (8 * Q, Q, 64)])[0]) == []
+
+
+def test_a_breath_in_a_held_note_can_be_removed() -> None:
+    held = [(0, 24 * Q, 62)]
+    first, second = plans(held, held, corrections=(RemoveEvent("within:1:1"),))
+    assert within(first) == []
+    assert len(within(second)) == 1

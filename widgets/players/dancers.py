@@ -1,0 +1,373 @@
+"""The dancers: who they are, what they dance, how and where."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import msgspec
+from PySide6.QtCore import QEvent, Qt, QTimer
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QCheckBox,
+    QGridLayout,
+    QHBoxLayout,
+    QListWidget,
+    QListWidgetItem,
+    QMenu,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.choreography.library import bundled_choreographies, choreography_path
+from app.choreography.model_file import SUFFIX, read_model
+from app.encoding import shown
+from app.errors import AppError, Message
+from app.project import limits
+from app.project.casting import chance
+from app.project.document import Change
+from app.project.edit import dancers as edit
+from app.project.model import Dancer, Project
+from app.rig.character_library import characters
+from widgets.common.combo import Combo, Option
+from widgets.common.icons import icon
+from widgets.common.instrument_name import character_name
+from widgets.common.number_slider import NumberSlider
+from widgets.common.paths import ask_for_file
+from widgets.common.plain import Label, verbatim
+from widgets.common.section import Section
+from widgets.common.session import Session
+from widgets.common.tokens import LEAST_TARGET_PX
+from widgets.players.newcomers import add_dancer
+from widgets.players.stage import FARTHEST_M
+
+_TOOLS = (("add", "add"), ("duplicate", "duplicate"), ("remove", "delete"))
+_FROM_FILE = "\0file"
+"""Of the options of choreographies: no name of one."""
+_MOST_ROWS = 5
+_PLACES = (("x_m", FARTHEST_M, 2, 0.05, False), ("z_m", FARTHEST_M, 2, 0.05, False), ("turn_rad", 180.0, 0, 5.0, True))
+
+
+class DancersSection(QWidget):
+    """The list of dancers, and what the selected one dances, how and where.
+
+    Parameters
+    ----------
+    session : Session
+    """
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._section = Section(session, "players_dancers", self)
+        self._tools = {name: QToolButton() for name, _ in _TOOLS}
+        self.list = QListWidget()
+        self.list.setObjectName("dancer_list")
+        self.list.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.list.setEditTriggers(
+            QAbstractItemView.EditTrigger.DoubleClicked | QAbstractItemView.EditTrigger.EditKeyPressed
+        )
+        self._form = QWidget()
+        self._labels = {name: Label() for name in ("choreography", "character", "source")}
+        self._choreography, self._character, self._source = Combo(), Combo(), Combo()
+        self._mirrored = QCheckBox()
+        self._mirrored.setObjectName("dancer_mirrored")
+        self._dice = QToolButton()
+        self._dice.setObjectName("dancer_dice")
+        self._sliders = {
+            "seed": NumberSlider(session, 0.0, float(2**31 - 1), decimals=0, step=1.0, slides=False),
+            "size": NumberSlider(session, *limits.DANCE_SIZE, default=1.0, step=0.05),
+            "delay_beats": NumberSlider(session, 0.0, 32.0, default=0.0, step=1.0, decimals=1),
+            **{name: NumberSlider(session, -most, most, decimals=decimals, step=step, slides=slides)
+               for name, most, decimals, step, slides in _PLACES},
+        }  # fmt: skip
+        self._read: tuple[str, list[Option]] | None = None
+        """A choreography whose sources are known."""
+        self._build()
+        self._connect()
+        self._apply_theme()
+        self.retranslate()
+
+    @property
+    def dancer(self) -> Dancer | None:
+        """The selected one."""
+        return self._session.dancer
+
+    def _build(self) -> None:
+        for name, button in self._tools.items():
+            button.setObjectName(f"dancers_{name}_button")
+            self._section.header.add_button(button)
+        grid = QGridLayout(self._form)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setSpacing(4)
+        grid.setColumnStretch(1, 1)
+        combos = {"choreography": self._choreography, "character": self._character, "source": self._source}
+        for row, (name, combo) in enumerate(combos.items()):
+            combo.setObjectName(f"dancer_{name}")
+            self._labels[name].setBuddy(combo)
+            grid.addWidget(self._labels[name], row, 0)
+            grid.addWidget(combo, row, 1)
+        for name, slider in self._sliders.items():
+            slider.setObjectName(f"dancer_{name}")
+        seed = QHBoxLayout()
+        seed.setSpacing(4)
+        seed.addWidget(self._sliders["seed"], 1)
+        seed.addWidget(self._dice)
+        grid.addLayout(seed, 3, 0, 1, 2)
+        grid.addWidget(self._sliders["size"], 4, 0, 1, 2)
+        grid.addWidget(self._sliders["delay_beats"], 5, 0, 1, 2)
+        grid.addWidget(self._mirrored, 6, 0, 1, 2)
+        place = QHBoxLayout()
+        place.setSpacing(4)
+        for name in ("x_m", "z_m"):
+            place.addWidget(self._sliders[name], 1)
+        grid.addLayout(place, 7, 0, 1, 2)
+        grid.addWidget(self._sliders["turn_rad"], 8, 0, 1, 2)
+        self._section.body.addWidget(self.list)
+        self._section.body.addWidget(self._form)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(self._section)
+
+    def _connect(self) -> None:
+        session = self._session
+        session.changed.connect(self._changed)
+        session.theme_changed.connect(self._apply_theme)
+        session.characters_changed.connect(self._show)
+        session.dancer_changed.connect(self._show)
+        self.list.currentItemChanged.connect(self._selected)
+        self.list.itemChanged.connect(self._renamed)
+        self._tools["add"].clicked.connect(self.offer)
+        self._tools["duplicate"].clicked.connect(self._duplicate)
+        self._tools["remove"].clicked.connect(self._remove)
+        self._choreography.chosen.connect(self._choose_choreography)
+        self._character.chosen.connect(lambda id: self._change("character", character_id=id))
+        self._source.chosen.connect(lambda number: self._change("source", source=int(number)))
+        self._mirrored.clicked.connect(lambda on: self._change("mirrored", mirrored=bool(on)))
+        self._dice.clicked.connect(self._new_variation)
+        for name in ("seed", "size", "delay_beats"):
+            slider, whole = self._sliders[name], name == "seed"
+            slider.changed.connect(
+                lambda value, token, name=name, whole=whole: self._change(
+                    name, token, **{name: int(value) if whole else float(value)}
+                )
+            )
+            slider.released.connect(session.document.end_gesture)
+        for name, *_ in _PLACES:
+            self._sliders[name].changed.connect(lambda value, token, name=name: self._place(name, value, token))
+            self._sliders[name].released.connect(session.document.end_gesture)
+
+    # Showing
+
+    def _changed(self, change: Change) -> None:
+        if change.opened or change.before.dancers is not change.after.dancers:
+            self._show()
+
+    def _show(self) -> None:
+        dancers, selected = self._session.project.dancers, self.dancer
+        self.list.blockSignals(True)
+        kept = [str(self.list.item(row).data(Qt.ItemDataRole.UserRole)) for row in range(self.list.count())]
+        if kept != [dancer.id for dancer in dancers]:
+            self.list.clear()
+            for dancer in dancers:
+                item = QListWidgetItem()
+                item.setData(Qt.ItemDataRole.UserRole, dancer.id)
+                item.setFlags(item.flags() | Qt.ItemFlag.ItemIsEditable)
+                self.list.addItem(item)
+        for row, dancer in enumerate(dancers):
+            self.list.item(row).setText(dancer.name)
+            if selected is not None and dancer.id == selected.id:
+                self.list.setCurrentRow(row)
+        self.list.blockSignals(False)
+        rows = min(max(len(dancers), 1), _MOST_ROWS)
+        self.list.setFixedHeight(rows * max(self.list.sizeHintForRow(0), LEAST_TARGET_PX) + 4)
+        self.list.setVisible(bool(dancers))
+        self._section.header.set_texts(self.tr("Dancers"), str(len(dancers)) if dancers else "")
+        self._show_form()
+
+    def _show_form(self) -> None:
+        dancer = self.dancer
+        self._form.setVisible(dancer is not None)
+        for name in ("duplicate", "remove"):
+            self._tools[name].setEnabled(dancer is not None)
+        if dancer is None:
+            return
+        options = [Option(name, name) for name in bundled_choreographies()]
+        if dancer.choreography not in {option.id for option in options}:
+            options.append(Option(dancer.choreography, shown(Path(dancer.choreography).stem)))
+        self._choreography.set_options([*options, Option(_FROM_FILE, self.tr("From File …"))])
+        self._choreography.show_option(dancer.choreography)
+        self._choreography.setToolTip(shown(dancer.choreography))
+        self._character.set_options([Option(id, character_name(id)) for id in characters()])
+        self._character.show_option(dancer.character_id)
+        self._source.set_options([Option("-1", self.tr("None")), *self._sources(dancer)])
+        self._source.show_option(str(dancer.source))
+        self._mirrored.setChecked(dancer.mirrored)
+        values = {"seed": dancer.seed, "size": dancer.size, "delay_beats": dancer.delay_beats}
+        values |= {name: getattr(dancer.stage, name) for name in ("x_m", "z_m")}
+        values["turn_rad"] = round(math.degrees(dancer.stage.turn_rad))
+        for name, slider in self._sliders.items():
+            default = 1.0 if name == "size" else 0.0
+            changed = name in ("size", "delay_beats") and float(values[name]) != default
+            slider.show_value(float(values[name]), default=default, by_hand=changed)
+
+    def _sources(self, dancer: Dancer) -> list[Option]:
+        """The captures that a choreography was learned from; none where it cannot be read, which its problem says."""
+        if self._read is None or self._read[0] != dancer.choreography:
+            try:
+                model = read_model(choreography_path(dancer.choreography))
+            except AppError:
+                return [] if dancer.source < 0 else [Option(str(dancer.source), str(dancer.source + 1))]
+            names = [Path(source.motion_name).stem for source in model.sources]
+            self._read = dancer.choreography, [Option(str(at), name) for at, name in enumerate(names)]
+        return self._read[1]
+
+    # Editing
+
+    def offer(self) -> None:
+        """Ask which choreography another dancer is to dance."""
+        menu = QMenu(self)
+        menu.setObjectName("choreography_menu")
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        for name in bundled_choreographies():
+            menu.addAction(verbatim(name)).triggered.connect(lambda _=False, name=name: self.add(name))
+        menu.addAction(self.tr("From File …")).triggered.connect(self._add_from_file)
+        button = self._tools["add"]
+        menu.popup(button.mapToGlobal(button.rect().bottomLeft()))
+
+    def add(self, choreography: str) -> None:
+        """Add a dancer of a choreography; it is selected then."""
+        add_dancer(self._session, choreography, self.tr("Dancer"))
+
+    def _add_from_file(self) -> None:
+        path = self._ask_for_choreography()
+        if path is not None:
+            self.add(os.fspath(path))
+
+    def _ask_for_choreography(self) -> Path | None:
+        source = self._session.project.source
+        start = Path(source).parent if source else None
+        kind = self.tr("Choreographies")
+        return ask_for_file(self, self.tr("Choreography"), start, f"{kind} (*{SUFFIX})")
+
+    def _choose_choreography(self, id: str) -> None:
+        dancer = self.dancer
+        if dancer is None:
+            return
+        path = self._ask_for_choreography() if id == _FROM_FILE else id
+        if path is None:
+            self._choreography.show_option(dancer.choreography)
+            return
+        self._edit("choreography", lambda project, id: edit.set_choreography(project, (id,), path))
+
+    def _duplicate(self) -> None:
+        dancer, made = self.dancer, list[str]()
+        if dancer is None:
+            return
+
+        def duplicated(project: Project) -> Project:
+            result, dancer_ids = edit.duplicate_dancers(project, (dancer.id,))
+            made.extend(dancer_ids)
+            return result
+
+        if self._session.attempt(Message("edit.duplicate_dancer", {"dancer": dancer.name}), duplicated):
+            self._session.set_dancer(made[-1])
+
+    def _remove(self) -> None:
+        dancer = self.dancer
+        if dancer is not None:
+            self._session.attempt(
+                Message("edit.remove_dancer", {"dancer": dancer.name}),
+                lambda project: edit.remove_dancers(project, (dancer.id,)),
+            )
+
+    def _renamed(self, item: QListWidgetItem) -> None:
+        dancer_id = str(item.data(Qt.ItemDataRole.UserRole))
+        dancer, name = self._session.project.dancer(dancer_id), item.text()
+        if name != dancer.name:
+            self._session.attempt(
+                Message("edit.rename_dancer", {"dancer": dancer.name}),
+                lambda project: edit.rename_dancer(project, dancer_id, name),
+            )
+            # Once the editor of the row is closed: a name that was refused is not shown any more.
+            QTimer.singleShot(0, self, self._show)
+
+    def _new_variation(self) -> None:
+        dancer = self.dancer
+        if dancer is not None:
+            self._change("seed", seed=int(chance("variation", dancer.seed, dancer.id) * (2**31 - 1)))
+
+    def _change(self, name: str, token: object | None = None, **fields: object) -> None:
+        self._edit(name, lambda project, id: edit.change_dancers(project, (id,), **fields), token)
+
+    def _place(self, name: str, value: float, token: object | None) -> None:
+        dancer = self.dancer
+        if dancer is not None:
+            number = math.radians(value) if name == "turn_rad" else value
+            place = msgspec.structs.replace(dancer.stage, **{name: number})
+            self._edit("place", lambda project, id: edit.place_dancers(project, {id: place}), token)
+
+    def _edit(self, name: str, change: Callable[[Project, str], Project], token: object | None = None) -> None:
+        dancer = self.dancer
+        if dancer is not None:
+            self._session.attempt(
+                Message(f"edit.dancer_{name}", {"dancer": dancer.name}),
+                lambda project: change(project, dancer.id),
+                token,
+            )
+
+    def _selected(self, item: QListWidgetItem | None) -> None:
+        if item is not None:
+            self._session.set_dancer(str(item.data(Qt.ItemDataRole.UserRole)))
+
+    # Words and pictures
+
+    def _apply_theme(self) -> None:
+        tokens = self._session.tokens
+        for name, drawing in _TOOLS:
+            self._tools[name].setIcon(icon(drawing, tokens))
+        self._dice.setIcon(icon("dice", tokens))
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        self._tools["add"].setToolTip(self.tr("Add a dancer"))
+        self._tools["duplicate"].setToolTip(self.tr("Duplicate: another one dances the same"))
+        self._tools["remove"].setToolTip(self.tr("Remove the selected dancer"))
+        self.list.setAccessibleName(self.tr("Dancers"))
+        texts = {
+            "choreography": self.tr("Choreography"),
+            "character": self.tr("Character"),
+            "source": self.tr("Preferred source"),
+        }
+        for name, text in texts.items():
+            self._labels[name].setText(text)
+        self._source.setToolTip(self.tr("The capture whose motion is danced where it suits the music about as well"))
+        self._mirrored.setText(self.tr("Mirrored"))
+        self._mirrored.setToolTip(self.tr("Left and right exchanged"))
+        self._dice.setToolTip(self.tr("Another dance to the same music"))
+        metres = self.tr("m", "metres")
+        words = {
+            "seed": (self.tr("Variation"), "", self.tr("Another number is another dance to the same music")),
+            "size": (self.tr("Size of motion"), "×", self.tr("Of trunk and arms: 1 as captured")),
+            "delay_beats": (self.tr("Delay"), self.tr("beats"), self.tr("In a canon: so much later than the music")),
+            "x_m": (self.tr("X"), metres, self.tr("To the right as the audience sees it, from the middle")),
+            "z_m": (self.tr("Z"), metres, self.tr("Towards the audience, from the middle")),
+            "turn_rad": (
+                self.tr("Turn"),
+                "°",
+                self.tr("0 faces the audience, positive turns to the right as the audience sees it"),
+            ),
+        }
+        for name, (label, unit, tip) in words.items():
+            self._sliders[name].set_texts(label, unit, tip)
+        self._show()
+
+    # Qt's own names
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)

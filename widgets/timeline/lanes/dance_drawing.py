@@ -1,0 +1,169 @@
+"""How dances are drawn: each basic motion as a block with its number and a little figure of its accent."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
+
+from widgets.timeline.lane import LaneItem
+from widgets.timeline.lanes.drawing import Floats, draw_lines, draw_mark, draw_rects, draw_text, shade, small_font
+
+if TYPE_CHECKING:
+    from app.performance.dance_steps import DanceSteps
+    from widgets.timeline.lanes.dance import DanceLane
+
+LEAST_NUMBER_PX, LEAST_FIGURE_PX = 12.0, 20.0
+"""A narrower block has no number, and no figure."""
+HIGHEST = 1.3
+"""Of the body's height, with the arms up."""
+FIGURE_WIDTH = 0.75
+"""Of its height."""
+ICON_PX = 40
+_BAR_PX = 3.0
+
+
+def figure_lines(points: Floats, bones: tuple[tuple[int, int], ...]) -> tuple[Floats, Floats, Floats, Floats]:
+    """X and Y of the starts and ends of the bones of figures (N, 21, 2) in pixels, each flat."""
+    first, second = np.array(bones).T
+    start, end = points[:, first].reshape(-1, 2), points[:, second].reshape(-1, 2)
+    return start[:, 0], start[:, 1], end[:, 0], end[:, 1]
+
+
+def draw_figures(painter: QPainter, points: Floats, colour: QColor, width_px: float) -> None:
+    """Draw figures (N, 21, 2) in pixels."""
+    from app.performance.dance_steps import BONES, HEAD
+
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+    pen = QPen(colour, width_px)
+    pen.setCapStyle(Qt.PenCapStyle.RoundCap)
+    draw_lines(painter, *figure_lines(points, BONES), pen)
+    neck, crown = points[:, HEAD[0]], points[:, HEAD[1]]
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(colour)
+    for middle, tall in zip((neck + crown) / 2.0, np.linalg.norm(crown - neck, axis=-1), strict=True):
+        painter.drawEllipse(QPointF(*middle), 0.36 * tall, 0.5 * tall)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+
+
+def placed(drawn: Floats, middles_px: Floats, floor_px: float, height_px: float) -> Floats:
+    """Figures (N, 21, 2) of parts of the body's height as pixels."""
+    scale = height_px / HIGHEST
+    return np.stack([middles_px[:, None] + scale * drawn[..., 0], floor_px - scale * drawn[..., 1]], axis=-1)
+
+
+def figure_icon(drawn: Floats, colour: QColor, ratio: float) -> QIcon:
+    """One figure (21, 2) as the picture of a menu's entry."""
+    picture = QPixmap(QSize(ICON_PX, ICON_PX) * ratio)
+    picture.setDevicePixelRatio(ratio)
+    picture.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(picture)
+    draw_figures(painter, placed(drawn[None], np.array([ICON_PX / 2]), ICON_PX - 2.0, ICON_PX - 4.0), colour, 1.6)
+    painter.end()
+    return QIcon(picture)
+
+
+class DancesItem(LaneItem):
+    """The rows of a lane of dances."""
+
+    def __init__(self, lane: DanceLane) -> None:
+        super().__init__(lane)
+        self._dances = lane
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane, tokens = self._dances, self._dances.session.tokens
+        painter.setFont(small_font(lane.font()))
+        text = lane.empty_text()
+        if text:
+            painter.setPen(QColor(tokens.text_dim))
+            painter.drawText(
+                lane.plot_rect.adjusted(12, 2, -12, -2),
+                int(Qt.AlignmentFlag.AlignVCenter) | int(Qt.TextFlag.TextWordWrap),
+                text,
+            )
+            return
+        for number, dancer in enumerate(lane.dancers):
+            box = lane.row_rect(number)
+            dance = lane.dances.get(dancer.id)
+            if dance is None or not box.intersects(lane.plot_rect):
+                continue
+            painter.setPen(QPen(QColor(tokens.line), 1.0))
+            painter.drawLine(box.bottomLeft(), box.bottomRight())
+            reason = lane.reason(dance)
+            if reason:
+                painter.setPen(QColor(tokens.warning if dance.error is not None else tokens.text_dim))
+                draw_text(painter, box.adjusted(12, 0, -12, 0), reason)
+                continue
+            self._paint_row(painter, box.adjusted(0, 2, 0, -2), dance, lane.session.colour(dancer))
+
+    def _paint_row(self, painter: QPainter, box: QRectF, dance: DanceSteps, colour: str) -> None:
+        lane, axis = self._dances, self.lane.axis
+        first = int(np.searchsorted(dance.end_s, axis.start_s, side="right"))
+        stop = int(np.searchsorted(dance.start_s, axis.end_s, side="left"))
+        if first >= stop:
+            return
+        here = np.arange(first, stop)
+        left, right = axis.x_px(dance.start_s[here]), axis.x_px(dance.end_s[here])
+        width = np.maximum(right - left - 1.0, 1.0)
+        count = len(here)
+        draw_rects(painter, left, np.full(count, box.top()), width, np.full(count, box.height()), shade(colour, 55))
+        self._paint_accents(painter, box, dance, here, colour)
+        chosen = lane.selected_step
+        selected = chosen[1] if chosen is not None and chosen[0] == dance.dancer.id else None
+        wide = width >= LEAST_NUMBER_PX
+        if (width >= LEAST_FIGURE_PX).any() and box.height() >= 20.0:
+            self._paint_figures(painter, box, dance, here[width >= LEAST_FIGURE_PX], colour)
+        for at in np.flatnonzero(wide).tolist():
+            block = QRectF(float(left[at]), box.top(), float(width[at]), box.height())
+            painter.setPen(QColor(lane.session.tokens.text))
+            draw_text(
+                painter,
+                block.adjusted(_BAR_PX, 0.0, -1.0, 0.0),
+                str(dance.steps[first + at].state + 1),
+                Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop,
+            )
+        self._paint_marks(painter, box, dance, here, selected)
+
+    def _paint_accents(
+        self, painter: QPainter, box: QRectF, dance: DanceSteps, here: npt.NDArray[np.int64], colour: str
+    ) -> None:
+        """A line where the accent of each block is."""
+        accents = self.lane.axis.x_px(np.array([dance.steps[at].accent_s for at in here.tolist()]))
+        bottom = np.full(len(here), box.bottom())
+        draw_lines(painter, accents, bottom - 5.0, accents, bottom, QPen(QColor(colour), 2.0))
+
+    def _paint_figures(
+        self, painter: QPainter, box: QRectF, dance: DanceSteps, here: npt.NDArray[np.int64], colour: str
+    ) -> None:
+        from app.performance.dance_steps import figures
+
+        assert dance.choreographer is not None
+        axis, height = self.lane.axis, box.height() - 4.0
+        drawn = figures(dance.choreographer)[[dance.steps[at].segment for at in here.tolist()]]
+        middles = axis.x_px((dance.start_s[here] + dance.end_s[here]) / 2.0) + 4.0
+        if dance.dancer.mirrored:
+            drawn = drawn * (-1.0, 1.0)
+        draw_figures(painter, placed(drawn, middles, box.bottom() - 2.0, height), QColor(colour), 1.5)
+
+    def _paint_marks(
+        self,
+        painter: QPainter,
+        box: QRectF,
+        dance: DanceSteps,
+        here: npt.NDArray[np.int64],
+        selected: int | None,
+    ) -> None:
+        tokens, axis = self._dances.session.tokens, self.lane.axis
+        for at in here.tolist():
+            left, right = axis.x_px(float(dance.start_s[at])), axis.x_px(float(dance.end_s[at]))
+            if dance.pinned[at]:
+                draw_mark(painter, tokens, max(right - 8.0, left), box.top() + 1.0)
+            elif dance.barred(at):
+                draw_mark(painter, tokens, max(right - 8.0, left), box.top() + 1.0, removed=True)
+            if at == selected:
+                painter.setBrush(Qt.BrushStyle.NoBrush)
+                painter.setPen(QPen(QColor(tokens.accent), 1.6))
+                painter.drawRect(QRectF(left, box.top(), max(right - left - 1.0, 2.0), box.height()))
