@@ -70,7 +70,7 @@ def stands(clip: MotionClip, contacts: BoolArray) -> tuple[Stand, ...]:
         low = tips[:, foot, 1] < on_floor_m + REACHED_M
         for start, stop in _spans(contacts[:, foot] & low, fps):
             for first, last in _still(tips[start:stop, foot], fps):
-                middle = np.median(tips[start + first : start + last, foot], axis=0)
+                middle = _middle(tips[start + first : start + last, foot])
                 place = (float(middle[0]), on_floor_m, float(middle[2]))
                 found.append(Stand(foot, start + first, start + last, place))
     own = [_apart([stand for stand in found if stand.foot == foot], fps) for foot in range(2)]
@@ -116,7 +116,7 @@ def planted(clip: MotionClip, standing: tuple[Stand, ...]) -> MotionClip:
         turned = world.rotations[:, 1 + SEGMENTS.index(FEET[foot])]
         ankle = targets[:, foot] - quaternion.rotate(turned, clip.shape.ends_m[ENDS.index(FEET[foot])])
         bend(clip, world, ("hips", *(f"{side}{part}" for part in LEG)), ankle, AHEAD, rotations)
-    return replace(clip, rotations=_continuous(rotations))
+    return replace(clip, rotations=quaternion.continuous(rotations))
 
 
 def _tip_height_m(clip: MotionClip, foot: int) -> float:
@@ -145,7 +145,7 @@ def _still(tip_m: FloatArray, fps: float) -> list[tuple[int, int]]:
     frames = len(tip_m)
     if frames < LEAST_S * fps:
         return []
-    off = np.linalg.norm((tip_m - np.median(tip_m, axis=0))[:, [0, 2]], axis=1)
+    off = np.linalg.norm((tip_m - _middle(tip_m))[:, [0, 2]], axis=1)
     if off.max() <= DRIFTS_M:
         return [(0, frames)]
     speed = np.linalg.norm(np.gradient(tip_m, axis=0)[:, [0, 2]], axis=1) if frames > 1 else np.zeros(frames)
@@ -154,6 +154,12 @@ def _still(tip_m: FloatArray, fps: float) -> list[tuple[int, int]]:
     first = _still(tip_m[: max(0, middle - half)], fps)
     later = min(frames, middle + half)
     return first + [(start + later, stop + later) for start, stop in _still(tip_m[later:], fps)]
+
+
+def _middle(places_m: FloatArray) -> FloatArray:
+    """(3,) median of places (N, 3), of each coordinate."""
+    ordered = np.sort(places_m, axis=0)
+    return np.asarray(0.5 * (ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]))
 
 
 def _correction(tip_m: FloatArray, standing: list[Stand], fps: float) -> FloatArray:
@@ -217,10 +223,3 @@ def _sunk(clip: MotionClip, targets: FloatArray, standing: tuple[Stand, ...]) ->
     wide = 2 * round(2.5 * SINK_S * fps) + 1
     smooth = gaussian_filter1d(maximum_filter1d(sink, wide, mode="nearest"), SINK_S * fps, mode="nearest")
     return np.asarray(clip.hips_m - smooth[:, None] * (0.0, 1.0, 0.0))
-
-
-def _continuous(rotations: FloatArray) -> FloatArray:
-    turned = np.einsum("fji,fji->fj", rotations[1:], rotations[:-1]) < 0.0
-    sides = np.concatenate([np.ones((1, rotations.shape[1])), np.where(turned, -1.0, 1.0)]).cumprod(axis=0)
-    continuous: FloatArray = rotations * sides[..., None]
-    return continuous

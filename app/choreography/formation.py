@@ -9,7 +9,8 @@ from typing import Final, Literal, get_args
 import numpy as np
 
 from app.choreography.clip import MotionClip
-from app.choreography.generate import Choreographer, Dance, Manner
+from app.choreography.dance import Dance, Manner
+from app.choreography.generate import Choreographer
 from app.choreography.rhythm import Rhythm, delayed
 
 Formation = Literal["unison", "canon", "mirror", "individual"]
@@ -19,7 +20,7 @@ CANON_BEATS: Final = 4.0
 """In canon each dancer begins so many felt beats after the one before."""
 APART_M: Final[dict[Formation, float]] = {"unison": 2.0, "canon": 3.0, "mirror": 3.0, "individual": 3.6}
 """From dancer to dancer in the row: those who dance alike at a time do not meet however far they go, the others keep
-about `app.choreography.generate.STAGE_M` near to their places."""
+about `app.choreography.stitch.STAGE_M` near to their places."""
 ENDS_S: Final = 2.0
 """All come to rest within this time after the last beat that any of them hears."""
 

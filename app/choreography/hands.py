@@ -65,9 +65,7 @@ def _pushed(clip: MotionClip) -> MotionClip:
             here = slice(int(moved[0]), int(moved[-1]) + 1)
             part = JointTransforms(world.joints, world.positions_m[here], world.rotations[here])
             bend(clip, part, limb, (wrist + push)[here], ELBOW, rotations[here])
-    turned = np.einsum("fji,fji->fj", rotations[1:], rotations[:-1]) < 0.0
-    sides = np.concatenate([np.ones((1, rotations.shape[1])), np.where(turned, -1.0, 1.0)]).cumprod(axis=0)
-    return replace(clip, rotations=rotations * sides[..., None])
+    return replace(clip, rotations=quaternion.continuous(rotations))
 
 
 def depths_m(clip: MotionClip) -> FloatArray:

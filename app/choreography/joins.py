@@ -58,6 +58,13 @@ class Clouds:
         self.flat: ComplexArray = flat - self.middle[:, None]
         self.height: FloatArray = cloud[..., 1]
 
+    def one(self, number: int) -> Clouds:
+        """One of the bodies."""
+        found = object.__new__(Clouds)
+        here = slice(number, number + 1)
+        found.flat, found.middle, found.height = self.flat[here], self.middle[here], self.height[here]
+        return found
+
 
 STATURE_M: Final = 1.7
 _WEIGHTS: FloatArray = np.tile([_HEAVY.get(name, 1.0) for name in (*SEGMENTS, *ENDS)], len(AROUND_S))

@@ -99,7 +99,7 @@ def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0)
     return Motion(
         fps=clip.fps,
         first_frame_s=first_frame_s,
-        rotations=_continuous(local).astype(np.float32),
+        rotations=quaternion.continuous(quaternion.normalize(local)).astype(np.float32),
         hips_m=hips_m.astype(np.float32),
         morphs={},
         controls={},
@@ -316,11 +316,3 @@ def _bend_fingers(skeleton: Skeleton, local: FloatArray) -> None:
             for part, bend in THUMB_BEND_RAD.items():
                 if name == f"{side}{part}":
                     local[:, joint] = quaternion.from_axis_angle(np.array([0.0, sign, 0.0]), -bend)
-
-
-def _continuous(rotations: FloatArray) -> FloatArray:
-    """Each frame on the side of the one before."""
-    turned = np.einsum("fji,fji->fj", rotations[1:], rotations[:-1]) < 0.0
-    sides = np.concatenate([np.ones((1, rotations.shape[1])), np.where(turned, -1.0, 1.0)]).cumprod(axis=0)
-    continuous: FloatArray = quaternion.normalize(rotations) * sides[..., None]
-    return continuous

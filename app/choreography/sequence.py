@@ -30,7 +30,8 @@ FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 
 SPEEDS: Final = (0.67, 1.5)
-"""A motion is danced no slower and no faster than this, beside the speed it was captured at."""
+"""A motion is danced no slower and no faster than this from one arrival to the next, beside the speed it was captured
+at; in between its speed goes over smoothly and was up to 1.75 for a moment."""
 MOST_STEPS: Final = 8
 """From one accent to the next there are at most so many places of the grid."""
 

@@ -19,7 +19,7 @@ from app.errors import UsageError
 from app.messages import filled
 
 if TYPE_CHECKING:
-    from app.choreography.generate import Dance
+    from app.choreography.dance import Dance
     from app.choreography.model import ChoreographyModel
     from app.choreography.read_motion import ReadMotion
 
@@ -298,9 +298,10 @@ def _formation(name: str) -> str:
 
 def generate(arguments: argparse.Namespace) -> None:
     """Generate the dances, write the files and print what is danced."""
+    from app.choreography.dance import Manner
     from app.choreography.derived_rhythm import heard_rhythm
     from app.choreography.formation import dance_together, roles
-    from app.choreography.generate import Choreographer, Manner
+    from app.choreography.generate import Choreographer
     from app.choreography.library import bundled_choreographies, choreography_path
     from app.choreography.model_file import read_model
     from app.choreography.write_motion import write_motion

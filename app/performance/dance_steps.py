@@ -16,8 +16,9 @@ import numpy.typing as npt
 
 from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
 from app.choreography.clip import MotionClip
+from app.choreography.dance import Step
 from app.choreography.features import facing, height_m, points_m
-from app.choreography.generate import Choreographer, Step
+from app.choreography.generate import Choreographer
 from app.choreography.model import ChoreographyModel
 from app.choreography.sequence import grid_of
 from app.errors import AppError, Cancelled, Message

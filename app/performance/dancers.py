@@ -23,8 +23,9 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
+from app.choreography.dance import Dance, Manner, Step
 from app.choreography.derived_rhythm import heard_rhythm
-from app.choreography.generate import Choreographer, Dance, Manner, Step
+from app.choreography.generate import Choreographer
 from app.choreography.library import choreography_path
 from app.choreography.model_file import read_model
 from app.choreography.retarget import retarget

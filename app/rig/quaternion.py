@@ -218,3 +218,12 @@ def slerp(a: ArrayLike, b: ArrayLike, share: ArrayLike) -> FloatArray:
     """Interpolate quaternions (..., 4) at constant angular speed, by the shorter way; ``share`` (...) is 0 at a."""
     turn = to_rotation_vector(multiply(conjugate(a), b))
     return multiply(a, from_rotation_vector(turn * np.asarray(share, dtype=np.float64)[..., None]))
+
+
+def continuous(rotations: ArrayLike) -> FloatArray:
+    """Return the same rotations (F, J, 4) with each frame on the side of the one before."""
+    q = np.asarray(rotations, dtype=np.float64)
+    turned = np.einsum("fji,fji->fj", q[1:], q[:-1]) < 0.0
+    sides = np.concatenate([np.ones((1, q.shape[1])), np.where(turned, -1.0, 1.0)]).cumprod(axis=0)
+    result: FloatArray = q * sides[..., None]
+    return result

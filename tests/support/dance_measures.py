@@ -27,9 +27,10 @@ from scipy.spatial import cKDTree
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
+from app.choreography.dance import Dance, Manner
 from app.choreography.derived_rhythm import heard_rhythm
 from app.choreography.features import facing, height_m, points_m
-from app.choreography.generate import Choreographer, Dance, Manner
+from app.choreography.generate import Choreographer
 from app.choreography.hands import depths_m
 from app.choreography.learn import learn
 from app.choreography.model import ChoreographyModel
@@ -319,6 +320,8 @@ def measured(model: ChoreographyModel, piece: Path, seed: int, folder: Path, fps
     near = nearest_m(clip, [resampled(one, fps) for one in model.clips])
     chosen = [step.segment for step in dance.steps]
     faces = np.exp(1j * yaws_rad(clip))
+    # A reader puts the first frame in the middle of the stage.
+    path = clip.hips_m - clip.hips_m[0] + dance.clip.hips_m[0]
     return Measured(
         piece=piece.stem.removeprefix("gmd_")[:40],
         length_s=clip.length_s,
@@ -338,7 +341,7 @@ def measured(model: ChoreographyModel, piece: Path, seed: int, folder: Path, fps
         nearest_mean=float(near.mean()),
         nearest_p99=float(np.percentile(near, 99.0)),
         hands_p99=float(np.percentile(depths_m(clip), 99.0)),
-        away_m=float(np.hypot(clip.hips_m[:, 0], clip.hips_m[:, 2]).max()),
+        away_m=float(np.hypot(path[:, 0], path[:, 2]).max()),
         faces_deg=float(np.degrees(np.angle(faces.mean()))),
     )
 

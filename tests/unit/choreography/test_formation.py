@@ -9,8 +9,9 @@ from functools import cache
 import numpy as np
 import pytest
 
+from app.choreography.dance import Dance, Manner
 from app.choreography.formation import APART_M, CANON_BEATS, FORMATIONS, Formation, dance_together, roles
-from app.choreography.generate import Choreographer, Dance, Manner
+from app.choreography.generate import Choreographer
 from tests.support.dances import beaten, model
 
 BEAT_S = 0.5

@@ -1,0 +1,83 @@
+"""A dance as a value: how a dancer dances, which segments when, and the motion of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.choreography.clip import MotionClip
+from app.choreography.feet import Stand
+
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Manner:
+    """How one dancer dances.
+
+    Attributes
+    ----------
+    seed : int
+        Another seed is another dance to the same music.
+    source : int or None
+        Number of the model's source whose motion is preferred.
+    size : float
+        Of trunk and arms about their usual pose, 1 as captured.
+    mirrored : bool
+    """
+
+    seed: int = 0
+    source: int | None = None
+    size: float = 1.0
+    mirrored: bool = False
+
+
+@dataclass(frozen=True)
+class Step:
+    """A segment that is danced.
+
+    Attributes
+    ----------
+    segment : int
+        In the model.
+    state : int
+    place : int
+        Of its accent in the grid of beats and half beats.
+    start_s, accent_s, end_s : float
+        In the piece.
+    """
+
+    segment: int
+    state: int
+    place: int
+    start_s: float
+    accent_s: float
+    end_s: float
+
+
+@dataclass(frozen=True, eq=False)
+class Dance:
+    """What was generated.
+
+    Attributes
+    ----------
+    clip : MotionClip
+        Its frame 0 is at ``first_s``.
+    first_s : float
+    steps : tuple of Step
+    speeds : (T,) float64
+        Of the source's time, by frame: 1 as captured, 0 at rest.
+    seams : tuple of int
+        Frames at which motion begins that does not follow in the capture on what was before.
+    standing : tuple of Stand
+        Where feet stand.
+    """
+
+    clip: MotionClip
+    first_s: float
+    steps: tuple[Step, ...]
+    speeds: FloatArray
+    seams: tuple[int, ...]
+    standing: tuple[Stand, ...]

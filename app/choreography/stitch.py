@@ -1,0 +1,285 @@
+"""Segments of motion laid end to end: each turned and moved to where the one before ends, and faded in from it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicSpline
+
+from app.choreography.body import SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.contacts import BoolArray, foot_contacts
+from app.choreography.features import facing, height_m
+from app.choreography.joins import FADE_S, STATURE_M, Clouds, best_turn_rad, faded
+from app.choreography.model import ChoreographyModel
+from app.rig import quaternion
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+ComplexArray = npt.NDArray[np.complex128]
+
+STAGE_M: Final = 1.2
+"""A dancer keeps this near to the place."""
+FACES_RAD: Final = math.radians(20.0)
+"""And turned no farther from the audience, in the mean; spins and turns of the capture stay whole."""
+TURN_BACK: Final = 0.6
+MOST_TURN_RAD: Final = math.radians(40.0)
+STEP_BACK: Final = 0.2
+MOST_STEP_M: Final = 0.08
+"""Part of an excess over these that each join takes back, and how much at most."""
+LATELY_S: Final = 1.0
+"""Place and facing are means of so much of the motion."""
+_UP: Final = np.array([0.0, 1.0, 0.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """Which moment of the captured motion each frame shows.
+
+    Attributes
+    ----------
+    segments : (N,) int64
+        Segments of the model in the order in which they are danced.
+    which : (F,) int64
+        Of each frame the place in that order; ascending.
+    source_s : (F,) float64
+        Time in the clip of that segment.
+    speeds : (F,) float64
+        How fast that time goes: 1 as captured, 0 at rest.
+    """
+
+    segments: IntArray
+    which: IntArray
+    source_s: FloatArray
+    speeds: FloatArray
+
+
+class Stitcher:
+    """The motion of a model, prepared for being put together in any order.
+
+    Attributes
+    ----------
+    starts, ends : Clouds
+        The bodies about the first and the last frame of each segment.
+    """
+
+    def __init__(self, model: ChoreographyModel) -> None:
+        self._model = model
+        self._clips = [_SmoothClip(clip) for clip in model.clips]
+        self._heights_m = [height_m(clip) for clip in model.clips]
+        self._contacts = [foot_contacts(clip) for clip in model.clips]
+        self.starts = Clouds(model.clips, [(one.clip, one.start) for one in model.segments])
+        self.ends = Clouds(model.clips, [(one.clip, one.end) for one in model.segments])
+
+    def feet_standing(self, frames: Sequence[int]) -> IntArray:
+        """(S,) how many feet stand at a frame of each segment's clip."""
+        return np.array(
+            [
+                self._contacts[one.clip][min(frame, len(self._contacts[one.clip]) - 1)].sum()
+                for one, frame in zip(self._model.segments, frames, strict=True)
+            ],
+            np.int64,
+        )
+
+    def follows(self, segment: int, after: int) -> bool:
+        """Whether a segment begins in the capture where another one ends."""
+        one, other = self._model.segments[after], self._model.segments[segment]
+        return one.clip == other.clip and one.end == other.start
+
+    def still(self, count: int, body: int, fps: Fraction) -> MotionClip:
+        """The first pose of the model, for a number of frames, with the body of one of the clips."""
+        first = self._model.segments[0]
+        hips, rotations = self._clips[first.clip].at(np.full(count, float(first.start)))
+        scale = self._heights_m[body] / self._heights_m[first.clip]
+        return MotionClip(self._model.clips[body].shape, fps, hips * _UP * scale, rotations)
+
+    def stitched(self, frames: Frames, body: int, fps: Fraction) -> tuple[MotionClip, BoolArray, tuple[int, ...]]:
+        """Put segments together.
+
+        Parameters
+        ----------
+        frames : Frames
+        body : int
+            The clip whose body dances.
+        fps : Fraction
+
+        Returns
+        -------
+        clip : MotionClip
+        contacts : (F, 2) bool
+            When the left and the right foot stand in the capture.
+        seams : tuple of int
+            Frames at which motion begins that does not follow in the capture on what was before.
+        """
+        runs = np.flatnonzero(np.diff(frames.which, prepend=-1, append=frames.which[-1] + 1))
+        captured, contacts = self._captured(frames, runs, body, fps)
+        out = _Output(fps, len(frames.which))
+        seams: list[int] = []
+        turn, moved = 0.0, 0.0 + 0.0j
+        before: int | None = None
+        for run, (start, stop) in enumerate(zip(runs[:-1].tolist(), runs[1:].tolist(), strict=True)):
+            step, kept = int(frames.which[start]), (turn, moved)
+            segment = int(frames.segments[step])
+            if before is None:
+                turn, moved = self._home(segment, body)
+                goes_on = True
+            else:
+                earlier = int(frames.segments[before])
+                follows = self.follows(segment, earlier)
+                if not follows or step != before + 1:
+                    turn, moved = self._aligned(earlier, segment, turn, moved, self._heights_m[body])
+                turn, moved = _steered(turn, moved, out, start)
+                goes_on = follows and kept == (turn, moved) and not out.is_fading(start)
+                if not follows:
+                    seams.append(start)
+            # One frame more: by the first two it is known how fast the old and the new motion go apart.
+            here = slice(start + run, stop + run + 1)
+            hips, rotations = _placed(captured[0][here], captured[1][here], turn, moved)
+            out.append(start, hips, rotations, faded_in=not goes_on)
+            before = step
+        shape = self._model.clips[body].shape
+        return MotionClip(shape, fps, out.hips, quaternion.continuous(out.rotations)), contacts, tuple(seams)
+
+    def _captured(
+        self, frames: Frames, runs: IntArray, body: int, fps: Fraction
+    ) -> tuple[tuple[FloatArray, FloatArray], BoolArray]:
+        """Hips and rotations of every frame, and of one more after each run, for a body; when feet stand."""
+        last = runs[1:] - 1
+        after_s = frames.source_s[last] + frames.speeds[last] / float(fps)
+        source_s, which = (
+            np.insert(frames.source_s, runs[1:], after_s),
+            np.insert(frames.which, runs[1:], frames.which[last]),
+        )
+        clips = np.array([segment.clip for segment in self._model.segments])[frames.segments]
+        hips, rotations = np.zeros((len(which), 3)), np.zeros((len(which), len(SEGMENTS), 4))
+        contacts = np.zeros((len(frames.which), 2), bool)
+        for number, (smooth, clip) in enumerate(zip(self._clips, self._model.clips, strict=True)):
+            here, shown = clips[which] == number, clips[frames.which] == number
+            hips[here], rotations[here] = smooth.at(source_s[here] * float(clip.fps))
+            hips[here] *= self._heights_m[body] / self._heights_m[number]
+            nearest = np.clip(np.rint(frames.source_s[shown] * float(clip.fps)).astype(int), 0, len(clip) - 1)
+            contacts[shown] = self._contacts[number][nearest]
+        return (hips, rotations), contacts
+
+    def _home(self, segment: int, body: int) -> tuple[float, complex]:
+        """Turn and move that put the start of a segment at the dancer's place, facing the audience."""
+        one = self._model.segments[segment]
+        source = self._model.clips[one.clip]
+        turn = -_yaw(facing(source.span(one.start, one.start + 1)))
+        hips = source.hips_m[one.start] * self._heights_m[body] / self._heights_m[one.clip]
+        return turn, -complex(np.exp(1j * turn)) * complex(hips[2], hips[0])
+
+    def _aligned(
+        self, before: int, after: int, turn: float, moved: complex, own_height_m: float
+    ) -> tuple[float, complex]:
+        """Turn and move of a segment that lay it over the end of the one before."""
+        own = float(best_turn_rad(self.ends.one(before), self.starts.one(after))[0])
+        scale = own_height_m / STATURE_M
+        reached = complex(np.exp(1j * turn)) * self.ends.middle[before] * scale + moved
+        turn += own
+        return turn, reached - complex(np.exp(1j * turn)) * self.starts.middle[after] * scale
+
+
+class _SmoothClip:
+    """A clip as smooth functions of the frame."""
+
+    def __init__(self, clip: MotionClip) -> None:
+        self._last = len(clip) - 1.0
+        frames = np.arange(len(clip))
+        self._hips = CubicSpline(frames, clip.hips_m)
+        self._rotations = CubicSpline(frames, clip.rotations.reshape(len(clip), -1))
+
+    def at(self, frames: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Hips (N, 3) and local rotations (N, 16, 4) at frames, which need not be whole; within the clip."""
+        frames = np.clip(frames, 0.0, self._last)
+        turns = self._rotations(frames).reshape(len(frames), len(SEGMENTS), 4)
+        return self._hips(frames), quaternion.normalize(turns)
+
+
+class _Output:
+    """Frames as they are made; each new motion is carried over from the one before."""
+
+    def __init__(self, fps: Fraction, count: int) -> None:
+        self._rate = float(fps)
+        self.hips = np.zeros((count, 3))
+        self.rotations = np.tile(quaternion.IDENTITY, (count, len(SEGMENTS), 1))
+        self._faces: ComplexArray = np.ones(count, np.complex128)
+        self._fades_until = 0
+
+    def is_fading(self, frame: int) -> bool:
+        """Whether at a frame something of an earlier motion is left."""
+        return frame < self._fades_until
+
+    def append(self, start: int, hips: FloatArray, rotations: FloatArray, *, faded_in: bool) -> None:
+        """Add frames; the last of what is given is what would come next, and is not added."""
+        count = len(hips) - 1
+        if faded_in and start >= 2:
+            (hips_before, hips_last), (turns_before, turns_last) = (
+                each[start - 2 : start] for each in (self.hips, self.rotations)
+            )
+            # Where the old motion would go on to: this frame and the next.
+            step, turn = hips_last - hips_before, quaternion.multiply(turns_last, quaternion.conjugate(turns_before))
+            off = hips_last + step * np.array([[1.0], [2.0]]) - hips[:2]
+            goes_on = np.stack([once := quaternion.multiply(turn, turns_last), quaternion.multiply(turn, once)])
+            turned = quaternion.to_rotation_vector(quaternion.multiply(goes_on, quaternion.conjugate(rotations[:2])))
+            spin = turned[1] - turned[0]
+            # A difference about half a turn has two ways round; no join as bad as that is chosen.
+            spin = np.where(np.linalg.norm(spin, axis=-1, keepdims=True) > 1.0, 0.0, spin)
+            length = math.ceil(FADE_S * self._rate)
+            self._fades_until = start + length
+            fading = slice(0, min(count, length))
+            times_s = np.arange(fading.stop) / self._rate
+            hips[fading] += faded(off[0], (off[1] - off[0]) * self._rate, times_s)
+            carried = quaternion.from_rotation_vector(faded(turned[0], spin * self._rate, times_s))
+            rotations[fading] = quaternion.multiply(carried, rotations[fading])
+        here = slice(start, start + count)
+        self.hips[here], self.rotations[here] = hips[:-1], rotations[:-1]
+        self._faces[here] = np.exp(1j * quaternion.twist_angle(rotations[:-1, 0], _UP))
+
+    def place(self, frame: int) -> complex:
+        """Where the hips are just before a frame."""
+        return complex(self.hips[frame - 1, 2], self.hips[frame - 1, 0])
+
+    def lately(self, frame: int) -> tuple[complex, float] | None:
+        """Where the hips were and where they faced, in the mean of `LATELY_S`."""
+        first = max(0, frame - round(LATELY_S * self._rate))
+        if frame - first < 2:
+            return None
+        middle = self.hips[first:frame].mean(axis=0)
+        return complex(middle[2], middle[0]), float(np.angle(self._faces[first:frame].mean()))
+
+
+def _steered(turn: float, moved: complex, out: _Output, frame: int) -> tuple[float, complex]:
+    """A little back towards the place and the audience."""
+    lately = out.lately(frame)
+    if lately is None:
+        return turn, moved
+    hips, off = lately
+    if abs(off) > FACES_RAD:
+        nudge = -math.copysign(min(TURN_BACK * (abs(off) - FACES_RAD), MOST_TURN_RAD), off)
+        # About where the body is, so that it does not swing round the middle of the stage.
+        here = out.place(frame)
+        moved = here + complex(np.exp(1j * nudge)) * (moved - here)
+        turn += nudge
+    away = abs(hips)
+    if away > 0.5 * STAGE_M:
+        moved -= hips / away * min(STEP_BACK * (away - 0.5 * STAGE_M), MOST_STEP_M)
+    return turn, moved
+
+
+def _placed(hips: FloatArray, rotations: FloatArray, turn: float, moved: complex) -> tuple[FloatArray, FloatArray]:
+    """Turned about +Y and moved over the floor."""
+    flat = np.exp(1j * turn) * (hips[:, 2] + 1j * hips[:, 0]) + moved
+    rotations = rotations.copy()
+    rotations[:, 0] = quaternion.multiply(quaternion.from_axis_angle(_UP, turn), rotations[:, 0])
+    return np.stack([flat.imag, hips[:, 1], flat.real], axis=1), rotations
+
+
+def _yaw(turns: FloatArray) -> float:
+    return float(2.0 * np.arctan2(turns[0, 1], turns[0, 3]))
