@@ -56,6 +56,7 @@ TEMPLATES: Final[dict[str, str]] = {
     # Dances
     "edit.pin_dance": "{dancer} dances basic motion {number}",
     "edit.use_dance_segment": "{dancer} dances another segment",
+    "edit.move_dance_motion": "move a motion of {dancer}",
     "edit.forbid_dance": "{dancer} does not dance basic motion {number}",
     "edit.release_dance": "dance of {dancer} back to the generator's",
     # Players

@@ -53,6 +53,8 @@ class DanceSteps:
         Of each step, the place in the music at which a correction of it is kept.
     spans : tuple of (int, int)
         Ticks from each step's start to its end, its place included.
+    places : tuple of int
+        Ticks of all places that an accent can have, ascending.
     pinned : tuple of tuple of DanceCorrection
         Of each step, what is pinned at its place.
     forbidden : tuple of ForbidState
@@ -66,6 +68,7 @@ class DanceSteps:
     steps: tuple[Step, ...] = ()
     ticks: tuple[int, ...] = ()
     spans: tuple[tuple[int, int], ...] = ()
+    places: tuple[int, ...] = ()
     pinned: tuple[tuple[DanceCorrection, ...], ...] = ()
     forbidden: tuple[ForbidState, ...] = ()
     choreographer: Choreographer | None = None
@@ -120,7 +123,8 @@ def dance_of(performance: Performance, dancer: Dancer) -> DanceSteps:
         return DanceSteps(dancer, error=error.message)
     project = performance.project
     clock, steps, grid = project.score.tempo_map, dancing.steps(), grid_of(dancing.rhythm)
-    ticks = [round(clock.ticks(float(grid.times_s[step.place]))) for step in steps]
+    places = [round(clock.ticks(time_s)) for time_s in grid.times_s.tolist()]
+    ticks = [places[step.place] for step in steps]
     spans = [
         (min(round(clock.ticks(step.start_s)), tick), max(round(clock.ticks(step.end_s)), tick + 1))
         for step, tick in zip(steps, ticks, strict=True)
@@ -135,6 +139,7 @@ def dance_of(performance: Performance, dancer: Dancer) -> DanceSteps:
         steps,
         tuple(ticks),
         tuple(spans),
+        tuple(places),
         tuple(tuple(pinned.get(step.place, ())) for step in steps),
         tuple(item for item in corrections if isinstance(item, ForbidState)),
         dancing.choreographer,

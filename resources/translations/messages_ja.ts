@@ -356,6 +356,10 @@
             <translation>{dancer}に別の区間を踊らせる</translation>
         </message>
         <message>
+            <source>move a motion of {dancer}</source>
+            <translation>{dancer}の動作を移動</translation>
+        </message>
+        <message>
             <source>{dancer} does not dance basic motion {number}</source>
             <translation>{dancer}に基本動作{number}を踊らせない</translation>
         </message>

@@ -140,8 +140,8 @@
         <translation>ダンス</translation>
     </message>
     <message>
-        <source>What each dancer dances. Click a motion to select it, up and down for another one, right-click for more; Backspace returns it to the generator</source>
-        <translation>各ダンサーの踊りです。クリックで動作を選択、上下キーで別の動作に変更、右クリックでその他の操作。Backspaceで自動生成に戻します</translation>
+        <source>What each dancer dances. Click a motion to select it, drag it to another beat, up and down for another one, right-click for more; Backspace returns it to the generator</source>
+        <translation>各ダンサーの踊り。動作をクリックで選択、ドラッグで別の拍へ移動、上下キーで別の動作に変更、右クリックでその他の操作、Backspaceで自動生成に戻します</translation>
     </message>
     <message>
         <source>Nobody dances yet. Add a dancer in the Players panel.</source>

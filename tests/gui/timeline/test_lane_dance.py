@@ -25,7 +25,7 @@ from app.project.grid import Grid
 from app.project.model import Dancer, Project
 from app.score.model import Note
 from tests.gui.timeline.conftest import TPQ, scale_project
-from tests.gui.timeline.lane_hands import click, planned
+from tests.gui.timeline.lane_hands import LEFT, SHIFT, click, planned
 from tests.support.dances import model
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front
@@ -143,6 +143,43 @@ def test_a_segment_is_chosen_from_the_menu(lane: DanceLane) -> None:
     step = after.steps[after.ticks.index(tick)]
     assert (step.segment, step.state) == (used.segment, before.state)
     menu.close()
+
+
+def test_a_motion_is_dragged_to_other_beats_and_stays_itself(lane: DanceLane) -> None:
+    dance = lane.dances[MARY]
+    before, tick = dance.steps[6], dance.ticks[6]
+    target = dance.places[before.place + 2]
+    at = place(lane, 6)
+    by_px = lane.axis.x_px(lane.session.project.score.tempo_map.seconds(float(target))) - lane.axis.x_px(
+        before.accent_s
+    )
+    QTest.mousePress(lane.plot, LEFT, pos=at.toPoint())
+    QTest.mouseMove(lane.plot, (at + QPointF(0.4 * by_px, 0.0)).toPoint())
+    QTest.mouseMove(lane.plot, (at + QPointF(by_px, 0.0)).toPoint())
+    assert lane.moving is not None
+    assert lane.moving.tick == target
+    assert corrections(lane) == ()
+    QTest.mouseRelease(lane.plot, LEFT, pos=(at + QPointF(by_px, 0.0)).toPoint())
+    assert corrections(lane) == (UseSegment(target, before.segment),)
+    after = lane.dances[MARY]
+    assert after.steps[after.ticks.index(target)].segment == before.segment
+    assert lane.selected_step == (MARY, after.ticks.index(target))
+    QTest.keyClick(lane.plot, Qt.Key.Key_Left, SHIFT)
+    assert corrections(lane) == (UseSegment(dance.places[before.place + 1], before.segment),)
+    lane.session.document.undo()
+    lane.session.document.undo()
+    assert corrections(lane) == ()
+    assert lane.dances[MARY].ticks[6] == tick
+
+
+def test_escape_ends_a_drag_without_an_edit(lane: DanceLane) -> None:
+    at = place(lane, 6)
+    QTest.mousePress(lane.plot, LEFT, pos=at.toPoint())
+    QTest.mouseMove(lane.plot, (at + QPointF(150.0, 0.0)).toPoint())
+    QTest.keyClick(lane.plot, Qt.Key.Key_Escape)
+    QTest.mouseRelease(lane.plot, LEFT, pos=(at + QPointF(150.0, 0.0)).toPoint())
+    assert lane.moving is None
+    assert corrections(lane) == ()
 
 
 def test_what_is_forbidden_is_not_danced_until_it_is_allowed_again(lane: DanceLane) -> None:

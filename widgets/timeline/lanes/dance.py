@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QRectF, Qt
@@ -33,11 +34,34 @@ ROW_PX, LEAST_ROW_PX, MOST_ROW_PX = 46, 26, 90
 SHOWN_ROWS, LEAST_SHOWN_ROWS = 4, 2
 """As many rows as the lane prefers to show, and as it shows at least; the wheel scrolls to the others."""
 EMPTY_PX = 46
+DRAG_PX = 3.0
+"""The mouse moves this far before a press becomes a drag."""
+
+
+@dataclass(frozen=True)
+class Move:
+    """A step that is being dragged.
+
+    Attributes
+    ----------
+    dancer_id : str
+    number : int
+        Of the step.
+    from_x_px : float
+        Where the mouse was pressed.
+    tick : int or None
+        Place of its accent if it is released now; None before the mouse has moved far enough.
+    """
+
+    dancer_id: str
+    number: int
+    from_x_px: float
+    tick: int | None = None
 
 
 class DanceLane(Lane):
-    """Dancers one under another, each with the basic motions that are danced: a click selects one, its context menu and
-    the arrow keys change it. The dance around it is found anew."""
+    """Dancers one under another, each with the basic motions that are danced: a click selects one, a drag moves it to
+    other beats, its context menu and the arrow keys change it. The dance around it is found anew."""
 
     id = "dance"
     preferred_height_px = EMPTY_PX
@@ -49,6 +73,7 @@ class DanceLane(Lane):
         self.dances: dict[str, DanceSteps] = {}
         """What is known, by dancer; the newest once the task is done."""
         self._selected_at: tuple[str, int] | None = None
+        self.moving: Move | None = None
         self._scrolled_px = 0.0
         self._shown_of: Performance | None = None
         self._names = RowNames(self, self._row_names)
@@ -61,8 +86,8 @@ class DanceLane(Lane):
         self.title.setText(self.tr("Dance"))
         self.title.setToolTip(
             self.tr(
-                "What each dancer dances. Click a motion to select it, up and down for another one, right-click for "
-                "more; Backspace returns it to the generator"
+                "What each dancer dances. Click a motion to select it, drag it to another beat, up and down for "
+                "another one, right-click for more; Backspace returns it to the generator"
             )
         )
         self.update_items()
@@ -181,7 +206,30 @@ class DanceLane(Lane):
         self.update_items()
 
     def press(self, mouse: LaneMouse) -> None:
-        self.select_step(self.step_at(mouse))
+        step = self.step_at(mouse)
+        self.select_step(step)
+        self.moving = None if step is None else Move(*step, mouse.x_px)
+
+    def drag(self, mouse: LaneMouse) -> None:
+        moving = self.moving
+        if moving is None or (moving.tick is None and abs(mouse.x_px - moving.from_x_px) < DRAG_PX):
+            return
+        dance = self.dances[moving.dancer_id]
+        # The accent goes as far as the mouse does.
+        accent_px = self.axis.x_px(dance.steps[moving.number].accent_s) + mouse.x_px - moving.from_x_px
+        tick = self.session.project.score.tempo_map.ticks(self.axis.seconds(accent_px))
+        self.moving = replace(moving, tick=min(dance.places, key=lambda place: abs(place - tick)))
+        self.update_items()
+
+    def release(self, mouse: LaneMouse) -> None:
+        moving, self.moving = self.moving, None
+        if moving is not None and moving.tick is not None:
+            self.move_step(moving.dancer_id, moving.number, moving.tick)
+        self.update_items()
+
+    def cancel(self) -> None:
+        self.moving = None
+        self.update_items()
 
     def hover(self, mouse: LaneMouse | None) -> None:
         step, dance = (self.step_at(mouse), self._dance_at(mouse)) if mouse is not None else (None, None)
@@ -231,6 +279,19 @@ class DanceLane(Lane):
             lambda project: edit.use_segment(self._freed(project, dancer_id, number), dancer_id, tick, segment),
         )
 
+    def move_step(self, dancer_id: str, number: int, tick: int) -> None:
+        """Dance the segment of a step so that its accent is at another place."""
+        dance = self.dances[dancer_id]
+        if tick == dance.ticks[number]:
+            return
+        segment = dance.steps[number].segment
+        self._attempt(
+            Message("edit.move_dance_motion", {"dancer": self._name(dancer_id)}),
+            lambda project: edit.use_segment(self._freed(project, dancer_id, number), dancer_id, tick, segment),
+        )
+        self._selected_at = dancer_id, tick
+        self.update_items()
+
     def forbid(self, dancer_id: str, number: int, everywhere: bool = False) -> None:
         """Do not dance the basic motion of a step there, or anywhere in the piece; a pin on it is removed."""
         dance = self.dances[dancer_id]
@@ -267,15 +328,20 @@ class DanceLane(Lane):
     # Keys
 
     def key(self, event: QKeyEvent) -> bool:
-        """Left and Right select the steps beside, Up and Down dance another basic motion, Backspace and Delete return
-        the step to the generator, Escape selects none."""
+        """Left and Right select the steps beside, with Shift they move the step, Up and Down dance another basic
+        motion, Backspace and Delete return the step to the generator, Escape selects none."""
         modifiers = event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier
         selected, key = self.selected_step, event.key()
-        if modifiers != Qt.KeyboardModifier.NoModifier or selected is None:
+        if selected is None:
             return False
         dancer_id, number = selected
         dance = self.dances[dancer_id]
-        if key in (Qt.Key.Key_Left, Qt.Key.Key_Right):
+        if modifiers == Qt.KeyboardModifier.ShiftModifier and key in (Qt.Key.Key_Left, Qt.Key.Key_Right):
+            place = dance.steps[number].place + (1 if key == Qt.Key.Key_Right else -1)
+            self.move_step(dancer_id, number, dance.places[min(max(place, 0), len(dance.places) - 1)])
+        elif modifiers != Qt.KeyboardModifier.NoModifier:
+            return False
+        elif key in (Qt.Key.Key_Left, Qt.Key.Key_Right):
             by = 1 if key == Qt.Key.Key_Right else -1
             self.select_step((dancer_id, min(max(number + by, 0), len(dance.steps) - 1)))
         elif key in (Qt.Key.Key_Up, Qt.Key.Key_Down):

@@ -98,6 +98,8 @@ class DancesItem(LaneItem):
                 draw_text(painter, box.adjusted(12, 0, -12, 0), reason)
                 continue
             self._paint_row(painter, box.adjusted(0, 2, 0, -2), dance, lane.session.colour(dancer))
+            if lane.moving is not None and lane.moving.dancer_id == dancer.id and lane.moving.tick is not None:
+                self._paint_move(painter, box.adjusted(0, 2, 0, -2), dance, lane.moving.number, lane.moving.tick)
 
     def _paint_row(self, painter: QPainter, box: QRectF, dance: DanceSteps, colour: str) -> None:
         lane, axis = self._dances, self.lane.axis
@@ -126,6 +128,18 @@ class DancesItem(LaneItem):
                 Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop,
             )
         self._paint_marks(painter, box, dance, here, selected)
+
+    def _paint_move(self, painter: QPainter, box: QRectF, dance: DanceSteps, number: int, tick: int) -> None:
+        """The frame of a step, and its accent, where they are dragged to."""
+        lane, step = self._dances, dance.steps[number]
+        accent_s = lane.session.project.score.tempo_map.seconds(float(tick))
+        by_s = accent_s - step.accent_s
+        left, right, accent = (lane.axis.x_px(at_s) for at_s in (step.start_s + by_s, step.end_s + by_s, accent_s))
+        painter.setBrush(QColor(shade(lane.session.tokens.accent, 60)))
+        painter.setPen(QPen(QColor(lane.session.tokens.accent), 1.6, Qt.PenStyle.DashLine))
+        painter.drawRect(QRectF(left, box.top(), max(right - left - 1.0, 2.0), box.height()))
+        painter.setPen(QPen(QColor(lane.session.tokens.accent), 2.0))
+        painter.drawLine(QPointF(accent, box.top()), QPointF(accent, box.bottom()))
 
     def _paint_accents(
         self, painter: QPainter, box: QRectF, dance: DanceSteps, here: npt.NDArray[np.int64], colour: str
