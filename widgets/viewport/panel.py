@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from time import perf_counter
 
@@ -111,6 +112,7 @@ class ViewportPanel(QWidget):
         session.instruments_changed.connect(self._instruments_changed)
         session.characters_changed.connect(self._instruments_changed)
         session.players_changed.connect(self._players_changed)
+        session.dancer_changed.connect(self._update)
         session.selection_changed.connect(self._selection_changed)
         session.playhead_changed.connect(self.refresh)
         session.playing_changed.connect(self._update)
@@ -128,6 +130,7 @@ class ViewportPanel(QWidget):
             self._pointer.posed.connect(self.refresh)
             self._pointer.released.connect(self.refresh)
             self._pointer.menu_asked.connect(self._show_menu)
+            self._pointer.framed.connect(lambda row: self._frame([row]))
 
     # What others ask
 
@@ -143,12 +146,12 @@ class ViewportPanel(QWidget):
 
     @property
     def hovered(self) -> str | None:
-        """Id of the player under the pointer."""
+        """Id of the player or dancer under the pointer."""
         stage, row = self.scene.stage, self._pointer.hovered if self._pointer is not None else None
         return None if stage is None or row is None else stage.members[row].player_id
 
     def player_at(self, x_px: float, y_px: float) -> str | None:
-        """Id of the player under a point of the picture."""
+        """Id of the player or dancer under a point of the picture."""
         row = self._pointer.row_at(QPointF(x_px, y_px)) if self._pointer is not None else None
         return None if row is None or self.scene.stage is None else self.scene.stage.members[row].player_id
 
@@ -450,7 +453,10 @@ class ViewportPanel(QWidget):
 
     def _frame_asked(self, selected: bool) -> None:
         """Frame players as the camera stands."""
-        stage, widget, rows = self.scene.stage, self.canvas_widget(), self.scene.visible(selected)
+        self._frame(self.scene.visible(selected))
+
+    def _frame(self, rows: Sequence[int]) -> None:
+        stage, widget = self.scene.stage, self.canvas_widget()
         if stage is None or widget is None or not rows:
             return
         self._eye.choose("ensemble")

@@ -41,12 +41,15 @@ class Pointer(QObject):
         A drag has ended.
     menu_asked(QPoint)
         The right button was clicked there on the screen.
+    framed(int)
+        The dancer of this row should be framed.
     """
 
     moved = Signal()
     posed = Signal()
     released = Signal()
     menu_asked = Signal(QPoint)
+    framed = Signal(int)
 
     def __init__(self, canvas: QWidget, session: Session, eye: Eye, scene: Scene, tool: PoseTool) -> None:
         super().__init__(canvas)
@@ -126,7 +129,11 @@ class Pointer(QObject):
         handle = self._handle_at(event.position())
         if handle is not None:
             self._tool.reset(handle.target)
-        elif self.row_at(event.position()) is not None:
+            return True
+        row = self.row_at(event.position())
+        if row is not None and self._dancer_id(row) is not None:
+            self.framed.emit(row)
+        elif row is not None:
             self._session.viewport.frame(True)
         return True
 
@@ -153,6 +160,11 @@ class Pointer(QObject):
         row, stage = self.row_at(at), self._scene.stage
         if row is None or stage is None:
             return
+        dancer_id = self._dancer_id(row)
+        if dancer_id is not None:
+            # One dancer is selected at a time, beside the players.
+            self._session.set_dancer(dancer_id)
+            return
         player_id, before = stage.members[row].player_id, self._session.players
         if not add:
             self._session.set_players((player_id,))
@@ -160,6 +172,12 @@ class Pointer(QObject):
             self._session.set_players((*before, player_id))
         elif len(before) > 1:
             self._session.set_players(tuple(own for own in before if own != player_id))
+
+    def _dancer_id(self, row: int) -> str | None:
+        """Id of the dancer of a row; None for a player."""
+        stage = self._scene.stage
+        found = stage.members[row].player_id if stage is not None else ""
+        return found if found in self._session.project.dancer_ids else None
 
     def _hover(self, at: QPointF | None) -> None:
         handle = self._handle_at(at) if at is not None else None

@@ -178,17 +178,22 @@ class Scene(QObject):
         if stage is None or not stage.shown.any():
             return None
         found = hit(Limbs(stage).capsules(), origin_m, direction)
-        # Who dances is chosen in the list of dancers: nothing of the timeline is theirs.
-        return found[0] if found is not None and stage.members[found[0]].kit.held is not None else None
+        return found[0] if found is not None else None
 
     def rings(self) -> dict[int, Color]:
-        """Rings on the floor: the selected players' rows with their colours."""
+        """Rings on the floor: the rows of the selected players and the selected dancer with their colours."""
         stage = self.stage
         if stage is None:
             return {}
-        players = {player.id: player for player in self._session.project.players}
-        chosen = {stage.members[row].player_id: row for row in self.rows()}
-        return {row: rgb(self._session.colour(players[own])) for own, row in chosen.items() if own in players}
+        selected = {player.id: player for player in self._session.project.performers if self._is_selected(player)}
+        rows = {own: stage.index(own) for own in selected}
+        return {row: rgb(self._session.colour(selected[own])) for own, row in rows.items() if row is not None}
+
+    def _is_selected(self, performer: Player | Dancer) -> bool:
+        if isinstance(performer, Player):
+            return performer.id in self._session.players
+        dancer = self._session.dancer
+        return dancer is not None and performer.id == dancer.id
 
     # Marks and words
 
@@ -203,16 +208,15 @@ class Scene(QObject):
         if stage is None:
             return Marks()
         project = session.project
-        players: dict[str, Player | Dancer] = {player.id: player for player in project.players}
-        players |= {dancer.id: dancer for dancer in project.dancers}
+        players = {performer.id: performer for performer in project.performers}
         rows, visible = self.rows(), self.visible(selected=False)
         known = [(row, players[own]) for row in visible if (own := stage.members[row].player_id) in players]
         names, skeletons = [], []
         if state.shows("names"):
             places_m = over_heads_m(stage, [row for row, _ in known], camera.up)
-            for (row, player), over_m in zip(known, places_m, strict=True):
-                in_front = row in rows
-                names.append(Name(player.name, session.colour(player) if in_front else "", over_m, in_front))
+            for (_, player), over_m in zip(known, places_m, strict=True):
+                selected = self._is_selected(player)
+                names.append(Name(player.name, session.colour(player) if selected else "", over_m, selected))
         if state.shows("skeleton"):
             skeletons = [(row, session.colour(player)) for row, player in known]
         touched = state.shows("contacts") and bool(rows) and rows[0] in visible

@@ -18,9 +18,13 @@ from PySide6.QtGui import QAction, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.choreography.model_file import write_model
 from app.errors import AppError, Message
 from app.plan.corrections import PoseCorrection
+from app.project.casting import StagePosition
+from app.project.edit.dancers import add_dancer, place_dancers
 from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
+from tests.support.dances import model
 from tests.support.windows import show
 from widgets.common.session import Session
 from widgets.common.tokens import LIGHT
@@ -409,6 +413,62 @@ def test_who_is_under_the_pointer_is_known(viewport: ViewportPanel, session: Ses
     assert viewport.player_at(3.0, 3.0) is None
     place = place_of(viewport, 0)
     assert viewport.player_at(place.x(), place.y()) == session.project.players[0].id
+
+
+@pytest.fixture
+def two_dancers(viewport: ViewportPanel, session: Session, tmp_path: Path) -> tuple[str, str]:
+    """Two dancers beside the players, the second one selected; their ids."""
+    path = tmp_path / "steps.choreography"
+    write_model(path, model())
+    for x_m in (-2.5, 2.5):
+        project, dancer_id = add_dancer(session.project, path, "Dancer")
+        session.apply(Message("edit.add_dancer"), place_dancers(project, {dancer_id: StagePosition(x_m, 2.0, 0.0)}))
+        session.set_dancer(dancer_id)
+    QApplication.processEvents()
+    first, second = session.project.dancers
+    return first.id, second.id
+
+
+def test_clicking_a_dancer_selects_it_and_leaves_the_players(
+    qtbot: QtBot, viewport: ViewportPanel, session: Session, two_dancers: tuple[str, str]
+) -> None:
+    row, players = len(session.project.players), session.players
+    none, control = Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.ControlModifier
+    for number, modifier in ((0, none), (1, none), (0, control), (0, control)):
+        place = place_of(viewport, row + number).toPoint()
+        qtbot.mouseClick(canvas(viewport), Qt.MouseButton.LeftButton, modifier, place)
+        assert session.dancer is not None
+        assert session.dancer.id == two_dancers[number]
+        assert session.players == players
+    qtbot.mouseClick(canvas(viewport), Qt.MouseButton.LeftButton, pos=place_of(viewport, 2).toPoint())
+    assert session.players == (session.project.players[2].id,)
+    assert session.dancer.id == two_dancers[0]
+    drag(canvas(viewport), place_of(viewport, row + 1), QPointF(40, 0))
+    assert session.dancer.id == two_dancers[0]
+
+
+def test_the_selected_dancer_is_seen_and_the_one_under_the_pointer_known(
+    viewport: ViewportPanel, session: Session, two_dancers: tuple[str, str], shot: Shot
+) -> None:
+    row = len(session.project.players)
+    send(canvas(viewport), QEvent.Type.MouseMove, place_of(viewport, row), Qt.MouseButton.NoButton)
+    assert viewport.hovered == two_dancers[0]
+    assert canvas(viewport).cursor().shape() == Qt.CursorShape.PointingHandCursor
+    session.viewport.show("names", False)
+    second = shot("ensemble")
+    session.set_dancer(two_dancers[0])
+    assert differing(second, shot("ensemble")) > 40
+
+
+def test_a_double_click_on_a_dancer_frames_that_dancer(
+    qtbot: QtBot, viewport: ViewportPanel, session: Session, two_dancers: tuple[str, str]
+) -> None:
+    row = len(session.project.players)
+    before = viewport.camera
+    qtbot.mouseDClick(canvas(viewport), Qt.MouseButton.LeftButton, pos=place_of(viewport, row).toPoint())
+    after = viewport.camera
+    assert after.distance_m < before.distance_m
+    assert abs(after.target_m[0] - viewport.scene.stage.joint_m(row, "chest")[0]) < 0.4
 
 
 # The pose tool
