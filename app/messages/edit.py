@@ -64,6 +64,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.duplicate_dancer": "duplicate {dancer}",
     "edit.remove_dancer": "remove {dancer}",
     "edit.rename_dancer": "rename {dancer}",
+    "edit.move_dancers": "order of the dancers",
     "edit.dancer_choreography": "choreography of {dancer}",
     "edit.dancer_character": "character of {dancer}",
     "edit.dancer_source": "preferred source of {dancer}",

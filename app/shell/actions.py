@@ -29,6 +29,7 @@ SUBJECTS: Final = (
     "events",
     "beat",
     "players",
+    "dancers",
     "timeline",
     "viewport",
     "playback",
@@ -101,6 +102,7 @@ CONTEXTS: Final = {
     "timeline": QT_TRANSLATE_NOOP("Context", "in the timeline"),
     "viewport": QT_TRANSLATE_NOOP("Context", "in the viewport"),
     "players": QT_TRANSLATE_NOOP("Context", "in the players"),
+    "dancers": QT_TRANSLATE_NOOP("Context", "in the dancers"),
     "inspector": QT_TRANSLATE_NOOP("Context", "in the inspector"),
 }
 
@@ -164,6 +166,7 @@ class ActionTable(QObject):
             session.problems_changed,
             session.selection_changed,
             session.players_changed,
+            session.dancer_changed,
             session.playing_changed,
             session.loop_changed,
             session.grid_changed,
@@ -249,7 +252,7 @@ class ActionTable(QObject):
 
     def _give_shortcuts(self) -> None:
         """Where a panel and the window know the same shortcut, the panel that has the keyboard has it alone, and
-        without the keyboard none of it: Qt would do neither."""
+        without the keyboard none of it: Qt would do neither. So it is with a part of a panel and the panel."""
         keys = {
             row.id: {sequence.toString() for sequence in sequences(self.keys(row.id))} for row in self.rows.values()
         }
@@ -259,7 +262,7 @@ class ActionTable(QObject):
         here = of_context.get(self._context, set()) if self._context != "window" else set()
         everywhere = of_context.get("window", set())
         for row in self.rows.values():
-            taken = here if row.context == "window" else set() if row.context == self._context else everywhere
+            taken = here if row.context == "window" else set() if row.context == self._context else everywhere | here
             wanted = [sequence for sequence in sequences(self.keys(row.id)) if sequence.toString() not in taken]
             action = self.actions[row.id]
             if action.shortcuts() != wanted:

@@ -85,10 +85,11 @@ class Window(QMainWindow):
         self.viewport = ViewportPanel(self.session, generator.live)
         generator.motion_changed.connect(self.viewport.poses_changed)
         self.timeline = TimelinePanel(self.session)
+        self.players = PlayersPanel(self.session)
         self.panels: dict[str, QWidget] = {
             "viewport": self.viewport,
             "timeline": self.timeline,
-            "players": PlayersPanel(self.session),
+            "players": self.players,
             "inspector": InspectorPanel(self.session),
             "transport": TransportBar(self.session),
         }
@@ -128,8 +129,9 @@ class Window(QMainWindow):
         self.menuBar().setCornerWidget(self.palette_field, Qt.Corner.TopRightCorner)
         self.palette_popup = Palette(self.session, self._table, self)
         for name in CONTEXTS:
-            if name in self.panels:
-                self._table.attach(name, self.panels[name])
+            place = self.panels.get(name) or self.findChild(QWidget, name)
+            if place is not None:
+                self._table.attach(name, place)
         # Window-wide shortcuts work also where their menu is hidden, as in full screen.
         self._table.attach("window", self)
         recent = self.menus.menu("File/Recent")
@@ -278,6 +280,16 @@ class Window(QMainWindow):
     def show_palette(self) -> None:
         """Search everything that can be done."""
         self.palette_popup.open_at(self.mapToGlobal(QPoint(self.width() - 8, self.menuBar().height() + 2)))
+
+    def rename_player(self) -> None:
+        """Open the field for the name of the player in front."""
+        self.show_panel("players", True)
+        self.players.list.rename_current()
+
+    def rename_dancer(self) -> None:
+        """Open the field for the name of the selected dancer."""
+        self.show_panel("players", True)
+        self.players.dancers.rename_selected()
 
     def show_preferences(self, page: str) -> None:
         """Show a page of the preferences."""

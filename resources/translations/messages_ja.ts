@@ -384,6 +384,10 @@
             <translation>{dancer} の名前を変更</translation>
         </message>
         <message>
+            <source>order of the dancers</source>
+            <translation>ダンサーの順番</translation>
+        </message>
+        <message>
             <source>choreography of {dancer}</source>
             <translation>{dancer} の振り付け</translation>
         </message>

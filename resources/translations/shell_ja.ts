@@ -427,12 +427,28 @@
         <translation>ダンサー</translation>
     </message>
     <message>
+        <source>Rename dancer</source>
+        <translation>ダンサーの名前を変更</translation>
+    </message>
+    <message>
+        <source>Duplicate dancer</source>
+        <translation>ダンサーを複製</translation>
+    </message>
+    <message>
+        <source>Remove dancer</source>
+        <translation>ダンサーを削除</translation>
+    </message>
+    <message>
         <source>Add player</source>
         <translation>プレイヤーを追加</translation>
     </message>
     <message>
         <source>Add dancer</source>
         <translation>ダンサーを追加</translation>
+    </message>
+    <message>
+        <source>Rename player</source>
+        <translation>プレイヤーの名前を変更</translation>
     </message>
     <message>
         <source>Duplicate players</source>
@@ -774,6 +790,10 @@
     <message>
         <source>in the players</source>
         <translation>プレイヤー内</translation>
+    </message>
+    <message>
+        <source>in the dancers</source>
+        <translation>ダンサー内</translation>
     </message>
     <message>
         <source>in the inspector</source>

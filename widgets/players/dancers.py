@@ -9,13 +9,11 @@ from pathlib import Path
 
 import msgspec
 from PySide6.QtCore import QEvent, Qt, QTimer
+from PySide6.QtGui import QContextMenuEvent
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QCheckBox,
     QGridLayout,
     QHBoxLayout,
-    QListWidget,
-    QListWidgetItem,
     QMenu,
     QToolButton,
     QVBoxLayout,
@@ -41,9 +39,12 @@ from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
 from widgets.common.session import Session
 from widgets.common.tokens import LEAST_TARGET_PX
-from widgets.players.newcomers import add_dancer
+from widgets.players.dancer_list import DancerList
+from widgets.players.newcomers import add_dancer, duplicate_dancer, remove_dancer
 from widgets.players.stage import FARTHEST_M
 
+MENU = ("dancers.add", "dancers.rename", "dancers.duplicate", "dancers.remove")
+"""The context menu of the list: actions by id."""
 _TOOLS = (("add", "add"), ("duplicate", "duplicate"), ("remove", "delete"))
 _FROM_FILE = "\0file"
 """Of the options of choreographies: no name of one."""
@@ -61,15 +62,12 @@ class DancersSection(QWidget):
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.setObjectName("dancers")
         self._session = session
         self._section = Section(session, "players_dancers", self)
         self._tools = {name: QToolButton() for name, _ in _TOOLS}
-        self.list = QListWidget()
+        self.list = DancerList(session)
         self.list.setObjectName("dancer_list")
-        self.list.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.list.setEditTriggers(
-            QAbstractItemView.EditTrigger.DoubleClicked | QAbstractItemView.EditTrigger.EditKeyPressed
-        )
         self._form = QWidget()
         self._labels = {name: Label() for name in ("choreography", "character", "source")}
         self._choreography, self._character, self._source = Combo(), Combo(), Combo()
@@ -138,8 +136,11 @@ class DancersSection(QWidget):
         session.theme_changed.connect(self._apply_theme)
         session.characters_changed.connect(self._show)
         session.dancer_changed.connect(self._show)
-        self.list.currentItemChanged.connect(self._selected)
-        self.list.itemChanged.connect(self._renamed)
+        session.problems_changed.connect(self._show_list)
+        session.performance_changed.connect(self._show_list)
+        self.list.chosen.connect(session.set_dancer)
+        self.list.renamed.connect(self._rename)
+        self.list.moved.connect(self._move)
         self._tools["add"].clicked.connect(self.offer)
         self._tools["duplicate"].clicked.connect(self._duplicate)
         self._tools["remove"].clicked.connect(self._remove)
@@ -167,26 +168,17 @@ class DancersSection(QWidget):
             self._show()
 
     def _show(self) -> None:
-        dancers, selected = self._session.project.dancers, self.dancer
-        self.list.blockSignals(True)
-        kept = [str(self.list.item(row).data(Qt.ItemDataRole.UserRole)) for row in range(self.list.count())]
-        if kept != [dancer.id for dancer in dancers]:
-            self.list.clear()
-            for dancer in dancers:
-                item = QListWidgetItem()
-                item.setData(Qt.ItemDataRole.UserRole, dancer.id)
-                item.setFlags(item.flags() | Qt.ItemFlag.ItemIsEditable)
-                self.list.addItem(item)
-        for row, dancer in enumerate(dancers):
-            self.list.item(row).setText(dancer.name)
-            if selected is not None and dancer.id == selected.id:
-                self.list.setCurrentRow(row)
-        self.list.blockSignals(False)
+        dancers = self._session.project.dancers
+        self._show_list()
+        self._section.header.set_texts(self.tr("Dancers"), str(len(dancers)) if dancers else "")
+        self._show_form()
+
+    def _show_list(self) -> None:
+        dancers = self._session.project.dancers
+        self.list.show_dancers(dancers, self.dancer)
         rows = min(max(len(dancers), 1), _MOST_ROWS)
         self.list.setFixedHeight(rows * max(self.list.sizeHintForRow(0), LEAST_TARGET_PX) + 4)
         self.list.setVisible(bool(dancers))
-        self._section.header.set_texts(self.tr("Dancers"), str(len(dancers)) if dancers else "")
-        self._show_form()
 
     def _show_form(self) -> None:
         dancer = self.dancer
@@ -264,36 +256,29 @@ class DancersSection(QWidget):
         self._edit("choreography", lambda project, id: edit.set_choreography(project, (id,), path))
 
     def _duplicate(self) -> None:
-        dancer, made = self.dancer, list[str]()
-        if dancer is None:
-            return
-
-        def duplicated(project: Project) -> Project:
-            result, dancer_ids = edit.duplicate_dancers(project, (dancer.id,))
-            made.extend(dancer_ids)
-            return result
-
-        if self._session.attempt(Message("edit.duplicate_dancer", {"dancer": dancer.name}), duplicated):
-            self._session.set_dancer(made[-1])
+        duplicate_dancer(self._session)
 
     def _remove(self) -> None:
-        dancer = self.dancer
-        if dancer is not None:
-            self._session.attempt(
-                Message("edit.remove_dancer", {"dancer": dancer.name}),
-                lambda project: edit.remove_dancers(project, (dancer.id,)),
-            )
+        remove_dancer(self._session)
 
-    def _renamed(self, item: QListWidgetItem) -> None:
-        dancer_id = str(item.data(Qt.ItemDataRole.UserRole))
-        dancer, name = self._session.project.dancer(dancer_id), item.text()
-        if name != dancer.name:
-            self._session.attempt(
-                Message("edit.rename_dancer", {"dancer": dancer.name}),
-                lambda project: edit.rename_dancer(project, dancer_id, name),
-            )
-            # Once the editor of the row is closed: a name that was refused is not shown any more.
-            QTimer.singleShot(0, self, self._show)
+    def _move(self, dancer_ids: tuple[str, ...], before: int) -> None:
+        self._session.attempt(
+            Message("edit.move_dancers"), lambda project: edit.move_dancers(project, dancer_ids, before)
+        )
+
+    def _rename(self, dancer_id: str, name: str) -> None:
+        dancer = self._session.project.dancer(dancer_id)
+        self._session.attempt(
+            Message("edit.rename_dancer", {"dancer": dancer.name}),
+            lambda project: edit.rename_dancer(project, dancer_id, name),
+        )
+        # Once the editor of the row is closed: a name that was refused is not shown any more.
+        QTimer.singleShot(0, self, self._show)
+
+    def rename_selected(self) -> None:
+        """Open the field for the name of the selected dancer."""
+        self._section.set_open(True)
+        self.list.rename_current()
 
     def _new_variation(self) -> None:
         dancer = self.dancer
@@ -318,10 +303,6 @@ class DancersSection(QWidget):
                 lambda project: change(project, dancer.id),
                 token,
             )
-
-    def _selected(self, item: QListWidgetItem | None) -> None:
-        if item is not None:
-            self._session.set_dancer(str(item.data(Qt.ItemDataRole.UserRole)))
 
     # Words and pictures
 
@@ -366,6 +347,17 @@ class DancersSection(QWidget):
         self._show()
 
     # Qt's own names
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        actions = self._session.actions
+        if not actions or not self.list.rect().contains(self.list.mapFromGlobal(event.globalPos())):
+            super().contextMenuEvent(event)
+            return
+        menu = QMenu(self)
+        menu.setObjectName("dancers_menu")
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu.addActions([actions[id] for id in MENU if id in actions])
+        menu.popup(event.globalPos())
 
     def changeEvent(self, event: QEvent) -> None:
         if event.type() == QEvent.Type.LanguageChange:

@@ -1,10 +1,9 @@
-"""Players and dancers who come: the edit, and who is in front afterwards."""
+"""Players and dancers who come and dancers who go: the edit, and who is selected afterwards."""
 
 from __future__ import annotations
 
 from app.errors import Message
-from app.project.edit import players as edit
-from app.project.edit.dancers import add_dancer as add_dancer_to
+from app.project.edit import dancers, players
 from app.project.model import Project
 from instrument_maps.library import all_maps
 from widgets.common.instrument_name import instrument_name
@@ -19,7 +18,7 @@ def add_player(session: Session, instrument_id: str) -> None:
     made: list[str] = []
 
     def add(project: Project) -> Project:
-        result, player_id = edit.add_player(project, instrument, maps, name)
+        result, player_id = players.add_player(project, instrument, maps, name)
         made.append(player_id)
         return result
 
@@ -32,7 +31,7 @@ def add_dancer(session: Session, choreography: str, name: str) -> None:
     made: list[str] = []
 
     def add(project: Project) -> Project:
-        result, dancer_id = add_dancer_to(project, choreography, name)
+        result, dancer_id = dancers.add_dancer(project, choreography, name)
         made.append(dancer_id)
         return result
 
@@ -42,13 +41,40 @@ def add_dancer(session: Session, choreography: str, name: str) -> None:
             session.notice(Message("dance.no_percussion"))
 
 
+def duplicate_dancer(session: Session) -> None:
+    """Let another one dance what the selected dancer dances, who is selected then."""
+    dancer, made = session.dancer, list[str]()
+    if dancer is None:
+        return
+
+    def duplicate(project: Project) -> Project:
+        result, dancer_ids = dancers.duplicate_dancers(project, (dancer.id,))
+        made.extend(dancer_ids)
+        return result
+
+    if session.attempt(Message("edit.duplicate_dancer", {"dancer": dancer.name}), duplicate):
+        session.set_dancer(made[-1])
+
+
+def remove_dancer(session: Session) -> None:
+    """Send the selected dancer away; the next one is selected then, or the one before."""
+    dancer = session.dancer
+    if dancer is None:
+        return
+    others = [other.id for other in session.project.dancers if other.id != dancer.id]
+    number = min(session.project.dancers.index(dancer), len(others) - 1)
+    name = Message("edit.remove_dancer", {"dancer": dancer.name})
+    if session.attempt(name, lambda project: dancers.remove_dancers(project, (dancer.id,))) and others:
+        session.set_dancer(others[number])
+
+
 def duplicate_players(session: Session) -> None:
     """Let others play what the selected players play; they are selected then."""
     chosen = session.players
     made: list[str] = []
 
     def duplicate(project: Project) -> Project:
-        result, player_ids = edit.duplicate_players(project, chosen)
+        result, player_ids = players.duplicate_players(project, chosen)
         made.extend(player_ids)
         return result
 

@@ -24,17 +24,13 @@ from PySide6.QtGui import (
     QFont,
     QFontMetricsF,
     QHelpEvent,
-    QKeyEvent,
     QMouseEvent,
     QPainter,
-    QPaintEvent,
     QPen,
 )
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QApplication,
     QLineEdit,
-    QListView,
     QStyle,
     QStyledItemDelegate,
     QStyleOptionViewItem,
@@ -45,6 +41,7 @@ from PySide6.QtWidgets import (
 from app.project.model import Player
 from widgets.common.icons import icon
 from widgets.common.session import Session
+from widgets.players.ordered_list import ID_ROLE, OrderedList
 
 AnyIndex = QModelIndex | QPersistentModelIndex
 
@@ -129,6 +126,8 @@ class PlayerModel(QAbstractListModel):
             return row.player.name
         if role == Qt.ItemDataRole.AccessibleDescriptionRole:
             return row.instrument
+        if role == ID_ROLE:
+            return row.player.id
         return row if role == _ROW else None
 
     def setData(self, index: AnyIndex, value: Any, role: int = Qt.ItemDataRole.EditRole) -> bool:
@@ -294,15 +293,13 @@ class _RowDelegate(QStyledItemDelegate):
         return True
 
 
-class PlayerList(QListView):
+class PlayerList(OrderedList):
     """The players: click, Ctrl and Shift select; drag or Alt with the arrows reorders; F2 or a double click renames.
 
     Signals
     -------
     mute_clicked(str), solo_clicked(str), arm_clicked(str)
         The button of this player.
-    moved(object, int)
-        These ids (tuple of str) go before the row that had this number.
     chosen(object)
         The person selected these ids (tuple of str), the first in front.
     """
@@ -310,26 +307,16 @@ class PlayerList(QListView):
     mute_clicked = Signal(str)
     solo_clicked = Signal(str)
     arm_clicked = Signal(str)
-    moved = Signal(object, int)
     chosen = Signal(object)
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self._session = session
+        super().__init__(session, parent)
         self.rows = PlayerModel(self)
         self._delegate = _RowDelegate(session, self)
         self._showing = False
-        self._press: QPoint | None = None
-        self._pressed_number = -1
-        self._drop_row: int | None = None
         self.setModel(self.rows)
         self.setItemDelegate(self._delegate)
         self.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
-        self.setEditTriggers(QAbstractItemView.EditTrigger.EditKeyPressed | QAbstractItemView.EditTrigger.DoubleClicked)
-        self.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setUniformItemSizes(True)
-        self.setMouseTracking(True)
         self.selectionModel().selectionChanged.connect(self._selected)
         session.recording.changed.connect(self.viewport().update)
 
@@ -360,11 +347,6 @@ class PlayerList(QListView):
         self._showing = False
         self.viewport().update()
 
-    def rename_current(self) -> None:
-        """Open the field for the name of the player in front."""
-        if self.currentIndex().isValid():
-            self.edit(self.currentIndex())
-
     def _selected(self) -> None:
         if self._showing:
             return
@@ -388,99 +370,18 @@ class PlayerList(QListView):
             return self.arm_clicked, player_id  # type: ignore[return-value]
         return (self.solo_clicked, player_id) if solo.contains(position) else (None, "")  # type: ignore[return-value]
 
-    def _carried(self) -> tuple[str, ...]:
-        """Whom a drag or Alt with an arrow moves, in their order."""
-        numbers = sorted(index.row() for index in self.selectionModel().selectedIndexes())
-        return tuple(self.rows.rows[number].player.id for number in numbers)
-
-    def _drop_row_at(self, y: int) -> int:
-        for number in range(len(self.rows.rows)):
-            if y < self.visualRect(self.rows.index(number)).center().y():
-                return number
-        return len(self.rows.rows)
-
-    def _shift(self, step: int) -> None:
-        carried = self._carried()
-        numbers = [number for player_id in carried if (number := self.rows.number(player_id)) is not None]
-        if not numbers:
-            return
-        target = numbers[0] - 1 if step < 0 else numbers[-1] + 2
-        if 0 <= target <= len(self.rows.rows):
-            self.moved.emit(carried, target)
-
     # Qt's own names
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        position = event.position().toPoint()
-        self._press, self._pressed_number = None, -1
-        if event.button() == Qt.MouseButton.LeftButton:
-            signal, player_id = self._button_at(position)
-            if signal is not None:
-                signal.emit(player_id)  # type: ignore[attr-defined]
-                return
-            index = self.indexAt(position)
-            if index.isValid():
-                self._press = position
-                plain = event.modifiers() == Qt.KeyboardModifier.NoModifier
-                if plain and self.selectionModel().isSelected(index) and len(self._carried()) > 1:
-                    # Perhaps a drag of all of them: whether it was a click is known at the release.
-                    self._pressed_number = index.row()
-                    return
-        elif event.button() == Qt.MouseButton.RightButton:
-            index = self.indexAt(position)
-            if index.isValid() and not self.selectionModel().isSelected(index):
-                self.selectionModel().setCurrentIndex(index, QItemSelectionModel.SelectionFlag.ClearAndSelect)
+        signal, player_id = self._button_at(event.position().toPoint())
+        if signal is not None and event.button() == Qt.MouseButton.LeftButton:
+            self._let_go()
+            signal.emit(player_id)  # type: ignore[attr-defined]
             return
         super().mousePressEvent(event)
 
-    def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        if self._press is None or not event.buttons() & Qt.MouseButton.LeftButton:
-            super().mouseMoveEvent(event)
-            return
-        position = event.position().toPoint()
-        far = (position - self._press).manhattanLength() >= QApplication.startDragDistance()
-        if self._drop_row is not None or (far and len(self.rows.rows) > 1):
-            self._drop_row = self._drop_row_at(position.y())
-            self.viewport().update()
-
-    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        target, self._drop_row = self._drop_row, None
-        pressed, self._pressed_number = self._pressed_number, -1
-        was_pressed, self._press = self._press is not None, None
-        self.viewport().update()
-        if target is not None:
-            self.moved.emit(self._carried(), target)
-        elif was_pressed and pressed >= 0:
-            flags = QItemSelectionModel.SelectionFlag
-            self.selectionModel().setCurrentIndex(self.rows.index(pressed), flags.ClearAndSelect)
-        else:
-            super().mouseReleaseEvent(event)
-
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        position = event.position().toPoint()
-        if self._button_at(position)[0] is not None:
+        if self._button_at(event.position().toPoint())[0] is not None:
             self.mousePressEvent(event)
-        elif event.button() == Qt.MouseButton.LeftButton and self.indexAt(position).isValid():
-            # Qt forgets that the row was pressed where the press changed the selection.
-            self.edit(self.indexAt(position))
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() == Qt.Key.Key_Escape and self._drop_row is not None:
-            self._drop_row, self._press, self._pressed_number = None, None, -1
-            self.viewport().update()
-        elif event.modifiers() == Qt.KeyboardModifier.AltModifier and event.key() in (Qt.Key.Key_Up, Qt.Key.Key_Down):
-            self._shift(-1 if event.key() == Qt.Key.Key_Up else 1)
         else:
-            super().keyPressEvent(event)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        super().paintEvent(event)
-        if self._drop_row is None:
-            return
-        last = self._drop_row >= len(self.rows.rows)
-        box = self.visualRect(self.rows.index(min(self._drop_row, len(self.rows.rows) - 1)))
-        painter = QPainter(self.viewport())
-        painter.fillRect(
-            QRect(0, (box.bottom() if last else box.top()) - 1, self.viewport().width(), 3),
-            QColor(self._session.tokens.accent),
-        )
+            super().mouseDoubleClickEvent(event)

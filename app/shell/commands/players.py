@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication
-
-from app.choreography.library import bundled_choreographies
 from app.errors import Message
 from app.project.edit import players as edit
 from app.project.model import Player
 from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.editor import editor_of
 from instrument_maps.library import all_maps
 from widgets.common.session import Session
 from widgets.players import newcomers
@@ -30,11 +28,6 @@ def add(session: Session) -> None:
     newcomers.add_player(session, instrument_id)
 
 
-def add_dancer(session: Session) -> None:
-    """Add somebody who dances the first choreography that comes with the program."""
-    newcomers.add_dancer(session, bundled_choreographies()[0], QCoreApplication.translate("Action", "Dancer"))
-
-
 def duplicate(session: Session) -> None:
     """Double the selected players."""
     newcomers.duplicate_players(session)
@@ -44,6 +37,11 @@ def remove(session: Session) -> None:
     """Send the selected players away."""
     chosen = session.players
     session.attempt(_count("edit.remove_players", len(chosen)), lambda project: edit.remove_players(project, chosen))
+
+
+def rename(session: Session) -> None:
+    """Type another name for the player in front."""
+    editor_of(session).window.rename_player()
 
 
 def mute(session: Session, on: bool) -> None:
@@ -128,10 +126,6 @@ def reset(session: Session) -> None:
     )
 
 
-def _has_choreographies(session: Session) -> bool:
-    return bool(bundled_choreographies())
-
-
 def _has_players(session: Session) -> bool:
     return bool(session.players)
 
@@ -159,12 +153,14 @@ def _is_quiet(session: Session) -> bool:
 ACTIONS: tuple[Action, ...] = (
     Action("players.add", QT_TRANSLATE_NOOP("Action", "Add player"), add, "Edit/Players", icon="add"),
     Action(
-        "dancers.add",
-        QT_TRANSLATE_NOOP("Action", "Add dancer"),
-        add_dancer,
+        "players.rename",
+        QT_TRANSLATE_NOOP("Action", "Rename player"),
+        rename,
         "Edit/Players",
-        enabled=_has_choreographies,
-        icon="add",
+        "F2",
+        "players",
+        enabled=_has_players,
+        icon="pencil",
     ),
     Action(
         "players.duplicate",

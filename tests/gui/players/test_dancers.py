@@ -106,9 +106,8 @@ def test_a_dancer_comes_is_changed_and_goes_and_all_is_undone(
 
 def test_a_name_is_typed_in_the_list(session: Session, section: DancersSection) -> None:
     add(section)
-    item = section.list.item(0)
     section.list.setFocus()
-    section.list.editItem(item)
+    QTest.keyClick(section.list, Qt.Key.Key_F2)
     editor = section.list.findChild(QLineEdit)
     assert editor is not None
     editor.setText("Ｙｕｋｉ 1/2")
@@ -117,7 +116,77 @@ def test_a_name_is_typed_in_the_list(session: Session, section: DancersSection) 
     assert session.project.dancers[0].name == "Ｙｕｋｉ 1/2"
     QApplication.processEvents()
     session.document.undo()
-    assert section.list.item(0).text() == session.project.dancers[0].name != "Ｙｕｋｉ 1/2"
+    assert names(section) == [session.project.dancers[0].name] != ["Ｙｕｋｉ 1/2"]
+
+
+def names(section: DancersSection) -> list[str]:
+    return [section.list.rows.item(row).text() for row in range(section.list.rows.rowCount())]
+
+
+def row_point(section: DancersSection, row: int) -> QPoint:
+    return section.list.visualRect(section.list.rows.index(row, 0)).center()
+
+
+def test_a_name_that_cannot_be_is_refused_and_the_old_one_shown(
+    session: Session, section: DancersSection, qtbot: QtBot
+) -> None:
+    add(section)
+    told: list[Message] = []
+    session.noticed.connect(lambda message, _: told.append(message))
+    before = names(section)
+    QTest.mouseDClick(section.list.viewport(), Qt.MouseButton.LeftButton, pos=row_point(section, 0))
+    editor = section.list.findChild(QLineEdit)
+    assert editor is not None
+    editor.setText("  ")
+    QTest.keyClick(editor, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: bool(told))
+    qtbot.waitUntil(lambda: names(section) == before)
+    assert [message.id for message in told] == ["player.no_name"]
+    assert [dancer.name for dancer in session.project.dancers] == before
+    assert len(session.document.done) == 1
+
+
+def test_a_click_selects_and_a_drag_or_alt_with_the_arrows_reorders(session: Session, section: DancersSection) -> None:
+    for _ in range(3):
+        add(section)
+    first, second, third = (dancer.id for dancer in session.project.dancers)
+    places = {dancer.id: dancer.stage for dancer in session.project.dancers}
+    steps = len(session.document.done)
+    view = section.list.viewport()
+
+    def order() -> list[str]:
+        return [dancer.id for dancer in session.project.dancers]
+
+    QTest.mouseClick(view, Qt.MouseButton.LeftButton, pos=row_point(section, 0))
+    assert section.dancer is session.project.dancers[0]
+    drag_to(view, row_point(section, 0), row_point(section, 1) + QPoint(0, 8))
+    assert order() == [second, first, third]
+    assert section.dancer is session.project.dancer(first)
+    assert section.list.currentIndex().row() == 1
+    QTest.keyClick(section.list, Qt.Key.Key_Down, Qt.KeyboardModifier.AltModifier)
+    assert order() == [second, third, first]
+    QTest.keyClick(section.list, Qt.Key.Key_Down, Qt.KeyboardModifier.AltModifier)
+    assert order() == [second, third, first]
+    QTest.keyClick(section.list, Qt.Key.Key_Up)
+    assert section.dancer is session.project.dancer(third)
+    drag_to(view, row_point(section, 1), row_point(section, 1) + QPoint(0, 8))
+    assert {dancer.id: dancer.stage for dancer in session.project.dancers} == places
+    assert [step.name.id for step in session.document.done[steps:]] == ["edit.move_dancers"] * 2
+    session.document.undo()
+    session.document.undo()
+    assert order() == [first, second, third]
+    assert names(section) == [session.project.dancer(id).name for id in order()]
+
+
+def test_the_dancer_after_the_one_who_goes_is_selected(session: Session, section: DancersSection) -> None:
+    for _ in range(3):
+        add(section)
+    first, second, third = session.project.dancers
+    for selected, left in ((second, third), (third, first)):
+        session.set_dancer(selected.id)
+        click(section, "dancers_remove_button")
+        assert section.dancer == left
+    assert session.project.dancers == (first,)
 
 
 def test_a_choreography_that_is_gone_leaves_the_section_usable(
@@ -148,7 +217,7 @@ def test_a_dancer_is_dragged_and_turned_on_the_stage_and_the_players_stay(
     drag_to(view, start, start + QPoint(-40, 0))
     assert session.dancer is not None
     assert session.dancer.id == first.id
-    assert section.list.currentItem().text() == first.name
+    assert section.list.currentIndex().data() == first.name
     moved = session.project.dancer(first.id)
     assert moved.stage.x_m < first.stage.x_m - 0.2
     assert moved.stage.z_m == pytest.approx(first.stage.z_m, abs=0.02)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QKeySequence
-from PySide6.QtWidgets import QApplication, QPushButton
+from PySide6.QtGui import QContextMenuEvent, QKeySequence
+from PySide6.QtWidgets import QApplication, QMenu, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.errors import Message
@@ -14,7 +14,9 @@ from app.shell.actions import CONTEXTS, ActionTable, menu_with_keys, rows, seque
 from app.shell.app import Program
 from app.shell.settings import Settings
 from app.shell.window import Window
+from tests.gui.shell.conftest import trigger
 from tests.support.windows import show_in_front
+from widgets.players.dancers import MENU
 
 
 def test_the_table_is_sound() -> None:
@@ -214,3 +216,45 @@ def test_no_shortcut_is_the_key_of_a_menu(program: Program, code: str) -> None:
         if (keys := menus & {sequence.toString() for sequence in sequences(row.shortcut)})
     }
     assert taken == {}
+
+
+def test_keys_in_the_dancers_are_for_dancers_and_beside_them_for_players(program: Program, qtbot: QtBot) -> None:
+    session, window = program.session, program.window
+    trigger(program, "dancers.add")
+    trigger(program, "dancers.add")
+    first, second = session.project.dancers
+    players = session.project.players
+    session.set_players((players[1].id,))
+    show_in_front(window)
+
+    def press(key: Qt.Key, modifier: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
+        QApplication.processEvents()
+        focused = QApplication.focusWidget()
+        assert focused is not None
+        qtbot.keyClick(focused, key, modifier)
+
+    window.players.dancers.list.setFocus()
+    press(Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
+    assert len(session.project.dancers) == 3
+    press(Qt.Key.Key_Delete)
+    assert session.project.dancers == (first, second)
+    assert session.project.players == players
+    press(Qt.Key.Key_M)
+    assert session.project.players[1].muted
+    window.players.list.setFocus()
+    press(Qt.Key.Key_Delete)
+    assert len(session.project.players) == len(players) - 1
+    assert session.project.dancers == (first, second)
+
+
+def test_the_menu_of_a_dancer_is_that_of_the_table(program: Program, qtbot: QtBot) -> None:
+    trigger(program, "dancers.add")
+    QApplication.processEvents()
+    dancers = program.window.players.dancers
+    at = dancers.list.visualRect(dancers.list.rows.index(0, 0)).center()
+    event = QContextMenuEvent(QContextMenuEvent.Reason.Mouse, at, dancers.list.viewport().mapToGlobal(at))
+    QApplication.sendEvent(dancers.list.viewport(), event)
+    menu = QApplication.activePopupWidget()
+    assert isinstance(menu, QMenu)
+    assert [action.objectName() for action in menu.actions()] == list(MENU)
+    menu.close()

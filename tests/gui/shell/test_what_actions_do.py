@@ -151,6 +151,20 @@ class Case:
     edits: bool = False
 
 
+def typing_name(field: str) -> Right:
+    """Whether a name is being typed."""
+
+    def right(desk: Desk) -> bool:
+        found = desk.program.window.players.findChild(QLineEdit, field)
+        return found is not None and found.isVisible()
+
+    return right
+
+
+def dancing(desk: Desk) -> None:
+    desk.session.actions["dancers.add"].trigger()
+
+
 def each(desk: Desk, true: Callable[[Note, Note], bool]) -> bool:
     pairs = desk.chosen()
     return bool(pairs) and all(after is not None and true(note, after) for note, after in pairs)
@@ -581,6 +595,10 @@ CASES: dict[str, Case] = {
     "gesture.lower_instrument": gesture_case("lower_instrument"),
     # Players
     "dancers.add": Case(lambda d: len(d.project.dancers) == len(d.before.dancers) + 1, edits=True),
+    "dancers.rename": Case(typing_name("dancer_name"), dancing),
+    "dancers.duplicate": Case(lambda d: len(d.project.dancers) == 2, dancing, edits=True),
+    "dancers.remove": Case(lambda d: d.project.dancers == (), dancing, edits=True),
+    "players.rename": Case(typing_name("player_name")),
     "players.add": Case(lambda d: len(d.project.players) == len(d.before.players) + 1, edits=True),
     "players.duplicate": Case(lambda d: len(d.project.players) == len(d.before.players) + 1, edits=True),
     "players.remove": Case(

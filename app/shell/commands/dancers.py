@@ -1,0 +1,81 @@
+"""Dancers: who dances, and what they may dance."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QCoreApplication
+
+from app.choreography.library import bundled_choreographies
+from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.editor import editor_of
+from widgets.common.session import Session
+from widgets.players import newcomers
+
+
+def add(session: Session) -> None:
+    """Add a dancer of the first choreography that comes with the program."""
+    newcomers.add_dancer(session, bundled_choreographies()[0], QCoreApplication.translate("Action", "Dancer"))
+
+
+def rename(session: Session) -> None:
+    """Type another name for the selected dancer."""
+    editor_of(session).window.rename_dancer()
+
+
+def duplicate(session: Session) -> None:
+    """Let another one dance the same as the selected dancer."""
+    newcomers.duplicate_dancer(session)
+
+
+def remove(session: Session) -> None:
+    """Send the selected dancer away."""
+    newcomers.remove_dancer(session)
+
+
+def _has_choreographies(session: Session) -> bool:
+    return bool(bundled_choreographies())
+
+
+def _has_dancer(session: Session) -> bool:
+    return session.dancer is not None
+
+
+ACTIONS: tuple[Action, ...] = (
+    Action(
+        "dancers.add",
+        QT_TRANSLATE_NOOP("Action", "Add dancer"),
+        add,
+        "Edit/Players",
+        enabled=_has_choreographies,
+        icon="add",
+    ),
+    Action(
+        "dancers.rename",
+        QT_TRANSLATE_NOOP("Action", "Rename dancer"),
+        rename,
+        "Edit/Players",
+        "F2",
+        "dancers",
+        enabled=_has_dancer,
+        icon="pencil",
+    ),
+    Action(
+        "dancers.duplicate",
+        QT_TRANSLATE_NOOP("Action", "Duplicate dancer"),
+        duplicate,
+        "Edit/Players",
+        "Ctrl+D",
+        "dancers",
+        enabled=_has_dancer,
+        icon="duplicate",
+    ),
+    Action(
+        "dancers.remove",
+        QT_TRANSLATE_NOOP("Action", "Remove dancer"),
+        remove,
+        "Edit/Players",
+        "Del",
+        "dancers",
+        enabled=_has_dancer,
+        icon="delete",
+    ),
+)

@@ -1,0 +1,175 @@
+"""The list of dancers: one selected, in an order that is changed by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import (
+    QEvent,
+    QItemSelectionModel,
+    QModelIndex,
+    QPersistentModelIndex,
+    QRect,
+    QRectF,
+    QSize,
+    Qt,
+    Signal,
+)
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QPainter, QPen, QStandardItem, QStandardItemModel
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QLineEdit,
+    QStyle,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QToolTip,
+    QWidget,
+)
+
+from app.project.model import Dancer
+from widgets.common.icons import icon
+from widgets.common.session import Session
+from widgets.common.tokens import LEAST_TARGET_PX
+from widgets.players.ordered_list import ID_ROLE, OrderedList
+
+AnyIndex = QModelIndex | QPersistentModelIndex
+
+_COLOUR, _PROBLEMS = ID_ROLE + 1, ID_ROLE + 2
+_BAR_PX = 5
+
+
+class DancerList(OrderedList):
+    """The dancers: a click or the arrows select one; drag or Alt with the arrows reorders; F2 or a double click
+    renames.
+
+    Signals
+    -------
+    chosen(str)
+        The user selected this dancer.
+    renamed(str, str)
+        The user typed another name for the dancer of this id.
+    """
+
+    chosen = Signal(str)
+    renamed = Signal(str, str)
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(session, parent)
+        self.rows = QStandardItemModel(self)
+        self._showing = False
+        self.setModel(self.rows)
+        self.setItemDelegate(_RowDelegate(session, self))
+        self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.rows.itemChanged.connect(self._edited)
+        self.selectionModel().currentChanged.connect(self._selected)
+
+    def show_dancers(self, dancers: Sequence[Dancer], selected: Dancer | None) -> None:
+        """Show these, and which of them is selected."""
+        self._showing = True
+        if [self._item_id(row) for row in range(self.rows.rowCount())] != [dancer.id for dancer in dancers]:
+            self.rows.clear()
+            for dancer in dancers:
+                item = QStandardItem()
+                item.setData(dancer.id, ID_ROLE)
+                item.setDropEnabled(False)
+                self.rows.appendRow(item)
+        for row, dancer in enumerate(dancers):
+            item = self.rows.item(row)
+            values = {
+                Qt.ItemDataRole.EditRole: dancer.name,
+                _COLOUR: self._session.colour(dancer),
+                _PROBLEMS: len(self._session.problems(dancer.id)),
+            }
+            for role, value in values.items():
+                if item.data(role) != value:
+                    item.setData(value, role)
+            if selected is not None and dancer.id == selected.id:
+                flags = QItemSelectionModel.SelectionFlag.ClearAndSelect
+                self.selectionModel().setCurrentIndex(item.index(), flags)
+        self._showing = False
+        self.viewport().update()
+
+    def _item_id(self, row: int) -> str:
+        return str(self.rows.item(row).data(ID_ROLE))
+
+    def _edited(self, item: QStandardItem) -> None:
+        if not self._showing:
+            dancer_id, name = str(item.data(ID_ROLE)), item.text()
+            if name != self._session.project.dancer(dancer_id).name:
+                self.renamed.emit(dancer_id, name)
+
+    def _selected(self, index: QModelIndex) -> None:
+        if not self._showing and index.isValid():
+            self.chosen.emit(str(index.data(ID_ROLE)))
+
+
+class _RowDelegate(QStyledItemDelegate):
+    """Draws a row: colour, name and number of problems."""
+
+    def __init__(self, session: Session, view: DancerList) -> None:
+        super().__init__(view)
+        self._session = session
+        self._view = view
+
+    # Qt's own names
+
+    def sizeHint(self, option: QStyleOptionViewItem, index: AnyIndex) -> QSize:
+        return QSize(120, max(LEAST_TARGET_PX, round(QFontMetricsF(self._view.font()).height()) + 8))
+
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: AnyIndex) -> None:
+        tokens, box = self._session.tokens, option.rect
+        selected = bool(option.state & QStyle.StateFlag.State_Selected)
+        painter.save()
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if selected:
+            fill = QColor(tokens.accent)
+            fill.setAlphaF(0.28)
+            painter.fillRect(box, fill)
+        elif option.state & QStyle.StateFlag.State_MouseOver:
+            painter.fillRect(box, QColor(tokens.raised))
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(str(index.data(_COLOUR))))
+        painter.drawRoundedRect(QRectF(box.left() + 4, box.top() + 4, _BAR_PX, box.height() - 8), 2, 2)
+        room = box.adjusted(16, 0, -6, 0)
+        count = int(index.data(_PROBLEMS) or 0)
+        if count:
+            width = round(QFontMetricsF(self._view.font()).horizontalAdvance(str(count))) + 20
+            spot = QRect(room.right() - width, room.top(), width, room.height())
+            icon("problem", tokens, tokens.warning).paint(painter, QRect(spot.left(), spot.center().y() - 7, 16, 16))
+            painter.setFont(self._view.font())
+            painter.setPen(QColor(tokens.warning))
+            painter.drawText(spot, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, str(count))
+            room.setRight(spot.left() - 6)
+        font = QFont(self._view.font())
+        font.setBold(selected)
+        painter.setFont(font)
+        painter.setPen(QColor(tokens.text))
+        name = QFontMetricsF(font).elidedText(str(index.data()), Qt.TextElideMode.ElideRight, room.width())
+        painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, name)
+        painter.setPen(QColor(tokens.line))
+        painter.drawLine(box.bottomLeft(), box.bottomRight())
+        if selected and self._view.hasFocus():
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(QColor(tokens.accent), 1.5))
+            painter.drawRoundedRect(QRectF(box).adjusted(1, 1, -1, -1.5), 3, 3)
+        painter.restore()
+
+    def createEditor(self, parent: QWidget, option: QStyleOptionViewItem, index: AnyIndex) -> QWidget:
+        field = QLineEdit(parent)
+        field.setObjectName("dancer_name")
+        return field
+
+    def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: AnyIndex) -> None:
+        editor.setGeometry(option.rect.adjusted(13, 1, -2, -2))
+
+    def helpEvent(
+        self, event: QHelpEvent, view: QAbstractItemView, option: QStyleOptionViewItem, index: AnyIndex
+    ) -> bool:
+        if event.type() != QEvent.Type.ToolTip or not index.isValid():
+            return False
+        lines = [str(index.data())]
+        count = int(index.data(_PROBLEMS) or 0)
+        if count:
+            lines.append(self.tr("Problems: {count}").format(count=count))
+        QToolTip.showText(event.globalPos(), "\n".join(lines), view)
+        return True
