@@ -32,6 +32,20 @@ class ImportRow(msgspec.Struct, frozen=True):
     character_id: str | None = None
 
 
+class ImportWish(msgspec.Struct, frozen=True):
+    """How a MIDI file is to become a project.
+
+    Attributes
+    ----------
+    rows : tuple of ImportRow
+    dances : bool
+        Whether a dancer is to move to its percussion.
+    """
+
+    rows: tuple[ImportRow, ...]
+    dances: bool = False
+
+
 def usual_rows(contents: MidiContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
     """A row for every track, as it would be imported if nobody said anything."""
     played = {wish.streams[0] for wish in usual_wishes(contents.streams, map_choices(maps.values()))}

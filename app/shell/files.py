@@ -12,11 +12,13 @@ from typing import Final
 
 from PySide6.QtCore import QCoreApplication, QObject, Qt, QTimer, Signal
 
+from app.choreography.library import bundled_choreographies
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
 from app.project import storage
 from app.project.autosave import Autosave, Writing, Written
 from app.project.document import Change
+from app.project.edit.dancers import add_dancer
 from app.project.edit.piece import new_piece, set_audio, set_offset
 from app.project.importing import import_project, usual_rows
 from app.project.model import Project
@@ -218,14 +220,18 @@ class Files(QObject):
             return read_contents(path)
 
         def asked(contents: MidiContents) -> None:
-            rows = self.questions.import_midi(contents, self.session.tokens, self.session.tasks) if ask else None
-            if ask and rows is None:
+            wish = self.questions.import_midi(contents, self.session.tokens, self.session.tasks) if ask else None
+            if ask and wish is None:
                 return
+            called = QCoreApplication.translate("Action", "Dancer")
 
             def build(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Project:
                 maps = all_maps()
-                wanted = usual_rows(contents, maps) if rows is None else rows
-                return import_project(contents, wanted, maps, source, stop_wanted)
+                wanted = usual_rows(contents, maps) if wish is None else wish.rows
+                project = import_project(contents, wanted, maps, source, stop_wanted)
+                if wish is not None and wish.dances:
+                    project, _ = add_dancer(project, bundled_choreographies()[0], called)
+                return project
 
             self.session.tasks.run(Message("work.open"), build, done, self._failed(path), key="open")
 

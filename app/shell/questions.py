@@ -11,7 +11,7 @@ from PySide6.QtCore import QCoreApplication
 from PySide6.QtWidgets import QApplication, QDialog, QWidget
 
 from app.encoding import shown
-from app.project.importing import ImportRow
+from app.project.importing import ImportWish
 from app.score.read import MidiContents
 from instrument_maps.library import all_maps
 from widgets.common.paths import ask_for_file, ask_where_to_save
@@ -34,8 +34,8 @@ class Questions(Protocol):
     def unsaved(self, name: str) -> Answer:
         """What becomes of the changes that are in no file."""
 
-    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> tuple[ImportRow, ...] | None:
-        """Who plays what in a MIDI file."""
+    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
+        """Who plays what in a MIDI file, and whether a dancer dances to it."""
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
         """Whether a character goes for good, which these players are."""
@@ -79,13 +79,13 @@ class Dialogs:
         box.deleteLater()
         return "save" if clicked is save else "discard" if clicked is discard else "cancel"
 
-    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> tuple[ImportRow, ...] | None:
+    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
         """See `Questions`."""
         from widgets.dialogs.import_midi import ImportDialog
 
         dialog = ImportDialog(contents, all_maps(), tokens, tasks, _parent())
         try:
-            return dialog.rows if dialog.exec() == QDialog.DialogCode.Accepted else None
+            return dialog.wish if dialog.exec() == QDialog.DialogCode.Accepted else None
         finally:
             dialog.deleteLater()
 

@@ -413,6 +413,14 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>まとめたトラックをそれぞれのパートに戻します</translation>
     </message>
     <message>
+        <source>Add a dancer</source>
+        <translation>ダンサーを追加</translation>
+    </message>
+    <message>
+        <source>A dancer who moves to the percussion comes onto the stage in front of the players</source>
+        <translation>打楽器に合わせて踊るダンサーを、プレイヤーの前のステージに追加します</translation>
+    </message>
+    <message>
         <source>Import</source>
         <translation>読み込む</translation>
     </message>
@@ -447,6 +455,10 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>自動: {name}</translation>
     </message>
     <message>
+        <source>Percussion, for dancers</source>
+        <translation>打楽器(ダンサー用)</translation>
+    </message>
+    <message>
         <source>Choose an instrument</source>
         <translation>楽器を選んでください</translation>
     </message>
@@ -467,6 +479,10 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>自動</translation>
     </message>
     <message>
+        <source>A percussion track: no player plays it, but dancers dance to it. It is kept for them, ticked or not</source>
+        <translation>打楽器のトラックです。プレイヤーは演奏しませんが、ダンサーがこれに合わせて踊ります。チェックの有無にかかわらず、ダンサーのために残されます</translation>
+    </message>
+    <message>
         <source>Choose an instrument for {name}</source>
         <translation>{name} の楽器を選んでください</translation>
     </message>
@@ -477,6 +493,10 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     <message>
         <source>Nobody plays: tick a track, or import an empty stage</source>
         <translation>演奏するプレイヤーがいません。トラックを選ぶか、空のステージとして読み込みます</translation>
+    </message>
+    <message>
+        <source>{name} is not played: {reason}; dancers dance to it</source>
+        <translation>{name} は演奏されません: {reason}。ダンサーがこれに合わせて踊ります</translation>
     </message>
     <message>
         <source>{name} is not played: {reason}</source>

@@ -28,11 +28,22 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.choreography.library import bundled_choreographies
 from app.errors import Message
 from app.messages.pitches import pitch_name
-from app.project.importing import ImportRow, Outcome, automatic, merged, outcome_of, separated, usual_rows
+from app.project.importing import (
+    ImportRow,
+    ImportWish,
+    Outcome,
+    automatic,
+    merged,
+    outcome_of,
+    separated,
+    usual_rows,
+)
 from app.rig.character_library import characters
-from app.score.choose import Stream
+from app.score.choose import Stream, is_drum_kit
+from app.score.model import UnplayedPart
 from app.score.parts import PartWish, stream_name
 from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
@@ -115,6 +126,11 @@ class ImportDialog(QDialog):
         self._separate.setObjectName("separate")
         self._separate.setAutoDefault(False)
         self._separate.clicked.connect(self.separate_selected)
+        self._percussion = frozenset(place for place, stream in enumerate(contents.streams) if is_drum_kit(stream))
+        """Streams that dancers dance to."""
+        self._dancer = QCheckBox()
+        self._dancer.setObjectName("import_dancer")
+        self._dancer.setVisible(bool(self._percussion and bundled_choreographies()))
         self._summary = Label()
         self._summary.setObjectName("import_summary")
         self._warning_title = Label()
@@ -134,6 +150,8 @@ class ImportDialog(QDialog):
         tools = QHBoxLayout()
         tools.addWidget(self._merge)
         tools.addWidget(self._separate)
+        tools.addSpacing(12)
+        tools.addWidget(self._dancer)
         tools.addStretch()
         tools.addWidget(self._summary)
         layout = QVBoxLayout(self)
@@ -152,6 +170,11 @@ class ImportDialog(QDialog):
     def rows(self) -> tuple[ImportRow, ...]:
         """What is wanted so far; empty until it is known what the file says."""
         return self._rows
+
+    @property
+    def wish(self) -> ImportWish:
+        """Rows, and whether a dancer comes with them."""
+        return ImportWish(self._rows, self._dancer.isChecked())
 
     def merge_selected(self) -> None:
         """Make one part of the selected tracks."""
@@ -200,6 +223,10 @@ class ImportDialog(QDialog):
         self._merge.setToolTip(self.tr("Make one part of the selected tracks"))
         self._separate.setText(self.tr("Take apart"))
         self._separate.setToolTip(self.tr("Make a part of each merged track again"))
+        self._dancer.setText(self.tr("Add a dancer"))
+        self._dancer.setToolTip(
+            self.tr("A dancer who moves to the percussion comes onto the stage in front of the players")
+        )
         self._buttons.button(QDialogButtonBox.StandardButton.Ok).setText(self.tr("Import"))
         self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("Cancel"))
         self._fill()
@@ -308,8 +335,7 @@ class ImportDialog(QDialog):
             instrument.addItem(text, id_)
         instrument.setCurrentIndex(max(instrument.findData(row.wish.map_id), 0))
         instrument.currentIndexChanged.connect(lambda _, box=instrument: self._choose(place, box.currentData()))
-        instrument.setToolTip(instrument.currentText())
-        instrument.currentTextChanged.connect(instrument.setToolTip)
+        instrument.currentTextChanged.connect(lambda text: instrument.setToolTip(self._tip(place) or text))
         self._table.setCellWidget(place, _INSTRUMENT, instrument)
 
         pitches = ComboBox()
@@ -351,12 +377,31 @@ class ImportDialog(QDialog):
         names = dict.fromkeys(map(instrument_name, self._played_on(automatic(row.wish))))
         if names:
             instrument.setItemText(0, self.tr("Automatic: {name}").format(name=" + ".join(names)))
+        elif self._is_percussion(row):
+            instrument.setItemText(0, self.tr("Percussion, for dancers"))
         elif self._outcome is not None and not row.wish.map_id:
             instrument.setItemText(0, self.tr("Choose an instrument"))
+        tip = self._tip(place)
+        instrument.setToolTip(tip or instrument.currentText())
+        for column in (_USE, _PREVIEW, _NOTES):
+            widget = self._table.cellWidget(place, column)
+            if widget is not None:
+                widget.setToolTip(tip)
         instrument.setEnabled(row.wanted or self._asks(row))
         # Only there is a difference.
         transposes = any(table.transposition_semitones for table in self._played_on(row.wish))
         pitches.setEnabled(row.wanted and transposes)
+
+    def _is_percussion(self, row: ImportRow) -> bool:
+        return self._percussion.issuperset(row.wish.streams)
+
+    def _tip(self, place: int) -> str:
+        """What there is to know of a row; empty for most."""
+        if not self._is_percussion(self._rows[place]):
+            return ""
+        return self.tr(
+            "A percussion track: no player plays it, but dancers dance to it. It is kept for them, ticked or not"
+        )
 
     def _name(self, row: ImportRow) -> str:
         return " + ".join(stream_name(self._contents.streams[stream]) for stream in row.wish.streams)
@@ -406,15 +451,18 @@ class ImportDialog(QDialog):
             else:
                 self._summary.setText(self.tr("Nobody plays: tick a track, or import an empty stage"))
             self._warnings.addItems([message_text(message) for message in outcome.warnings])
-            self._warnings.addItems(
-                [
-                    self.tr("{name} is not played: {reason}").format(name=part.name, reason=message_text(part.reason))
-                    for part in outcome.unplayed
-                ]
-            )
+            self._warnings.addItems([self._unplayed(part) for part in outcome.unplayed])
         self._warning_title.setText(self.tr("What the reader noticed"))
         self._warning_title.setVisible(self._warnings.count() > 0)
         self._warnings.setVisible(self._warnings.count() > 0)
+
+    def _unplayed(self, part: UnplayedPart) -> str:
+        """Why a part is not played, and that it is for dancers where it is."""
+        reason = message_text(part.reason)
+        percussion = {stream_name(self._contents.streams[stream]) for stream in self._percussion}
+        if part.reason.id == "score.percussion" and part.name in percussion:
+            return self.tr("{name} is not played: {reason}; dancers dance to it").format(name=part.name, reason=reason)
+        return self.tr("{name} is not played: {reason}").format(name=part.name, reason=reason)
 
     def sizeHint(self) -> QSize:
         return _SIZE

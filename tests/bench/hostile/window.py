@@ -22,7 +22,7 @@ from PySide6.QtWidgets import QApplication, QDialog, QDialogButtonBox
 
 from app.errors import AppError, Message
 from app.project.autosave import Autosave
-from app.project.importing import ImportRow
+from app.project.importing import ImportWish
 from app.project.presence import Presence
 from app.score.read import MidiContents
 from app.shell.app import Program, make_application
@@ -73,7 +73,7 @@ class StallMeter(QObject):
 class ImportAnswers(Answers):
     """Whoever imports a MIDI file looks at the dialog for a moment and agrees."""
 
-    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> tuple[ImportRow, ...] | None:
+    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
         """The real dialog."""
         timer = QTimer()
         timer.setInterval(300)

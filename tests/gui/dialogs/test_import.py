@@ -9,7 +9,7 @@ from typing import Any
 import mido
 import msgspec
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
     QApplication,
@@ -292,3 +292,36 @@ def test_an_unknown_name_is_asked_about(qt_app: QApplication, qtbot: QtBot, tmp_
     assert [part.map_id for part in imported(dialog).score.parts] == ["trumpet_Bb", "flute"]
     choose(dialog, "instrument_0", None)
     assert not ok.isEnabled()
+
+
+PERCUSSION = LUTKIN.parents[1] / "awkward" / "test-all-gm-percussion.mid"
+
+
+def test_a_percussion_track_is_shown_as_the_dancers(qt_app: QApplication, qtbot: QtBot) -> None:
+    dialog = ImportDialog(read_contents(PERCUSSION), MAPS, DARK, ImmediateTasks())
+    qtbot.addWidget(dialog)
+    dialog.show()
+    instrument = dialog.findChild(QComboBox, "instrument_0")
+    assert instrument is not None
+    assert instrument.currentText() == "Percussion, for dancers"
+    assert "no player plays it" in instrument.toolTip()
+    told = dialog.findChild(QListWidget, "import_warnings")
+    assert told is not None
+    assert any(told.item(row).text().endswith("; dancers dance to it") for row in range(told.count()))
+    dances = dialog.findChild(QCheckBox, "import_dancer")
+    assert dances is not None
+    assert dances.isVisible()
+    assert not dialog.wish.dances
+    QTest.mouseClick(dances, Qt.MouseButton.LeftButton, pos=QPoint(8, dances.height() // 2))
+    assert dialog.wish.dances
+    assert dialog.wish.rows == dialog.rows
+    assert imported(dialog).score.percussion
+
+
+def test_without_percussion_no_dancer_is_offered(dialog: ImportDialog) -> None:
+    dances = dialog.findChild(QCheckBox, "import_dancer")
+    assert dances is not None
+    assert not dances.isVisible()
+    instruments = [box.itemText(0) for box in dialog.findChildren(QComboBox) if "instrument_" in box.objectName()]
+    assert instruments
+    assert not any("dancers" in text for text in instruments)

@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from app.audio.playback import Playback
 from app.project.autosave import Autosave
-from app.project.importing import ImportRow, usual_rows
+from app.project.importing import ImportWish, usual_rows
 from app.project.presence import Presence
 from app.score.read import MidiContents
 from app.shell.app import Program
@@ -38,6 +38,7 @@ class Answers:
         self.path: Path | None = None
         self.answer: Answer = "cancel"
         self.imports = True
+        self.dances = False
         self.asked: list[str] = []
         self.removes = True
         self.told_players: tuple[str, ...] = ()
@@ -63,10 +64,10 @@ class Answers:
         self.told_players = players
         return self.removes
 
-    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> tuple[ImportRow, ...] | None:
+    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
         """As if nobody touched the dialog."""
         self.asked.append("import")
-        return usual_rows(contents, bundled_maps()) if self.imports else None
+        return ImportWish(usual_rows(contents, bundled_maps()), self.dances) if self.imports else None
 
 
 @pytest.fixture

@@ -236,3 +236,15 @@ def test_how_a_person_listens_is_remembered(start: Start, settings: Settings) ->
     listening = start().session.listening
     assert (listening.volume, listening.click, listening.source, listening.scrub_sound) == (chosen, True, "both", False)
     assert listening.speed == 1.0
+
+
+def test_a_dancer_of_the_import_is_part_of_it(empty: Program, answers: Answers) -> None:
+    path = QUARTET.parents[2] / "tests" / "data" / "midi" / "awkward" / "test-all-gm-percussion.mid"
+    for dances in (False, True):
+        answers.dances = dances
+        empty.editor.files.open(path)
+        project = empty.session.project
+        assert project.score.percussion
+        assert [dancer.name for dancer in project.dancers] == ["Dancer"] * dances
+        assert not empty.session.document.done
+        assert answers.asked[-1] == "import"
