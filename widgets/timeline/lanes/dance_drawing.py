@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen
 
+from widgets.common.dance_figures import draw_figures, placed
 from widgets.timeline.lane import LaneItem
-from widgets.timeline.lanes.drawing import Floats, draw_lines, draw_mark, draw_rects, draw_text, shade, small_font
+from widgets.timeline.lanes.drawing import draw_lines, draw_mark, draw_rects, draw_text, shade, small_font
 
 if TYPE_CHECKING:
     from app.performance.dance_steps import DanceSteps
@@ -18,52 +19,7 @@ if TYPE_CHECKING:
 
 LEAST_NUMBER_PX, LEAST_FIGURE_PX = 12.0, 20.0
 """A narrower block has no number, and no figure."""
-HIGHEST = 1.3
-"""Of the body's height, with the arms up."""
-FIGURE_WIDTH = 0.75
-"""Of its height."""
-ICON_PX = 40
 _BAR_PX = 3.0
-
-
-def figure_lines(points: Floats, bones: tuple[tuple[int, int], ...]) -> tuple[Floats, Floats, Floats, Floats]:
-    """X and Y of the starts and ends of the bones of figures (N, 21, 2) in pixels, each flat."""
-    first, second = np.array(bones).T
-    start, end = points[:, first].reshape(-1, 2), points[:, second].reshape(-1, 2)
-    return start[:, 0], start[:, 1], end[:, 0], end[:, 1]
-
-
-def draw_figures(painter: QPainter, points: Floats, colour: QColor, width_px: float) -> None:
-    """Draw figures (N, 21, 2) in pixels."""
-    from app.performance.dance_steps import BONES, HEAD
-
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
-    pen = QPen(colour, width_px)
-    pen.setCapStyle(Qt.PenCapStyle.RoundCap)
-    draw_lines(painter, *figure_lines(points, BONES), pen)
-    neck, crown = points[:, HEAD[0]], points[:, HEAD[1]]
-    painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(colour)
-    for middle, tall in zip((neck + crown) / 2.0, np.linalg.norm(crown - neck, axis=-1), strict=True):
-        painter.drawEllipse(QPointF(*middle), 0.36 * tall, 0.5 * tall)
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-
-
-def placed(drawn: Floats, middles_px: Floats, floor_px: float, height_px: float) -> Floats:
-    """Figures (N, 21, 2) of parts of the body's height as pixels."""
-    scale = height_px / HIGHEST
-    return np.stack([middles_px[:, None] + scale * drawn[..., 0], floor_px - scale * drawn[..., 1]], axis=-1)
-
-
-def figure_icon(drawn: Floats, colour: QColor, ratio: float) -> QIcon:
-    """One figure (21, 2) as the picture of a menu's entry."""
-    picture = QPixmap(QSize(ICON_PX, ICON_PX) * ratio)
-    picture.setDevicePixelRatio(ratio)
-    picture.fill(Qt.GlobalColor.transparent)
-    painter = QPainter(picture)
-    draw_figures(painter, placed(drawn[None], np.array([ICON_PX / 2]), ICON_PX - 2.0, ICON_PX - 4.0), colour, 1.6)
-    painter.end()
-    return QIcon(picture)
 
 
 class DancesItem(LaneItem):
@@ -160,7 +116,7 @@ class DancesItem(LaneItem):
         middles = axis.x_px((dance.start_s[here] + dance.end_s[here]) / 2.0) + 4.0
         if dance.dancer.mirrored:
             drawn = drawn * (-1.0, 1.0)
-        draw_figures(painter, placed(drawn, middles, box.bottom() - 2.0, height), QColor(colour), 1.5)
+        draw_figures(painter, placed(drawn, middles, box.bottom() - 2.0, height), QColor(colour), 1.5, height)
 
     def _paint_marks(
         self,

@@ -10,9 +10,8 @@ import numpy as np
 from PySide6.QtGui import QAction, QColor, QIcon
 from PySide6.QtWidgets import QMenu
 
+from widgets.common.dance_figures import ICON_PX, Floats, figure_icon
 from widgets.common.plain import verbatim
-from widgets.timeline.lanes.dance_drawing import ICON_PX, figure_icon
-from widgets.timeline.lanes.drawing import Floats
 
 if TYPE_CHECKING:
     from widgets.timeline.lanes.dance import DanceLane
