@@ -17,6 +17,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.compare": "what the generator would do for {player}",
     "work.reimport": "reading the MIDI file again",
     "work.portraits": "drawing the characters' portraits",
+    "work.choreography": "reading the choreography",
     "work.dances": "finding out what the dancers dance",
     "work.stream": "looking for {host}",
     "work.character": "reading {file}",

@@ -236,6 +236,7 @@ QAbstractItemView {{ background: {t.sunken}; alternate-background-color: {t.surf
   selection-background-color: {t.accent}; selection-color: {t.accent_text}; }}
 QHeaderView::section {{ background: {t.surface}; color: {t.text_dim}; border: none; border-bottom: 1px solid {t.line};
   padding: 4px 8px; }}
+QTableCornerButton::section {{ background: {t.surface}; border: none; border-bottom: 1px solid {t.line}; }}
 QTreeView::item, QListView::item, QTableView::item {{ min-height: {LEAST_TARGET_PX}px; }}
 QScrollArea, QScrollArea > QWidget > QWidget {{ background: transparent; border: none; }}
 QScrollBar:vertical {{ background: transparent; width: 12px; margin: 0; }}

@@ -318,6 +318,15 @@ class Window(QMainWindow):
 
         ask_for_character(self.editor)
 
+    def show_choreography(self) -> None:
+        """Show what the choreography of the selected dancer has learned; once."""
+        from widgets.dialogs.choreography import ChoreographyDialog
+
+        dialog = self.findChild(ChoreographyDialog) or ChoreographyDialog(self.session, self)
+        dialog.show()
+        dialog.raise_()
+        dialog.activateWindow()
+
     def show_devices(self) -> None:
         """Show the MIDI devices; once."""
         from app.shell.recording_dialogs import show_devices

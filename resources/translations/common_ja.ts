@@ -411,6 +411,197 @@
     </message>
 </context>
 <context>
+    <name>Percussion</name>
+    <message>
+        <source>Acoustic Bass Drum</source>
+        <translation>アコースティックバスドラム</translation>
+    </message>
+    <message>
+        <source>Bass Drum 1</source>
+        <translation>バスドラム1</translation>
+    </message>
+    <message>
+        <source>Side Stick</source>
+        <translation>サイドスティック</translation>
+    </message>
+    <message>
+        <source>Acoustic Snare</source>
+        <translation>アコースティックスネア</translation>
+    </message>
+    <message>
+        <source>Hand Clap</source>
+        <translation>ハンドクラップ</translation>
+    </message>
+    <message>
+        <source>Electric Snare</source>
+        <translation>エレクトリックスネア</translation>
+    </message>
+    <message>
+        <source>Low Floor Tom</source>
+        <translation>ローフロアタム</translation>
+    </message>
+    <message>
+        <source>Closed Hi-hat</source>
+        <translation>クローズハイハット</translation>
+    </message>
+    <message>
+        <source>High Floor Tom</source>
+        <translation>ハイフロアタム</translation>
+    </message>
+    <message>
+        <source>Pedal Hi-hat</source>
+        <translation>ペダルハイハット</translation>
+    </message>
+    <message>
+        <source>Low Tom</source>
+        <translation>ロータム</translation>
+    </message>
+    <message>
+        <source>Open Hi-hat</source>
+        <translation>オープンハイハット</translation>
+    </message>
+    <message>
+        <source>Low-Mid Tom</source>
+        <translation>ローミッドタム</translation>
+    </message>
+    <message>
+        <source>High-Mid Tom</source>
+        <translation>ハイミッドタム</translation>
+    </message>
+    <message>
+        <source>Crash Cymbal 1</source>
+        <translation>クラッシュシンバル1</translation>
+    </message>
+    <message>
+        <source>High Tom</source>
+        <translation>ハイタム</translation>
+    </message>
+    <message>
+        <source>Ride Cymbal 1</source>
+        <translation>ライドシンバル1</translation>
+    </message>
+    <message>
+        <source>Chinese Cymbal</source>
+        <translation>チャイナシンバル</translation>
+    </message>
+    <message>
+        <source>Ride Bell</source>
+        <translation>ライドベル</translation>
+    </message>
+    <message>
+        <source>Tambourine</source>
+        <translation>タンバリン</translation>
+    </message>
+    <message>
+        <source>Splash Cymbal</source>
+        <translation>スプラッシュシンバル</translation>
+    </message>
+    <message>
+        <source>Cowbell</source>
+        <translation>カウベル</translation>
+    </message>
+    <message>
+        <source>Crash Cymbal 2</source>
+        <translation>クラッシュシンバル2</translation>
+    </message>
+    <message>
+        <source>Vibraslap</source>
+        <translation>ビブラスラップ</translation>
+    </message>
+    <message>
+        <source>Ride Cymbal 2</source>
+        <translation>ライドシンバル2</translation>
+    </message>
+    <message>
+        <source>High Bongo</source>
+        <translation>ハイボンゴ</translation>
+    </message>
+    <message>
+        <source>Low Bongo</source>
+        <translation>ローボンゴ</translation>
+    </message>
+    <message>
+        <source>Mute High Conga</source>
+        <translation>ミュートハイコンガ</translation>
+    </message>
+    <message>
+        <source>Open High Conga</source>
+        <translation>オープンハイコンガ</translation>
+    </message>
+    <message>
+        <source>Low Conga</source>
+        <translation>ローコンガ</translation>
+    </message>
+    <message>
+        <source>High Timbale</source>
+        <translation>ハイティンバレ</translation>
+    </message>
+    <message>
+        <source>Low Timbale</source>
+        <translation>ローティンバレ</translation>
+    </message>
+    <message>
+        <source>High Agogo</source>
+        <translation>ハイアゴゴ</translation>
+    </message>
+    <message>
+        <source>Low Agogo</source>
+        <translation>ローアゴゴ</translation>
+    </message>
+    <message>
+        <source>Cabasa</source>
+        <translation>カバサ</translation>
+    </message>
+    <message>
+        <source>Maracas</source>
+        <translation>マラカス</translation>
+    </message>
+    <message>
+        <source>Short Whistle</source>
+        <translation>ショートホイッスル</translation>
+    </message>
+    <message>
+        <source>Long Whistle</source>
+        <translation>ロングホイッスル</translation>
+    </message>
+    <message>
+        <source>Short Guiro</source>
+        <translation>ショートギロ</translation>
+    </message>
+    <message>
+        <source>Long Guiro</source>
+        <translation>ロングギロ</translation>
+    </message>
+    <message>
+        <source>Claves</source>
+        <translation>クラベス</translation>
+    </message>
+    <message>
+        <source>High Wood Block</source>
+        <translation>ハイウッドブロック</translation>
+    </message>
+    <message>
+        <source>Low Wood Block</source>
+        <translation>ローウッドブロック</translation>
+    </message>
+    <message>
+        <source>Mute Cuica</source>
+        <translation>ミュートクイーカ</translation>
+    </message>
+    <message>
+        <source>Open Cuica</source>
+        <translation>オープンクイーカ</translation>
+    </message>
+    <message>
+        <source>Mute Triangle</source>
+        <translation>ミュートトライアングル</translation>
+    </message>
+    <message>
+        <source>Open Triangle</source>
+        <translation>オープントライアングル</translation>
+    </message>
+</context>
+<context>
     <name>Pitch</name>
     <message>
         <source>Do Re Mi Fa So La Ti</source>

@@ -173,6 +173,109 @@ Bones: {bones}, morphs: {morphs}</source>
     </message>
 </context>
 <context>
+    <name>ChoreographyDialog</name>
+    <message>
+        <source>Choreography</source>
+        <translation>振り付け</translation>
+    </message>
+    <message>
+        <source>No dancer is selected.</source>
+        <translation>ダンサーが選択されていません。</translation>
+    </message>
+    <message>
+        <source>Reading ...</source>
+        <translation>読み込み中...</translation>
+    </message>
+    <message>
+        <source>Choreography of {dancer}</source>
+        <translation>{dancer} の振り付け</translation>
+    </message>
+    <message>
+        <source>{name} · Basic motions: {motions} · Segments: {segments}, {minutes}:{seconds:02d} min · Sources: {sources}</source>
+        <translation>{name} · 基本動作: {motions} · セグメント: {segments}、{minutes}分{seconds:02d}秒 · ソース: {sources}</translation>
+    </message>
+    <message>
+        <source>{dancer} dances {used} of {count} basic motions in this piece.</source>
+        <translation>{dancer} はこの曲で {count} 個の基本動作のうち {used} 個を踊ります。</translation>
+    </message>
+    <message>
+        <source>{count}×</source>
+        <translation>{count}回</translation>
+    </message>
+    <message>
+        <source>Basic motion {number} is danced again with a probability of {share} %.</source>
+        <translation>基本動作{number}が繰り返される確率は {share} % です。</translation>
+    </message>
+    <message>
+        <source>Basic motion {number} is followed by {next} with a probability of {share} %.</source>
+        <translation>基本動作{number}の次に{next}が踊られる確率は {share} % です。</translation>
+    </message>
+    <message>
+        <source>{share} % of the strokes during basic motion {number} are: {sound}</source>
+        <translation>基本動作{number}の間の打音の {share} %: {sound}</translation>
+    </message>
+    <message>
+        <source>Basic motion {number}</source>
+        <translation>基本動作{number}</translation>
+    </message>
+    <message>
+        <source>from {sources}</source>
+        <translation>ソース: {sources}</translation>
+    </message>
+    <message>
+        <source>followed by {motions}</source>
+        <translation>次の動作: {motions}</translation>
+    </message>
+    <message>
+        <source>danced to {sounds}</source>
+        <translation>打楽器: {sounds}</translation>
+    </message>
+    <message>
+        <source>{motion} with {music}</source>
+        <translation>{motion} と {music}</translation>
+    </message>
+    <message>
+        <source>No credits are given for these sources.</source>
+        <translation>これらのソースには出典の記載がありません。</translation>
+    </message>
+    <message>
+        <source>Basic Motions</source>
+        <translation>基本動作</translation>
+    </message>
+    <message>
+        <source>Transitions</source>
+        <translation>遷移</translation>
+    </message>
+    <message>
+        <source>Percussion</source>
+        <translation>打楽器</translation>
+    </message>
+    <message>
+        <source>Credits</source>
+        <translation>出典とライセンス</translation>
+    </message>
+    <message>
+        <source>The most typical segment of each basic motion: its start, its accent, its end.</source>
+        <translation>各基本動作の最も代表的なセグメントの始まり、アクセント、終わりです。</translation>
+    </message>
+    <message>
+        <source>What follows what, in percent: a row is what is danced, a column what comes next. Basic motions in colour are danced in this piece, so many times.</source>
+        <translation>どの動作の次にどの動作が続くか(%)。行が現在の動作、列が次の動作です。色付きの基本動作はこの曲で踊られるもので、下の数字はその回数です。</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+    <message>
+        <source>What is struck during each basic motion, in percent of its strokes. This piece has no percussion: sounds with a dot stand for its melody, its bass and its accents.</source>
+        <translation>各基本動作の間に鳴る打楽器(打音に占める%)。この曲には打楽器がないため、点の付いた音は旋律、低音、アクセントの代わりです。</translation>
+    </message>
+    <message>
+        <source>What is struck during each basic motion, in percent of its strokes. Sounds with a dot occur in this piece.</source>
+        <translation>各基本動作の間に鳴る打楽器(打音に占める%)。点の付いた音はこの曲で使われています。</translation>
+    </message>
+</context>
+<context>
     <name>ExportDialog</name>
     <message>
         <source>Files written to {folder}: {count}</source>
@@ -1135,6 +1238,29 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     <message>
         <source>Pitch bend</source>
         <translation>ピッチベンド</translation>
+    </message>
+</context>
+<context>
+    <name>MotionModel</name>
+    <message>
+        <source>Segments: {count}, {seconds:.2f} s on average</source>
+        <translation>セグメント: {count}、平均{seconds:.2f}秒</translation>
+    </message>
+    <message>
+        <source>Sources: {count} of {all}</source>
+        <translation>ソース: {all} 個中 {count} 個</translation>
+    </message>
+    <message>
+        <source>danced {count}×</source>
+        <translation>{count}回</translation>
+    </message>
+    <message>
+        <source>not danced</source>
+        <translation>使用なし</translation>
+    </message>
+    <message>
+        <source>Basic motion {number}</source>
+        <translation>基本動作{number}</translation>
     </message>
 </context>
 <context>

@@ -1992,6 +1992,10 @@
             <translation>キャラクターの肖像を描いています</translation>
         </message>
         <message>
+            <source>reading the choreography</source>
+            <translation>振り付けを読み込んでいます</translation>
+        </message>
+        <message>
             <source>finding out what the dancers dance</source>
             <translation>ダンサーの振り付けを決定中</translation>
         </message>

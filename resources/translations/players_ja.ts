@@ -60,6 +60,10 @@
         <translation>左右を入れ替えます</translation>
     </message>
     <message>
+        <source>Show what the choreography has learned</source>
+        <translation>振り付けの内容を表示</translation>
+    </message>
+    <message>
         <source>Another dance to the same music</source>
         <translation>同じ音楽に別の踊りを作ります</translation>
     </message>

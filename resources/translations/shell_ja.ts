@@ -439,6 +439,10 @@
         <translation>ダンサーを削除</translation>
     </message>
     <message>
+        <source>Show Choreography...</source>
+        <translation>振り付けを表示...</translation>
+    </message>
+    <message>
         <source>Add player</source>
         <translation>プレイヤーを追加</translation>
     </message>

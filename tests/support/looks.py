@@ -279,6 +279,7 @@ class Look:
             "import": self._import,
             "midi_devices": lambda: self.do("record.devices"),
             "latency": self.window.show_latency,
+            "choreography": self._choreography,
         }
         for name, show in steps.items():
             show()
@@ -291,6 +292,11 @@ class Look:
         self.window.palette_popup.field.setText("zzzz")
         self.at("palette")
         self.window.palette_popup.hide()
+
+    def _choreography(self) -> None:
+        self.do("dancers.add")
+        self.do("dancers.choreography")
+        self.session.document.undo()
 
     def _import(self) -> None:
         dialog = ImportDialog(read_contents(LUTKIN), bundled_maps(), self.session.tokens, ImmediateTasks(), self.window)

@@ -43,8 +43,8 @@ from widgets.players.dancer_list import DancerList
 from widgets.players.newcomers import add_dancer, duplicate_dancer, remove_dancer
 from widgets.players.stage import FARTHEST_M
 
-MENU = ("dancers.add", "dancers.rename", "dancers.duplicate", "dancers.remove")
-"""The context menu of the list: actions by id."""
+MENU = ("dancers.add", "dancers.rename", "dancers.duplicate", "dancers.remove", "", "dancers.choreography")
+"""The context menu of the list: actions by id, an empty one is a line."""
 _TOOLS = (("add", "add"), ("duplicate", "duplicate"), ("remove", "delete"))
 _FROM_FILE = "\0file"
 """Of the options of choreographies: no name of one."""
@@ -73,7 +73,8 @@ class DancersSection(QWidget):
         self._choreography, self._character, self._source = Combo(), Combo(), Combo()
         self._mirrored = QCheckBox()
         self._mirrored.setObjectName("dancer_mirrored")
-        self._dice = QToolButton()
+        self._look, self._dice = QToolButton(), QToolButton()
+        self._look.setObjectName("dancer_look")
         self._dice.setObjectName("dancer_dice")
         self._sliders = {
             "seed": NumberSlider(session, 0.0, float(2**31 - 1), decimals=0, step=1.0, slides=False),
@@ -107,7 +108,13 @@ class DancersSection(QWidget):
             combo.setObjectName(f"dancer_{name}")
             self._labels[name].setBuddy(combo)
             grid.addWidget(self._labels[name], row, 0)
-            grid.addWidget(combo, row, 1)
+            if combo is not self._choreography:
+                grid.addWidget(combo, row, 1)
+        choreography = QHBoxLayout()
+        choreography.setSpacing(4)
+        choreography.addWidget(self._choreography, 1)
+        choreography.addWidget(self._look)
+        grid.addLayout(choreography, 0, 1)
         for name, slider in self._sliders.items():
             slider.setObjectName(f"dancer_{name}")
         seed = QHBoxLayout()
@@ -149,6 +156,7 @@ class DancersSection(QWidget):
         self._source.chosen.connect(lambda number: self._change("source", source=int(number)))
         self._mirrored.clicked.connect(lambda on: self._change("mirrored", mirrored=bool(on)))
         self._dice.clicked.connect(self._new_variation)
+        self._look.clicked.connect(self._show_choreography)
         for name in ("seed", "size", "delay_beats"):
             slider, whole = self._sliders[name], name == "seed"
             slider.changed.connect(
@@ -280,6 +288,11 @@ class DancersSection(QWidget):
         self._section.set_open(True)
         self.list.rename_current()
 
+    def _show_choreography(self) -> None:
+        action = self._session.actions.get("dancers.choreography")
+        if action is not None:
+            action.trigger()
+
     def _new_variation(self) -> None:
         dancer = self.dancer
         if dancer is not None:
@@ -311,6 +324,7 @@ class DancersSection(QWidget):
         for name, drawing in _TOOLS:
             self._tools[name].setIcon(icon(drawing, tokens))
         self._dice.setIcon(icon("dice", tokens))
+        self._look.setIcon(icon("information", tokens))
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
@@ -328,6 +342,7 @@ class DancersSection(QWidget):
         self._source.setToolTip(self.tr("The capture whose motion is danced where it suits the music about as well"))
         self._mirrored.setText(self.tr("Mirrored"))
         self._mirrored.setToolTip(self.tr("Left and right exchanged"))
+        self._look.setToolTip(self.tr("Show what the choreography has learned"))
         self._dice.setToolTip(self.tr("Another dance to the same music"))
         metres = self.tr("m", "metres")
         words = {
@@ -356,7 +371,11 @@ class DancersSection(QWidget):
         menu = QMenu(self)
         menu.setObjectName("dancers_menu")
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        menu.addActions([actions[id] for id in MENU if id in actions])
+        for id in MENU:
+            if id in actions:
+                menu.addAction(actions[id])
+            elif not id:
+                menu.addSeparator()
         menu.popup(event.globalPos())
 
     def changeEvent(self, event: QEvent) -> None:

@@ -31,6 +31,11 @@ def remove(session: Session) -> None:
     newcomers.remove_dancer(session)
 
 
+def show_choreography(session: Session) -> None:
+    """See what the choreography of the selected dancer has learned."""
+    editor_of(session).window.show_choreography()
+
+
 def _has_choreographies(session: Session) -> bool:
     return bool(bundled_choreographies())
 
@@ -77,5 +82,13 @@ ACTIONS: tuple[Action, ...] = (
         "dancers",
         enabled=_has_dancer,
         icon="delete",
+    ),
+    Action(
+        "dancers.choreography",
+        QT_TRANSLATE_NOOP("Action", "Show Choreography..."),
+        show_choreography,
+        "Edit/Players",
+        enabled=_has_dancer,
+        icon="information",
     ),
 )

@@ -42,6 +42,12 @@ def ask_about_instruments(program: Program) -> None:
     dialog.ask(1)
 
 
+def show_choreography(program: Program) -> None:
+    if not program.session.project.dancers:
+        trigger(program, "dancers.add")
+    trigger(program, "dancers.choreography")
+
+
 OPENED: dict[str, Open] = {
     "AboutDialog": command("application.about"),
     "LicencesDialog": lambda program: LicencesDialog(program.window).open(),
@@ -53,6 +59,7 @@ OPENED: dict[str, Open] = {
     ),
     "ExportDialog": command("export.files"),
     "PlayblastDialog": command("export.playblast"),
+    "ChoreographyDialog": show_choreography,
     "StreamDialog": lambda program: program.window.show_streaming(),
     "MidiDevicesDialog": command("record.devices"),
     "LatencyDialog": lambda program: program.window.show_latency(),

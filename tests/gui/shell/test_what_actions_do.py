@@ -597,6 +597,7 @@ CASES: dict[str, Case] = {
     "dancers.add": Case(lambda d: len(d.project.dancers) == len(d.before.dancers) + 1, edits=True),
     "dancers.rename": Case(typing_name("dancer_name"), dancing),
     "dancers.duplicate": Case(lambda d: len(d.project.dancers) == 2, dancing, edits=True),
+    "dancers.choreography": Case(lambda d: d.dialog("choreography"), dancing),
     "dancers.remove": Case(lambda d: d.project.dancers == (), dancing, edits=True),
     "players.rename": Case(typing_name("player_name")),
     "players.add": Case(lambda d: len(d.project.players) == len(d.before.players) + 1, edits=True),
@@ -936,6 +937,8 @@ def focus(desk: Desk, context: str) -> QWidget:
     elif context == "viewport":
         canvas = desk.viewport.canvas_widget()
         target = canvas if canvas is not None else desk.viewport
+    elif context == "dancers":
+        target = window.players.dancers.list
     elif context in window.panels:
         panel = window.panels[context]
         target = next(

@@ -1,0 +1,70 @@
+"""What a choreography has learned, to be looked at: its basic motions, and the percussion it was learned with."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.choreography.body import ENDS, SEGMENTS
+from app.choreography.cuts import Cut
+from app.choreography.features import POSES, features
+from app.choreography.model import ChoreographyModel
+
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class BasicMotion:
+    """A state of a choreography.
+
+    Attributes
+    ----------
+    segments : int
+        Number of its segments.
+    mean_s : float
+        Their mean length, seconds.
+    sources : tuple of (int, int)
+        Numbers of sources with how many of the segments are of each, the source with most segments first.
+    poses : (3, 21, 2) float64
+        The most typical segment at its start, accent and end, from the front as at the accent: X to the right and Y up
+        from the floor below the hips, in parts of the body's height.
+    """
+
+    segments: int
+    mean_s: float
+    sources: tuple[tuple[int, int], ...]
+    poses: FloatArray
+
+
+def basic_motions(model: ChoreographyModel) -> tuple[BasicMotion, ...]:
+    """Every state of a model, in order; each has a segment at least.
+
+    The most typical segment is the one whose `features` are nearest to their mean.
+    """
+    clips = np.array([one.clip for one in model.segments])
+    states = np.array([one.state for one in model.segments])
+    lengths_s = np.array([(one.end - one.start) / float(model.clips[one.clip].fps) for one in model.segments])
+    shapes = np.zeros((len(model.segments), POSES * (len(SEGMENTS) + len(ENDS)) * 3))
+    for number, clip in enumerate(model.clips):
+        own = np.flatnonzero(clips == number)
+        cuts = [Cut(one.start, one.accent, one.end) for one in (model.segments[at] for at in own.tolist())]
+        shapes[own] = features(clip, cuts)
+    found = []
+    for state in range(model.states):
+        own = np.flatnonzero(states == state)
+        typical = own[np.linalg.norm(shapes[own] - shapes[own].mean(axis=0), axis=1).argmin()]
+        poses = shapes[typical].reshape(POSES, len(SEGMENTS) + len(ENDS), 3)[..., :2]
+        count = Counter(clips[own].tolist())
+        sources = tuple(sorted(count.items(), key=lambda item: (-item[1], item[0])))
+        found.append(BasicMotion(len(own), float(lengths_s[own].mean()), sources, poses))
+    return tuple(found)
+
+
+def learned_symbols(model: ChoreographyModel) -> tuple[int, ...]:
+    """Percussion symbols that were counted with some state: those that are more probable in it than by smoothing alone,
+    which is what the least probable symbol of a state has."""
+    least = model.emission.min(axis=1, keepdims=True)
+    return tuple(np.flatnonzero((model.emission > least * (1.0 + 1e-9)).any(axis=0)).tolist())

@@ -1,0 +1,381 @@
+"""The choreography of the selected dancer: its basic motions, what follows what, and what is struck in each."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtWidgets import (
+    QDialog,
+    QHBoxLayout,
+    QPlainTextEdit,
+    QPushButton,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.errors import AppError, Message
+from app.performance.ensemble import Performance
+from app.project.document import Change
+from app.project.model import Dancer
+from widgets.common.dance_figures import Floats
+from widgets.common.percussion_names import percussion_names
+from widgets.common.plain import Label, verbatim_title
+from widgets.common.session import Session
+from widgets.common.tasks import Progress, StopWanted
+from widgets.common.text import sentence
+from widgets.dialogs.motion_gallery import MotionGallery
+from widgets.dialogs.probability_table import ProbabilityTable, Side
+
+if TYPE_CHECKING:
+    # What dancing is made with is loaded where somebody dances.
+    from app.choreography.model import ChoreographyModel
+    from app.choreography.overview import BasicMotion
+
+_SIZE: Final = QSize(1000, 820)
+_MOTION_ROW_PX: Final = 40
+_SOUND_ROW_PX: Final = 26
+_MOST_NAMED: Final = 3
+"""So many followers and sounds of a basic motion are named below the gallery."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """What is shown of a dancer's choreography.
+
+    Attributes
+    ----------
+    dancer : Dancer
+    model : ChoreographyModel
+    motions : tuple of BasicMotion
+    used : mapping of int to int
+        How often the dancer dances each basic motion of the piece.
+    symbols : tuple of int
+        Percussion symbols that were learned or occur in the piece.
+    struck : frozenset of int
+        Those that occur in the piece.
+    derived : bool
+        The piece has no percussion: its symbols are derived.
+    error : Message or None
+        Why the dancer does not dance.
+    """
+
+    dancer: Dancer
+    model: ChoreographyModel
+    motions: tuple[BasicMotion, ...]
+    used: Mapping[int, int]
+    symbols: tuple[int, ...]
+    struck: frozenset[int]
+    derived: bool
+    error: Message | None
+
+
+class ChoreographyDialog(QDialog):
+    """What the selected dancer's choreography has learned. Nothing is changed here. Not modal: it goes with the
+    selection.
+
+    Parameters
+    ----------
+    session : Session
+    parent : QWidget, optional
+    """
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("choreography")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._session = session
+        self._shown: Shown | None = None
+        self._error: AppError | None = None
+        self._asked: tuple[Performance, Dancer] | None = None
+        self._heading, self._use = Label(), Label()
+        self._hints = {name: Label() for name in ("motions", "transitions", "percussion")}
+        self._details = {name: Label() for name in self._hints}
+        self.tabs = QTabWidget()
+        self.gallery = MotionGallery(session)
+        self.transitions = ProbabilityTable(session, _MOTION_ROW_PX)
+        self.percussion = ProbabilityTable(session, _SOUND_ROW_PX)
+        self.credits = QPlainTextEdit()
+        self._close = QPushButton()
+        self._build()
+        self.gallery.selected.connect(lambda state: self._details["motions"].setText(self._about(state)))
+        self.transitions.pointed.connect(self._details["transitions"].setText)
+        self.percussion.pointed.connect(self._details["percussion"].setText)
+        self._close.clicked.connect(self.close)
+        session.dancer_changed.connect(self._ask)
+        session.performance_changed.connect(self._ask)
+        session.changed.connect(self._changed)
+        session.theme_changed.connect(self._show)
+        self.retranslate()
+        self.resize(_SIZE.boundedTo(self.screen().availableSize()))
+        self._ask()
+
+    def _build(self) -> None:
+        views = {"motions": self.gallery, "transitions": self.transitions, "percussion": self.percussion}
+        names: dict[str, QWidget] = {
+            "choreography_tabs": self.tabs,
+            "choreography_heading": self._heading,
+            "choreography_use": self._use,
+            "choreography_credits": self.credits,
+            "choreography_close": self._close,
+            **{f"choreography_{name}": view for name, view in views.items()},
+            **{f"choreography_{name}_details": label for name, label in self._details.items()},
+        }
+        for name, widget in names.items():
+            widget.setObjectName(name)
+        for name, view in views.items():
+            page = QWidget()
+            column = QVBoxLayout(page)
+            column.setContentsMargins(0, 10, 0, 0)
+            column.setSpacing(8)
+            for label in (self._hints[name], self._details[name]):
+                label.setWordWrap(True)
+            column.addWidget(self._hints[name])
+            column.addWidget(view, 1)
+            column.addWidget(self._details[name])
+            self.tabs.addTab(page, "")
+        # Of two lines, so that the cards stay where they are.
+        two_lines = 2 * self._details["motions"].fontMetrics().lineSpacing() + 2
+        self._details["motions"].setMinimumHeight(two_lines)
+        self._details["motions"].setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
+        page = QWidget()
+        column = QVBoxLayout(page)
+        column.setContentsMargins(0, 10, 0, 0)
+        self.credits.setReadOnly(True)
+        self.credits.setTabChangesFocus(True)
+        column.addWidget(self.credits)
+        self.tabs.addTab(page, "")
+        self._heading.setWordWrap(True)
+        self._use.setWordWrap(True)
+        self._close.setAutoDefault(False)
+        bottom = QHBoxLayout()
+        bottom.addStretch(1)
+        bottom.addWidget(self._close)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(14, 14, 14, 14)
+        outer.setSpacing(8)
+        outer.addWidget(self._heading)
+        outer.addWidget(self._use)
+        outer.addWidget(self.tabs, 1)
+        outer.addLayout(bottom)
+
+    # What is shown
+
+    def _changed(self, change: Change) -> None:
+        if change.opened or change.before.dancers is not change.after.dancers:
+            self._ask()
+
+    def _ask(self) -> None:
+        """Find out beside the window what the selected dancer dances."""
+        dancer, performance = self._session.dancer, self._session.performance
+        if dancer is None:
+            self._asked = self._shown = self._error = None
+            self._show()
+        elif self._asked is None or self._asked[0] is not performance or self._asked[1] is not dancer:
+            self._asked = performance, dancer
+            self._session.tasks.run(
+                Message("work.choreography"),
+                _finder(performance, dancer),
+                self._found,
+                self._failed,
+                key="choreography",
+            )
+
+    def _found(self, shown: Shown) -> None:
+        if self._asked is not None and self._asked[1] is shown.dancer:
+            self._shown, self._error = shown, None
+            self._show()
+
+    def _failed(self, error: AppError) -> None:
+        self._shown, self._error = None, error
+        self._show()
+
+    def _show(self) -> None:
+        shown = self._shown
+        self.tabs.setVisible(shown is not None)
+        self._use.setVisible(shown is not None)
+        if shown is None:
+            self.setWindowTitle(self.tr("Choreography"))
+            no_dancer = self.tr("No dancer is selected.") if self._asked is None else self.tr("Reading ...")
+            self._heading.setText(sentence(self._error.message) if self._error is not None else no_dancer)
+            return
+        model = shown.model
+        self.setWindowTitle(verbatim_title(self.tr("Choreography of {dancer}").format(dancer=shown.dancer.name)))
+        length_s = sum((one.end - one.start) / float(model.clips[one.clip].fps) for one in model.segments)
+        self._heading.setText(
+            self.tr(
+                "{name} · Basic motions: {motions} · Segments: {segments}, {minutes}:{seconds:02d} min · "
+                "Sources: {sources}"
+            ).format(
+                name=model.name,
+                motions=model.states,
+                segments=len(model.segments),
+                minutes=round(length_s) // 60,
+                seconds=round(length_s) % 60,
+                sources=len(model.sources),
+            )
+        )
+        self._use.setText(self._use_text(shown))
+        colour, mirrored = self._session.colour(shown.dancer), shown.dancer.mirrored
+        self.gallery.show_motions(shown.motions, shown.used, len(model.sources), colour, mirrored)
+        self._show_tables(shown, mirrored)
+        self.credits.setPlainText(self._credits_text(model))
+
+    def _use_text(self, shown: Shown) -> str:
+        if shown.error is not None:
+            return sentence(shown.error, self._session, shown.dancer.id)
+        return self.tr("{dancer} dances {used} of {count} basic motions in this piece.").format(
+            dancer=shown.dancer.name, used=len(shown.used), count=shown.model.states
+        )
+
+    def _show_tables(self, shown: Shown, mirrored: bool) -> None:
+        model, names = shown.model, percussion_names()
+        figures: Floats = np.array([motion.poses[1] for motion in shown.motions])
+        if mirrored:
+            figures = figures * (-1.0, 1.0)
+        states = Side(
+            tuple(str(state + 1) for state in range(model.states)),
+            frozenset(shown.used),
+            {state: self.tr("{count}×").format(count=count) for state, count in shown.used.items()},
+            figures,
+        )
+        self.transitions.show_table(model.transition, states, states, self._followed(model.transition))
+        symbols = list(shown.symbols)
+        marked = frozenset(row for row, symbol in enumerate(symbols) if symbol in shown.struck)
+        sounds = Side(tuple(names[symbol] for symbol in symbols), marked, {})
+        shares = model.emission[:, symbols].T
+        self.percussion.show_table(shares, sounds, states, self._struck(shares, sounds.names))
+        self._hints["percussion"].setText(self._percussion_hint(shown.derived))
+
+    def _followed(self, transition: Floats) -> Callable[[int, int], str]:
+        def text(row: int, column: int) -> str:
+            words = (
+                self.tr("Basic motion {number} is danced again with a probability of {share} %.")
+                if row == column
+                else self.tr("Basic motion {number} is followed by {next} with a probability of {share} %.")
+            )
+            return words.format(number=row + 1, next=column + 1, share=_percent(transition[row, column]))
+
+        return text
+
+    def _struck(self, shares: Floats, names: tuple[str, ...]) -> Callable[[int, int], str]:
+        def text(row: int, column: int) -> str:
+            return self.tr("{share} % of the strokes during basic motion {number} are: {sound}").format(
+                share=_percent(shares[row, column]), number=column + 1, sound=names[row]
+            )
+
+        return text
+
+    def _about(self, state: int) -> str:
+        """All there is to know of a basic motion; empty for none."""
+        shown = self._shown
+        if shown is None or not 0 <= state < len(shown.motions):
+            return ""
+        model, names = shown.model, percussion_names()
+        sources = ", ".join(
+            f"{_stem(model.sources[source].motion_name)} ({count})" for source, count in shown.motions[state].sources
+        )
+        parts = [
+            self.tr("Basic motion {number}").format(number=state + 1),
+            self.tr("from {sources}").format(sources=sources),
+            self.tr("followed by {motions}").format(
+                motions=_most(model.transition[state], [str(number + 1) for number in range(model.states)])
+            ),
+            self.tr("danced to {sounds}").format(sounds=_most(model.emission[state], names)),
+        ]
+        return " · ".join(parts)
+
+    def _credits_text(self, model: ChoreographyModel) -> str:
+        """Sources with the same credits together."""
+        together: dict[str, list[str]] = {}
+        for source in model.sources:
+            names = self.tr("{motion} with {music}").format(motion=source.motion_name, music=source.music_name)
+            together.setdefault(source.credits.strip(), []).append(names)
+        none = self.tr("No credits are given for these sources.")
+        return "\n\n".join("\n".join((*names, "", credits or none)) for credits, names in together.items())
+
+    # Words
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        titles = (self.tr("Basic Motions"), self.tr("Transitions"), self.tr("Percussion"), self.tr("Credits"))
+        for number, title in enumerate(titles):
+            self.tabs.setTabText(number, title)
+        views: tuple[QWidget, ...] = (self.gallery, self.transitions, self.percussion, self.credits)
+        for view, title in zip(views, titles, strict=True):
+            view.setAccessibleName(title)
+        self._hints["motions"].setText(
+            self.tr("The most typical segment of each basic motion: its start, its accent, its end.")
+        )
+        self._hints["transitions"].setText(
+            self.tr(
+                "What follows what, in percent: a row is what is danced, a column what comes next. "
+                "Basic motions in colour are danced in this piece, so many times."
+            )
+        )
+        self._hints["percussion"].setText(self._percussion_hint(self._shown is not None and self._shown.derived))
+        self._close.setText(self.tr("Close"))
+        self._show()
+
+    def _percussion_hint(self, derived: bool) -> str:
+        if derived:
+            return self.tr(
+                "What is struck during each basic motion, in percent of its strokes. This piece has no percussion: "
+                "sounds with a dot stand for its melody, its bass and its accents."
+            )
+        return self.tr(
+            "What is struck during each basic motion, in percent of its strokes. Sounds with a dot occur in this piece."
+        )
+
+    # Qt's own names
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+
+def _finder(performance: Performance, dancer: Dancer) -> Callable[[Progress, StopWanted], Shown]:
+    def work(progress: Progress, stop_wanted: StopWanted) -> Shown:
+        from app.choreography.library import choreography_path
+        from app.choreography.model_file import read_model
+        from app.choreography.overview import basic_motions, learned_symbols
+        from app.performance.dance_steps import dance_of
+        from app.performance.dancers import rhythm_of
+
+        dance = dance_of(performance, dancer)
+        model = dance.model if dance.error is None else read_model(choreography_path(dancer.choreography))
+        rhythm = rhythm_of(performance)
+        struck = frozenset(rhythm.symbols.tolist())
+        return Shown(
+            dancer,
+            model,
+            basic_motions(model),
+            Counter(step.state for step in dance.steps),
+            tuple(sorted(struck.union(learned_symbols(model)))),
+            struck,
+            rhythm.derived,
+            dance.error,
+        )
+
+    return work
+
+
+def _stem(name: str) -> str:
+    return Path(name).stem
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.1f}"
+
+
+def _most(shares: Floats, names: list[str] | tuple[str, ...]) -> str:
+    """The most probable names with their shares."""
+    order = np.argsort(-shares, kind="stable")[:_MOST_NAMED]
+    return ", ".join(f"{names[at]} ({100.0 * shares[at]:.0f} %)" for at in order.tolist())
