@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
@@ -22,7 +23,9 @@ STARTS: Final = 8
 """Of k-means; the best result counts."""
 
 
-def classify(features: FloatArray, states: int | None, seed: int) -> IntArray:
+def classify(
+    features: FloatArray, states: int | None, seed: int, proceed: Callable[[], None] = lambda: None
+) -> IntArray:
     """The basic motion of each motion.
 
     Parameters
@@ -32,6 +35,8 @@ def classify(features: FloatArray, states: int | None, seed: int) -> IntArray:
     states : int or None
         How many there are; None to choose by `SPREAD` and `LEAST_MOTIONS`.
     seed : int
+    proceed : callable
+        Called before each run of k-means; what it raises ends the work.
 
     Returns
     -------
@@ -41,15 +46,18 @@ def classify(features: FloatArray, states: int | None, seed: int) -> IntArray:
     """
     differ = len(np.unique(features, axis=0))
     if states is not None:
+        proceed()
         return _k_means(features, min(states, differ), seed)[0]
     fewest, most = 1, max(1, min(differ, len(features) // LEAST_MOTIONS))
     # The spread falls with the number of classes, but for bad luck of k-means.
     while fewest < most:
+        proceed()
         middle = (fewest + most) // 2
         if _k_means(features, middle, seed)[1] <= SPREAD:
             most = middle
         else:
             fewest = middle + 1
+    proceed()
     return _k_means(features, most, seed)[0]
 
 

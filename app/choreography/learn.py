@@ -9,6 +9,7 @@ Messages
 learn.no_motion : motions
 learn.states : states, segments
 learn.no_overlap : motion, music
+learn.done : file, states, segments, length_s, frames; that of `summary`
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -23,14 +25,15 @@ import numpy.typing as npt
 
 from app.choreography.basic_motions import classify
 from app.choreography.clip import MotionClip
-from app.choreography.cuts import segment
+from app.choreography.cuts import Segmentation, segment
 from app.choreography.features import features
 from app.choreography.hidden_markov import count
 from app.choreography.model import ChoreographyModel, MotionSegment, Source
-from app.choreography.music_offset import find_offset
+from app.choreography.music_offset import Offset, find_offset
 from app.choreography.resample import resampled
 from app.choreography.rhythm import Rhythm
-from app.errors import UsageError
+from app.encoding import shown
+from app.errors import Message, UsageError
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
@@ -66,6 +69,31 @@ class Pair:
     credits: str = ""
 
 
+@dataclass(frozen=True, eq=False)
+class Analysis:
+    """What is found in a pair before anything is learned from it.
+
+    Attributes
+    ----------
+    clip : MotionClip
+        The motion as a model holds it, at `FPS`.
+    segmentation : Segmentation
+        Of this clip.
+    offset : Offset
+        Where the music begins; found, also where the pair says it.
+    """
+
+    clip: MotionClip
+    segmentation: Segmentation
+    offset: Offset
+
+
+def analyse(pair: Pair) -> Analysis:
+    """Cut the motion of a pair, and find where its music begins."""
+    clip = _stored(resampled(pair.motion, FPS))
+    return Analysis(clip, segment(clip), find_offset(clip, pair.rhythm))
+
+
 def learn(
     pairs: Sequence[Pair],
     *,
@@ -85,7 +113,7 @@ def learn(
         Of k-means. The same pairs, states and seed give the same model, to the bit.
     name : str
     progress : callable
-        Called with the share of the work that is done, and with what is done now.
+        Called with the share of the work that is done, and with what is done now; what it raises ends the work.
 
     Raises
     ------
@@ -99,13 +127,19 @@ def learn(
         clips.append(clip)
         sources.append(_source(pair, clip))
         cuts.append(segment(clip).cuts)
-    progress(len(pairs) / (len(pairs) + 1), name)
+    classifying = len(pairs) / (len(pairs) + 1)
+    progress(classifying, name)
     total = sum(map(len, cuts))
     if not total:
         raise UsageError("learn.no_motion", motions=", ".join(pair.motion_name for pair in pairs))
     if states is not None and states > total:
         raise UsageError("learn.states", states=states, segments=total)
-    found = classify(np.concatenate([features(*each) for each in zip(clips, cuts, strict=True)]), states, seed)
+    found = classify(
+        np.concatenate([features(*each) for each in zip(clips, cuts, strict=True)]),
+        states,
+        seed,
+        lambda: progress(classifying, name),
+    )
     segments = tuple(
         MotionSegment(clip, cut.start, cut.accent, cut.end, int(state))
         for (clip, cut), state in zip(
@@ -121,6 +155,20 @@ def learn(
     )
     progress(1.0, name)
     return ChoreographyModel(name, tuple(sources), tuple(clips), segments, transition, emission, initial)
+
+
+def summary(model: ChoreographyModel, file: Path) -> Message:
+    """How much was learned."""
+    return Message(
+        "learn.done",
+        {
+            "file": shown(str(file)),
+            "states": model.states,
+            "segments": len(model.segments),
+            "length_s": sum(clip.length_s for clip in model.clips),
+            "frames": sum(map(len, model.clips)),
+        },
+    )
 
 
 def _stored(clip: MotionClip) -> MotionClip:

@@ -10,6 +10,8 @@ Messages
 motion.far : file
 motion.format : file
 motion.incomplete : file, joints
+and those of `guesses`: motion.rate : rate, said; motion.no_unit; motion.lead_in : n; motion.flips : n;
+motion.doubtful : joints; motion.apart : apart_mm
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ from app.choreography.body import ENDS, FEET, PARENT_OF, SEGMENTS
 from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.flips import Flip, lead_in, mend_flips, mend_steps
 from app.choreography.node_motion import read_fbx_motion, read_gltf_motion
-from app.errors import FileError
+from app.errors import FileError, Message
 from app.formats.bvh import BvhClip, read_bvh
 from app.rig import quaternion
 from app.rig.figure import Figure
@@ -47,6 +49,8 @@ HEIGHTS_M: Final = (1.35, 2.15)
 """A unit that makes the figure as high as this is taken; the first of `UNITS_M` that does."""
 HEIGHT_M: Final = 1.7
 """Of a figure that no unit fits."""
+FAR_M: Final = 0.05
+"""Joints farther from their place in the file are reported."""
 FLOOR_PERCENTILE: Final = 2.0
 """The floor is where the lower foot is in the lowest part of the frames."""
 HAND_PART: Final = 0.108
@@ -124,6 +128,24 @@ def read_motion(path: str | os.PathLike[str], fps: Fraction | None = None) -> Re
     if reader is None:
         raise FileError("motion.format", file=str(file))
     return motion_of(reader(file), str(file), fps)
+
+
+def guesses(motion: ReadMotion) -> tuple[Message, ...]:
+    """What a user may want to correct of what was guessed about a motion's file."""
+    found = []
+    if motion.clip.fps != motion.file_fps:
+        found.append(Message("motion.rate", {"rate": str(motion.clip.fps), "said": str(motion.file_fps)}))
+    if not motion.unit:
+        found.append(Message("motion.no_unit"))
+    if motion.lead_in:
+        found.append(Message("motion.lead_in", {"n": motion.lead_in}))
+    if motion.flips:
+        found.append(Message("motion.flips", {"n": len(motion.flips)}))
+    if motion.joints_doubtful:
+        found.append(Message("motion.doubtful", {"joints": ", ".join(motion.joints_doubtful)}))
+    if motion.apart_m > FAR_M:
+        found.append(Message("motion.apart", {"apart_mm": round(1000.0 * motion.apart_m)}))
+    return tuple(found)
 
 
 def motion_of(bvh: BvhClip, file: str, fps: Fraction | None = None) -> ReadMotion:

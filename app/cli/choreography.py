@@ -10,25 +10,22 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from app.cli.options import Commands, frame_rate, frame_rate_text, seconds, whole_number, within
+from app.cli.options import Commands, frame_rate, seconds, whole_number, within
 from app.cli.progress import Progress
 from app.cli.summary import columns
 from app.cli.terminal import say, warn
 from app.encoding import shown
 from app.errors import UsageError
-from app.messages import filled
+from app.messages import text
 
 if TYPE_CHECKING:
     from app.choreography.dance import Dance
     from app.choreography.model import ChoreographyModel
-    from app.choreography.read_motion import ReadMotion
 
     Actions = argparse._SubParsersAction[argparse.ArgumentParser]
 
 MOST_STATES: Final = 1000
 MOST_DANCERS: Final = 32
-FAR_M: Final = 0.05
-"""Joints farther from their place in the file are said."""
 
 
 def add_command(commands: Commands) -> None:
@@ -145,6 +142,7 @@ def learn(arguments: argparse.Namespace) -> None:
     """Learn from the pairs, write the file and print what it holds."""
     from app.choreography.learn import learn as learned
     from app.choreography.model_file import SUFFIX, write_model
+    from app.choreography.read_motion import guesses
     from app.choreography.read_pair import read_pair
 
     files: Sequence[PairFiles] = arguments.pairs
@@ -166,7 +164,9 @@ def learn(arguments: argparse.Namespace) -> None:
     finally:
         progress.clear()
     say(*learned_table(model, target, [one.motion.start_s for one in read]))
-    notes = [f"  {one.pair.motion_name}: {', '.join(found)}" for one in read if (found := guessed_of(one.motion))]
+    notes = [
+        f"  {one.pair.motion_name}: {', '.join(map(text, found))}" for one in read if (found := guesses(one.motion))
+    ]
     if notes:
         say("", "to look at:", *notes)
     for source in model.sources:
@@ -174,30 +174,12 @@ def learn(arguments: argparse.Namespace) -> None:
             warn(f"{source.motion_name}: no credits; say with --credits where the motion is from and on what terms")
 
 
-def guessed_of(motion: ReadMotion) -> list[str]:
-    """What a user may want to correct of what was guessed about a motion's file."""
-    notes = []
-    if motion.clip.fps != motion.file_fps:
-        rates = {"rate": frame_rate_text(motion.clip.fps), "said": frame_rate_text(motion.file_fps)}
-        notes.append(filled("{rate} frames/s (its file says {said})", rates))
-    if not motion.unit:
-        notes.append("its unit is not known: the body is made 1.7 m high")
-    if motion.lead_in:
-        notes.append(filled("{n} {n:frame|frames} of a rest pose at its start left out", {"n": motion.lead_in}))
-    if motion.flips:
-        notes.append(filled("{n} {n:flip|flips} of the capture mended", {"n": len(motion.flips)}))
-    if motion.joints_doubtful:
-        notes.append(f"joints that are guessed: {', '.join(motion.joints_doubtful)}")
-    if motion.apart_m > FAR_M:
-        notes.append(f"arms up to {1000.0 * motion.apart_m:.0f} mm from their place in the file: its collars move")
-    return notes
-
-
 def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float]) -> list[str]:
     """What was learned, and of each pair how much it gave, and its offset.
 
     Offsets are printed as they are given: as times of the files, in which the clips of the model start later.
     """
+    from app.choreography.learn import summary
     from app.choreography.music_offset import CONFIDENT
 
     rows = [("motion", "music", "seconds", "segments", "states", "offset s", "confidence")]
@@ -216,16 +198,7 @@ def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float
             )
         )
     lines = [
-        filled(
-            "{file}: {states} basic {states:motion|motions} (states) of {segments} {segments:segment|segments}, "
-            "{length_s:.1f} s",
-            {
-                "file": shown(file),
-                "segments": len(model.segments),
-                "states": model.states,
-                "length_s": sum(clip.length_s for clip in model.clips),
-            },
-        ),
+        text(summary(model, file)),
         "",
         *columns(rows),
     ]

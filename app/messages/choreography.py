@@ -30,12 +30,22 @@ TEMPLATES: Final[dict[str, str]] = {
         "or for a shorter time"
     ),
     "learn.no_motion": "there is no motion to learn from in {motions}: the body is still, or the clips are too short",
-    "learn.states": "{states} basic motions cannot be learned from {segments} motions; ask for fewer with --states",
+    "learn.states": "{states} basic motions cannot be learned from {segments} motions; ask for fewer states",
     "learn.no_overlap": (
-        "no percussion of {music} sounds during the motions of {motion}; correct the --offset of this pair, or leave "
-        "it out to have it found"
+        "no percussion of {music} sounds during the motions of {motion}; correct the offset of this pair, or leave it "
+        "to be found"
+    ),
+    "learn.done": (
+        "{file}: {states} basic {states:motion|motions} (states) of {segments} {segments:segment|segments}, "
+        "{length_s:.1f} s ({frames} {frames:frame|frames})"
     ),
     "learn.no_percussion": (
         "{file} has no percussion to learn from (notes on channel 10); pair the motion with a file that has a drum part"
     ),
+    "motion.apart": "arms up to {apart_mm} mm from their place in the file: its collars move",
+    "motion.doubtful": "joints that are guessed: {joints}",
+    "motion.flips": "{n} {n:flip|flips} of the capture mended",
+    "motion.lead_in": "{n} {n:frame|frames} of a rest pose at its start left out",
+    "motion.no_unit": "its unit is not known: the body is made 1.7 m high",
+    "motion.rate": "{rate} frames/s (its file says {said})",
 }

@@ -15,6 +15,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.instruments": "reading your instruments",
     "work.load_figures": "loading the players' figures",
     "work.compare": "what the generator would do for {player}",
+    "work.learn": "learning {file}",
     "work.reimport": "reading the MIDI file again",
     "work.portraits": "drawing the characters' portraits",
     "work.choreography": "reading the choreography",
@@ -29,6 +30,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.export_midi": "writing the MIDI file",
     "work.playblast": "making the film",
     "work.synthesise": "making the sound",
+    "work.read_motion": "reading {file}",
     "work.read_recording": "reading {file}",
     "work.estimate_offset": "finding the recording's offset",
 }

@@ -1016,6 +1016,137 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     </message>
 </context>
 <context>
+    <name>LearnDialog</name>
+    <message>
+        <source>Add Motion and Music</source>
+        <translation>動きと音楽を追加</translation>
+    </message>
+    <message>
+        <source>Add motion files and the MIDI files that they were danced to, or drop them here.</source>
+        <translation>動きのファイルと、その踊りに使った MIDI ファイルを追加するか、ここにドロップしてください。</translation>
+    </message>
+    <message>
+        <source>Pair {n}: choose its motion.</source>
+        <translation>組 {n}: 動きを選んでください。</translation>
+    </message>
+    <message>
+        <source>Pair {n}: choose its music.</source>
+        <translation>組 {n}: 音楽を選んでください。</translation>
+    </message>
+    <message>
+        <source>Pair {n}: {error}</source>
+        <translation>組 {n}: {error}</translation>
+    </message>
+    <message>
+        <source>Reading the files …</source>
+        <translation>ファイルを読み込み中…</translation>
+    </message>
+    <message>
+        <source>Choose where to save the choreography.</source>
+        <translation>振り付けの保存先を選んでください。</translation>
+    </message>
+    <message>
+        <source>Save Choreography</source>
+        <translation>振り付けを保存</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+    <message>
+        <source>Neither motion nor MIDI: {files}</source>
+        <translation>動きでも MIDI でもないファイル: {files}</translation>
+    </message>
+    <message>
+        <source>This file is there and will be replaced.</source>
+        <translation>このファイルは既にあり、上書きされます。</translation>
+    </message>
+    <message>
+        <source>Add a Dancer with It</source>
+        <translation>これを踊るダンサーを追加</translation>
+    </message>
+    <message>
+        <source>Use for {dancer}</source>
+        <translation>{dancer} に使う</translation>
+    </message>
+    <message>
+        <source>Learn Choreography</source>
+        <translation>振り付けを学習</translation>
+    </message>
+    <message>
+        <source>Motion</source>
+        <translation>動き</translation>
+    </message>
+    <message>
+        <source>Music</source>
+        <translation>音楽</translation>
+    </message>
+    <message>
+        <source>Seconds</source>
+        <translation>秒</translation>
+    </message>
+    <message>
+        <source>Segments</source>
+        <translation>セグメント</translation>
+    </message>
+    <message>
+        <source>States</source>
+        <translation>状態</translation>
+    </message>
+    <message>
+        <source>Offset s</source>
+        <translation>オフセット（秒）</translation>
+    </message>
+    <message>
+        <source>Confidence</source>
+        <translation>確信度</translation>
+    </message>
+    <message>
+        <source>Pairs of motion and music</source>
+        <translation>動きと音楽の組</translation>
+    </message>
+    <message>
+        <source>Add...</source>
+        <translation>追加...</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>削除</translation>
+    </message>
+    <message>
+        <source>Seed</source>
+        <translation>シード</translation>
+    </message>
+    <message>
+        <source>Save to</source>
+        <translation>保存先</translation>
+    </message>
+    <message>
+        <source>Automatic</source>
+        <translation>自動</translation>
+    </message>
+    <message>
+        <source>Number of basic motions; automatic: as many as are needed for those of one kind to look alike</source>
+        <translation>基本動作の数。自動では、同じ種類の動きが似て見えるのに必要な数になります</translation>
+    </message>
+    <message>
+        <source>Of the classification: the same pairs and seed give the same choreography</source>
+        <translation>分類のシード。同じ組と同じシードからは同じ振り付けができます</translation>
+    </message>
+    <message>
+        <source>Choose...</source>
+        <translation>選択...</translation>
+    </message>
+    <message>
+        <source>Learn</source>
+        <translation>学習</translation>
+    </message>
+</context>
+<context>
     <name>MidiDevicesDialog</name>
     <message>
         <source>There is no audio device: connect one and try again.</source>
@@ -1261,6 +1392,106 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     <message>
         <source>Basic motion {number}</source>
         <translation>基本動作{number}</translation>
+    </message>
+</context>
+<context>
+    <name>PairForm</name>
+    <message>
+        <source>Reading the files …</source>
+        <translation>ファイルを読み込み中…</translation>
+    </message>
+    <message>
+        <source>A pair is a motion and the MIDI file that it was danced to.</source>
+        <translation>組は、動きと、その踊りに使った MIDI ファイルからなります。</translation>
+    </message>
+    <message>
+        <source>Offset found with confidence {confidence}.</source>
+        <translation>オフセットを検出しました（確信度 {confidence}）。</translation>
+    </message>
+    <message>
+        <source>Offset found with confidence {confidence}: another one fits nearly as well. If the music begins elsewhere, type where.</source>
+        <translation>オフセットを検出しました（確信度 {confidence}）。ほぼ同じくらい合う別の位置があります。音楽の開始位置が違う場合は入力してください。</translation>
+    </message>
+    <message>
+        <source>To check: {notes}</source>
+        <translation>要確認: {notes}</translation>
+    </message>
+    <message>
+        <source>No credits: say where the motion is from and on what terms.</source>
+        <translation>クレジットがありません。動きの出典と利用条件を記してください。</translation>
+    </message>
+    <message>
+        <source>Motion files</source>
+        <translation>動きのファイル</translation>
+    </message>
+    <message>
+        <source>MIDI files</source>
+        <translation>MIDI ファイル</translation>
+    </message>
+    <message>
+        <source>Text files</source>
+        <translation>テキストファイル</translation>
+    </message>
+    <message>
+        <source>Motion</source>
+        <translation>動き</translation>
+    </message>
+    <message>
+        <source>Music</source>
+        <translation>音楽</translation>
+    </message>
+    <message>
+        <source>Credits</source>
+        <translation>クレジット</translation>
+    </message>
+    <message>
+        <source>Offset</source>
+        <translation>オフセット</translation>
+    </message>
+    <message>
+        <source>Frame rate</source>
+        <translation>フレームレート</translation>
+    </message>
+    <message>
+        <source>Choose...</source>
+        <translation>選択...</translation>
+    </message>
+    <message>
+        <source>BVH, FBX or GLB</source>
+        <translation>BVH、FBX、GLB</translation>
+    </message>
+    <message>
+        <source>MIDI with percussion</source>
+        <translation>打楽器を含む MIDI</translation>
+    </message>
+    <message>
+        <source>The .txt file beside the motion</source>
+        <translation>動きと同じ名前の .txt があればそれ</translation>
+    </message>
+    <message>
+        <source>Automatic</source>
+        <translation>自動</translation>
+    </message>
+    <message>
+        <source>Time of the motion at which the music begins</source>
+        <translation>音楽が始まる、動きの中の時刻</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <comment>seconds</comment>
+        <translation> 秒</translation>
+    </message>
+    <message>
+        <source>As in the file</source>
+        <translation>ファイルの値</translation>
+    </message>
+    <message>
+        <source>The true frame rate of the motion, where its file says a wrong one</source>
+        <translation>ファイルの値が誤っている場合の、動きの正しいフレームレート</translation>
+    </message>
+    <message>
+        <source> frames/s</source>
+        <translation> フレーム/秒</translation>
     </message>
 </context>
 <context>

@@ -168,16 +168,44 @@
             <translation>{motions} には学習できる動きがありません。体が静止しているか、クリップが短すぎます</translation>
         </message>
         <message>
-            <source>{states} basic motions cannot be learned from {segments} motions; ask for fewer with --states</source>
-            <translation>{segments} 個の動きから {states} 個の基本動作は学習できません。--states の値を小さくしてください</translation>
+            <source>{states} basic motions cannot be learned from {segments} motions; ask for fewer states</source>
+            <translation>{segments} 個の動きから {states} 個の基本動作は学習できません。状態の数を小さくしてください</translation>
         </message>
         <message>
-            <source>no percussion of {music} sounds during the motions of {motion}; correct the --offset of this pair, or leave it out to have it found</source>
-            <translation>{motion} の動きの間に {music} の打楽器が鳴りません。この組の --offset を修正するか、省略して自動検出させてください</translation>
+            <source>no percussion of {music} sounds during the motions of {motion}; correct the offset of this pair, or leave it to be found</source>
+            <translation>{motion} の動きの間に {music} の打楽器が鳴りません。この組のオフセットを修正するか、自動で検出させてください</translation>
+        </message>
+        <message>
+            <source>{file}: {states} basic {states:motion|motions} (states) of {segments} {segments:segment|segments}, {length_s:.1f} s ({frames} {frames:frame|frames})</source>
+            <translation>{file}: 基本動作（状態） {states} 個、セグメント {segments} 個、{length_s:.1f} 秒（{frames} フレーム）</translation>
         </message>
         <message>
             <source>{file} has no percussion to learn from (notes on channel 10); pair the motion with a file that has a drum part</source>
             <translation>{file} には学習に使う打楽器（チャンネル 10 のノート）がありません。ドラムパートのあるファイルと組み合わせてください</translation>
+        </message>
+        <message>
+            <source>arms up to {apart_mm} mm from their place in the file: its collars move</source>
+            <translation>腕がファイルでの位置から最大 {apart_mm} mm ずれています（鎖骨が動くため）</translation>
+        </message>
+        <message>
+            <source>joints that are guessed: {joints}</source>
+            <translation>推定した関節: {joints}</translation>
+        </message>
+        <message>
+            <source>{n} {n:flip|flips} of the capture mended</source>
+            <translation>キャプチャの反転を {n} 箇所修復しました</translation>
+        </message>
+        <message>
+            <source>{n} {n:frame|frames} of a rest pose at its start left out</source>
+            <translation>先頭のレストポーズ {n} フレームを除きました</translation>
+        </message>
+        <message>
+            <source>its unit is not known: the body is made 1.7 m high</source>
+            <translation>単位が不明のため、身長を 1.7 m にしました</translation>
+        </message>
+        <message>
+            <source>{rate} frames/s (its file says {said})</source>
+            <translation>{rate} フレーム/秒（ファイルの値は {said}）</translation>
         </message>
         <message>
             <source>estimated offset of the recording</source>
@@ -1982,6 +2010,10 @@
         <message>
             <source>what the generator would do for {player}</source>
             <translation>{player} の自動生成の結果を調べています</translation>
+        </message>
+        <message>
+            <source>learning {file}</source>
+            <translation>{file} を学習中</translation>
         </message>
         <message>
             <source>reading the MIDI file again</source>

@@ -12,6 +12,10 @@
         <translation>ファイルから …</translation>
     </message>
     <message>
+        <source>Learn …</source>
+        <translation>学習…</translation>
+    </message>
+    <message>
         <source>None</source>
         <translation>なし</translation>
     </message>

@@ -443,6 +443,10 @@
         <translation>振り付けを表示...</translation>
     </message>
     <message>
+        <source>Learn Choreography...</source>
+        <translation>振り付けを学習...</translation>
+    </message>
+    <message>
         <source>Add player</source>
         <translation>プレイヤーを追加</translation>
     </message>

@@ -274,6 +274,7 @@ class Look:
             "shortcuts": lambda: self.do("application.shortcuts"),
             "instruments": lambda: self.do("application.instruments"),
             "export": lambda: self.do("export.files"),
+            "learn": lambda: self.do("dancers.learn"),
             "playblast": lambda: self.do("export.playblast"),
             "reimport": lambda: self.do("file.reimport"),
             "import": self._import,

@@ -49,6 +49,12 @@ def ask_for_file(parent: QWidget | None, title: str, start: Path | None, filters
     return path_of(url)
 
 
+def ask_for_files(parent: QWidget | None, title: str, start: Path | None, filters: str) -> list[Path]:
+    """Existing files; none where none was chosen. The dialog begins as that of `ask_for_file`."""
+    urls, _ = QFileDialog.getOpenFileUrls(parent, title, url_of(_reachable(start)), filters, supportedSchemes=_SCHEMES)
+    return [path for url in urls if (path := path_of(url)) is not None]
+
+
 def ask_where_to_save(parent: QWidget | None, title: str, proposal: Path, filters: str) -> Path | None:
     """A file to write; None where none was chosen. Whether one that is there may be replaced was asked."""
     start = url_of(_reachable(proposal.parent) / shown(proposal.name))

@@ -47,7 +47,8 @@ MENU = ("dancers.add", "dancers.rename", "dancers.duplicate", "dancers.remove", 
 """The context menu of the list: actions by id, an empty one is a line."""
 _TOOLS = (("add", "add"), ("duplicate", "duplicate"), ("remove", "delete"))
 _FROM_FILE = "\0file"
-"""Of the options of choreographies: no name of one."""
+_LEARN = "\0learn"
+"""Of the options of choreographies: no names of one."""
 _MOST_ROWS = 5
 _PLACES = (("x_m", FARTHEST_M, 2, 0.05, False), ("z_m", FARTHEST_M, 2, 0.05, False), ("turn_rad", 180.0, 0, 5.0, True))
 
@@ -198,7 +199,10 @@ class DancersSection(QWidget):
         options = [Option(name, name) for name in bundled_choreographies()]
         if dancer.choreography not in {option.id for option in options}:
             options.append(Option(dancer.choreography, shown(Path(dancer.choreography).stem)))
-        self._choreography.set_options([*options, Option(_FROM_FILE, self.tr("From File …"))])
+        more = [Option(_FROM_FILE, self.tr("From File …"))]
+        if "dancers.learn" in self._session.actions:
+            more.append(Option(_LEARN, self.tr("Learn …")))
+        self._choreography.set_options([*options, *more])
         self._choreography.show_option(dancer.choreography)
         self._choreography.setToolTip(shown(dancer.choreography))
         self._character.set_options([Option(id, character_name(id)) for id in characters()])
@@ -235,6 +239,9 @@ class DancersSection(QWidget):
         for name in bundled_choreographies():
             menu.addAction(verbatim(name)).triggered.connect(lambda _=False, name=name: self.add(name))
         menu.addAction(self.tr("From File …")).triggered.connect(self._add_from_file)
+        learn = self._session.actions.get("dancers.learn")
+        if learn is not None:
+            menu.addAction(learn)
         button = self._tools["add"]
         menu.popup(button.mapToGlobal(button.rect().bottomLeft()))
 
@@ -256,6 +263,10 @@ class DancersSection(QWidget):
     def _choose_choreography(self, id: str) -> None:
         dancer = self.dancer
         if dancer is None:
+            return
+        if id == _LEARN:
+            self._choreography.show_option(dancer.choreography)
+            self._session.actions["dancers.learn"].trigger()
             return
         path = self._ask_for_choreography() if id == _FROM_FILE else id
         if path is None:

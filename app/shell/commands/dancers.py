@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
+
 from PySide6.QtCore import QCoreApplication
 
 from app.choreography.library import bundled_choreographies
+from app.errors import Message
+from app.project.edit.dancers import set_choreography
 from app.shell.action import QT_TRANSLATE_NOOP, Action
 from app.shell.editor import editor_of
 from widgets.common.session import Session
@@ -34,6 +39,32 @@ def remove(session: Session) -> None:
 def show_choreography(session: Session) -> None:
     """See what the choreography of the selected dancer has learned."""
     editor_of(session).window.show_choreography()
+
+
+def learn_choreography(session: Session) -> None:
+    """Learn a choreography from motion and music, in a dialog; once."""
+    editor = editor_of(session)
+    from widgets.dialogs.learn_choreography import LearnDialog  # it brings the readers of motion with it
+
+    dialog = editor.window.findChild(LearnDialog)
+    if dialog is None:
+        dialog = LearnDialog(session, Path(editor.files.folder), editor.window)
+        dialog.used.connect(lambda path: _dance(session, path))
+    dialog.show()
+    dialog.raise_()
+    dialog.activateWindow()
+
+
+def _dance(session: Session, path: Path) -> None:
+    """Let the selected dancer dance a choreography, or a new one where there is none."""
+    dancer, choreography = session.dancer, os.fspath(path.absolute())
+    if dancer is None:
+        newcomers.add_dancer(session, choreography, QCoreApplication.translate("Action", "Dancer"))
+        return
+    session.attempt(
+        Message("edit.dancer_choreography", {"dancer": dancer.name}),
+        lambda project: set_choreography(project, (dancer.id,), choreography),
+    )
 
 
 def _has_choreographies(session: Session) -> bool:
@@ -90,5 +121,11 @@ ACTIONS: tuple[Action, ...] = (
         "Edit/Players",
         enabled=_has_dancer,
         icon="information",
+    ),
+    Action(
+        "dancers.learn",
+        QT_TRANSLATE_NOOP("Action", "Learn Choreography..."),
+        learn_choreography,
+        "Edit/Players",
     ),
 )

@@ -60,6 +60,7 @@ OPENED: dict[str, Open] = {
     "ExportDialog": command("export.files"),
     "PlayblastDialog": command("export.playblast"),
     "ChoreographyDialog": show_choreography,
+    "LearnDialog": command("dancers.learn"),
     "StreamDialog": lambda program: program.window.show_streaming(),
     "MidiDevicesDialog": command("record.devices"),
     "LatencyDialog": lambda program: program.window.show_latency(),

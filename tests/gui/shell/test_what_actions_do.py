@@ -600,6 +600,7 @@ CASES: dict[str, Case] = {
     "dancers.choreography": Case(lambda d: d.dialog("choreography"), dancing),
     "dancers.remove": Case(lambda d: d.project.dancers == (), dancing, edits=True),
     "players.rename": Case(typing_name("player_name")),
+    "dancers.learn": Case(lambda d: d.dialog("learn_choreography")),
     "players.add": Case(lambda d: len(d.project.players) == len(d.before.players) + 1, edits=True),
     "players.duplicate": Case(lambda d: len(d.project.players) == len(d.before.players) + 1, edits=True),
     "players.remove": Case(

@@ -100,7 +100,7 @@ def test_a_pair_is_learned(swings: Path, drums: Path, tmp_path: Path, capsys: py
     printed = capsys.readouterr()
     assert printed.err == ""
     assert printed.out.splitlines() == [
-        f"{target}: 4 basic motions (states) of 10 segments, 8.5 s",
+        f"{target}: 4 basic motions (states) of 10 segments, 8.5 s (511 frames)",
         "",
         "motion          music  seconds  segments  states  offset s  confidence",
         "swings.bvh  drums.mid      8.5        10       4      1.00       given",

@@ -1,0 +1,74 @@
+"""A number that is found unless it is typed."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QHBoxLayout, QWidget
+
+TEXT_MARGIN_PX = 6
+"""As far from the edge as in other fields; the style sheet does not reach the text of a spin box."""
+
+
+class AutomaticNumber(QWidget):
+    """A check box "Automatic", and a number that can be typed while it is not checked.
+
+    Signals
+    -------
+    changed()
+        The user chose another value.
+
+    Parameters
+    ----------
+    name : str
+        Of the number for tests and style; the check box has ``_automatic`` behind it.
+    least, most, step : float
+    decimals : int
+    """
+
+    changed = Signal()
+
+    def __init__(
+        self, name: str, least: float, most: float, *, step: float, decimals: int, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.check, self.number = QCheckBox(), QDoubleSpinBox()
+        self.check.setObjectName(f"{name}_automatic")
+        self.number.setObjectName(name)
+        self.number.setDecimals(decimals)
+        self.number.setRange(least, most)
+        self.number.setSingleStep(step)
+        self.number.setKeyboardTracking(False)
+        self.number.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
+        self.setFocusProxy(self.check)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.check)
+        row.addWidget(self.number, 1)
+        self.check.clicked.connect(self._toggled)
+        self.number.valueChanged.connect(lambda _: self.changed.emit())
+        self.show_value(None, None)
+
+    @property
+    def value(self) -> float | None:
+        """What is typed; None where it is to be found."""
+        return None if self.check.isChecked() else self.number.value()
+
+    def show_value(self, value: float | None, found: float | None) -> None:
+        """Show a value, or what was found where it is None, without a signal."""
+        self.number.blockSignals(True)
+        self.check.setChecked(value is None)
+        self.number.setEnabled(value is not None)
+        shown = found if value is None else value
+        if shown is not None:
+            self.number.setValue(shown)
+        # What is not known is not shown as a number.
+        self.number.lineEdit().setVisible(shown is not None)
+        self.number.blockSignals(False)
+
+    def _toggled(self, automatic: bool) -> None:
+        self.number.setEnabled(not automatic)
+        self.number.lineEdit().setVisible(True)
+        self.changed.emit()
+        if not automatic:
+            self.number.setFocus()
+            self.number.selectAll()

@@ -1,0 +1,81 @@
+"""A pair of motion and music as a user fills it in, before anything is learned from it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import Final
+
+import msgspec
+
+from app.choreography.learn import Analysis
+from app.choreography.read_pair import CREDITS_SUFFIX, ReadPair
+from app.errors import Message
+
+MOTION_SUFFIXES: Final = (".bvh", ".fbx", ".glb", ".gltf")
+MIDI_SUFFIXES: Final = (".mid", ".midi", ".smf", ".kar", ".rmi")
+
+
+class PairDraft(msgspec.Struct, frozen=True):
+    """What is filled in of a pair.
+
+    Attributes
+    ----------
+    motion, music, credits : Path or None
+        None: not chosen; the credits are then those beside the motion, if there are any.
+    offset_s : float or None
+        The music begins at this time of the motion's file; None to find it.
+    fps : Fraction or None
+        None: as the motion's file says.
+    """
+
+    motion: Path | None = None
+    music: Path | None = None
+    credits: Path | None = None
+    offset_s: float | None = None
+    fps: Fraction | None = None
+
+    @property
+    def files(self) -> tuple[Path | None, Path | None, Path | None, Fraction | None]:
+        """What has to be read again when it changes."""
+        return self.motion, self.music, self.credits, self.fps
+
+
+class Found(msgspec.Struct, frozen=True):
+    """What the files of a pair hold, or why they cannot be read."""
+
+    read: ReadPair | None = None
+    analysis: Analysis | None = None
+    error: Message | None = None
+
+
+def with_files(drafts: Sequence[PairDraft], paths: Sequence[Path]) -> tuple[tuple[PairDraft, ...], tuple[Path, ...]]:
+    """Pairs to which files are added, and files that are none of the kinds.
+
+    A motion or a piece goes to the first pair that lacks it and whose other file has its name, else to the first pair
+    that lacks it, else to a new pair; credits go to the pair whose motion has their name, else to the last one.
+    """
+    kinds = [path.suffix.lower() for path in paths]
+    result = list(drafts)
+    for field, other, suffixes in (("motion", "music", MOTION_SUFFIXES), ("music", "motion", MIDI_SUFFIXES)):
+        files = [path for path, kind in zip(paths, kinds, strict=True) if kind in suffixes]
+        # What has the name of another file is not taken by one that has not.
+        for path in sorted(files, key=lambda path: not _lacking(result, field, other, path)):
+            at = next(iter(_lacking(result, field, other, path) or _lacking(result, field)), len(result))
+            result[at:] = result[at:] or [PairDraft()]
+            result[at] = msgspec.structs.replace(result[at], **{field: path})
+    for path in (path for path, kind in zip(paths, kinds, strict=True) if kind == CREDITS_SUFFIX and result):
+        same = [at for at, one in enumerate(result) if one.motion is not None and one.motion.stem == path.stem]
+        at = same[0] if same else len(result) - 1
+        result[at] = msgspec.structs.replace(result[at], credits=path)
+    known = (*MOTION_SUFFIXES, *MIDI_SUFFIXES, *([CREDITS_SUFFIX] if result else []))
+    return tuple(result), tuple(path for path, kind in zip(paths, kinds, strict=True) if kind not in known)
+
+
+def _lacking(drafts: Sequence[PairDraft], field: str, other: str = "", path: Path = Path()) -> list[int]:
+    """Pairs that lack a file; with another field, those whose file there has the path's name."""
+    lacking = [at for at, one in enumerate(drafts) if getattr(one, field) is None]
+    if not other:
+        return lacking
+    return [at for at in lacking if (file := getattr(drafts[at], other)) is not None and file.stem == path.stem]
