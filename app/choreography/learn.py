@@ -9,6 +9,7 @@ Messages
 learn.no_motion : motions
 learn.states : states, segments
 learn.no_overlap : motion, music
+cuts.wrong : see `app.choreography.cuts_by_hand.check_cuts`
 learn.done : file, states, segments, length_s, frames; that of `summary`
 """
 
@@ -25,7 +26,8 @@ import numpy.typing as npt
 
 from app.choreography.basic_motions import classify
 from app.choreography.clip import MotionClip
-from app.choreography.cuts import Segmentation, segment
+from app.choreography.cuts import Cut, Segmentation, segment
+from app.choreography.cuts_by_hand import check_cuts
 from app.choreography.features import features
 from app.choreography.hidden_markov import count
 from app.choreography.model import ChoreographyModel, MotionSegment, Source
@@ -59,6 +61,8 @@ class Pair:
         The music's first tick is at this time of the motion; None to find it.
     credits : str
         See `app.choreography.model.Source`.
+    cuts : tuple of Cut or None
+        Frames of the motion at `FPS`, as a user set them; None to cut it (`app.choreography.cuts.segment`).
     """
 
     motion: MotionClip
@@ -67,6 +71,7 @@ class Pair:
     music_name: str
     offset_s: float | None = None
     credits: str = ""
+    cuts: tuple[Cut, ...] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +95,7 @@ class Analysis:
 
 def analyse(pair: Pair) -> Analysis:
     """Cut the motion of a pair, and find where its music begins."""
-    clip = _stored(resampled(pair.motion, FPS))
+    clip = stored(pair.motion)
     return Analysis(clip, segment(clip), find_offset(clip, pair.rhythm))
 
 
@@ -118,15 +123,16 @@ def learn(
     Raises
     ------
     UsageError
-        If nothing moves, there are fewer motions than states, or music and motion of a pair do not meet.
+        If nothing moves, there are fewer motions than states, music and motion of a pair do not meet, or its cuts are
+        none of its motion.
     """
     clips, sources, cuts = [], [], []
     for number, pair in enumerate(pairs):
         progress(number / (len(pairs) + 1), pair.motion_name)
-        clip = _stored(resampled(pair.motion, FPS))
+        clip = stored(pair.motion)
         clips.append(clip)
         sources.append(_source(pair, clip))
-        cuts.append(segment(clip).cuts)
+        cuts.append(_cuts(pair, clip))
     classifying = len(pairs) / (len(pairs) + 1)
     progress(classifying, name)
     total = sum(map(len, cuts))
@@ -171,8 +177,9 @@ def summary(model: ChoreographyModel, file: Path) -> Message:
     )
 
 
-def _stored(clip: MotionClip) -> MotionClip:
-    """The clip as a file keeps it (float32), so that a model is the same before it is written and after."""
+def stored(motion: MotionClip) -> MotionClip:
+    """A motion as a file keeps it (at `FPS`, float32), so that a model is the same before it is written and after."""
+    clip = resampled(motion, FPS)
     return replace(
         clip,
         hips_m=clip.hips_m.astype(np.float32).astype(np.float64),
@@ -180,11 +187,19 @@ def _stored(clip: MotionClip) -> MotionClip:
     )
 
 
+def _cuts(pair: Pair, clip: MotionClip) -> tuple[Cut, ...]:
+    if pair.cuts is None:
+        return segment(clip).cuts
+    check_cuts(pair.cuts, len(clip), pair.motion_name)
+    return pair.cuts
+
+
 def _source(pair: Pair, clip: MotionClip) -> Source:
+    given = pair.cuts is not None
     if pair.offset_s is not None:
-        return Source(pair.motion_name, pair.music_name, pair.offset_s, None, pair.credits)
+        return Source(pair.motion_name, pair.music_name, pair.offset_s, None, pair.credits, given)
     found = find_offset(clip, pair.rhythm)
-    return Source(pair.motion_name, pair.music_name, found.offset_s, found.confidence, pair.credits)
+    return Source(pair.motion_name, pair.music_name, found.offset_s, found.confidence, pair.credits, given)
 
 
 def _symbols(pair: Pair, source: Source, segments: Sequence[MotionSegment]) -> list[IntArray]:

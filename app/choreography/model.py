@@ -26,6 +26,8 @@ class Source:
         0..1; None where the user gave the offset.
     credits : str
         Provenance and licence of the motion, as text; empty if not given.
+    cuts_given : bool
+        The user set where the motion is cut; it was not found. Files that do not say so are of found cuts.
     """
 
     motion_name: str
@@ -33,6 +35,7 @@ class Source:
     offset_s: float
     offset_confidence: float | None
     credits: str
+    cuts_given: bool = False
 
 
 @dataclass(frozen=True)

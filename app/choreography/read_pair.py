@@ -3,18 +3,21 @@
 Messages
 --------
 learn.no_percussion : file
-and what the readers say
+and what the readers say, also those of cuts (`app.choreography.cuts_by_hand`)
 """
 
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Final
 
-from app.choreography.learn import Pair
+from app.choreography.cuts import angular_acceleration
+from app.choreography.cuts_by_hand import cuts_at, read_times
+from app.choreography.learn import Pair, stored
 from app.choreography.percussion import score_rhythm
 from app.choreography.read_motion import ReadMotion, read_motion
 from app.encoding import guessed, shown
@@ -41,6 +44,7 @@ def read_pair(
     offset_s: float | None = None,
     fps: Fraction | None = None,
     credits: Path | None = None,
+    cuts: Path | None = None,
 ) -> ReadPair:
     """Read a pair.
 
@@ -58,11 +62,14 @@ def read_pair(
     credits : Path, optional
         Provenance and licence of the motion; without it a text file beside the motion is taken that has its name, if
         there is one.
+    cuts : Path, optional
+        Where the motion is cut, as times of its file (`app.choreography.cuts_by_hand.read_times`); without it the cuts
+        are to be found.
 
     Raises
     ------
     AppError
-        A file cannot be read, or is none of the kind.
+        A file cannot be read, is none of the kind, or has cuts that do not fit the motion.
     """
     read = read_motion(motion, fps)
     rhythm = score_rhythm(uncast_score(read_contents(music)))
@@ -73,4 +80,12 @@ def read_pair(
         credits = beside
     text = "" if credits is None else guessed(read_file(credits, MOST_CREDITS_BYTES)).strip()
     of_clip_s = None if offset_s is None else offset_s - read.start_s
-    return ReadPair(Pair(read.clip, shown(motion.name), rhythm, shown(music.name), of_clip_s, text), read)
+    pair = Pair(read.clip, shown(motion.name), rhythm, shown(music.name), of_clip_s, text)
+    return ReadPair(pair if cuts is None else _cut(pair, read, read_times(cuts)), read)
+
+
+def _cut(pair: Pair, read: ReadMotion, times_s: Sequence[Sequence[float]]) -> Pair:
+    """The pair, cut at times of its motion's file."""
+    clip = stored(pair.motion)
+    of_clip_s = [[time_s - read.start_s for time_s in group] for group in times_s]
+    return replace(pair, cuts=cuts_at(of_clip_s, clip.fps, angular_acceleration(clip), pair.motion_name))

@@ -53,6 +53,7 @@ class PairFiles:
     offset_s: float | None = None
     fps: Fraction | None = None
     credits: Path | None = None
+    cuts: Path | None = None
 
 
 class _AddPair(argparse.Action):
@@ -125,6 +126,15 @@ def _add_learn(actions: Actions) -> None:
         help="a text file with the origin and the licence of the motion (default: the .txt file beside the motion that "
         "has its name)",
     )
+    of_pair.add_argument(
+        "--cuts",
+        action=_OfPair,
+        type=Path,
+        default=argparse.SUPPRESS,
+        metavar="FILE",
+        help="a text file with the times of the motion, in seconds, at which it is cut, one in each line; an empty "
+        "line is a rest between motions; without it the cuts are found",
+    )
     command.add_argument(
         "--states",
         type=within(1, MOST_STATES, "a number of basic motions", int),
@@ -152,7 +162,9 @@ def learn(arguments: argparse.Namespace) -> None:
         read = []
         for number, one in enumerate(files):
             progress(0.5 * number / len(files), one.motion.name)
-            read.append(read_pair(one.motion, one.music, offset_s=one.offset_s, fps=one.fps, credits=one.credits))
+            read.append(
+                read_pair(one.motion, one.music, offset_s=one.offset_s, fps=one.fps, credits=one.credits, cuts=one.cuts)
+            )
         model = learned(
             [one.pair for one in read],
             states=arguments.states,

@@ -14,6 +14,15 @@ TEMPLATES: Final[dict[str, str]] = {
         "{file} was written by a newer version of the program (its file version is {version}, this program knows up "
         "to {known}); use the newer version"
     ),
+    "cuts.line": "{file}, line {line}: {text!r} is no time; write one time in seconds in each line",
+    "cuts.order": (
+        "{file}, line {line}: a motion needs a time at which it starts and a later one at which it ends; put the times "
+        "in order"
+    ),
+    "cuts.wrong": (
+        "{motion} cannot be cut into a motion from frame {start} to {end} with its accent at {accent}: cuts have to be "
+        "in order, with their accents between them, within the {frames} frames of the motion"
+    ),
     "dance.no_percussion": (
         "the piece has no percussion: dancers take their rhythm from its melody, its bass and its accents"
     ),

@@ -276,6 +276,53 @@ Bones: {bones}, morphs: {morphs}</source>
     </message>
 </context>
 <context>
+    <name>CutPanel</name>
+    <message>
+        <source>{time} s, {acceleration} rad/s²</source>
+        <translation>{time} 秒、{acceleration} rad/s²</translation>
+    </message>
+    <message>
+        <source>Segments: {n}, found</source>
+        <translation>セグメント: {n}（検出）</translation>
+    </message>
+    <message>
+        <source>Segments: {n}, set by hand</source>
+        <translation>セグメント: {n}（手動）</translation>
+    </message>
+    <message>
+        <source>Cuts of the motion</source>
+        <translation>動きの区切り</translation>
+    </message>
+    <message>
+        <source>Undo (Ctrl+Z)</source>
+        <translation>元に戻す (Ctrl+Z)</translation>
+    </message>
+    <message>
+        <source>Redo (Ctrl+Shift+Z)</source>
+        <translation>やり直す (Ctrl+Shift+Z)</translation>
+    </message>
+    <message>
+        <source>Whole motion (F)</source>
+        <translation>動き全体を表示 (F)</translation>
+    </message>
+    <message>
+        <source>Snap</source>
+        <translation>スナップ</translation>
+    </message>
+    <message>
+        <source>Cuts stop at minima, accents at maxima; not while Alt is held</source>
+        <translation>区切りは極小、アクセントは極大に吸着します（Alt を押している間は吸着しません）</translation>
+    </message>
+    <message>
+        <source>Reset to Automatic</source>
+        <translation>自動に戻す</translation>
+    </message>
+    <message>
+        <source>Angular acceleration (rad/s²) over the time of the motion (s). Blue: cuts; orange: accents; green: percussion of the music. Drag a line to move it, double-click to cut, Delete deletes. Ctrl+wheel zooms.</source>
+        <translation>動きの時刻（秒）に対する角加速度（rad/s²）。青: 区切り、オレンジ: アクセント、緑: 音楽の打楽器。線をドラッグで移動、ダブルクリックで区切りを追加、Delete で削除、Ctrl+ホイールで拡大縮小します。</translation>
+    </message>
+</context>
+<context>
     <name>ExportDialog</name>
     <message>
         <source>Files written to {folder}: {count}</source>

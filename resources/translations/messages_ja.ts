@@ -148,6 +148,18 @@
             <translation>{file} はより新しいバージョンのプログラムで書き出されています（ファイルのバージョンは {version}、このプログラムが対応するのは {known} まで）。新しいバージョンを使ってください</translation>
         </message>
         <message>
+            <source>{file}, line {line}: {text!r} is no time; write one time in seconds in each line</source>
+            <translation>{file} の {line} 行目: {text!r} は時刻ではありません。1 行に 1 つ、秒で時刻を書いてください</translation>
+        </message>
+        <message>
+            <source>{file}, line {line}: a motion needs a time at which it starts and a later one at which it ends; put the times in order</source>
+            <translation>{file} の {line} 行目: 動きには始まりの時刻と、それより後の終わりの時刻が必要です。時刻を順に並べてください</translation>
+        </message>
+        <message>
+            <source>{motion} cannot be cut into a motion from frame {start} to {end} with its accent at {accent}: cuts have to be in order, with their accents between them, within the {frames} frames of the motion</source>
+            <translation>{motion} は、フレーム {start} から {end}、アクセント {accent} の動きに区切れません。区切りは順に並び、アクセントがその間にあり、動きの {frames} フレームに収まっている必要があります</translation>
+        </message>
+        <message>
             <source>the piece has no percussion: dancers take their rhythm from its melody, its bass and its accents</source>
             <translation>曲に打楽器がないため、ダンサーはメロディ、低音、アクセントからリズムを取ります</translation>
         </message>

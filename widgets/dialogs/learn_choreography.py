@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Final
 
+import msgspec
 from PySide6.QtCore import QEvent, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QColor, QDragEnterEvent, QDropEvent, QKeyEvent
 from PySide6.QtWidgets import (
@@ -24,6 +25,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.choreography.cuts_by_hand import Cuts
 from app.choreography.learn import Pair, analyse, learn, summary
 from app.choreography.model import ChoreographyModel
 from app.choreography.model_file import SUFFIX, write_model
@@ -37,6 +39,7 @@ from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text, sentence
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX, AutomaticNumber
+from widgets.dialogs.cut_panel import CutHistory, CutPanel
 from widgets.dialogs.learn_draft import MIDI_SUFFIXES, MOTION_SUFFIXES, Found, PairDraft, with_files
 from widgets.dialogs.learn_pair import PairForm, file_name
 
@@ -56,6 +59,8 @@ class _Row:
     ----------
     draft : PairDraft
     found : Found
+    history : CutHistory
+        Of the cuts of the draft.
     reading : int
         Number of the reading whose result is awaited; 0: none.
     states : int or None
@@ -64,6 +69,7 @@ class _Row:
 
     draft: PairDraft
     found: Found = field(default_factory=Found)
+    history: CutHistory = field(default_factory=CutHistory)
     reading: int = 0
     states: int | None = None
 
@@ -121,7 +127,7 @@ class LearnDialog(QDialog):
         self._unknown: tuple[Path, ...] = ()
 
         self.list = QTreeWidget()
-        self.form = PairForm()
+        self.form, self.cuts = PairForm(), CutPanel(session)
         self._add, self._remove = QPushButton(), QPushButton()
         self._states = AutomaticNumber("learn_states", 1, MOST_STATES, step=1, decimals=0)
         self._seed = QSpinBox()
@@ -133,7 +139,7 @@ class LearnDialog(QDialog):
         self._build()
         self._connect()
         self.retranslate()
-        self.resize(1180, 560)
+        self.resize(1180, 840)
 
     def _build(self) -> None:
         named: dict[QWidget, str] = {self.list: "pairs", self._add: "add", self._remove: "remove", self._seed: "seed"}
@@ -199,7 +205,8 @@ class LearnDialog(QDialog):
         page = QVBoxLayout(self)
         page.setContentsMargins(14, 14, 14, 14)
         page.setSpacing(10)
-        page.addWidget(self._top, 1)
+        page.addWidget(self._top, 2)
+        page.addWidget(self.cuts, 3)
         page.addLayout(whole)
         page.addWidget(self._state)
         page.addLayout(bottom)
@@ -210,6 +217,7 @@ class LearnDialog(QDialog):
         self._remove.clicked.connect(self._remove_pair)
         self.list.currentItemChanged.connect(lambda *_: self._show_pair())
         self.form.changed.connect(self._change_pair)
+        self.cuts.changed.connect(self._set_cuts)
         self._states.changed.connect(self._edited)
         self._seed.valueChanged.connect(lambda _: self._edited())
         self._file.textChanged.connect(lambda _: self._edited())
@@ -269,10 +277,19 @@ class LearnDialog(QDialog):
     def _change_pair(self, draft: PairDraft) -> None:
         row = self._row
         if row is not None:
-            files = row.draft.files
+            before = row.draft
+            if (draft.motion, draft.fps) != (before.motion, before.fps):
+                # Its frames are others.
+                draft, row.history = msgspec.structs.replace(draft, cuts=None), CutHistory()
             row.draft = draft
-            if draft.files != files:
+            if draft.files != before.files:
                 self._read(row)
+            self._edited()
+
+    def _set_cuts(self, cuts: Cuts | None) -> None:
+        row = self._row
+        if row is not None:
+            row.draft = msgspec.structs.replace(row.draft, cuts=cuts)
             self._edited()
 
     def _read(self, row: _Row) -> None:
@@ -449,12 +466,15 @@ class LearnDialog(QDialog):
 
     def _show_pair(self) -> None:
         row = self._row
-        self.form.setEnabled(row is not None and not self._running)
+        for widget in (self.form, self.cuts):
+            widget.setEnabled(row is not None and not self._running)
         self._remove.setEnabled(row is not None and not self._running)
         if row is None:
             self.form.show_pair(PairDraft(), Found(), busy=False)
+            self.cuts.show_pair(PairDraft(), Found(), CutHistory())
         else:
             self.form.show_pair(row.draft, row.found, bool(row.reading))
+            self.cuts.show_pair(row.draft, row.found, row.history)
 
     def _show_state(self) -> None:
         missing, path, result = self._missing(), self._target, self._result
@@ -561,7 +581,8 @@ def _pair(row: _Row) -> Pair | None:
         return None
     offset_s = row.draft.offset_s
     # Typed is a time of the file, of which the clip may be a later part.
-    return replace(read.pair, offset_s=None if offset_s is None else offset_s - read.motion.start_s)
+    of_clip_s = None if offset_s is None else offset_s - read.motion.start_s
+    return replace(read.pair, offset_s=of_clip_s, cuts=row.draft.cuts)
 
 
 def _confidence(row: _Row) -> float:
@@ -578,7 +599,7 @@ def _cells(row: _Row) -> tuple[str, ...]:
     return (
         *names,
         f"{analysis.clip.length_s:.1f}",
-        str(len(analysis.segmentation.cuts)),
+        str(len(analysis.segmentation.cuts if draft.cuts is None else draft.cuts)),
         "–" if row.states is None else str(row.states),
         f"{found_s if draft.offset_s is None else draft.offset_s:.2f}",
         f"{analysis.offset.confidence:.2f}" if draft.offset_s is None else "–",

@@ -9,6 +9,7 @@ from typing import Final
 
 import msgspec
 
+from app.choreography.cuts_by_hand import Cuts
 from app.choreography.learn import Analysis
 from app.choreography.read_pair import CREDITS_SUFFIX, ReadPair
 from app.errors import Message
@@ -28,6 +29,8 @@ class PairDraft(msgspec.Struct, frozen=True):
         The music begins at this time of the motion's file; None to find it.
     fps : Fraction or None
         None: as the motion's file says.
+    cuts : tuple of Cut or None
+        Frames of the analysed clip, as the user set them; None: those that were found.
     """
 
     motion: Path | None = None
@@ -35,6 +38,7 @@ class PairDraft(msgspec.Struct, frozen=True):
     credits: Path | None = None
     offset_s: float | None = None
     fps: Fraction | None = None
+    cuts: Cuts | None = None
 
     @property
     def files(self) -> tuple[Path | None, Path | None, Path | None, Fraction | None]:

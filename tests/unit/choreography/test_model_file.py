@@ -73,6 +73,7 @@ def test_any_model_is_read_back(data: st.DataObject) -> None:
             data.draw(st.floats(-1e4, 1e4)),
             data.draw(st.none() | st.floats(0.0, 1.0)),
             data.draw(texts),
+            data.draw(st.booleans()),
         )
         for _ in MODEL.sources
     )
@@ -110,6 +111,7 @@ def changed(*path: str | int, to: Any) -> bytes:
         (("fps",), "0", "fps"),
         (("sources", 0, "offset_s"), 1e300, "sources[0].offset_s"),
         (("sources", 1, "offset_confidence"), 1.5, "sources[1].offset_confidence"),
+        (("sources", 1, "cuts_given"), 1, "JSON"),
         (("sources",), [], "sources"),
         (("bodies",), [], "bodies"),
         (("bodies", 0, "offsets_m"), [], "bodies[0].offsets_m"),

@@ -114,6 +114,24 @@ def test_a_pair_is_learned(swings: Path, drums: Path, tmp_path: Path, capsys: py
     assert np.abs(model.clips[0].rotations - arm_swings(60).rotations).max() < 1e-5
 
 
+def test_a_motion_is_cut_at_given_times(
+    swings: Path, drums: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cuts = tmp_path / "cuts.txt"
+    cuts.write_text("0.5\n1.25\n2.0\n\n4.0\n5.0\n", encoding="utf-8")
+    command = ["choreography", "learn", "--pair", str(swings), str(drums), "--offset", "1", "--cuts", str(cuts)]
+    assert main([*command, "--to", str(tmp_path / "a")]) == DONE
+    model = read_model(tmp_path / "a.choreography")
+    assert [(one.start, one.end) for one in model.segments] == [(30, 75), (75, 120), (240, 300)]
+    assert model.sources[0].cuts_given
+    cuts.write_text("0.5\nlater\n", encoding="utf-8")
+    assert main([*command, "--to", str(tmp_path / "b")]) == BAD_INPUT
+    assert "cuts.txt, line 2: 'later' is no time" in capsys.readouterr().err
+    cuts.write_text("0.5\n100\n", encoding="utf-8")
+    assert main([*command, "--to", str(tmp_path / "b")]) == BAD_USE
+    assert "swings.bvh cannot be cut" in capsys.readouterr().err
+
+
 def test_what_was_guessed_of_a_motion_is_said(
     swings: Path, drums: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -1,0 +1,208 @@
+"""Where the motion of a pair is cut: seen over its acceleration, and set by hand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import numpy as np
+from PySide6.QtCore import QEvent, Signal
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QPushButton, QToolButton, QVBoxLayout, QWidget
+
+from app.choreography.cuts_by_hand import Cuts
+from widgets.common.icons import icon
+from widgets.common.plain import Label
+from widgets.common.session import Session
+from widgets.dialogs.cut_figure import PoseFigure, pose_of
+from widgets.dialogs.cut_plot import CutPlot
+from widgets.dialogs.learn_draft import Found, PairDraft
+
+_TOOLS = ("undo", "redo", "fit")
+_EMPTY = np.zeros(0), Fraction(60), 0.0, np.zeros(0)
+
+
+@dataclass(eq=False)
+class CutHistory:
+    """Cuts that were set before and after those of a pair; None stands for found cuts."""
+
+    done: list[Cuts | None] = field(default_factory=list)
+    undone: list[Cuts | None] = field(default_factory=list)
+    token: object = None
+
+    def push(self, before: Cuts | None, token: object) -> None:
+        """Cuts are replaced; those of one gesture as one step."""
+        if token is None or token is not self.token:
+            self.done.append(before)
+        self.undone.clear()
+        self.token = token
+
+    def undo(self, now: Cuts | None) -> Cuts | None:
+        """The cuts before; there are some."""
+        self.undone.append(now)
+        self.token = None
+        return self.done.pop()
+
+    def redo(self, now: Cuts | None) -> Cuts | None:
+        """The cuts that were undone last; there are some."""
+        self.done.append(now)
+        self.token = None
+        return self.undone.pop()
+
+
+class CutPanel(QWidget):
+    """The plot, the figure and the tools.
+
+    Signals
+    -------
+    changed(tuple of Cut or None)
+        The user set other cuts; None: found ones again.
+
+    Parameters
+    ----------
+    session : Session
+    """
+
+    changed = Signal(object)
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._draft, self._found, self._history = PairDraft(), Found(), CutHistory()
+        self.plot, self.figure = CutPlot(session), PoseFigure(session)
+        self._title, self._place, self._hint = Label(), Label(), Label()
+        self._place.setObjectName("cut_place")
+        self._hint.setObjectName("cut_hint")
+        self._hint.setWordWrap(True)
+        self._buttons = {name: QToolButton() for name in _TOOLS}
+        self._snap, self._reset = QCheckBox(), QPushButton()
+        self._snap.setObjectName("cut_snap")
+        self._snap.setChecked(True)
+        self._reset.setObjectName("cut_reset")
+        self._reset.setAutoDefault(False)
+        tools = QHBoxLayout()
+        tools.addWidget(self._title)
+        tools.addStretch(1)
+        tools.addWidget(self._place)
+        tools.addSpacing(14)
+        for name, button in self._buttons.items():
+            button.setObjectName(f"cut_{name}")
+            tools.addWidget(button)
+        tools.addWidget(self._snap)
+        tools.addWidget(self._reset)
+        pictures = QHBoxLayout()
+        pictures.addWidget(self.plot, 1)
+        pictures.addWidget(self.figure)
+        page = QVBoxLayout(self)
+        page.setContentsMargins(0, 0, 0, 0)
+        page.addLayout(tools)
+        page.addLayout(pictures, 1)
+        page.addWidget(self._hint)
+        self.plot.edited.connect(self._edit)
+        self.plot.pointed.connect(self._point)
+        self._snap.toggled.connect(self._set_snaps)
+        self._reset.clicked.connect(lambda: self._edit(None, None))
+        self._buttons["undo"].clicked.connect(self.undo)
+        self._buttons["redo"].clicked.connect(self.redo)
+        self._buttons["fit"].clicked.connect(self.plot.fit)
+        for key, step in ((QKeySequence.StandardKey.Undo, self.undo), (QKeySequence.StandardKey.Redo, self.redo)):
+            QShortcut(QKeySequence(key), self).activated.connect(step)
+        session.theme_changed.connect(self._apply_theme)
+        self._apply_theme()
+        self.retranslate()
+
+    def show_pair(self, draft: PairDraft, found: Found, history: CutHistory) -> None:
+        """Show the cuts of a pair."""
+        before, read, analysis = self._found, found.read, found.analysis
+        self._draft, self._found, self._history = draft, found, history
+        if read is None or analysis is None:
+            self.plot.setEnabled(False)
+            self.figure.show_pose(None)
+            self._place.setText("")
+            if before.analysis is not None:
+                self.plot.show_motion(*_EMPTY)
+        else:
+            start_s = read.motion.start_s
+            music_s = analysis.offset.offset_s + start_s if draft.offset_s is None else draft.offset_s
+            hits_s = read.pair.rhythm.hits_s + music_s
+            if before.analysis is not analysis:
+                self.plot.show_motion(analysis.segmentation.curve_rad_s2, analysis.clip.fps, start_s, hits_s)
+                self._point(0)
+            else:
+                self.plot.show_hits(hits_s)
+            self.plot.setEnabled(True)
+            self.plot.show_cuts(analysis.segmentation.cuts if draft.cuts is None else draft.cuts)
+        self._show_tools()
+
+    def undo(self) -> None:
+        """Undo the last change of this pair's cuts."""
+        if self._history.done and self.plot.isEnabled():
+            self.changed.emit(self._history.undo(self._draft.cuts))
+
+    def redo(self) -> None:
+        """Redo what was undone last."""
+        if self._history.undone and self.plot.isEnabled():
+            self.changed.emit(self._history.redo(self._draft.cuts))
+
+    def _edit(self, cuts: Cuts | None, token: object) -> None:
+        if cuts != self._draft.cuts:
+            self._history.push(self._draft.cuts, token)
+            self.changed.emit(cuts)
+
+    def _point(self, frame: int) -> None:
+        analysis = self._found.analysis
+        if analysis is not None:
+            self.figure.show_pose(pose_of(analysis.clip, frame))
+            time_s = float(self.plot.time_s(frame))
+            self._place.setText(
+                self.tr("{time} s, {acceleration} rad/s²").format(
+                    time=f"{time_s:.3f}", acceleration=f"{analysis.segmentation.curve_rad_s2[frame]:.1f}"
+                )
+            )
+
+    def _set_snaps(self, snaps: bool) -> None:
+        self.plot.snaps = snaps
+
+    def _show_tools(self) -> None:
+        free = self.plot.isEnabled()
+        self._buttons["undo"].setEnabled(free and bool(self._history.done))
+        self._buttons["redo"].setEnabled(free and bool(self._history.undone))
+        self._buttons["fit"].setEnabled(free)
+        self._reset.setEnabled(free and self._draft.cuts is not None)
+        count = len(self.plot.cuts)
+        self._title.setText(
+            ""
+            if not free
+            else self.tr("Segments: {n}, found").format(n=count)
+            if self._draft.cuts is None
+            else self.tr("Segments: {n}, set by hand").format(n=count)
+        )
+
+    def _apply_theme(self) -> None:
+        for name, button in self._buttons.items():
+            button.setIcon(icon(name, self._session.tokens))
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        self.plot.plot.setAccessibleName(self.tr("Cuts of the motion"))
+        self._buttons["undo"].setToolTip(self.tr("Undo (Ctrl+Z)"))
+        self._buttons["redo"].setToolTip(self.tr("Redo (Ctrl+Shift+Z)"))
+        self._buttons["fit"].setToolTip(self.tr("Whole motion (F)"))
+        self._snap.setText(self.tr("Snap"))
+        self._snap.setToolTip(self.tr("Cuts stop at minima, accents at maxima; not while Alt is held"))
+        self._reset.setText(self.tr("Reset to Automatic"))
+        self._hint.setText(
+            self.tr(
+                "Angular acceleration (rad/s²) over the time of the motion (s). Blue: cuts; orange: accents; green: "
+                "percussion of the music. Drag a line to move it, double-click to cut, Delete deletes. Ctrl+wheel "
+                "zooms."
+            )
+        )
+        self._show_tools()
+
+    # Qt's own names
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
