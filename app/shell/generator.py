@@ -101,6 +101,7 @@ class Generator(QObject):
         session.performance_changed.connect(self._show)
         session.instruments_changed.connect(self._plan_again)
         session.characters_changed.connect(self._plan_again)
+        session.choreographies_changed.connect(self._plan_again)
         session.playhead_changed.connect(self._want)
         session.players_changed.connect(self._want)
         session.playing_changed.connect(self._worker.set_playing)

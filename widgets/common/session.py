@@ -97,6 +97,8 @@ class Session(QObject):
         Some character is another one, or is there no more (`app.rig.character_library`).
     characters_saved()
         A character was written into the person's own folder, or removed from it.
+    choreographies_changed()
+        A choreography's file was written; dancers may dance it.
     """
 
     changed = Signal(object)
@@ -120,6 +122,7 @@ class Session(QObject):
     instruments_saved = Signal()
     characters_changed = Signal()
     characters_saved = Signal()
+    choreographies_changed = Signal()
 
     def __init__(self, project: Project, tasks: Tasks) -> None:
         super().__init__()

@@ -94,8 +94,6 @@ class LearnDialog(QDialog):
 
     Signals
     -------
-    learned(Path)
-        The file was written.
     used(Path)
         The user wants it danced.
 
@@ -107,7 +105,6 @@ class LearnDialog(QDialog):
     parent : QWidget, optional
     """
 
-    learned = Signal(object)
     used = Signal(object)
 
     def __init__(self, session: Session, folder: Path, parent: QWidget | None = None) -> None:
@@ -374,7 +371,7 @@ class LearnDialog(QDialog):
         for at, row in enumerate(result.rows):
             row.states = len({one.state for one in result.model.segments if one.clip == at})
         self._show_all()
-        self.learned.emit(result.path)
+        self._session.choreographies_changed.emit()
 
     def _failed(self, error: AppError) -> None:
         self._failure = error.message

@@ -143,6 +143,7 @@ class DancersSection(QWidget):
         session.changed.connect(self._changed)
         session.theme_changed.connect(self._apply_theme)
         session.characters_changed.connect(self._show)
+        session.choreographies_changed.connect(self._read_again)
         session.dancer_changed.connect(self._show)
         session.problems_changed.connect(self._show_list)
         session.performance_changed.connect(self._show_list)
@@ -228,6 +229,10 @@ class DancersSection(QWidget):
             names = [Path(source.motion_name).stem for source in model.sources]
             self._read = dancer.choreography, [Option(str(at), name) for at, name in enumerate(names)]
         return self._read[1]
+
+    def _read_again(self) -> None:
+        self._read = None
+        self._show()
 
     # Editing
 

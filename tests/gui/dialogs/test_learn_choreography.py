@@ -238,9 +238,10 @@ def test_cancelled_it_leaves_the_file_as_it_was(
     assert len(dialog.drafts) == 1
 
 
-def test_a_finished_choreography_can_be_used(dialog: LearnDialog, folder: Path, qtbot: QtBot) -> None:
+def test_a_finished_choreography_can_be_used(session: Session, dialog: LearnDialog, folder: Path, qtbot: QtBot) -> None:
     drop(dialog, folder / "swings.bvh", folder / "drums.mid")
-    press(dialog, "learn_start")
+    with qtbot.waitSignal(session.choreographies_changed):
+        press(dialog, "learn_start")
     with qtbot.waitSignal(dialog.used) as signal:
         press(dialog, "learn_use")
     assert signal.args == [folder / "choreography.choreography"]

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from PySide6.QtWidgets import QPushButton
 
 from app.choreography.model_file import write_model
-from tests.gui.conftest import QUARTET
+from app.errors import Message
+from app.performance.dancers import dancing_of
+from app.performance.ensemble import Performance
+from app.project.edit.dancers import add_dancer
+from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import Studio, trigger
 from tests.support.dances import model
+from tests.support.windows import wait_until
 from widgets.common.combo import Combo
 from widgets.dialogs.learn_choreography import LearnDialog
 from widgets.players.dancers import DancersSection
@@ -48,6 +54,10 @@ def test_a_learned_choreography_is_danced_by_the_selected_dancer_or_a_new_one(st
     session.document.undo()
     assert session.project.dancers == (dancer,)
     dialog.close()
+    # Closed, it takes no notice of what is edited.
+    delete_now()
+    trigger(program, "dancers.add")
+    assert len(session.project.dancers) == 2
 
 
 def test_it_is_where_a_choreography_is_chosen(studio: Studio) -> None:
@@ -69,3 +79,26 @@ def test_it_is_where_a_choreography_is_chosen(studio: Studio) -> None:
     assert combo.shown == dancer.choreography
     assert program.session.project.dancers == (dancer,)
     dialog.close()
+
+
+def test_who_dances_a_choreography_that_is_learned_again_dances_the_new_one(studio: Studio, learned: Path) -> None:
+    program = studio.program
+    session = program.session
+    program.editor.files.open(QUARTET, ask=False)
+    program.session.attempt(Message("edit.add_dancer"), lambda project: add_dancer(project, learned, "Ana")[0])
+    (dancer,) = session.project.dancers
+    section = program.window.findChild(DancersSection)
+    assert section is not None
+    source = section.findChild(Combo, "dancer_source")
+    assert source is not None
+    assert [source.itemText(row) for row in range(source.count())] == ["None", "one", "other"]
+    before = dancing_of(session.performance, dancer).steps()
+    shown: list[Performance] = []
+    session.performance_changed.connect(lambda: shown.append(session.performance))
+    other = model(seed=7)
+    write_model(learned, replace(other, sources=tuple(replace(one, motion_name="new.bvh") for one in other.sources)))
+    session.choreographies_changed.emit()
+    assert wait_until(lambda: bool(shown))
+    assert dancing_of(shown[-1], dancer).steps() != before
+    assert [source.itemText(row) for row in range(source.count())] == ["None", "new", "new"]
+    assert session.project.dancers == (dancer,)
