@@ -69,6 +69,8 @@ def moved_bound(cuts: Cuts, bound: int, to: int, frames: int) -> Cuts:
     place = min(max(to, least), most)
     return tuple(
         replace(cut, start=place if cut.start == bound else cut.start, end=place if cut.end == bound else cut.end)
+        if bound in (cut.start, cut.end)
+        else cut
         for cut in cuts
     )
 

@@ -242,13 +242,16 @@ class CutPlot(QWidget):
 
     def _line_at(self, x_px: float) -> Line | None:
         """The line under the mouse; the nearest of several."""
+        # In frames: asking the view for the place of each of many lines takes longer than drawing them.
+        frame_px = max(self.x_px(1.0) - self.x_px(0.0), 1e-9)
+        under = (x_px - self.x_px(0.0)) / frame_px
         found: list[tuple[float, Line]] = []
         for kind in KINDS:
             frames = self._frames(kind)
             if frames:
-                aside = [abs(self.x_px(frame) - x_px) for frame in frames]
+                aside = np.abs(np.array(frames) - under)
                 number = int(np.argmin(aside))
-                found.append((aside[number], Line(kind, number)))
+                found.append((float(aside[number]) * frame_px, Line(kind, number)))
         near, line = min(found, key=lambda one: one[0], default=(math.inf, None))
         return line if near <= NEAR_PX else None
 
@@ -265,8 +268,10 @@ class CutPlot(QWidget):
 
     def _ask(self, cuts: Cuts, token: object = None) -> None:
         if cuts != self._cuts:
+            # They come back by `show_cuts`.
             self.edited.emit(cuts, token)
-        self._draw()
+        else:
+            self._draw()
         if self._selected is not None:
             self.pointed.emit(self._frames(self._selected.kind)[self._selected.number])
 
