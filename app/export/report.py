@@ -9,6 +9,7 @@ import msgspec
 from app.export.check_skeleton import Difference
 from app.export.measure import PlayerMeasures, Spread
 from app.export.target import SkeletonChoice
+from app.project.casting import StagePosition
 
 SWAY_CORRELATION = 0.9
 """Two players whose sway correlates this much move alike."""
@@ -48,12 +49,17 @@ class DancerMeasures(msgspec.Struct, frozen=True):
 
 
 class StagePlace(msgspec.Struct, frozen=True):
-    """Where a player stands on the stage: the files hold every player at the origin, facing +Z. Metres, Y up, the
+    """Where a performer stands on the stage: the files hold everyone at the origin, facing +Z. Metres, Y up, the
     audience towards +Z; a positive turn is from +Z towards +X."""
 
     x_m: float
     z_m: float
     turn_deg: float
+
+
+def stage_place(place: StagePosition) -> StagePlace:
+    """A place of the project, rounded to what is seen."""
+    return StagePlace(round(place.x_m, 4), round(place.z_m, 4), round(math.degrees(place.turn_rad), 3))
 
 
 class SkeletonReport(msgspec.Struct, frozen=True):
@@ -116,7 +122,7 @@ class UnplayedPart(msgspec.Struct, frozen=True):
 
 
 class LeftOutReport(msgspec.Struct, frozen=True):
-    """A player asked for who could not be exported, and why."""
+    """A player or dancer asked for who could not be exported, and why."""
 
     player: str
     reason: str

@@ -92,8 +92,13 @@ class ExportCast:
 
     @property
     def player_ids(self) -> tuple[str, ...]:
-        """Of those who are exported."""
+        """Of the players who are exported."""
         return tuple(performer.player.id for performer in self.performers)
+
+    @property
+    def dancer_ids(self) -> tuple[str, ...]:
+        """Of the dancers who are exported."""
+        return tuple(dancing.dancer.id for dancing in self.dances)
 
 
 def cast_of(

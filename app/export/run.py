@@ -5,7 +5,6 @@ Messages: those of `app.export.request`.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -27,9 +26,9 @@ from app.export.report import (
     PlayerReport,
     Report,
     SkeletonReport,
-    StagePlace,
     UnplayedPart,
     encode_report,
+    stage_place,
 )
 from app.export.request import ExportCast, Request, cast_of
 from app.export.sound import write_sound
@@ -43,7 +42,6 @@ from app.performance.cast import Performer
 from app.performance.dancers import Dancing
 from app.performance.ensemble import Performance
 from app.performance.motion import player_motion
-from app.project.casting import StagePosition
 from app.project.model import Dancer
 from app.project.names import file_stems
 from app.rig.fit import INSIDE_M, missed
@@ -260,15 +258,11 @@ def _export_dancer(
         choreography=dancing.choreographer.model.name,
         character=dancer.character_id,
         files=files,
-        stage=_stage_place(dancer.stage),
+        stage=stage_place(dancer.stage),
         steps=sum(span.first_frame_s <= start_s < span.end_s for start_s in starts_s),
         skeleton=SkeletonReport(target.choice, asset, checked.differences),
         measures=measures,
     )
-
-
-def _stage_place(place: StagePosition) -> StagePlace:
-    return StagePlace(round(place.x_m, 4), round(place.z_m, 4), round(math.degrees(place.turn_rad), 3))
 
 
 def _scenes(
@@ -311,7 +305,7 @@ def _player_report(
         missed=_missed_mm(performer.hold),
         posture=request.performance.instrument(player).hold.possible(player.parameters.posture),
         files=files,
-        stage=_stage_place(player.stage),
+        stage=stage_place(player.stage),
         notes=sum(span.shows_onset(note.start_s) for note in plan.fingerings),
         measures=None if measured is None else measured.measures,
         sway_correlation=None,

@@ -5,9 +5,6 @@ from __future__ import annotations
 from typing import Final
 
 TEMPLATES: Final[dict[str, str]] = {
-    "unreal.no_dancers": (
-        "dancers are not written into an Unreal project ({dancers}); export them to a folder and import their FBX files"
-    ),
     "unreal.not_found": "{file} is not there; choose the .uproject file, or the folder that it is in",
     "unreal.no_project": "{file} is no Unreal project; choose the .uproject file, or the folder that it is in",
     "unreal.several": "{file} holds several Unreal projects ({names}); choose one of the .uproject files",

@@ -1904,10 +1904,6 @@
             <translation>このテイクからは拍を検出できません。</translation>
         </message>
         <message>
-            <source>dancers are not written into an Unreal project ({dancers}); export them to a folder and import their FBX files</source>
-            <translation>ダンサーは Unreal プロジェクトに書き出されません（{dancers}）。フォルダーに書き出し、その FBX ファイルを読み込んでください</translation>
-        </message>
-        <message>
             <source>{file} is not there; choose the .uproject file, or the folder that it is in</source>
             <translation>{file} がありません。.uproject ファイルか、それがあるフォルダーを選んでください</translation>
         </message>

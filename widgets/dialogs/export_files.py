@@ -353,13 +353,11 @@ class ExportDialog(QDialog):
     def _foreseen(self) -> str:
         """What will be written, replaced and removed."""
         performance = Performance(self._project)
-        into_folder = self._place.destination == "folder"
         seen = foresee(
             self._place.destination,
             self._place.path,
             performance,
-            # Dancers are not written into Unreal projects, as the report says.
-            self.player_ids if into_folder else tuple(player.id for player in self._chosen_players()),
+            self.player_ids,
             self._formats.formats,
             self._source,
             self._formats.sound,

@@ -1,30 +1,31 @@
 """``performance.json``: everything that whoever builds a scene of an export has to know, for scripts to read.
 
-Times are seconds of the animation, whose frame 0 is at 0, and frames of it where a frame is meant. A player's ``stage``
-is in metres as in ``report.json``, the ``place`` in Unreal's centimetres and degrees.
+Times are seconds of the animation, whose frame 0 is at 0, and frames of it where a frame is meant. A performer's
+``stage`` is in metres as in ``report.json``, the ``place`` in Unreal's centimetres and degrees.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
 import msgspec
 
-from app.export.report import StagePlace
+from app.export.report import StagePlace, stage_place
 from app.export.unreal.layout import FigurePlace, Layout
 from app.export.unreal.manifest import OwnFile
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.plan.model import Clock
 from app.project.casting import StagePosition
-from app.project.model import Player
+from app.project.model import Dancer, Player
 from app.score.model import Score
 
-SCHEMA: Final = 1
-"""Rises when a script that knows the schema before would misread the file."""
+SCHEMA: Final = 2
+"""Rises when a script that knows the schema before would misread the file: one that knows 1 would take dancers for
+figures that are not needed any more."""
 
 
 class Rate(msgspec.Struct, frozen=True):
@@ -66,6 +67,17 @@ class Cast(msgspec.Struct, frozen=True):
     place: Place
     character: Figure
     instrument: Figure
+
+
+class CastDancer(msgspec.Struct, frozen=True):
+    """A dancer, who holds nothing. The place is where the dance begins; the animation goes on from there."""
+
+    name: str
+    choreography: str
+    character_id: str
+    stage: StagePlace
+    place: Place
+    character: Figure
 
 
 class Sound(msgspec.Struct, frozen=True):
@@ -127,8 +139,8 @@ class Cue(msgspec.Struct, frozen=True):
 
 
 class LeftOutFigures(msgspec.Struct, frozen=True):
-    """A player who was to be exported but could not be, and why. ``assets`` are those that an earlier export may have
-    made: they stay."""
+    """A player or dancer who was to be exported but could not be, and why. ``assets`` are those that an earlier export
+    may have made: they stay."""
 
     name: str
     reason: str
@@ -151,6 +163,7 @@ class Description(msgspec.Struct, frozen=True):
     bars_exported: tuple[int, int] | None
     sound: Sound
     players: tuple[Cast, ...]
+    dancers: tuple[CastDancer, ...]
     ticks_per_quarter: int
     pickup_ticks: int
     tempo: tuple[Tempo, ...]
@@ -165,6 +178,7 @@ class Description(msgspec.Struct, frozen=True):
 def describe(
     performance: Performance,
     players: tuple[Player, ...],
+    dancers: tuple[tuple[Dancer, str], ...],
     left_out: Mapping[str, str],
     layout: Layout,
     span: FrameSpan,
@@ -179,30 +193,42 @@ def describe(
 
     Parameters
     ----------
+    dancers : tuple of (Dancer, str)
+        Each with the name of the choreography.
     left_out : mapping of str to str
-        Why players could not be exported, by their ids.
+        Why players and dancers could not be exported, by their ids.
     bones : mapping of str to tuple of str
         By the file that has them.
     """
     project = performance.project
     score, rate = project.score, span.fps
     time = _Time(performance.piece.clock, span)
+    everyone: tuple[Player | Dancer, ...] = (*project.players, *project.dancers)
 
     def figure(place: FigurePlace) -> Figure:
         file = place.file.as_posix()
         return Figure(file, place.mesh, place.skeleton, place.animation, bones[file])
 
     def cast(player: Player) -> Cast:
-        stage = player.stage
         return Cast(
             name=player.name,
             part=project.part(player).name,
             instrument_id=player.instrument_id,
             character_id=player.character_id,
-            stage=StagePlace(round(stage.x_m, 4), round(stage.z_m, 4), round(math.degrees(stage.turn_rad), 3)),
-            place=place_of(stage),
+            stage=stage_place(player.stage),
+            place=place_of(player.stage),
             character=figure(layout.characters[player.id]),
             instrument=figure(layout.instruments[player.id]),
+        )
+
+    def cast_dancer(dancer: Dancer, choreography: str) -> CastDancer:
+        return CastDancer(
+            name=dancer.name,
+            choreography=choreography,
+            character_id=dancer.character_id,
+            stage=stage_place(dancer.stage),
+            place=place_of(dancer.stage),
+            character=figure(layout.characters[dancer.id]),
         )
 
     return Description(
@@ -218,6 +244,7 @@ def describe(
         bars_exported=bars,
         sound=sound,
         players=tuple(cast(player) for player in players),
+        dancers=tuple(cast_dancer(dancer, choreography) for dancer, choreography in dancers),
         ticks_per_quarter=score.ticks_per_quarter,
         pickup_ticks=score.pickup_ticks,
         tempo=tuple(
@@ -231,14 +258,16 @@ def describe(
         markers=_markers(score, bars, time),
         cues=_cues(performance, players, time),
         files=dict(files),
-        left_out=tuple(_left_out(project.player(player_id), reason, layout) for player_id, reason in left_out.items()),
+        left_out=tuple(
+            LeftOutFigures(one.name, left_out[one.id], _assets(layout.figures(one.id)))
+            for one in everyone
+            if one.id in left_out
+        ),
     )
 
 
-def _left_out(player: Player, reason: str, layout: Layout) -> LeftOutFigures:
-    places = (layout.characters[player.id], layout.instruments[player.id])
-    assets = tuple(path for place in places for path in (place.mesh, place.skeleton, place.animation))
-    return LeftOutFigures(player.name, reason, assets)
+def _assets(places: Iterable[FigurePlace]) -> tuple[str, ...]:
+    return tuple(path for place in places for path in (place.mesh, place.skeleton, place.animation))
 
 
 @dataclass(frozen=True)
@@ -291,7 +320,7 @@ def _cues(performance: Performance, players: tuple[Player, ...], time: _Time) ->
 
 
 def place_of(stage: StagePosition) -> Place:
-    """A player's place as Unreal has it."""
+    """A performer's place as Unreal has it."""
     turn_deg = math.degrees(math.remainder(stage.turn_rad, math.tau))
     return Place(
         x_cm=round(100.0 * stage.x_m, 3) + 0.0,

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Final
 
 from app.export.unreal.names import asset_name, unique
-from app.project.model import Project
+from app.project.model import Dancer, Player, Project
 
 SOURCES: Final = "SuisouSource"
 """Folder of the sources. Not in ``Content``, which Unreal may watch for new files to import by itself."""
@@ -43,8 +44,10 @@ class Layout:
     ----------
     piece : str
         Name of its folders.
-    characters, instruments : mapping of str to FigurePlace
-        By player id; of all the players, so that names do not depend on who is exported.
+    characters : mapping of str to FigurePlace
+        By the id of the player or dancer; of all of them, so that names do not depend on who is exported.
+    instruments : mapping of str to FigurePlace
+        By player id.
     sound_file : path
         Relative to the piece's sources.
     sound, sequence : str
@@ -68,14 +71,15 @@ class Layout:
         """The folder of the piece's assets."""
         return f"{CONTENT}/{self.piece}"
 
-    def files(self, player_ids: tuple[str, ...]) -> tuple[PurePosixPath, ...]:
-        """Everything that an export of some players writes, relative to the piece's sources, in order."""
+    def files(self, performer_ids: tuple[str, ...]) -> tuple[PurePosixPath, ...]:
+        """Everything that an export of some players and dancers writes, relative to the piece's sources, in order."""
         own = (PurePosixPath(name) for name in (DESCRIPTION, REPORT, MANIFEST))
-        return tuple(sorted([*self.figures(player_ids), self.sound_file, *own]))
+        figures = (place.file for performer_id in performer_ids for place in self.figures(performer_id))
+        return tuple(sorted([*figures, self.sound_file, *own]))
 
-    def figures(self, player_ids: tuple[str, ...]) -> tuple[PurePosixPath, ...]:
-        """The files of some players and their instruments."""
-        return tuple(place[player_id].file for player_id in player_ids for place in (self.characters, self.instruments))
+    def figures(self, performer_id: str) -> tuple[FigurePlace, ...]:
+        """The character of a player or dancer and, of a player, the instrument."""
+        return tuple(places[performer_id] for places in (self.characters, self.instruments) if performer_id in places)
 
 
 def piece_name(source: str, folder: Path) -> str:
@@ -96,25 +100,27 @@ def piece_name(source: str, folder: Path) -> str:
 
 def layout_of(project: Project, piece: str) -> Layout:
     """Where everything of a project's piece is."""
-    players = project.players
+    players, dancers = project.players, project.dancers
+    count = len(players)
     own = unique(asset_name(player.name, "Player") for player in players)
     held = [f"{name}_{asset_name(player.instrument_id, 'held')}" for name, player in zip(own, players, strict=True)]
-    names = unique([*own, *held])
+    # Dancers come last: whoever joins the players renames nothing of theirs.
+    names = unique([*own, *held, *(asset_name(dancer.name, "Dancer") for dancer in dancers)])
     content = f"{CONTENT}/{piece}"
 
-    def places(kind: str, names: tuple[str, ...]) -> dict[str, FigurePlace]:
+    def places(kind: str, performers: Sequence[Player | Dancer], names: tuple[str, ...]) -> dict[str, FigurePlace]:
         return {
-            player.id: FigurePlace(
+            performer.id: FigurePlace(
                 PurePosixPath(kind, f"SK_{name}.fbx"),
                 *(f"{content}/{kind}/{name}/{prefix}_{name}" for prefix in ("SK", "SKEL", "A")),
             )
-            for player, name in zip(players, names, strict=True)
+            for performer, name in zip(performers, names, strict=True)
         }
 
     return Layout(
         piece=piece,
-        characters=places("Characters", names[: len(players)]),
-        instruments=places("Instruments", names[len(players) :]),
+        characters=places("Characters", [*players, *dancers], names[:count] + names[2 * count :]),
+        instruments=places("Instruments", players, names[count : 2 * count]),
         sound_file=PurePosixPath("Audio", f"S_{piece}.wav"),
         sound=f"{content}/Audio/S_{piece}",
         sequence=f"{content}/LS_{piece}",

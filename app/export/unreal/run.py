@@ -12,7 +12,7 @@ Messages: those of `app.export.request`, `app.export.tree` and the other modules
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 
@@ -38,6 +38,7 @@ from app.export.unreal.layout import (
     PLUGIN,
     REPORT,
     SOURCES,
+    FigurePlace,
     Layout,
     layout_of,
     piece_name,
@@ -47,6 +48,7 @@ from app.export.unreal.plugin import wanted_plugin
 from app.export.unreal.project import UnrealProject, require_writable
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
+from app.project.model import Dancer
 from app.rig.mesh import Mesh
 
 _SHARES = {"files": 0.8, "sound": 0.15, "checks": 0.05}
@@ -68,7 +70,8 @@ class Plan:
     plugin : mapping of path to bytes
         The plug-in's files, by path in its folder; none if the project has it.
     staying : mapping of path to OwnFile
-        Files of the piece, by path in its folder, of players who are left out: they stay as they are, and ours.
+        Files of the piece, by path in its folder, of players and dancers who are left out: they stay as they are, and
+        ours.
     """
 
     layout: Layout
@@ -90,24 +93,24 @@ class Written:
 
 def plan_export(
     performance: Performance,
-    player_ids: tuple[str, ...],
+    performer_ids: tuple[str, ...],
     source: str,
     project: UnrealProject,
     by_length: bool = False,
     left_out: tuple[str, ...] = (),
 ) -> Plan:
-    """What an export of some players would do in a project; nothing is written.
+    """What an export of some players and dancers would do in a project; nothing is written.
 
     Parameters
     ----------
-    player_ids : tuple of str
+    performer_ids : tuple of str
         Who is exported.
     source : str
         Name of the piece's file, after which its folders are called.
     by_length : bool
         Whether what is there is told from what we wrote by its length alone, which takes no time.
     left_out : tuple of str
-        Ids of players who were to be exported but cannot be: their files of an earlier export stay.
+        Ids of those who were to be exported but cannot be: their files of an earlier export stay.
 
     Raises
     ------
@@ -118,10 +121,10 @@ def plan_export(
     layout = layout_of(performance.project, piece_name(source, project.folder))
     plugin = wanted_plugin(project.folder)
     try:
-        done = [(layout.sources, layout.files(player_ids))]
+        done = [(layout.sources, layout.files(performer_ids))]
         if plugin:
             done.append((PurePosixPath(PLUGIN), (*plugin, PurePosixPath(MANIFEST))))
-        stays = frozenset(layout.figures(left_out))
+        stays = frozenset(place.file for one in left_out for place in layout.figures(one))
         found: list[tuple[PurePosixPath, Changes]] = [
             (folder, changes(project.folder / folder, coming, by_length, stays if folder == layout.sources else ()))
             for folder, coming in done
@@ -168,23 +171,21 @@ def export_into(
     Cancelled
     """
     recover(project.folder, project.folder / SOURCES)
-    dancers = ", ".join(dancer.name for dancer in request.dancers)
-    request = replace(request, formats=frozenset(("fbx",)), sound=False, dancers=())
+    request = replace(request, formats=frozenset(("fbx",)), sound=False)
     cast = cast_of(request, wording, stop_wanted)
     left_out = tuple(one.player.id for one in cast.left_out)
-    plan = plan_export(request.performance, cast.player_ids, request.source, project, left_out=left_out)
+    performer_ids = cast.player_ids + cast.dancer_ids
+    plan = plan_export(request.performance, performer_ids, request.source, project, left_out=left_out)
     with tree_into(project.folder, project.folder / SOURCES) as change:
         sources = change.new / plan.layout.sources
         report = _figures(request, cast, plan.layout, sources, wording, stop_wanted, progress)
-        if dancers:
-            warning = wording(Message("unreal.no_dancers", {"dancers": dancers}))
-            report = msgspec.structs.replace(report, warnings=(*report.warnings, warning))
         sound = _sound(request, plan.layout, sources, stop_wanted, progress)
         bones = _checked(request, cast, plan.layout, sources, sound, stop_wanted, progress)
         with_files = {path.as_posix(): own_file(sources / path) for path in files_below(sources)}
         description = describe(
             request.performance,
             tuple(performer.player for performer in cast.performers),
+            _dancers(request, cast),
             {one.player.id: wording(one.reason) for one in cast.left_out},
             plan.layout,
             request.span,
@@ -242,17 +243,33 @@ def _figures(
         stop_wanted,
         lambda share, label: progress(_SHARES["files"] * share, label),
     )
-    told = []
-    for player_id, written in zip(cast.player_ids, report.players, strict=True):
+
+    def placed(performer_id: str, files: dict[str, str]) -> dict[str, str]:
         names = {}
-        for what, place in (("character_fbx", layout.characters), ("instrument_fbx", layout.instruments)):
-            names[what] = place[player_id].file.as_posix()
-            (sources / names[what]).parent.mkdir(parents=True, exist_ok=True)
-            (draft / written.files[what]).replace(sources / names[what])
-        told.append(msgspec.structs.replace(written, files=names))
+        for what, places in (("character_fbx", layout.characters), ("instrument_fbx", layout.instruments)):
+            if what in files:
+                names[what] = places[performer_id].file.as_posix()
+                (sources / names[what]).parent.mkdir(parents=True, exist_ok=True)
+                (draft / files[what]).replace(sources / names[what])
+        return names
+
+    players = tuple(
+        msgspec.structs.replace(written, files=placed(player_id, written.files))
+        for player_id, written in zip(cast.player_ids, report.players, strict=True)
+    )
+    dancers = tuple(
+        msgspec.structs.replace(written, files=placed(dancer_id, written.files))
+        for dancer_id, written in zip(cast.dancer_ids, report.dancers, strict=True)
+    )
     (draft / EXPORTED_REPORT).unlink()
     draft.rmdir()
-    return msgspec.structs.replace(report, players=tuple(told))
+    return msgspec.structs.replace(report, players=players, dancers=dancers)
+
+
+def _dancers(request: Request, cast: ExportCast) -> tuple[tuple[Dancer, str], ...]:
+    """The dancers who are exported, as the project has them, with the names of their choreographies."""
+    dancers = {dancer.id: dancer for dancer in request.dancers}
+    return tuple((dancers[dancing.dancer.id], dancing.choreographer.model.name) for dancing in cast.dances)
 
 
 def _sound(
@@ -292,22 +309,33 @@ def _checked(
     """Read every file that was written and hold it against what it must be; the bones of each."""
     check_wave(sources / sound.file, RATE_HZ, sound.channels, round(sound.duration_s * RATE_HZ))
     bones: dict[str, tuple[str, ...]] = {}
-    for index, performer in enumerate(cast.performers):
-        player, character, model = performer.player, performer.character, performer.model
-        target = cast.targets[player.id].target
-        parts = tuple(bone.name for bone in instrument_bones(performer.instrument, model))
-        for place, named, meshes in (
-            (layout.characters[player.id], target.names, written_meshes(character, target)),
-            (layout.instruments[player.id], parts, model.meshes),
-        ):
-            if stop_wanted():
-                raise Cancelled("work.stopped")
-            file = place.file.as_posix()
-            bones[file] = tuple(named)
-            check_fbx(sources / file, _expected(request.span, bones[file], meshes))
-        done = (index + 1) / len(cast.performers)
-        progress(_SHARES["files"] + _SHARES["sound"] + _SHARES["checks"] * done, player.name)
+    figures = tuple(_figures_written(request, cast, layout))
+    for index, (name, place, named, meshes) in enumerate(figures):
+        if stop_wanted():
+            raise Cancelled("work.stopped")
+        file = place.file.as_posix()
+        bones[file] = named
+        check_fbx(sources / file, _expected(request.span, named, meshes))
+        done = (index + 1) / len(figures)
+        progress(_SHARES["files"] + _SHARES["sound"] + _SHARES["checks"] * done, name)
     return bones
+
+
+def _figures_written(
+    request: Request, cast: ExportCast, layout: Layout
+) -> Iterator[tuple[str, FigurePlace, tuple[str, ...], tuple[Mesh, ...]]]:
+    """Every character and instrument: the performer's name, the place, the bones and the meshes that the file holds."""
+    for performer in cast.performers:
+        player, model = performer.player, performer.model
+        target = cast.targets[player.id].target
+        meshes = written_meshes(performer.character, target)
+        yield player.name, layout.characters[player.id], tuple(target.names), meshes
+        parts = tuple(bone.name for bone in instrument_bones(performer.instrument, model))
+        yield player.name, layout.instruments[player.id], parts, model.meshes
+    for (dancer, _), dancing in zip(_dancers(request, cast), cast.dances, strict=True):
+        target = cast.targets[dancer.id].target
+        meshes = written_meshes(dancing.character, target)
+        yield dancer.name, layout.characters[dancer.id], tuple(target.names), meshes
 
 
 def _expected(span: FrameSpan, bones: tuple[str, ...], meshes: tuple[Mesh, ...]) -> Expected:

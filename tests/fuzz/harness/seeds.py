@@ -215,18 +215,21 @@ def unreal_description() -> list[bytes]:
         return {"file": f"{kind}/{name}.fbx", "bones": ["root", "hips"], **assets}
 
     content = {
-        "schema": 1, "piece": "Piece", "title": "A piece", "content": root, "sequence": f"{root}/LS_Piece",
+        "schema": 2, "piece": "Piece", "title": "A piece", "content": root, "sequence": f"{root}/LS_Piece",
         "rate": {"numerator": 60, "denominator": 1}, "frames": 100,
         "sound": {"file": "Audio/S_Piece.wav", "asset": f"{root}/Audio/S_Piece", "offset_s": 0.0, "duration_s": 1.6},
         "players": [{
             "name": "Trumpet 1", "instrument_id": "trumpet_Bb", "place": place,
             "character": figure("Characters", "Trumpet_1"), "instrument": figure("Instruments", "Trumpet_1"),
         }],
+        "dancers": [{"name": "Dancer 1", "place": place, "character": figure("Characters", "Dancer_1")}],
         "bars": [{"number": 1, "frame": 0}, {"number": 2, "frame": 60}],
         "markers": [{"text": "A", "bar": 2, "frame": 60}],
         "files": {
             name: {"bytes": 10, "sha256": "0" * 64}
-            for name in ("Characters/Trumpet_1.fbx", "Instruments/Trumpet_1.fbx", "Audio/S_Piece.wav")
+            for name in (
+                "Characters/Trumpet_1.fbx", "Instruments/Trumpet_1.fbx", "Characters/Dancer_1.fbx", "Audio/S_Piece.wav",
+            )
         },
     }  # fmt: skip
     return [json.dumps(content, indent=1).encode()]

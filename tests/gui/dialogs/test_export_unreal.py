@@ -11,7 +11,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QPushButton, QSpinBox
 from pytestqt.qtbot import QtBot
 
+from app.errors import Message
 from app.export.unreal.project import find_project
+from tests.unit.export.unreal.conftest import with_dancers
 from widgets.common.session import Session
 from widgets.dialogs.export_files import ExportDialog
 
@@ -102,6 +104,31 @@ def test_it_exports_into_a_project_and_again(dialog: ExportDialog, game: Path) -
     assert "S_quartet.wav" in outcome(dialog)
     dialog._players.item(0).setCheckState(Qt.CheckState.Unchecked)
     assert "2 will be removed: " in outcome(dialog)
+
+
+def test_a_dancer_goes_into_the_project_alone(session: Session, qtbot: QtBot, game: Path, tmp_path: Path) -> None:
+    session.apply(Message("edit.add_dancer"), with_dancers(session.project, tmp_path, "Ana"))
+    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
+    dialog.show()
+    one_player_one_bar(dialog)
+    dialog._players.item(0).setCheckState(Qt.CheckState.Unchecked)
+    last = dialog._players.item(dialog._players.count() - 1)
+    assert last.text() == "Ana"
+    last.setCheckState(Qt.CheckState.Checked)
+    into_unreal(dialog)
+    place(dialog, str(game))
+    assert "replaced" not in outcome(dialog)
+    QTest.mouseClick(start_button(dialog), Qt.MouseButton.LeftButton)
+    assert "Import Performance" in outcome(dialog)
+    assert "⚠" not in outcome(dialog)
+    sources = game / "SuisouSource" / "quartet"
+    assert [path.name for path in sources.glob("*/*.fbx")] == ["SK_Ana.fbx"]
+    description = json.loads((sources / "performance.json").read_text(encoding="utf-8"))
+    assert [dancer["name"] for dancer in description["dancers"]] == ["Ana"]
+    # The same again says that the file is replaced.
+    last.setCheckState(Qt.CheckState.Unchecked)
+    last.setCheckState(Qt.CheckState.Checked)
+    assert "SK_Ana.fbx" in outcome(dialog)
 
 
 def test_formats_are_for_folders(dialog: ExportDialog, game: Path) -> None:

@@ -12,15 +12,18 @@ from pathlib import Path
 import msgspec
 import pytest
 
+from app.choreography.model_file import write_model
 from app.export.request import Request
 from app.export.unreal.project import UnrealProject, find_project
 from app.export.unreal.run import Written, export_into
 from app.messages import text
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span
-from app.project.model import AudioTrack, Project, map_choices, project_from_score
+from app.project.casting import StagePosition
+from app.project.model import AudioTrack, Dancer, Project, map_choices, project_from_score
 from app.score.read import read_midi
 from instrument_maps.library import all_maps
+from tests.support.dances import model
 
 QUARTET = Path(__file__).parents[4] / "resources" / "examples" / "quartet.mid"
 
@@ -37,7 +40,8 @@ def request_of(
 ) -> Request:
     performance = Performance(project)
     chosen = tuple(player for player in project.players if player.name in players)
-    assert len(chosen) == len(players)
+    dancers = tuple(dancer for dancer in project.dancers if dancer.name in players)
+    assert len(chosen) + len(dancers) == len(players)
     return Request(
         performance=performance,
         players=chosen,
@@ -47,7 +51,20 @@ def request_of(
         bars=(1, last_bar),
         source=source,
         creator="Suisou test",
+        dancers=dancers,
     )
+
+
+def with_dancers(project: Project, folder: Path, *names: str) -> Project:
+    """The project with dancers of these names; what they dance is written into a folder."""
+    path = folder / "steps.choreography"
+    if not path.exists():
+        write_model(path, model())
+    dancers = tuple(
+        Dancer(f"dancer:{number}", name, str(path), "woman_adult", StagePosition(number - 1.5, 2.0, 0.5), seed=number)
+        for number, name in enumerate(names, 1)
+    )
+    return replace(project, dancers=dancers)
 
 
 def renamed(project: Project, names: list[str]) -> Project:

@@ -79,7 +79,7 @@ def test_what_is_there_and_what_it_says(unreal: UnrealProject, export: Export) -
     assert {path.as_posix() for path in written.plan.written} == set(tree) - THEIRS
     told = description(unreal)
     assert (told["schema"], told["frames"], told["rate"]) == (
-        1,
+        2,
         request.span.count,
         {"numerator": 12, "denominator": 1},
     )
@@ -353,7 +353,7 @@ def plugin_of_before(place: Path, version: int) -> None:
     (place / "manifest.json").write_bytes(encode_manifest(own, "Suisou of before"))
 
 
-@pytest.mark.parametrize("version", [0, 1])
+@pytest.mark.parametrize("version", [0, 1, 2])
 def test_an_older_plug_in_is_replaced(unreal: UnrealProject, export: Export, version: int) -> None:
     place = unreal.folder / "Plugins" / "Suisou"
     plugin_of_before(place, version)

@@ -91,6 +91,7 @@ def exported(
         bars=(1, last_bar),
         source=source,
         creator="Suisou test",
+        dancers=tuple(dancer for dancer in project.dancers if dancer.name in players),
     )
     export_into(request, unreal, text)
     return unreal

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from suisou_import.problem import problem
 
-SCHEMA = 1
+SCHEMA = 2
 DESCRIPTION = "performance.json"
 ROOT = "/Game/Suisou/"
 _ASSET = re.compile(r"/Game/Suisou(/[A-Za-z0-9_]+)+")
@@ -50,7 +50,8 @@ class Sound(NamedTuple):
 
 
 class LeftOut(NamedTuple):
-    """A player who could not be exported, and why. ``assets`` are paths of what an earlier export may have brought."""
+    """A player or dancer who could not be exported, and why. ``assets`` are paths of what an earlier export may have
+    brought."""
 
     name: str
     reason: str
@@ -77,7 +78,7 @@ class Performance(NamedTuple):
 
     @property
     def staying(self) -> set[str]:
-        """Paths of assets of players who are left out: an update leaves them as they are."""
+        """Paths of assets of whoever is left out: an update leaves them as they are."""
         return {path for one in self.left_out for path in one.assets}
 
     @property
@@ -146,6 +147,10 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
             (str(player["name"]), player["character"]),
             ("{} ({})".format(player["name"], player["instrument_id"]), player["instrument"]),
         )
+    ]
+    # Of an export of an earlier Suisou there are none.
+    figures += [
+        _figure(str(dancer["name"]), dancer["character"], dancer["place"]) for dancer in content.get("dancers", ())
     ]
     sound = content["sound"]
     read_performance = Performance(

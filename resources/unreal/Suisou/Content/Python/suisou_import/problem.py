@@ -113,7 +113,7 @@ TEXTS = {
         '"{name}" is up to date: {count} assets in {folder}.',
         "「{name}」を更新しました: {folder} にアセット {count} 個",
     ),
-    "removed": ("Removed, because nobody plays it any more: {asset}", "もう使われないため削除しました: {asset}"),
+    "removed": ("Removed, because it is not needed any more: {asset}", "もう使われないため削除しました: {asset}"),
     "kept": (
         "Not needed any more, but {user} uses it: {asset}",
         "もう不要ですが、{user} が使っているため残しました: {asset}",
