@@ -14,6 +14,7 @@ from app.cli.status import tell_left_out
 from app.cli.terminal import say
 from app.errors import UsageError
 from app.messages import text
+from app.project.model import Dancer, Player
 from app.project.parameters import select_players
 from app.stream.faces import FACE_NAMES
 from app.stream.sender import (
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from app.motion.model import Motion
     from app.performance.cast import Performer
     from app.performance.chunks import Pose
+    from app.performance.dancers import Dancing
     from app.performance.ensemble import Performance
     from app.performance.span import FrameSpan
     from app.project.casting import StagePosition
@@ -47,8 +49,8 @@ def add_command(commands: Commands) -> None:
     command = commands.add_parser(
         "stream",
         help="play a piece live to another program (VMC)",
-        description="Sends the players' poses in time by the VMC protocol (OSC over UDP), for Unreal, VSeeFace, Warudo "
-        "or Blender to follow: one character for each port. Ends with the piece, or at Ctrl+C.",
+        description="Sends the poses of players and dancers in time by the VMC protocol (OSC over UDP), for Unreal, "
+        "VSeeFace, Warudo or Blender to follow: one character for each port. Ends with the piece, or at Ctrl+C.",
     )
     add_source_options(command)
     command.add_argument(
@@ -57,7 +59,7 @@ def add_command(commands: Commands) -> None:
         action="append",
         default=[],
         metavar="NAME",
-        help="only this player; repeatable (default: all, each on a port of their own)",
+        help="only this player or dancer; repeatable (default: all, each on a port of their own)",
     )
     command.add_argument(
         "--host", type=_host, default=LOOPBACK, help=f"name or address of a computer (default: {LOOPBACK})"
@@ -71,7 +73,7 @@ def add_command(commands: Commands) -> None:
         "--port",
         type=within(LEAST_PORT, MOST_PORT, "a port", int),
         default=PORT,
-        help=f"of the first player (default: {PORT})",
+        help=f"of the first performer (default: {PORT})",
     )
     command.add_argument(
         "--fps", type=frame_rate, default=_USUAL_RATE, metavar="RATE", help="frames per second (default: 60)"
@@ -92,14 +94,14 @@ def _host(text: str) -> str:
 
 
 def stream(arguments: argparse.Namespace) -> int:
-    """Send the piece, in time, and name the players who are left out; the exit status.
+    """Send the piece, in time, and name whoever is left out; the exit status.
 
     Raises
     ------
     AppError
         The file cannot be read, the computer cannot be reached.
     """
-    from app.performance.cast import performers_of, refuse_nobody
+    from app.performance.cast import attempt, performers_of, refuse_nobody
     from app.performance.ensemble import Performance
     from app.performance.span import whole_span
 
@@ -107,25 +109,32 @@ def stream(arguments: argparse.Namespace) -> int:
     performance = Performance(project)
     span = whole_span(performance.time_frame, arguments.fps)
     first = _first_frame(span, arguments.from_s)
-    chosen = [project.players[at] for at in select_players(arguments.players, [p.name for p in project.players])]
+    performers = project.performers
+    chosen = [performers[at] for at in select_players(arguments.players, [one.name for one in performers])]
     if not chosen:
         raise UsageError("stream.nobody")
     checked_port(arguments.port + len(chosen) - 1)
     address = find_address(arguments.host, arguments.port)
     if not arguments.broadcast and reaches_many(address):
         raise UsageError("stream.broadcast", host=arguments.host)
-    find_holds(performance, chosen)
-    found = performers_of(performance, chosen)
-    if not found.made:
-        refuse_nobody(found.left_out, str(arguments.file), text)
-    status = tell_left_out((one.player.name, text(one.reason)) for one in found.left_out)
+    players = [one for one in chosen if isinstance(one, Player)]
+    dancers = [one for one in chosen if isinstance(one, Dancer)]
+    find_holds(performance, players)
+    playing, dancing = performers_of(performance, players), attempt(dancers, lambda one: _dancing(performance, one))
+    made: dict[str, Performer | Dancing] = {**playing.made, **dancing.made}
+    left_out = playing.left_out + dancing.left_out
+    if not made:
+        refuse_nobody(left_out, str(arguments.file), text)
+    status = tell_left_out((one.player.name, text(one.reason)) for one in left_out)
     # Whoever is left out keeps the port: the others have theirs whatever happens.
-    ports = {player.id: arguments.port + place for place, player in enumerate(chosen)}
-    senders = [Sender(address.port(ports[player_id]), arguments.broadcast) for player_id in found.made]
+    ports = {one.id: arguments.port + place for place, one in enumerate(chosen)}
+    sent = [one for one in chosen if one.id in made]
+    senders = [Sender(address.port(ports[one.id]), arguments.broadcast) for one in sent]
     try:
-        cast = [_Streamed(performance, one, span, arguments, alone=len(chosen) == 1) for one in found.made.values()]
-        for performer, sender in zip(found.made.values(), senders, strict=True):
-            say(f"{performer.player.name}: {arguments.host}:{sender.address.at[1]}")
+        alone = len(chosen) == 1
+        cast = [_Streamed(performance, one, made[one.id], span, arguments, alone) for one in sent]
+        for one, sender in zip(sent, senders, strict=True):
+            say(f"{one.name}: {arguments.host}:{sender.address.at[1]}")
         if not is_loopback(arguments.host):
             say(f"what is sent leaves this computer, to {arguments.host}", stream=sys.stderr)
         _play(cast, senders, span, first, arguments.loop)
@@ -135,6 +144,13 @@ def stream(arguments: argparse.Namespace) -> int:
         for sender in senders:
             sender.close()
     return status
+
+
+def _dancing(performance: Performance, dancer: Dancer) -> Dancing:
+    # What dancing is made with is loaded where somebody dances.
+    from app.performance.dancers import dancing_of
+
+    return dancing_of(performance, dancer)
 
 
 def _first_frame(span: FrameSpan, from_s: float | None) -> int:
@@ -148,29 +164,35 @@ def _first_frame(span: FrameSpan, from_s: float | None) -> int:
 
 
 class _Streamed:
-    """A player, their motion, and how they are sent."""
+    """A player or dancer, their motion, and how they are sent."""
 
     def __init__(
         self,
         performance: Performance,
-        performer: Performer,
+        performer: Player | Dancer,
+        made: Performer | Dancing,
         span: FrameSpan,
         arguments: argparse.Namespace,
         alone: bool,
     ) -> None:
+        from app.performance.cast import Performer
         from app.performance.motion import player_motion
         from app.stream.vmc import IN_THE_MIDDLE, Sent
 
-        player = performer.player
         progress = Progress(sys.stderr)
         try:
-            self._motion: Motion = player_motion(
-                performance, performer, span, progress=lambda share: progress(share, player.name)
-            )
+            if isinstance(made, Performer):
+                self._motion: Motion = player_motion(
+                    performance, made, span, progress=lambda share: progress(share, performer.name)
+                )
+            else:
+                progress(0.0, performer.name)
+                self._motion = made.motion(span.fps, span.first, span.count)
         finally:
             progress.clear()
-        self._sent: Sent = Sent(performer.character, player.instrument_id, arguments.faces)
-        self._stage: StagePosition = IN_THE_MIDDLE if alone else player.stage
+        instrument = performer.instrument_id if isinstance(performer, Player) else None
+        self._sent: Sent = Sent(made.character, instrument, arguments.faces)
+        self._stage: StagePosition = IN_THE_MIDDLE if alone else performer.stage
 
     def datagrams(self, frame: int, time_s: float) -> list[bytes]:
         return self._sent.datagrams(_pose(self._motion, frame), time_s, self._stage)

@@ -29,7 +29,7 @@ from instrument_maps.model import InstrumentMap
 from metadata.model import Body
 
 T = TypeVar("T")
-P = TypeVar("P", Player, Dancer)
+P = TypeVar("P", bound="Player | Dancer")
 Wording = Callable[[Message], str]
 
 

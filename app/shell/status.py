@@ -293,7 +293,7 @@ class StatusLine(QStatusBar):
         host = QFontMetrics(self._stream.font()).elidedText(streaming.host, Qt.TextElideMode.ElideMiddle, room_px)
         self._stream.setIcon(icon("stream", tokens, colour))
         self._stream.setText(verbatim(" " + text.format(host=host, ports=ports, rate=streaming.sent_hz)))
-        names = {player.id: player.name for player in self._session.project.players}
+        names = {one.id: one.name for one in self._session.project.performers}
         who = [f"{names[line.player_id]}: {line.port}" for line in lines if line.player_id in names]
         self._stream.setToolTip("\n".join([*who, "", self.tr("Live stream: what is sent, and where")]).strip())
 

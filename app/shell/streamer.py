@@ -1,4 +1,4 @@
-"""Streams the players' poses while the editor plays, is scrubbed, rests or records: see `app.stream`.
+"""Streams the poses of players and dancers while the editor plays, is scrubbed, rests or records: see `app.stream`.
 
 A thread sends, so that neither waits for the other: the window says what is wished, where the sound is and that
 something moves. A frame that the network does not take at once is dropped. While nothing moves it goes on slowly, so
@@ -19,10 +19,10 @@ from PySide6.QtCore import QObject, Qt
 from shiboken6 import isValid
 
 from app.errors import AppError, Message
-from app.performance.bodies import character_of
 from app.performance.cast import attempt
 from app.project.casting import StagePosition
-from app.project.model import Player
+from app.project.model import Dancer, Player
+from app.rig.character_library import character_named
 from app.rig.model import Character
 from app.shell.calls import window_calls
 from app.shell.settings import Settings
@@ -77,6 +77,7 @@ class Streamer(QObject):
         self._state.changed.connect(self._changed)
         session.changed.connect(self._wish)
         session.players_changed.connect(self._wish)
+        session.dancer_changed.connect(self._wish)
         live = session.live_players
         for signal in (
             *(session.playhead_changed, session.playing_changed, session.performance_changed),
@@ -165,22 +166,23 @@ class Streamer(QObject):
         if self._address is None or self._thread is None:
             return
         state, project = self._state, self._session.project
-        lines = state.planned(project, self._session.players)
+        lines = state.planned(project, self._session.in_front)
         if lines != state.lines:
             state.set(lines=lines)
-            if state.everyone and len(lines) < len(project.players):
+            if state.everyone and len(lines) < len(project.performers):
                 told = Message(
                     "stream.no_room",
-                    {"count": len(project.players), "port": state.port, "most": MOST_PORT},
+                    {"count": len(project.performers), "port": state.port, "most": MOST_PORT},
                 )
                 self._session.notice(told, Severity.WARNING)
-        players = [project.player(line.player_id) for line in lines]
+        everyone = {performer.id: performer for performer in project.performers}
+        performers = [everyone[line.player_id] for line in lines]
         self._thread.wish(
             _Wish(
                 address=self._address,
-                players=tuple(players),
+                performers=tuple(performers),
                 ports=tuple(line.port for line in lines),
-                stages=tuple(player.stage if state.everyone else IN_THE_MIDDLE for player in players),
+                stages=tuple(one.stage if state.everyone else IN_THE_MIDDLE for one in performers),
                 faces=state.faces,
                 rate_hz=state.rate_hz,
                 broadcast=self._broadcast,
@@ -222,7 +224,7 @@ class _Wish:
     """What the thread sends."""
 
     address: Address
-    players: tuple[Player, ...]
+    performers: tuple[Player | Dancer, ...]
     ports: tuple[int, ...]
     stages: tuple[StagePosition, ...]
     faces: FaceNames
@@ -276,7 +278,7 @@ class _Thread:
         self._closed = False
         self._began_s = time.perf_counter()
         self._senders: dict[int, Sender] = {}
-        self._sent: dict[str, tuple[tuple[Character, str, FaceNames], Sent]] = {}
+        self._sent: dict[str, tuple[tuple[Character, str | None, FaceNames], Sent]] = {}
         self._frames: deque[float] = deque()
         self._told_s = self._began_s
         self._thread = threading.Thread(target=self._run, name="streamer", daemon=True)
@@ -352,14 +354,14 @@ class _Thread:
         """Everybody's pose of now; whether nobody listens anywhere."""
         for port in self._senders.keys() - set(wish.ports):
             self._senders.pop(port).close()
-        poses = self._poses.poses([player.id for player in wish.players], time_s)
+        poses = self._poses.poses([performer.id for performer in wish.performers], time_s)
         # Whose character is gone since the pose was made is among the problems.
-        sent = attempt(wish.players, lambda player: self._sent_of(player, wish.faces)).made
+        sent = attempt(wish.performers, lambda performer: self._sent_of(performer, wish.faces)).made
         outcomes = list[Outcome]()
-        for player, port, stage, pose in zip(wish.players, wish.ports, wish.stages, poses, strict=True):
+        for performer, port, stage, pose in zip(wish.performers, wish.ports, wish.stages, poses, strict=True):
             # What is not made yet is not sent: who receives it keeps the last one.
-            if pose is not None and player.id in sent:
-                datagrams = sent[player.id].datagrams(pose, now_s - self._began_s, stage)
+            if pose is not None and performer.id in sent:
+                datagrams = sent[performer.id].datagrams(pose, now_s - self._began_s, stage)
                 if port not in self._senders:
                     self._senders[port] = Sender(wish.address.port(port), wish.broadcast)
                 outcomes.append(self._senders[port].send(datagrams))
@@ -367,12 +369,13 @@ class _Thread:
             self._frames.append(now_s)
         return bool(outcomes) and all(outcome is Outcome.UNHEARD for outcome in outcomes)
 
-    def _sent_of(self, player: Player, faces: FaceNames) -> Sent:
-        """How a player is sent; made anew for another character, instrument or names."""
-        of = (character_of(player), player.instrument_id, faces)
-        known = self._sent.get(player.id)
+    def _sent_of(self, performer: Player | Dancer, faces: FaceNames) -> Sent:
+        """How a performer is sent; made anew for another character, instrument or names."""
+        instrument = performer.instrument_id if isinstance(performer, Player) else None
+        of = (character_named(performer.character_id), instrument, faces)
+        known = self._sent.get(performer.id)
         if known is None or known[0] != of:
-            known = self._sent[player.id] = (of, Sent(*of))
+            known = self._sent[performer.id] = (of, Sent(*of))
         return known[1]
 
     def _tell(self, now_s: float, unheard: bool) -> None:

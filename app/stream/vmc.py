@@ -1,7 +1,8 @@
-"""A player's pose as messages of the VMC protocol (https://protocol.vmc.info), the performer's part of it.
+"""A performer's pose as messages of the VMC protocol (https://protocol.vmc.info), the performer's part of it.
 
 A receiver shows one character for each port. It gets the local rotation of every bone that the character has, as from
-a T-pose in which all bones are unturned; the face; and the instrument as a tracker, for whoever hangs a model on it.
+a T-pose in which all bones are unturned; the face; and of a player the instrument as a tracker, for whoever hangs a
+model on it.
 """
 
 from __future__ import annotations
@@ -53,19 +54,20 @@ class Posed(Protocol):
 
 
 class Sent:
-    """One player as they are sent: which bones under which names, which face, which instrument.
+    """One performer as they are sent: which bones under which names, which face, which instrument.
 
     Parameters
     ----------
     character : Character
-    instrument : str
-        Name of its tracker.
+    instrument : str or None
+        Name of its tracker; None: the performer holds none.
     faces : FaceNames
     """
 
-    def __init__(self, character: Character, instrument: str, faces: FaceNames = "arkit") -> None:
+    def __init__(self, character: Character, instrument: str | None, faces: FaceNames = "arkit") -> None:
         skeleton, own = character.skeleton, character.own
         self._hips = skeleton.index("hips")
+        self._holds = instrument is not None
         # A joint that the character's own file lacks is not there for the receiver either: what it turns by goes to
         # the ones below it.
         has = [joint > 0 and (own is None or own.bone_of_joint[joint] >= 0) for joint in range(len(skeleton.names))]
@@ -88,7 +90,7 @@ class Sent:
             Head("/VMC/Ext/T", (), 1),
             Head("/VMC/Ext/Root/Pos", ("root",), _TRANSFORM),
             *(Head("/VMC/Ext/Bone/Pos", (name,), _TRANSFORM) for name in names),
-            Head("/VMC/Ext/Tra/Pos", (instrument,), _TRANSFORM),
+            *([] if instrument is None else [Head("/VMC/Ext/Tra/Pos", (instrument,), _TRANSFORM)]),
             *(Head("/VMC/Ext/Blend/Val", (name,), 1) for name in self._face.names),
         ]
         if self._face.names:
@@ -104,24 +106,17 @@ class Sent:
         time_s : float
             Since the stream began.
         stage : StagePosition, optional
-            Where the player stands; in the middle, facing the audience, unless said.
+            Where the performer stands; in the middle, facing the audience, unless said.
         """
         root_m = np.array([stage.x_m, 0.0, stage.z_m])
         root = np.array([0.0, np.sin(stage.turn_rad / 2.0), 0.0, np.cos(stage.turn_rad / 2.0)])
-        held_m = root_m + quaternion.rotate(root, pose.instrument_position_m)
-        held = quaternion.multiply(root, pose.instrument_rotation)
         bones_m, bones = self._local(pose)
-        return self._packets.filled(
-            np.concatenate(
-                [
-                    [time_s],
-                    _transforms(root_m[None], root[None]),
-                    _transforms(bones_m, bones),
-                    _transforms(held_m[None], held[None]),
-                    self._face.values(pose.morphs),
-                ]
-            )
-        )
+        values = [[time_s], _transforms(root_m[None], root[None]), _transforms(bones_m, bones)]
+        if self._holds:
+            held_m = root_m + quaternion.rotate(root, pose.instrument_position_m)
+            held = quaternion.multiply(root, pose.instrument_rotation)
+            values.append(_transforms(held_m[None], held[None]))
+        return self._packets.filled(np.concatenate([*values, self._face.values(pose.morphs)]))
 
     def _local(self, pose: Posed) -> tuple[Floats, Floats]:
         """Positions and rotations of the bones, each in the frame of the bone above it that is sent."""

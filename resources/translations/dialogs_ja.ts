@@ -2005,20 +2005,12 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>ライブ配信</translation>
     </message>
     <message>
-        <source>Sends the players&apos; poses, faces and instruments by the VMC protocol, while you play, scrub or record. Unreal (VMC4UE), VSeeFace, Warudo and add-ons for Blender receive it; one character for each port.</source>
-        <translation>再生・スクラブ・録音のあいだ、プレイヤーのポーズ、表情、楽器を VMC プロトコルで送信します。Unreal (VMC4UE)、VSeeFace、Warudo、Blender のアドオンなどで受信できます。1 つのポートで 1 キャラクターです。</translation>
-    </message>
-    <message>
         <source>Computer</source>
         <translation>送信先のコンピューター</translation>
     </message>
     <message>
         <source>Port</source>
         <translation>ポート</translation>
-    </message>
-    <message>
-        <source>Players</source>
-        <translation>プレイヤー</translation>
     </message>
     <message>
         <source>Names of the face</source>
@@ -2041,10 +2033,6 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>選択中のプレイヤー (舞台の中央に)</translation>
     </message>
     <message>
-        <source>Every player on the stage, each on a port of their own</source>
-        <translation>すべてのプレイヤー (1 人ずつ別のポート、舞台上の位置のまま)</translation>
-    </message>
-    <message>
         <source>ARKit: jawOpen</source>
         <translation>ARKit: jawOpen</translation>
     </message>
@@ -2057,8 +2045,20 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>VRM プリセット: A、Blink_L、Joy</translation>
     </message>
     <message>
-        <source>Player</source>
-        <translation>プレイヤー</translation>
+        <source>Sends the performers&apos; poses, faces and instruments by the VMC protocol, while you play, scrub or record. Unreal (VMC4UE), VSeeFace, Warudo and add-ons for Blender receive it; one character for each port.</source>
+        <translation>再生・スクラブ・録音のあいだ、出演者のポーズ、表情、楽器を VMC プロトコルで送信します。Unreal (VMC4UE)、VSeeFace、Warudo、Blender のアドオンなどで受信できます。1 つのポートで 1 キャラクターです。</translation>
+    </message>
+    <message>
+        <source>Performers</source>
+        <translation>出演者</translation>
+    </message>
+    <message>
+        <source>Everyone on the stage, each on a port of their own</source>
+        <translation>舞台上の全員 (1 人ずつ別のポート、舞台上の位置のまま)</translation>
+    </message>
+    <message>
+        <source>Performer</source>
+        <translation>出演者</translation>
     </message>
     <message>
         <source>Close</source>

@@ -1656,8 +1656,8 @@
             <translation>{host} はマルチキャストまたはブロードキャストのアドレスです。送信すると、ネットワーク上のすべてのコンピューターが受信できます。まだ何も送信していません</translation>
         </message>
         <message>
-            <source>there is no player to stream</source>
-            <translation>配信するプレイヤーがいません</translation>
+            <source>there is nobody to stream</source>
+            <translation>配信する出演者がいません</translation>
         </message>
         <message>
             <source>--from {time_s:g}: the piece goes from {first_s:g} to {end_s:g} seconds</source>
@@ -1668,8 +1668,8 @@
             <translation>{port} は送信できるポートではありません。{least} から {most} までを指定してください</translation>
         </message>
         <message>
-            <source>{count} {count:player needs|players need} {count} {count:port|ports} from {port} on, and the last one is {most}: choose a lower port</source>
-            <translation>プレイヤー {count} 人には {port} から {count} 個のポートが必要ですが、最後のポートは {most} です。小さいポート番号を選んでください</translation>
+            <source>{count} {count:performer needs|performers need} {count} {count:port|ports} from {port} on, and the last one is {most}: choose a lower port</source>
+            <translation>出演者 {count} 人には {port} から {count} 個のポートが必要ですが、最後のポートは {most} です。小さいポート番号を選んでください</translation>
         </message>
         <message>
             <source>nothing can be sent to {host}, port {port} ({reason}): check the address and the network; it is tried again</source>

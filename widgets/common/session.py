@@ -259,6 +259,11 @@ class Session(QObject):
         """The player in front; None in a project without players."""
         return self.project.player(self._players[0]) if self._players else None
 
+    @property
+    def in_front(self) -> tuple[str, ...]:
+        """Ids of the selected players, the one in front first; of the selected dancer where there are no players."""
+        return self._players or ((self._dancer_id,) if self._dancer_id else ())
+
     def set_players(self, players: tuple[str, ...]) -> None:
         """Select players; the first is in front."""
         if players != self._players:

@@ -23,7 +23,7 @@ USUAL_RATE_HZ: Final = 60
 
 @dataclass(frozen=True)
 class Line:
-    """A player and the port they are sent to."""
+    """A player or dancer and the port they are sent to."""
 
     player_id: str
     port: int
@@ -41,9 +41,10 @@ class Streaming(QObject):
     broadcast : str
         The host that may be sent to although every computer on the network can receive it: it was confirmed.
     port : int
-        Of the player in front; of several, the first one's.
+        Of who is in front; of several, the first one's.
     everyone : bool
-        Every player, each to a port of their own, at their places on the stage; else the one in front, in the middle.
+        Every player and dancer, each to a port of their own, at their places on the stage; else the one in front, in
+        the middle.
     faces : FaceNames
     rate_hz : int
         Frames in a second while something moves.
@@ -51,7 +52,7 @@ class Streaming(QObject):
     lines : tuple of Line
         Who is sent where.
     sent_hz : int
-        Frames of a player that were sent in the last second.
+        Frames of a performer that were sent in the last second.
     trouble : Message or None
         Why nothing can be sent.
 
@@ -84,9 +85,9 @@ class Streaming(QObject):
         ----------
         project : Project
         front : sequence of str
-            Ids of the selected players, the one in front first.
+            Ids of those who are selected, the one in front first.
         """
-        ids = [player.id for player in project.players] if self.everyone else front[:1]
+        ids = [performer.id for performer in project.performers] if self.everyone else front[:1]
         return tuple(Line(id, self.port + place) for place, id in enumerate(ids) if self.port + place <= MOST_PORT)
 
     def set(self, **values: object) -> None:

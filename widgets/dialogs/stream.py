@@ -66,6 +66,7 @@ class StreamDialog(QDialog):
         self._state.changed.connect(self._show)
         session.changed.connect(self._show)
         session.players_changed.connect(self._show)
+        session.dancer_changed.connect(self._show)
         session.performance_changed.connect(self._show)
         session.theme_changed.connect(self._show)
         self.retranslate()
@@ -152,8 +153,8 @@ class StreamDialog(QDialog):
     def _show_lines(self) -> None:
         """Who is sent where, or would be."""
         state, project = self._state, self._session.project
-        lines = state.lines or state.planned(project, self._session.players)
-        names, unseen = {player.id: player.name for player in project.players}, self._session.performance.unseen
+        lines = state.lines or state.planned(project, self._session.in_front)
+        names, unseen = {one.id: one.name for one in project.performers}, self._session.performance.unseen
         shown = (lines, tuple(names.items()), bool(state.lines), self._session.tokens.name, dict(unseen))
         if shown == self._listed:
             return
@@ -180,14 +181,15 @@ class StreamDialog(QDialog):
         self.setWindowTitle(self.tr("Live Stream"))
         self._explained.setText(
             self.tr(
-                "Sends the players' poses, faces and instruments by the VMC protocol, while you play, scrub or record. "
-                "Unreal (VMC4UE), VSeeFace, Warudo and add-ons for Blender receive it; one character for each port."
+                "Sends the performers' poses, faces and instruments by the VMC protocol, while you play, scrub or "
+                "record. Unreal (VMC4UE), VSeeFace, Warudo and add-ons for Blender receive it; one character for each "
+                "port."
             )
         )
         for field, text in (
             (self._host, self.tr("Computer")),
             (self._port, self.tr("Port")),
-            (self._who, self.tr("Players")),
+            (self._who, self.tr("Performers")),
             (self._faces, self.tr("Names of the face")),
             (self._rate, self.tr("Frames per second")),
         ):
@@ -203,7 +205,7 @@ class StreamDialog(QDialog):
         self._who.set_options(
             [
                 Option("front", self.tr("The selected player, in the middle")),
-                Option("everyone", self.tr("Every player on the stage, each on a port of their own")),
+                Option("everyone", self.tr("Everyone on the stage, each on a port of their own")),
             ]
         )
         self._faces.set_options(
@@ -214,7 +216,7 @@ class StreamDialog(QDialog):
             ]
         )
         self._rate.set_options([Option(str(rate), str(rate)) for rate in RATES_HZ])
-        self._list.setHeaderLabels([self.tr("Player"), self.tr("Port")])
+        self._list.setHeaderLabels([self.tr("Performer"), self.tr("Port")])
         self._close.setText(self.tr("Close"))
         self._anyway.setText(self.tr("Send Anyway"))
         self._listed = ()

@@ -203,7 +203,6 @@ def describe(
     project = performance.project
     score, rate = project.score, span.fps
     time = _Time(performance.piece.clock, span)
-    everyone: tuple[Player | Dancer, ...] = (*project.players, *project.dancers)
 
     def figure(place: FigurePlace) -> Figure:
         file = place.file.as_posix()
@@ -260,7 +259,7 @@ def describe(
         files=dict(files),
         left_out=tuple(
             LeftOutFigures(one.name, left_out[one.id], _assets(layout.figures(one.id)))
-            for one in everyone
+            for one in project.performers
             if one.id in left_out
         ),
     )

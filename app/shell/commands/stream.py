@@ -19,7 +19,7 @@ def settings(session: Session) -> None:
 
 
 def _can_stream(session: Session) -> bool:
-    return streamer_of(session) is not None and bool(session.project.players)
+    return streamer_of(session) is not None and bool(session.project.performers)
 
 
 ACTIONS: tuple[Action, ...] = (

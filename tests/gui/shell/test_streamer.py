@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import socket
 import time
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +17,7 @@ from pytestqt.qtbot import QtBot
 from app.errors import Message
 from app.performance.bodies import character_of
 from app.performance.play_along import PlayAlong
+from app.rig.character_library import character_named
 from app.score.take import Wiring
 from app.shell.app import Program
 from app.shell.settings import Settings
@@ -24,6 +27,8 @@ from tests.gui.shell.conftest import Start, trigger
 from tests.support.bad_players import with_instrument
 from tests.support.osc import Frame, Receiver
 from tests.support.performed import playing_of
+from tests.unit.export.unreal.conftest import with_dancers
+from widgets.common.streaming import Line
 from widgets.dialogs.stream import StreamDialog
 from widgets.players.player_list import PlayerList
 
@@ -155,6 +160,48 @@ def test_who_is_in_front_is_sent_or_everyone(program: Program, qtbot: QtBot) -> 
         qtbot.waitUntil(lambda: first.frames[-1].root[:3] == (0.0, 0.0, 0.0))
         assert [*first.frames[-1].trackers] == [session.project.players[2].instrument_id]
         assert len(second.packets) == count
+
+
+def test_a_dancer_is_sent_on_the_port_after_the_players(program: Program, qtbot: QtBot, tmp_path: Path) -> None:
+    session = program.session
+    session.apply(Message("edit.add_dancer"), with_dancers(session.project, tmp_path, "Ana"))
+    dancer = session.project.dancers[0]
+    time_s = 9.0
+    session.set_playhead(time_s)
+    qtbot.waitUntil(lambda: program.generator.live.pose(dancer.id, time_s) is not None)
+    with Receiver(39825) as receiver:
+        session.streaming.set(everyone=True)
+        stream_to(program, 39821)
+        assert session.streaming.lines[-1] == Line(dancer.id, 39825)
+        heard(receiver, qtbot, 2)
+        chip = program.window.status.findChild(QPushButton, "stream_state")
+        assert chip is not None
+        assert "Ana: 39825" in chip.toolTip()
+        pose = program.generator.live.pose(dancer.id, time_s)
+        assert pose is not None
+        joint = character_named(dancer.character_id).skeleton.index("rightLowerArm")
+        expected = np.asarray(pose.rotations[joint], float) * (1, -1, -1, 1)
+        np.testing.assert_allclose(receiver.frames[-1].bones[ARM][3:], expected, atol=2e-6)
+        assert receiver.frames[-1].trackers == {}
+        assert receiver.frames[-1].root[:3] == pytest.approx((-dancer.stage.x_m, 0.0, dancer.stage.z_m))
+        before = receiver.frames[-1].bones
+        session.set_playhead(time_s + 0.7)
+        qtbot.waitUntil(lambda: receiver.frames[-1].bones != before)
+        dialog = StreamDialog(session)
+        assert dialog._list.topLevelItem(4).text(0) == "Ana"
+
+
+def test_where_nobody_plays_the_selected_dancer_is_sent(program: Program, qtbot: QtBot, tmp_path: Path) -> None:
+    session = program.session
+    alone = replace(with_dancers(session.project, tmp_path, "Ana", "Bo"), players=(), corrections={}, takes={})
+    session.apply(Message("edit.add_dancer"), alone)
+    ids = [dancer.id for dancer in alone.dancers]
+    with Receiver() as receiver:
+        stream_to(program, receiver.port)
+        assert [line.player_id for line in session.streaming.lines] == ids[-1:]
+        session.set_dancer(ids[0])
+        assert [line.player_id for line in session.streaming.lines] == ids[:1]
+        assert heard(receiver, qtbot)[-1].root[:3] == (0.0, 0.0, 0.0)
 
 
 def test_nobody_there_is_said_and_hurts_nobody(program: Program, qtbot: QtBot) -> None:

@@ -4,14 +4,25 @@ from __future__ import annotations
 
 import re
 import statistics
+from dataclasses import replace
+from fractions import Fraction
 from importlib.resources import as_file, files
 from pathlib import Path
 
+import msgspec
+import numpy as np
 import pytest
 
 from app.cli import main
-from app.cli.status import BAD_INPUT, BAD_USE, DONE
+from app.cli.status import BAD_INPUT, BAD_USE, DONE, PARTIAL
+from app.performance.dancers import dancing_of
+from app.performance.ensemble import Performance
+from app.performance.span import whole_span
+from app.project.storage import save
+from app.rig.character_library import character_named
 from tests.support.osc import Receiver
+from tests.unit.export.unreal.conftest import quartet as bundled_quartet
+from tests.unit.export.unreal.conftest import with_dancers
 
 
 @pytest.fixture
@@ -54,6 +65,36 @@ def test_everyone_has_a_port_and_a_place(quartet: Path, capsys: pytest.CaptureFi
         places = {receiver.frames[0].root[:3] for receiver in (first, last)}
     assert len(places) == 2
     assert {place[1] for place in places} == {0.0}
+
+
+def test_dancers_of_a_project_have_the_ports_after_the_players(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Of two the first cannot dance, and keeps the port all the same."""
+    project = with_dancers(bundled_quartet(), tmp_path, "Gone", "Ana")
+    gone = msgspec.structs.replace(project.dancers[0], choreography=str(tmp_path / "gone.choreography"))
+    ana = project.dancers[1]
+    save(replace(project, dancers=(gone, ana)), tmp_path / "danced.suisou")
+    performance = Performance(project)
+    span = whole_span(performance.time_frame, Fraction(30))
+    asked = ["stream", str(tmp_path / "danced.suisou"), "--from", str(span.end_s - 1.0), "--fps", "30"]
+    with Receiver(39811) as first, Receiver(39812) as second:
+        assert main([*asked, "--port", "39811", "--player", "Gone", "--player", "Ana"]) == PARTIAL
+        assert not first.packets
+        sent = second.frames
+    told = capsys.readouterr()
+    assert "Ana: 127.0.0.1:39812" in told.out
+    assert "gone.choreography" in told.err
+    motion = dancing_of(performance, ana).motion(span.fps, 0, span.count)
+    joint = character_named(ana.character_id).skeleton.index("leftUpperLeg")
+    danced = motion.rotations[:, joint] * (1, -1, -1, 1)
+    places = {round(float(value), 4) for value in (-ana.stage.x_m, 0.0, ana.stage.z_m)}
+    for frame in sent:
+        assert frame.trackers == {}
+        assert {round(value, 4) for value in frame.root[:3]} == places
+        away = np.abs(danced - np.array(frame.bones["LeftUpperLeg"][3:])).max(axis=1)
+        assert away.min() < 1e-5, "a frame of the dance"
+    assert len({frame.bones["LeftUpperLeg"] for frame in sent}) > 3
 
 
 def test_what_makes_no_sense_is_said(quartet: Path, capsys: pytest.CaptureFixture[str]) -> None:

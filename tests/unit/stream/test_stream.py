@@ -7,6 +7,7 @@ import math
 import socket
 import struct
 import time
+from fractions import Fraction
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -18,6 +19,7 @@ import pytest
 from app.messages import error_text
 from app.performance.bodies import character_of
 from app.performance.chunks import Pose
+from app.performance.dancers import dancing_of
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.project.casting import StagePosition
@@ -36,6 +38,7 @@ from app.stream.vmc import Sent
 from instrument_maps.load import bundled_maps
 from metadata.load import load_skeleton
 from tests.support.osc import Frame, Receiver, frames, read_packet
+from tests.unit.export.unreal.conftest import with_dancers
 
 Floats = npt.NDArray[np.float64]
 _FINGERS = ("Thumb", "Index", "Middle", "Ring", "Little")
@@ -141,6 +144,33 @@ def ours(character: Character, pose: Pose, stage: StagePosition) -> dict[str, tu
         unity_bone(name): (place + turn @ at.positions_m[0, joint], turn @ turned(tuple(at.rotations[0, joint])))
         for joint, name in enumerate(character.skeleton.names)
     }
+
+
+def test_a_dancer_is_received_without_an_instrument(tmp_path: Path) -> None:
+    project = with_dancers(played()[0].project, tmp_path, "Ana")
+    dancing, stage = dancing_of(Performance(project), project.dancers[0]), project.dancers[0].stage
+    motion = dancing.motion(Fraction(30), 300, 90)
+    hips = []
+    for frame_index in (0, 40, 89):
+        pose = Pose(
+            rotations=motion.rotations[frame_index],
+            hips_m=motion.hips_m[frame_index],
+            morphs={"eyeBlinkLeft": 0.25},
+            controls={},
+            instrument_position_m=motion.instrument_position_m[frame_index],
+            instrument_rotation=motion.instrument_rotation[frame_index],
+        )
+        sent = Sent(dancing.character, None).datagrams(pose, 1.5, stage)
+        (frame,) = frames([(0.0, packet) for packet in sent])
+        assert frame.trackers == {}
+        assert frame.face["eyeBlinkLeft"] == 0.25
+        assert frame.applied
+        found, expected = world(frame), ours(dancing.character, pose, stage)
+        for bone in found:
+            np.testing.assert_allclose(found[bone][0], expected[bone][0], atol=1e-5)
+            np.testing.assert_allclose(found[bone][1], expected[bone][1], atol=1e-5)
+        hips.append(found["Hips"][0])
+    assert np.ptp(hips, axis=0).max() > 0.01, "a dance, not a pose"
 
 
 def test_every_joint_is_a_bone_of_unitys() -> None:
