@@ -84,6 +84,7 @@ FILE_ORDER: Final = (
     "file.new",
     "file.open",
     "file.open_example",
+    "file.open_danced_example",
     "file.save",
     "file.save_as",
     "file.import_midi",

@@ -18,7 +18,7 @@ from app.errors import AppError, Cancelled, Message
 from app.project import storage
 from app.project.autosave import Autosave, Writing, Written
 from app.project.document import Change
-from app.project.edit.dancers import add_dancer
+from app.project.edit.dancers import add_dancer, change_dancers
 from app.project.edit.piece import new_piece, set_audio, set_offset
 from app.project.importing import import_project, usual_rows
 from app.project.model import Project
@@ -34,6 +34,9 @@ from widgets.common.session import Session, Severity
 MIDI_SUFFIXES: Final = (".mid", ".midi", ".smf", ".kar", ".rmi")
 AUDIO_SUFFIXES: Final = (".wav", ".flac", ".mp3", ".ogg", ".aif", ".aiff")
 EXAMPLE: Final = "quartet.mid"
+DANCED_EXAMPLE: Final = "montuno.mid"
+EXAMPLE_VARIATION: Final = 14
+"""Of the dance: it has many basic motions, seldom one many times in a row, and mostly faces the audience."""
 MOST_SLEEP_S: Final = 60.0
 """After this long at the latest it is asked whether unsaved work is to be written down."""
 
@@ -173,6 +176,18 @@ class Files(QObject):
         with as_file(files("resources") / "examples" / EXAMPLE) as path:
             self.open(path, ask=False)
 
+    def open_danced_example(self) -> None:
+        """The bundled piece with drums, and somebody who dances the bundled choreography to it."""
+        name = QCoreApplication.translate("Action", "Dancer")
+
+        def danced(project: Project) -> Project:
+            result, dancer_id = add_dancer(project, bundled_choreographies()[0], name)
+            return change_dancers(result, (dancer_id,), seed=EXAMPLE_VARIATION)
+
+        with as_file(files("resources") / "examples" / DANCED_EXAMPLE) as path:
+            example = path.absolute()
+            self.let_go(lambda: self._read(example, False, danced))
+
     def add_audio(self, path: Path) -> None:
         """Hear the piece with this recording."""
         self.settings.folder = str(path.parent)
@@ -212,7 +227,7 @@ class Files(QObject):
 
         self.session.tasks.run(Message("work.open"), work, done, self._failed(path), key="open")
 
-    def _read(self, path: Path, ask: bool) -> None:
+    def _read(self, path: Path, ask: bool, arranged: Callable[[Project], Project] = lambda project: project) -> None:
         source = str(path)
 
         def read(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> MidiContents:
@@ -231,7 +246,7 @@ class Files(QObject):
                 project = import_project(contents, wanted, maps, source, stop_wanted)
                 if wish is not None and wish.dances:
                     project, _ = add_dancer(project, bundled_choreographies()[0], called)
-                return project
+                return arranged(project)
 
             self.session.tasks.run(Message("work.open"), build, done, self._failed(path), key="open")
 

@@ -72,6 +72,7 @@ class StartPage(QScrollArea):
             "file.open": _row_button("start_open"),
             "file.new": _row_button("start_new"),
             "file.open_example": _row_button("start_example"),
+            "file.open_danced_example": _row_button("start_danced_example"),
         }
         for action_id, button in self._buttons.items():
             button.clicked.connect(partial(self._trigger, action_id))
@@ -123,6 +124,7 @@ class StartPage(QScrollArea):
             ("file.open", self.tr("Open a MIDI file or project"), "open"),
             ("file.new", self.tr("New piece"), "new"),
             ("file.open_example", self.tr("Try the example quartet"), "players"),
+            ("file.open_danced_example", self.tr("Try the example with a dancer"), "pose"),
         ):
             self._buttons[action_id].setText(f"  {text}")
             self._buttons[action_id].setIcon(icon(drawing, tokens))

@@ -171,6 +171,10 @@
         <translation>サンプルの四重奏を開く</translation>
     </message>
     <message>
+        <source>Open the Example with a Dancer</source>
+        <translation>ダンサーのいるサンプルを開く</translation>
+    </message>
+    <message>
         <source>Save</source>
         <translation>保存</translation>
     </message>
@@ -1150,6 +1154,10 @@
     <message>
         <source>Try the example quartet</source>
         <translation>サンプルの四重奏を試す</translation>
+    </message>
+    <message>
+        <source>Try the example with a dancer</source>
+        <translation>ダンサーのいるサンプルを試す</translation>
     </message>
     <message>
         <source>1. Open the MIDI of a piece: every part gets a player, with fingerings, breaths and cues.</source>

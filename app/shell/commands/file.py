@@ -56,6 +56,11 @@ def open_example(session: Session) -> None:
     editor_of(session).files.open_example()
 
 
+def open_danced_example(session: Session) -> None:
+    """Open the bundled piece with a dancer."""
+    editor_of(session).files.open_danced_example()
+
+
 def save(session: Session) -> None:
     """Save the project."""
     editor_of(session).files.save()
@@ -98,6 +103,12 @@ ACTIONS: tuple[Action, ...] = (
     Action("file.new", QT_TRANSLATE_NOOP("Action", "New Piece"), new_piece, "File", "Ctrl+N", icon="new"),
     Action("file.open", QT_TRANSLATE_NOOP("Action", "Open..."), open_file, "File", "Ctrl+O", icon="open"),
     Action("file.open_example", QT_TRANSLATE_NOOP("Action", "Open the Example Quartet"), open_example, "File"),
+    Action(
+        "file.open_danced_example",
+        QT_TRANSLATE_NOOP("Action", "Open the Example with a Dancer"),
+        open_danced_example,
+        "File",
+    ),
     Action(
         "file.save",
         QT_TRANSLATE_NOOP("Action", "Save"),

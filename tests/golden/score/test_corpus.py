@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections import Counter
 from pathlib import Path
 
@@ -14,11 +15,12 @@ from app.project.storage import decode, encode
 from app.score.model import Note, Score
 from app.score.read import read_contents, read_midi
 from instrument_maps.load import bundled_maps
-from resources.build import arrange_example
+from resources.build import arrange_example, compose_dance_example
 from tests.unit.score.midi_bytes import MAPS
 
 DATA = Path(__file__).parents[2] / "data/midi"
 QUARTET = Path(__file__).parents[3] / "resources/examples/quartet.mid"
+MONTUNO = QUARTET.with_name("montuno.mid")
 READABLE = sorted([*(DATA / "ensemble").glob("*.mid"), *(DATA / "awkward").glob("*.mid")])
 
 
@@ -151,6 +153,24 @@ def test_speer_names_voices_only_so_the_file_and_ranges_decide() -> None:
 def test_the_bundled_quartet_is_what_its_script_makes(tmp_path: Path) -> None:
     arrange_example.arrange(mido.MidiFile(arrange_example.SOURCE)).save(tmp_path / "quartet.mid")
     assert (tmp_path / "quartet.mid").read_bytes() == QUARTET.read_bytes()
+
+
+def test_the_bundled_piece_with_a_dancer(tmp_path: Path) -> None:
+    compose_dance_example.compose().save(tmp_path / "montuno.mid")
+    assert (tmp_path / "montuno.mid").read_bytes() == MONTUNO.read_bytes()
+    score = read_midi(MONTUNO, maps=map_choices(bundled_maps().values()))
+    assert [(part.name, part.map_id) for part in score.parts] == [
+        ("Trumpet 1", "trumpet_Bb"),
+        ("Trumpet 2", "trumpet_Bb"),
+        ("Trombone", "trombone_tenor_F_attachment"),
+        ("Tuba", "tuba_BBb"),
+    ]
+    assert score.warnings == ()
+    assert [part.name for part in score.unplayed] == ["Drums"]
+    assert len(score.percussion) == score.unplayed[0].note_count > 300
+    assert score.tempo_map.seconds(score.end_tick) < 40
+    for part in score.parts:
+        assert all(one.end_tick <= other.onset_tick for one, other in itertools.pairwise(part.notes)), part.name
 
 
 def test_the_bundled_quartet() -> None:

@@ -466,6 +466,13 @@ CASES: dict[str, Case] = {
         lambda d: setattr(d.answers, "path", QUARTET),
     ),
     "file.open_example": Case(lambda d: len(d.project.players) == 4 and d.project is not d.before),
+    "file.open_danced_example": Case(
+        lambda d: (
+            len(d.project.players) == 4
+            and [dancer.choreography for dancer in d.project.dancers] == ["salsa"]
+            and len(d.project.score.percussion) > 100
+        )
+    ),
     "file.save": Case(
         lambda d: (d.folder / "saved.suisou").is_file() and d.session.document.is_saved,
         lambda d: setattr(d.answers, "path", d.folder / "saved.suisou"),

@@ -9,10 +9,11 @@ import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QMenu
+from PySide6.QtWidgets import QApplication, QMenu, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.errors import Message
+from app.performance.dancers import dancing_of
 from app.project.edit.piece import set_title
 from app.project.storage import load
 from app.shell.app import Program
@@ -50,6 +51,28 @@ def test_the_start_page_is_alone_until_something_is_open(empty: Program) -> None
     trigger(empty, "file.close")
     assert window.start_page.isVisible()
     assert empty.session.project.players == ()
+
+
+def test_the_example_with_a_dancer_is_on_the_start_page(empty: Program) -> None:
+    button = empty.window.start_page.findChild(QPushButton, "start_danced_example")
+    assert button is not None
+    QTest.mouseClick(button, Qt.MouseButton.LeftButton)
+    session = empty.session
+    assert [player.name for player in session.project.players] == ["Trumpet 1", "Trumpet 2", "Trombone", "Tuba"]
+    (dancer,) = session.project.dancers
+    assert (dancer.name, dancer.choreography) == ("Dancer", "salsa")
+    # Before the players, towards the audience.
+    assert all(dancer.stage.z_m > player.stage.z_m + 1.0 for player in session.project.players)
+    dancing = dancing_of(session.performance, dancer)
+    assert not dancing.rhythm.derived, "the dancer hears the drums"
+    assert len({step.state for step in dancing.steps()}) > 4
+    assert session.dancer == dancer
+    # It is nobody's file yet, and nothing in the history takes the dancer away.
+    assert empty.editor.files.path is None
+    assert empty.editor.settings.recent == ()
+    assert not session.document.undone
+    assert session.document.undo() is None
+    assert session.project.dancers == (dancer,)
 
 
 def test_every_menu_opens(program: Program, qtbot: QtBot) -> None:
