@@ -27,6 +27,11 @@ class IdentityCache(Generic[V]):
         self._kept: OrderedDict[tuple[int, ...], tuple[tuple[object, ...], V]] = OrderedDict()
         self._lock = Lock()
 
+    def has(self, keys: tuple[object, ...]) -> bool:
+        """Whether the result for these objects is there."""
+        with self._lock:
+            return tuple(map(id, keys)) in self._kept
+
     def get(self, keys: tuple[object, ...], make: Callable[[], V]) -> V:
         """The result for these objects, made if it is not there."""
         identity = tuple(map(id, keys))

@@ -47,6 +47,7 @@ LIFT_LAG = 0.6547
 """Where the side lobe of a bump's acceleration peaks, in half widths: a lift placed there adds to the nod's peak
 without moving it."""
 LIFT_SHARE = 0.6
+_NONE_AT_REST = ("protraction_rad", "elbow_held_rad", "bell_held_rad", "hips_danced")
 
 
 @dataclass(frozen=True)
@@ -83,6 +84,9 @@ class BodyMotion:
         Each shoulder forwards, by side; what the contacts ask for.
     elbow_held_rad : dict of str to array
         How far the animator turns each elbow out, by side; empty: not at all.
+    hips_danced : dict of str to array
+        What a dance adds to the hips (`app.motion.danced`): ``ahead_m``, ``forward_rad`` and ``ease_m``, by how much
+        more the hand-over from leg to leg is rounded; empty: nobody dances.
     """
 
     forward_rad: dict[str, FloatArray]
@@ -106,6 +110,7 @@ class BodyMotion:
     lowered: FloatArray
     protraction_rad: dict[str, FloatArray]
     elbow_held_rad: dict[str, FloatArray]
+    hips_danced: dict[str, FloatArray]
 
     def __getitem__(self, frames: slice) -> BodyMotion:
         """The same motion in some of its frames."""
@@ -127,7 +132,7 @@ class BodyMotion:
             for angles in (posture.spine_deg, posture.spine_left_deg, posture.spine_turn_deg)
         )
         rest: dict[str, Any] = {member.name: zero for member in fields(cls)}
-        empty: dict[str, Any] = {name: {} for name in ("protraction_rad", "elbow_held_rad", "bell_held_rad")}
+        empty: dict[str, Any] = {name: {} for name in _NONE_AT_REST}
         return cls(**(rest | {"forward_rad": held, "left_rad": left, "turn_rad": turned} | empty))
 
 
@@ -565,4 +570,5 @@ def body_motion(
         lowered=lowered,
         protraction_rad={},
         elbow_held_rad=elbows_held,
+        hips_danced={},
     )

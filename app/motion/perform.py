@@ -14,6 +14,7 @@ from app.motion.body import BodyMotion, Layers, Levels, body_motion
 from app.motion.contact import freedom
 from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
+from app.motion.danced import BodyLayer, giving_way, inhaling, with_dance
 from app.motion.face import Drivers, Face, face_morphs, usual_morphs
 from app.motion.gaze import Gaze, Look, looks_alike, plan_gaze
 from app.motion.model import Motion
@@ -45,6 +46,9 @@ SETTLED = 0.6
 """Part of their amplitude, and of their sway once more, that players keep whose instrument lies on the lap."""
 
 
+NOT_SHOWN = Envelopes.of(())
+
+
 def frame_count(time_frame: TimeFrame, fps: Fraction) -> int:
     """Number of frames of a performance: those in ``[first_frame_s, end_s)``."""
     exact = (time_frame.end_s - time_frame.first_frame_s) * fps.numerator / fps.denominator
@@ -65,6 +69,8 @@ class Frames:
     placed : dict of str to Placed
     raised : (F,) float64
         As the curves of `Playing`.
+    danced : (F, 12) float64 or None
+        Of its layer; None: nothing is danced.
     """
 
     times_s: FloatArray
@@ -74,6 +80,7 @@ class Frames:
     controls: dict[str, FloatArray]
     placed: dict[str, Placed]
     raised: FloatArray
+    danced: FloatArray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,6 +108,10 @@ class Playing:
         Which of its places a finger is at, by finger (`app.motion.stations`).
     raised : Curve
         How high fingers wait over their keys.
+    dance : BodyLayer or None
+        What hips, trunk and head dance, by the amount of the parameters.
+    inhaling : Envelopes
+        When the dance gives way to breaths.
     """
 
     plan: PlayerPlan
@@ -117,6 +128,8 @@ class Playing:
     controls: dict[str, Curve]
     stations: dict[str, Curve]
     raised: Curve
+    dance: BodyLayer | None = None
+    inhaling: Envelopes = NOT_SHOWN
 
     @property
     def player_id(self) -> str:
@@ -140,15 +153,24 @@ class Playing:
             controls={name: curve.sample(times_s) for name, curve in self.controls.items()},
             placed=self.placed(times_s),
             raised=self.raised.sample(times_s),
+            danced=self._danced(times_s),
         )
         curves = self.curves(frames_of)
         return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]))
+
+    def _danced(self, times_s: FloatArray) -> FloatArray | None:
+        if self.dance is None:
+            return None
+        return giving_way(self.dance.sample(times_s), self.inhaling.sample(times_s))
 
     def curves(self, frames: Frames) -> Curves:
         """What the contacts are solved from, of frames wherever they come from."""
         moved = body_motion(
             frames.levels, self.player_id, self.parameters, self.body, self.posture, frames.look, frames.times_s
         )
+        if frames.danced is not None:
+            amount, free = self.parameters.dance_amount, _stands_free(self.player)
+            moved = with_dance(moved, frames.danced, amount, self.body, legs=free)
         morphs = face_morphs(
             frames.face,
             self.body.embouchure[self.instrument_map.embouchure.kind],
@@ -176,6 +198,7 @@ class Playing:
         spans = [curve.changed_s(other.controls[name]) for name, curve in self.controls.items()]
         spans += [curve.changed_s(other.stations[name]) for name, curve in self.stations.items()]
         spans.append(self.raised.changed_s(other.raised))
+        spans.append(self.inhaling.changed_s(other.inhaling))
         for ours, theirs in ((self.layers, other.layers), (self.face, other.face), (self.gaze, other.gaze)):
             for member in fields(ours):
                 value = getattr(ours, member.name)
@@ -197,10 +220,7 @@ class Playing:
         still = self.player
         endpin = None if still.stand is None else still.stand.endpin
         values = (self.player_id, self.start_s, parameters, self.posture, still.carriage, still.lowered, endpin)
-        return (values, still.skeleton, still.hold, self.body)
-
-
-NOT_SHOWN = Envelopes.of(())
+        return (values, still.skeleton, still.hold, self.body, self.dance)
 
 
 def _fields(parameters: PlayerParameters) -> dict[str, object]:
@@ -218,17 +238,23 @@ def prepare(
     felt_beats: FeltBeats,
     expressions: Mapping[str, Expression] | None = None,
     before: Playing | None = None,
+    dance: BodyLayer | None = None,
 ) -> Playing:
     """Make a plan ready to be seen; parameters as of `perform`.
 
     Curves of events that are the very same tuples in ``before`` (the player as it was prior to an edit) are taken from
-    there.
+    there. ``dance`` is added to the body by the parameters' amount, and takes the place of as much of the generated
+    sway and shift of weight.
     """
     if before is not None and not _comparable(before, plan, parameters, instrument_map, body, felt_beats):
         before = None
     known = load_expressions() if expressions is None else expressions
     carriage = instrument_map.hold.carriage(parameters.posture)
+    if parameters.dance_amount == 0.0:
+        dance = None
     parameters = _settled(parameters, carriage)
+    if dance is not None:
+        parameters = _dancing(parameters)
     posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
     tension = parameters.embouchure_tension
     player = _player(parameters, instrument_map, character, hold, body, posture, before)
@@ -263,6 +289,8 @@ def prepare(
         controls=fingers[0],
         stations=fingers[1],
         raised=fingers[2],
+        dance=dance,
+        inhaling=NOT_SHOWN if dance is None else inhaling(plan.breaths),
     )
 
 
@@ -331,7 +359,19 @@ def _settled(parameters: PlayerParameters, carriage: Carriage) -> PlayerParamete
         amplitude=share * parameters.amplitude,
         sway=share * parameters.sway,
         weight_shift=share * parameters.weight_shift,
+        dance_amount=share * share * parameters.dance_amount,
     )
+
+
+def _dancing(parameters: PlayerParameters) -> PlayerParameters:
+    """The parameters of who dances instead of swaying, as far as the amount says."""
+    left = 1.0 - parameters.dance_amount
+    return msgspec.structs.replace(parameters, sway=left * parameters.sway, weight_shift=left * parameters.weight_shift)
+
+
+def _stands_free(player: Player) -> bool:
+    """Whether the hips may leave their place: not on a seat, nor over an instrument that stands on its pin."""
+    return not player.place.seated and player.stand is None
 
 
 def _comparable(

@@ -85,9 +85,14 @@ def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[Fl
     turn = np.zeros((frames, 3))
     turn[:, 1] = motion.hips_turn_rad
     turn[:, 2] = -motion.hips_roll_rad
-    rotation = quaternion.from_rotation_vector(turn)
+    danced, ease_m = motion.hips_danced, np.full(frames, LEGS_BLEND_M)
     hips_m = np.tile(place.hips_m, (frames, 1))
     hips_m[:, 0] += motion.hips_side_m
+    if danced:
+        turn[:, 0] = danced["forward_rad"]
+        hips_m[:, 2] += danced["ahead_m"]
+        ease_m += danced["ease_m"]
+    rotation = quaternion.from_rotation_vector(turn)
     heights = []
     for side in SIDES:
         limb = place.legs[side]
@@ -100,7 +105,7 @@ def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[Fl
         heights.append(place.ankles_m[side][1] + rise_m - joint_m[:, 1])
     lower = np.minimum(heights[0], heights[1])
     apart = np.abs(heights[0] - heights[1])
-    hips_m[:, 1] = lower - LEGS_BLEND_M * np.log1p(np.exp(-apart / LEGS_BLEND_M)) - motion.hips_bob_m
+    hips_m[:, 1] = lower - ease_m * np.log1p(np.exp(-apart / ease_m)) - motion.hips_bob_m
     return hips_m, rotation
 
 

@@ -193,7 +193,7 @@ def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
     """
     if dancer.character_id not in character_library().sources:
         raise AppError("project.character_missing", player=dancer.name, id=dancer.character_id)
-    for message in choreography_missing(dancer):
+    for message in choreography_missing(dancer.name, dancer.choreography):
         raise AppError(message.id, **message.arguments)
     choreographer, character = choreographer_of(dancer.choreography), character_named(dancer.character_id)
     project = performance.project
@@ -202,7 +202,7 @@ def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
     rhythm = delayed(rhythm_of(performance), dancer.delay_beats) if dancer.delay_beats else rhythm_of(performance)
     rhythm = _same_rhythm(rhythm)
     corrections = project.dance_corrections.get(dancer.id, ())
-    frame = _same_frame(performance.time_frame.first_frame_s, performance.time_frame.end_s)
+    frame = heard_frame(performance)
 
     def made() -> Dancing:
         return Dancing(dancer, choreographer, rhythm, corrections, project.score.tempo_map, character, frame)
@@ -229,6 +229,11 @@ def rhythm_of(performance: Performance) -> Rhythm:
     """What all dancers hear of the piece."""
     score = performance.project.score
     return _RHYTHMS.get((score,), lambda: _same_rhythm(heard_rhythm(score)))
+
+
+def heard_frame(performance: Performance) -> TimeFrame:
+    """The span that all dances cover; one object as long as it is the same."""
+    return _same_frame(performance.time_frame.first_frame_s, performance.time_frame.end_s)
 
 
 def wishes_of(corrections: Sequence[DanceCorrection], grid: Grid, tempo_map: TempoMap) -> Wishes:

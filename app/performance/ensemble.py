@@ -229,6 +229,7 @@ class Performance:
             # A model or character that cannot be read is this player's problem; the others play on.
             lacking = (error.message,)
             self.unseen[player.id] = error.message
+        lacking += _not_danced(player)
         if not unreached and not lacking:
             return plan
         frame = self.time_frame
@@ -371,6 +372,17 @@ class Performance:
     def held(self, player: Player) -> InstrumentMap:
         """That map as the player's body plays it: of its size, touched by what the body has. Raises AppError."""
         return suited_to(player, self.instrument(player)).instrument
+
+
+def _not_danced(player: Player) -> tuple[Message, ...]:
+    """What to tell of a choreography that the player cannot dance."""
+    if not player.parameters.choreography:
+        return ()
+    # What dancing is made with is loaded where somebody dances.
+    from app.performance.body_dance import unfit_choreography
+
+    unfit = unfit_choreography(player)
+    return () if unfit is None else (unfit,)
 
 
 def _work(line: Line, before: Line | None) -> int:

@@ -181,7 +181,13 @@ class LiveMotion:
                 waited = player.id in before.performance.waiting
                 if old is None or not same_frames or waited:
                     tracks[player.id] = _Track(player, plan)
-                elif plan is old.plan and same_faces and _looks_same(player, old.player) and same_body(player):
+                elif (
+                    plan is old.plan
+                    and same_faces
+                    and _looks_same(player, old.player)
+                    and same_body(player)
+                    and not player.parameters.choreography
+                ):
                     tracks[player.id] = old
                 else:
                     tracks[player.id] = old.after(player, plan, same_chunks)
@@ -263,15 +269,15 @@ class LiveMotion:
     def make_now(self, player_id: str, time_s: float) -> None:
         """Make a player's frames around a time here and now, in any thread.
 
-        Not of who was never seen: figures take long to load. Nor where the thread that works is at it, for what is
-        looked at is what it makes next. Raises PlayerFault.
+        Not of who was never seen, or whose dance is not generated: that takes long. Nor where the thread that works is
+        at it, for what is looked at is what it makes next. Raises PlayerFault.
         """
         if not self._working.acquire(blocking=False):
             return
         try:
             shown = self._shown
             track = shown.tracks.get(player_id)
-            if track is not None and (track.playing or track.basis) is not None:
+            if track is not None and (track.playing or track.basis) is not None and _soon_made(shown, track):
                 self._make(shown, track, shown.grid.place(time_s)[0] // shown.grid.length)
         finally:
             self._working.release()
@@ -552,6 +558,15 @@ def _changed_s(playing: Playing | Dancing, basis: Playing | Dancing) -> npt.NDAr
         return playing.changed_s(basis)
     assert not isinstance(playing, Playing)
     return playing.changed_s(basis)
+
+
+def _soon_made(shown: _Shown, track: _Track) -> bool:
+    """Whether a player's motion is made from what there is."""
+    if track.playing is not None or not isinstance(track.player, Player) or not track.player.parameters.choreography:
+        return True
+    from app.performance.body_dance import layer_is_made
+
+    return layer_is_made(shown.performance, track.player)
 
 
 def _distance(index: int, here: int) -> int:

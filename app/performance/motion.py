@@ -28,11 +28,22 @@ CHUNK = 16384
 _PLAYING: IdentityCache[Playing] = IdentityCache(8)
 
 
-def playing_of(performance: Performance, performer: Performer, before: Playing | None = None) -> Playing:
-    """A player's plan made ready to be seen; made once for each plan, and from what is still right of ``before``."""
+def playing_of(
+    performance: Performance, performer: Performer, before: Playing | None = None, *, danced: bool = True
+) -> Playing:
+    """A player's plan made ready to be seen; made once for each plan, and from what is still right of ``before``.
+
+    ``danced`` says whether the player's choreography is wanted, which may take seconds to generate.
+    """
     player, plan, felt_beats = performer.player, performance.plan(performer.player), performance.piece.beat_changes
     instrument, character, hold, body = performer.instrument, performer.character, performer.hold, performer.body
-    keys = (plan, player.parameters, instrument, character, hold, body, performance.expressions)
+    dance = None
+    if danced and player.parameters.choreography:
+        # What dancing is made with is loaded where somebody dances.
+        from app.performance.body_dance import layer_of
+
+        dance = layer_of(performance, player)
+    keys = (plan, player.parameters, instrument, character, hold, body, performance.expressions, dance)
     return _PLAYING.get(
         keys,
         lambda: prepare(
@@ -45,6 +56,7 @@ def playing_of(performance: Performance, performer: Performer, before: Playing |
             felt_beats=felt_beats,
             expressions=performance.expressions,
             before=before,
+            dance=dance,
         ),
     )
 

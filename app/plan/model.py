@@ -80,6 +80,14 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Share of the lungs used up before a rest too short for a preparation is breathed in; 0: in every rest (T6)."""
     circular_breathing: bool = False
     """Breathing in through the nose while playing: no catch breaths."""
+    choreography: str = ""
+    """What hips, trunk and head dance while playing: the name of a bundled choreography or the absolute path of a
+    ``.choreography`` file; empty: they move as is generated."""
+    dance_amount: float = 0.5
+    """0: nothing of the dance, 1: as much of it as a player can do."""
+    dance_variation: int = 0
+    """Another one is another dance to the same music, the same for everyone who has it; 0: a dance of the player's own,
+    by ``seed``."""
 
 
 # Events hold no cycles (`gc=False`): a hundred thousand notes have a million of them, and a collection that looked at

@@ -51,6 +51,13 @@ def _with_dancers(raw: Raw) -> Raw:
     return {**raw, "dancers": [], "dance_corrections": {}, "score": {**raw["score"], "percussion": []}}
 
 
+def _with_body_dances(raw: Raw) -> Raw:
+    """7 to 8: players may dance while they play; before, nobody did."""
+    still = {"choreography": "", "dance_amount": 0.5, "dance_variation": 0}
+    players = [{**player, "parameters": {**player["parameters"], **still}} for player in raw["players"]]
+    return {**raw, "players": players}
+
+
 MIGRATIONS: Final[tuple[Migration, ...]] = (
     _with_read_notes,
     _with_transpositions,
@@ -58,6 +65,7 @@ MIGRATIONS: Final[tuple[Migration, ...]] = (
     _with_markers,
     _with_breath_need,
     _with_dancers,
+    _with_body_dances,
 )
 """In order."""
 

@@ -9,14 +9,18 @@ from __future__ import annotations
 
 import fnmatch
 import math
+import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Final, TypeAlias, get_args
 
 import msgspec
 
+from app.choreography.library import bundled_choreographies, is_choreography
+from app.choreography.model_file import SUFFIX
 from app.errors import UsageError
 from app.plan.model import PlayerParameters
+from app.project import limits
 
 Value: TypeAlias = str | int | float | bool | None
 
@@ -33,10 +37,15 @@ _BOUNDS: Final[Mapping[str, tuple[float, float]]] = {
     "weight_shift": (0.0, 2.0),
     "bell_height": (0.0, 2.0),
     "seed": (0, 2**63 - 1),
+    "dance_amount": (0.0, 1.0),
+    "dance_variation": (0, 2**63 - 1),
 }
 _TYPES: Final = {field.name: field.type for field in msgspec.structs.fields(PlayerParameters)}
 _CASTING: Final = ("instrument", "character")
 _AUTOMATIC: Final = "auto"
+_DANCED: Final = "choreography"
+_GENERATED: Final = "none"
+"""As a choreography: the body moves as is generated."""
 
 
 class Setting(msgspec.Struct, frozen=True):
@@ -123,6 +132,8 @@ def is_possible(parameter: str, value: object) -> bool:
         msgspec.convert(value, _TYPES[parameter])
     except msgspec.ValidationError:
         return False
+    if parameter == _DANCED and isinstance(value, str) and value:
+        return is_choreography(value) and len(value) <= limits.MOST_TEXT
     low, high = _BOUNDS.get(parameter, (-math.inf, math.inf))
     return not isinstance(value, int | float) or isinstance(value, bool) or low <= value <= high
 
@@ -157,6 +168,8 @@ def _value(parameter: str, text: str, choices: Mapping[str, tuple[str, ...]]) ->
         if text not in possible:
             raise UsageError("set.value_invalid", parameter=parameter, value=text, possible=", ".join(possible))
         return None if text == _AUTOMATIC else text
+    if parameter == _DANCED:
+        return _choreography(text)
     kind = _TYPES[parameter]
     candidate: object = None if text.casefold() in (_AUTOMATIC, "none", "null") else text
     try:
@@ -169,11 +182,26 @@ def _value(parameter: str, text: str, choices: Mapping[str, tuple[str, ...]]) ->
     return value
 
 
+def _choreography(text: str) -> str:
+    """A bundled choreography by its name, any other by the path of its file."""
+    if text.casefold() in ("", _GENERATED, _AUTOMATIC):
+        return ""
+    known = bundled_choreographies()
+    if text in known:
+        return text
+    path = os.path.abspath(text)  # noqa: PTH100 - a symbolic link is what the user chose
+    if not text.casefold().endswith(SUFFIX) or not is_possible(_DANCED, path):
+        raise UsageError("set.value_invalid", parameter=_DANCED, value=text, possible=range_text(_DANCED))
+    return path
+
+
 def range_text(parameter: str) -> str:
     """What a parameter may be, as a text for a message: numbers and words only."""
     if parameter in _BOUNDS:
         low, high = _BOUNDS[parameter]
         return f"{low} ... {high}"
+    if parameter == _DANCED:
+        return ", ".join((_GENERATED, *bundled_choreographies(), f"*{SUFFIX}"))
     options: list[str] = []
     for kind in get_args(_TYPES[parameter]) or (_TYPES[parameter],):
         if isinstance(kind, str):

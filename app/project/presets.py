@@ -19,6 +19,7 @@ from typing import Any, Final, Generic, TypeVar
 import msgspec
 import platformdirs
 
+from app.encoding import restored, stored
 from app.errors import AppError, FileError, MapError, Message, UsageError
 from app.formats.atomic import atomic_write
 from app.formats.files import files_in
@@ -33,7 +34,7 @@ from metadata.model import Expression
 
 T = TypeVar("T")
 
-NOT_IN_PRESETS: Final = frozenset({"seed", "cue_leader"})
+NOT_IN_PRESETS: Final = frozenset({"seed", "cue_leader", "dance_variation"})
 """Parameters that make one player differ from the others: a preset is for many."""
 _NAME: Final = "name"
 
@@ -80,7 +81,8 @@ def presets(folder: Path) -> Found[Preset]:
 
 def save_preset(folder: Path, preset: Preset) -> None:
     """Write a preset; one of the same name is replaced. Raises FileError."""
-    _save(folder, preset.name, presets(folder).items, _path_of_preset, preset.parameters)
+    texts = {name: stored(value) if isinstance(value, str) else value for name, value in preset.parameters.items()}
+    _save(folder, preset.name, presets(folder).items, _path_of_preset, texts)
 
 
 def delete_preset(folder: Path, name: str) -> None:
@@ -115,6 +117,7 @@ def _read_preset(path: Path) -> Preset:
     name = table.pop(_NAME, None)
     if not isinstance(name, str) or not 0 < len(name) <= limits.MOST_NAME or name != clean_name(name):
         raise MapError("table.invalid", file=path.name, place=_NAME, detail="must be a name on one line")
+    table = {parameter: restored(value) if isinstance(value, str) else value for parameter, value in table.items()}
     for parameter, value in table.items():
         if parameter not in PlayerParameters.__struct_fields__ or parameter in NOT_IN_PRESETS:
             raise MapError("table.invalid", file=path.name, place=parameter, detail="not a parameter of presets")

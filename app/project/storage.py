@@ -208,7 +208,9 @@ def _content(project: Project, path: Path) -> _Content:
         preroll_beats=project.preroll_beats,
         felt_beat_quarters=project.felt_beat_quarters,
         audio=audio,
-        players=project.players,
+        players=tuple(
+            _dancing(player, _stored_choreography(player.parameters.choreography, folder)) for player in project.players
+        ),
         corrections={player: list(corrections) for player, corrections in project.corrections.items() if corrections},
         dancers=tuple(
             msgspec.structs.replace(dancer, choreography=_stored_choreography(dancer.choreography, folder))
@@ -305,23 +307,24 @@ def missing(project: Project) -> tuple[Message, ...]:
             found.append(Message("project.instrument_missing", {"player": player.name, "id": player.instrument_id}))
         if player.character_id not in bodies:
             found.append(Message("project.character_missing", {"player": player.name, "id": player.character_id}))
+        if player.parameters.choreography:
+            found += choreography_missing(player.name, player.parameters.choreography)
     for dancer in project.dancers:
         if dancer.character_id not in bodies:
             found.append(Message("project.character_missing", {"player": dancer.name, "id": dancer.character_id}))
-        found += choreography_missing(dancer)
+        found += choreography_missing(dancer.name, dancer.choreography)
     return tuple(found)
 
 
-def choreography_missing(dancer: Dancer) -> tuple[Message, ...]:
-    """What to tell of a dancer whose choreography is not there; nothing where it is. Messages: see `missing`."""
-    if os.path.isfile(choreography_path(dancer.choreography)):
+def choreography_missing(dancer: str, choreography: str) -> tuple[Message, ...]:
+    """What to tell of a dancer or player of this name whose choreography is not there; nothing where it is. Messages:
+    see `missing`."""
+    if os.path.isfile(choreography_path(choreography)):
         return ()
-    if is_bundled_name(dancer.choreography):
-        known = ", ".join(bundled_choreographies())
-        name = dancer.choreography
-        return (Message("project.choreography_missing", {"dancer": dancer.name, "name": name, "known": known or "-"}),)
-    file = shown(dancer.choreography)
-    return (Message("project.choreography_file_missing", {"dancer": dancer.name, "file": file}),)
+    if is_bundled_name(choreography):
+        known = ", ".join(bundled_choreographies()) or "-"
+        return (Message("project.choreography_missing", {"dancer": dancer, "name": choreography, "known": known}),)
+    return (Message("project.choreography_file_missing", {"dancer": dancer, "file": shown(choreography)}),)
 
 
 def missing_media(project: Project) -> Path | None:
@@ -365,7 +368,9 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
             warnings=tuple(map(sayable, score.warnings)),
             unplayed=tuple(msgspec.structs.replace(part, reason=sayable(part.reason)) for part in score.unplayed),
         ),
-        players=content.players,
+        players=tuple(
+            _dancing(player, _full_choreography(player.parameters.choreography, folder)) for player in content.players
+        ),
         corrections=corrections,
         seed=content.seed,
         preroll_beats=content.preroll_beats,
@@ -462,11 +467,20 @@ def _full_path(path: str, folder: Path) -> str:
 
 
 def _stored_choreography(choreography: str, folder: Path) -> str:
-    return choreography if is_bundled_name(choreography) else _stored_path(choreography, folder)
+    """Nothing and the name of a bundled one stay what they are."""
+    return _stored_path(choreography, folder) if choreography and not is_bundled_name(choreography) else choreography
 
 
 def _full_choreography(choreography: str, folder: Path) -> str:
-    return choreography if is_bundled_name(choreography) else _full_path(choreography, folder)
+    return _full_path(choreography, folder) if choreography and not is_bundled_name(choreography) else choreography
+
+
+def _dancing(player: Player, choreography: str) -> Player:
+    """The player with another choreography."""
+    if choreography == player.parameters.choreography:
+        return player
+    parameters = msgspec.structs.replace(player.parameters, choreography=choreography)
+    return msgspec.structs.replace(player, parameters=parameters)
 
 
 # Layout

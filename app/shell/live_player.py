@@ -86,7 +86,7 @@ class LivePlayer(QObject):
             # Who cannot be seen is among the problems.
             self._play_along = None
             for performer in performers_of(performance, (player,)).made.values():
-                self._play_along = PlayAlong(playing_of(performance, performer))
+                self._play_along = PlayAlong(playing_of(performance, performer, danced=False))
                 self._session.live_players.begin(self._play_along)
             self._of = of
         if self._play_along is not None and poses is not self._poses:

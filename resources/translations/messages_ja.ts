@@ -544,6 +544,18 @@
             <translation>アンブシュアの張り: {count} 人</translation>
         </message>
         <message>
+            <source>body motion of players: {count}</source>
+            <translation>体の動き: {count} 人</translation>
+        </message>
+        <message>
+            <source>amount of dance, players: {count}</source>
+            <translation>踊りの量: {count} 人</translation>
+        </message>
+        <message>
+            <source>variation of the dance, players: {count}</source>
+            <translation>踊りのバリエーション: {count} 人</translation>
+        </message>
+        <message>
             <source>sway of players: {count}</source>
             <translation>揺れ: {count} 人</translation>
         </message>

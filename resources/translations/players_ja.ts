@@ -2,6 +2,53 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="ja" sourcelanguage="en">
 <context>
+    <name>BodyDanceRows</name>
+    <message>
+        <source>Generated</source>
+        <translation>自動生成</translation>
+    </message>
+    <message>
+        <source>From File …</source>
+        <translation>ファイルから …</translation>
+    </message>
+    <message>
+        <source>How hips, trunk and head move while playing; hands, lips and feet keep their places</source>
+        <translation>演奏中の腰、上体、頭の動き。手、唇、足の接触は変わりません</translation>
+    </message>
+    <message>
+        <source>Choreographies</source>
+        <translation>振り付け</translation>
+    </message>
+    <message>
+        <source>Choreography</source>
+        <translation>振り付け</translation>
+    </message>
+    <message>
+        <source>Body motion</source>
+        <translation>体の動き</translation>
+    </message>
+    <message>
+        <source>Another dance for each</source>
+        <translation>一人ずつ別の踊りにする</translation>
+    </message>
+    <message>
+        <source>Amount</source>
+        <translation>踊りの量</translation>
+    </message>
+    <message>
+        <source>How much of the dance: 0 none, 1 as much as a player can do; it takes the place of the sway</source>
+        <translation>踊りを加える量。0 は踊りなし、1 は演奏しながらできる最大。その分、自動の揺れは小さくなります</translation>
+    </message>
+    <message>
+        <source>Variation</source>
+        <translation>バリエーション</translation>
+    </message>
+    <message>
+        <source>0: a dance of the player&apos;s own; who has the same other number moves in unison, dancers too</source>
+        <translation>0 は奏者ごとの踊り。0 以外で同じ数の奏者とダンサーは揃って動きます</translation>
+    </message>
+</context>
+<context>
     <name>DancersSection</name>
     <message>
         <source>Dancers</source>

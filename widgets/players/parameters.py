@@ -25,6 +25,7 @@ from widgets.common.section import Section
 from widgets.common.session import Session
 from widgets.common.swatch import ColourSwatch
 from widgets.common.tasks import Progress, StopWanted
+from widgets.players.body_dance import BodyDanceRows
 from widgets.players.portrait import portrait_of
 
 LABEL_PX = 88
@@ -91,6 +92,8 @@ class ParameterSections(QWidget):
         for row in _SLIDERS:
             self._make_slider(row)
         self._make_circular_breathing()
+        self._body_dance = BodyDanceRows(session)
+        self._sections["motion"].body.addWidget(self._body_dance)
         self._make_seed()
         self.retranslate()
         session.theme_changed.connect(self._dress)
@@ -197,6 +200,7 @@ class ParameterSections(QWidget):
             _common(players, lambda player: "yes" if player.parameters.circular_breathing else "no")
         )
         self._colour.show_colours(tuple(dict.fromkeys(self._session.colour(player) for player in players)))
+        self._body_dance.show_players(players)
         casts = [edit.cast_parameters(project, player.id, edit.instrument_of(player)) for player in players]
         for name, slider in self._sliders.items():
             values = [float(getattr(player.parameters, name)) for player in players]

@@ -63,7 +63,7 @@ def add_dancer(
     dancer = Dancer(
         id=dancer_id,
         name=free_name(_visible(name), project.performer_names()),
-        choreography=_choreography(choreography),
+        choreography=checked_choreography(choreography),
         character_id=_seldom_seen(project) if character_id is None else character_id,
         stage=StagePosition(0.0, 0.0, 0.0),
     )
@@ -117,7 +117,7 @@ def change_dancers(project: Project, dancer_ids: Collection[str], **fields: Any)
 def set_choreography(project: Project, dancer_ids: Collection[str], choreography: str | os.PathLike[str]) -> Project:
     """Let dancers dance another choreography. Corrections stay: their basic motions and segments are then those of its
     list. Raises AppError ``dancer.no_choreography``."""
-    return _changed(project, dancer_ids, {"choreography": _choreography(choreography)})
+    return _changed(project, dancer_ids, {"choreography": checked_choreography(choreography)})
 
 
 def place_dancers(project: Project, places: Mapping[str, StagePosition]) -> Project:
@@ -202,7 +202,9 @@ def _visible(name: str) -> str:
     return called
 
 
-def _choreography(choreography: str | os.PathLike[str]) -> str:
+def checked_choreography(choreography: str | os.PathLike[str]) -> str:
+    """A choreography as a project keeps it: a bundled one's name, or the absolute path of a file. Raises AppError
+    ``dancer.no_choreography``."""
     text = os.fspath(choreography)
     if is_bundled_name(text):
         return text

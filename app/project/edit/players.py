@@ -365,6 +365,6 @@ def _held(name: str, value: Value) -> Value:
     if isinstance(value, bool) or not isinstance(value, int | float):
         return value
     low, high = bounds(name) or (float(value), float(value))
-    if name == "seed":
+    if name in ("seed", "dance_variation"):
         return int(min(max(value, low), high))
     return min(max(float(value), low), high)

@@ -83,7 +83,8 @@ def full_project(folder: str = "/music") -> Project:
         percussion=(PercussionHit(0, 36, 100), PercussionHit(0, 42, 60), PercussionHit(480, 22, 127)),
     )
     trumpet, trombone = small.players
-    parameters = PlayerParameters(0.1, 0.6, 1.1, 2.1, 8.5, 0.9, 0.8, 0.7, 0.6, "seated", False, 7, 0.2)
+    dance = (f"{folder}/dances/salsa.choreography", 0.75, 2**62 + 3)
+    parameters = PlayerParameters(0.1, 0.6, 1.1, 2.1, 8.5, 0.9, 0.8, 0.7, 0.6, "seated", False, 7, 0.2, True, *dance)
     corrections = {
         trumpet.id: (
             PinFingering("1:1", "1·3"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import msgspec
 import pytest
 
@@ -58,6 +60,17 @@ def test_automatic_values() -> None:
     }
 
 
+def test_a_choreography_is_bundled_or_a_file_or_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert set_all(
+        "trumpet 1.choreography=salsa", "trumpet 2.choreography=dances/Tango.choreography", "1*.choreography=none"
+    ) == {
+        (0, "choreography"): "salsa",
+        (1, "choreography"): str(tmp_path / "dances" / "Tango.choreography"),
+        (2, "choreography"): "",
+    }
+
+
 @pytest.mark.parametrize(
     ("text", "id", "mentions"),
     [
@@ -75,6 +88,9 @@ def test_automatic_values() -> None:
         ("trumpet 1.seed=0.5", "set.value_invalid", "0 ..."),
         ("trumpet 1.instrument=kazoo", "set.value_invalid", "horn_F"),
         ("trumpet 1.character=../x", "set.value_invalid", "adult_man"),
+        ("trumpet 1.choreography=tango", "set.value_invalid", "salsa"),
+        ("trumpet 1.choreography=tango.bvh", "set.value_invalid", "*.choreography"),
+        ("trumpet 1.dance_amount=1.5", "set.value_invalid", "1.0"),
     ],
 )
 def test_errors_name_what_is_possible(text: str, id: str, mentions: str) -> None:

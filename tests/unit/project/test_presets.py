@@ -40,6 +40,23 @@ def test_there_and_back(tmp_path: Path) -> None:
         presets.delete_preset(folder, "Lively")
 
 
+@pytest.mark.parametrize("choreography", ["salsa", "/dances/tango.choreography", "/dances/\udcff.choreography", ""])
+def test_what_is_danced_is_shared_and_the_variation_is_not(tmp_path: Path, choreography: str) -> None:
+    preset = presets.preset_of(PlayerParameters(choreography=choreography, dance_variation=3), "Dances")
+    assert "dance_variation" not in preset.parameters
+    presets.save_preset(tmp_path, preset)
+    assert presets.presets(tmp_path).items["Dances"].parameters["choreography"] == choreography
+
+
+def test_a_preset_whose_choreography_can_be_none_is_refused(tmp_path: Path) -> None:
+    presets.save_preset(tmp_path, presets.preset_of(LIVELY, "Dances"))
+    [path] = tmp_path.iterdir()
+    path.write_text(path.read_text().replace('choreography = ""', 'choreography = "../tango.choreography"'))
+    found = presets.presets(tmp_path)
+    assert not found.items
+    assert [problem.id for problem in found.problems] == ["table.invalid"]
+
+
 def test_only_some_parameters(tmp_path: Path) -> None:
     preset = presets.preset_of(LIVELY, "breath", only=("lung_s", "breath_min_beats", "seed"))
     assert set(preset.parameters) == {"lung_s", "breath_min_beats"}

@@ -16,6 +16,7 @@ import pytest
 from app.encoding import shown
 from app.errors import FileError, Message
 from app.messages import error_text, text
+from app.project.edit.body_dance import set_body_dance
 from app.project.edit.piece import set_audio
 from app.project.migrations import CURRENT, MIGRATIONS, Raw, migrated
 from app.project.model import AudioTrack, Project
@@ -82,7 +83,7 @@ def test_every_version_that_ever_was_can_be_read(version: int) -> None:
     expected = full_project(str(SAMPLES))
     # What the MIDI file held is kept from version 2 on, how its parts were transposed from 3 on, takes from 4 on, its
     # markers from 5 on, how much air is used up before a breath and where unplayed parts sound from 6 on, what
-    # percussion strikes and dancers from 7 on: before, none had to be.
+    # percussion strikes and dancers from 7 on, what players dance from 8 on: before, none had to be.
     if version < 3:
         parts = tuple(msgspec.structs.replace(part, transposed_semitones=0) for part in expected.score.parts)
         expected = replace(expected, score=msgspec.structs.replace(expected.score, parts=parts))
@@ -99,6 +100,13 @@ def test_every_version_that_ever_was_can_be_read(version: int) -> None:
     if version < 7:
         score = msgspec.structs.replace(expected.score, percussion=())
         expected = replace(expected, score=score, dancers=(), dance_corrections={})
+    if version < 8:
+        before = {"circular_breathing": False, "choreography": "", "dance_amount": 0.5, "dance_variation": 0}
+        players = tuple(
+            msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, **before))
+            for player in expected.players
+        )
+        expected = replace(expected, players=players)
     later = {name: {} for name, first in (("read_notes", 2), ("takes", 4)) if version < first}
     assert load(path) == replace(expected, **later)
 
@@ -265,6 +273,23 @@ def test_media_move_with_the_folder(tmp_path: Path) -> None:
     assert load(tmp_path / "elsewhere.suisou").audio == moved.audio
 
 
+def test_what_players_dance_moves_with_the_folder_and_bundled_names_stay(tmp_path: Path) -> None:
+    first = tmp_path / "first"
+    (first / "dances").mkdir(parents=True)
+    (first / "dances" / "tango.choreography").touch()
+    project = set_body_dance(small_project(), ("1.1.1",), first / "dances" / "tango.choreography")
+    save(set_body_dance(project, ("2.1.1",), "not_bundled"), first / "piece.suisou")
+    assert '"choreography": "dances/tango.choreography"' in (first / "piece.suisou").read_text()
+    shutil.move(first, tmp_path / "second")
+    moved = load(tmp_path / "second" / "piece.suisou")
+    assert [player.parameters.choreography for player in moved.players] == [
+        str(tmp_path / "second" / "dances" / "tango.choreography"), "not_bundled",
+    ]  # fmt: skip
+    assert [message.id for message in missing(moved)] == ["project.choreography_missing"]
+    (tmp_path / "second" / "dances" / "tango.choreography").unlink()
+    assert "project.choreography_file_missing" in [message.id for message in missing(moved)]
+
+
 def test_choreographies_move_with_the_folder_and_bundled_names_stay(tmp_path: Path) -> None:
     first = tmp_path / "first"
     (first / "dances").mkdir(parents=True)
@@ -294,12 +319,12 @@ def test_what_is_not_installed_stays_and_is_told() -> None:
     assert back == project
     found = missing(back)
     assert [message.id.removeprefix("project.") for message in found] == [
-        "instrument_missing", "character_missing", "choreography_file_missing", "character_missing",
-        "choreography_missing",
+        "choreography_file_missing", "instrument_missing", "character_missing", "choreography_file_missing",
+        "choreography_file_missing", "character_missing", "choreography_missing",
     ]  # fmt: skip
-    assert "not_installed" in text(found[0])
-    assert "/music/dances/salsa.choreography" in text(found[2])
-    assert "not_bundled" in text(found[4])
+    assert "not_installed" in text(found[1])
+    assert "/music/dances/salsa.choreography" in text(found[3])
+    assert "not_bundled" in text(found[6])
     assert missing(small_project()) == ()
 
 

@@ -1,0 +1,88 @@
+"""What players dance while they play: the layer of their bodies, from the dance that a dancer of the same choreography
+and variation dances to the piece (`app.performance.dancers`), or from one of the player's own.
+
+A player whose choreography is not there or damaged moves as is generated, and the plan tells why. Messages: those of
+`app.project.storage.choreography_missing` and of `app.choreography.model_file`.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TypeAlias
+
+from app.choreography.body_layer import FPS, body_layer
+from app.choreography.generate import Choreographer
+from app.choreography.rhythm import Rhythm
+from app.errors import AppError, Message
+from app.identity_cache import IdentityCache
+from app.motion.danced import BodyLayer
+from app.motion.perform import frame_count
+from app.performance.bodies import character_of
+from app.performance.dancers import Dancing, choreographer_of, heard_frame, rhythm_of
+from app.performance.ensemble import Performance
+from app.plan.model import TimeFrame
+from app.project.casting import StagePosition, chance
+from app.project.model import Dancer, Player
+from app.project.storage import choreography_missing
+from app.rig.model import Character
+
+_Keys: TypeAlias = tuple[Dancer, Choreographer, Rhythm, Character, TimeFrame]
+_LAYERS: IdentityCache[BodyLayer] = IdentityCache(64)
+
+
+def unfit_choreography(player: Player) -> Message | None:
+    """Why a player cannot dance what was selected; None where nothing was, or nothing is wrong with it."""
+    choreography = player.parameters.choreography
+    if not choreography:
+        return None
+    for message in choreography_missing(player.name, choreography):
+        return message
+    try:
+        choreographer_of(choreography)
+    except AppError as error:
+        return error.message
+    return None
+
+
+def layer_of(performance: Performance, player: Player) -> BodyLayer | None:
+    """What a player dances; None where nothing was selected, nothing is to be seen of it, or it cannot be read. Made
+    once for all players of one body who dance alike; making it may take seconds."""
+    keys = _keys(performance, player)
+    if keys is None:
+        return None
+    dancer, choreographer, rhythm, character, frame = keys
+
+    def made() -> BodyLayer:
+        tempo_map = performance.project.score.tempo_map
+        dancing = Dancing(dancer, choreographer, rhythm, (), tempo_map, character, frame)
+        return body_layer(dancing.motion(FPS, 0, frame_count(frame, FPS)), character)
+
+    return _LAYERS.get(keys, made)
+
+
+def layer_is_made(performance: Performance, player: Player) -> bool:
+    """Whether asking for a player's layer takes no time."""
+    keys = _keys(performance, player)
+    return keys is None or _LAYERS.has(keys)
+
+
+def _keys(performance: Performance, player: Player) -> _Keys | None:
+    """What a layer is made from, each the same object as long as it is the same."""
+    parameters = player.parameters
+    if not parameters.choreography or parameters.dance_amount == 0.0 or unfit_choreography(player) is not None:
+        return None
+    variation = parameters.dance_variation or int(chance("dance", parameters.seed, player.id) * 2**31)
+    seed = (variation + performance.project.seed) % 2**63
+    return (
+        _dancer(parameters.choreography, player.character_id, seed),
+        choreographer_of(parameters.choreography),
+        rhythm_of(performance),
+        character_of(player),
+        heard_frame(performance),
+    )
+
+
+@lru_cache(maxsize=256)
+def _dancer(choreography: str, character_id: str, seed: int) -> Dancer:
+    """Who would dance that on a stage; one object for players who dance alike."""
+    return Dancer("", "", choreography, character_id, StagePosition(0.0, 0.0, 0.0), seed)
