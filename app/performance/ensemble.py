@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Iterable
 from functools import cached_property
 from threading import RLock
+from typing import Final
 
 import msgspec
 
@@ -33,6 +34,9 @@ from metadata.model import Expression
 
 LIGHT = 8
 """Where neither breaths nor cues are looked for, planning costs this many times less."""
+
+_CHECKED: Final = {""}
+"""Choreographies of players that were read once: it takes a second."""
 
 
 class Performance:
@@ -182,6 +186,7 @@ class Performance:
                     raise Cancelled("work.stopped")
                 plans[player.id] = self._told(player, made)
             self._plans = plans
+            _CHECKED.update(player.parameters.choreography for player in self.project.players)
             self.__dict__["_ensemble"] = made
             self._memo.close()
             self._before = None
@@ -192,8 +197,11 @@ class Performance:
         Parameters
         ----------
         cpu_s : float
-            Of the thread's own time: what else the machine does is no reason to give up.
+            Of the thread's own time: what else the machine does is no reason to give up. Nothing is made where a
+            choreography has to be read first.
         """
+        if any(player.parameters.choreography not in _CHECKED for player in self.project.players):
+            return False
         end_s = time.thread_time() + cpu_s
         try:
             self.prepare(lambda: time.thread_time() > end_s)

@@ -235,7 +235,8 @@ class LiveMotion:
         return result
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
-        """A player's pose at a time as the newest performance has it, made here and now where it is not there yet.
+        """A player's pose at a time as the newest performance has it, made here and now where it is not there yet; of
+        who dances a dance that is not generated yet, the one that is shown.
 
         None for a player who cannot be seen (see `error`).
         """
@@ -248,6 +249,8 @@ class LiveMotion:
         chunk = track.chunks.get(index)
         if chunk is not None and inner < chunk.frames:
             return poses_of([chunk], inner, share)[0]
+        if not _soon_made(shown, track):
+            return self.pose(player_id, time_s)
         with self._own_fault(track):
             playing = self._playing(shown, track)
             if playing is None or track.error is not None:

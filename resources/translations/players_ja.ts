@@ -32,7 +32,7 @@
         <translation>一人ずつ別の踊りにする</translation>
     </message>
     <message>
-        <source>Amount</source>
+        <source>Dance amount</source>
         <translation>踊りの量</translation>
     </message>
     <message>

@@ -145,7 +145,7 @@ class BodyDanceRows(QWidget):
         self._dice.setToolTip(self.tr("Another dance for each"))
         words = {
             _AMOUNT: (
-                self.tr("Amount"),
+                self.tr("Dance amount"),
                 self.tr("How much of the dance: 0 none, 1 as much as a player can do; it takes the place of the sway"),
             ),
             _VARIATION: (

@@ -11,6 +11,7 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.choreography.library import choreography_path
 from app.export.request import Request
 from app.export.run import export
 from app.messages import text
@@ -203,3 +204,33 @@ def test_the_exported_file_keeps_fingers_lips_feet_and_bones(tmp_path: Path) -> 
     assert danced.limits.beyond == danced.acceleration.beyond == 0
     # The breath is seen in the trunk that dances.
     assert danced.breaths.shown == danced.breaths.planned == 1
+
+
+def test_nothing_long_is_done_at_once_in_the_window(tmp_path: Path) -> None:
+    """Neither reading a choreography nor generating a dance: the plan is left to the thread that works, and what was
+    seen before is shown meanwhile."""
+    copy = tmp_path / "copy.choreography"
+    copy.write_bytes(choreography_path("salsa").read_bytes())
+    project = played()
+    player = project.players[0]
+    first = Performance(project)
+    live = LiveMotion(first)
+    while live.work():
+        pass
+    seen = live.pose_now(player.id, 3.0)
+    dances = Performance(set_body_dance(project, (player.id,), copy), first)
+    assert not dances.prepare_within(60.0)
+    dances.prepare()
+    live.show(dances)
+    live.make_now(player.id, 3.0)
+    assert seen is not None
+    for pose in (live.pose_now(player.id, 3.0), live.pose(player.id, 3.0)):
+        assert pose is not None
+        assert np.array_equal(pose.rotations, seen.rotations)
+    while live.work():
+        pass
+    danced = live.pose_now(player.id, 3.0)
+    assert danced is not None
+    assert not np.array_equal(danced.rotations, seen.rotations)
+    # From now on it is known.
+    assert Performance(set_parameters(dances.project, (player.id,), sway=0.5), dances).prepare_within(60.0)
