@@ -54,7 +54,10 @@ FLUTE: ROWS_OF = {
     ),
     86: ("Eb T L2 L3", (("Eb L1 tr1", "trill"), ("Eb tr1", "trill"))),
     87: (f"Eb G# {BOTH}", (("Eb L2 L3 T tr2", "trill"), ("Eb tr2", "trill"))),
-    88: ("Eb T L1 L2 R1 R2", (("T L1 L2 R1 R2", "piano"), (f"Eb G# T {LEFT} R1 R2", "trill"))),
+    88: (
+        "Eb T L1 L2 R1 R2",
+        (("T L1 L2 R1 R2", "piano"), (f"Eb G# T {LEFT} R1 R2", "trill"), ("Eb T L2 L3 tr1 tr2", "trill")),
+    ),
     89: ("Eb T L1 L3 R1", ()),
     90: ("Eb T L1 L3 R3", (("Eb T L1 L3 R2", "fast"),)),
     91: (f"Eb {LEFT}", (("Eb L1 L3 R1", "trill"), ("Eb L1 L3 R3", "trill"))),

@@ -5,11 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from app.plan.fingering import plan_fingerings
+from app.plan.generate import Line
+from app.plan.line import line_times
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 from resources.build import instrument_fingerings_flute as table
 from resources.build.instrument_flute import INSTRUMENTS
 from tests.support.charts import Charts
+from tests.support.plan import PlainClock, PlainNote, even
 
 MAPS = bundled_maps()
 FLUTE, PICCOLO = MAPS["flute"], MAPS["piccolo"]
@@ -89,3 +93,22 @@ def test_the_tube_lies_on_the_left_index_finger_and_the_right_thumb(instrument: 
     assert set(borne) == {"left.index.pad_proximal", "right.thumb.pad"}
     assert borne["left.index.pad_proximal"].normal[2] > 0.8  # held to the chin from the far side
     assert borne["right.thumb.pad"].normal[1] < -0.7  # and from below
+
+
+@pytest.mark.parametrize("instrument", [FLUTE, PICCOLO], ids=lambda one: one.id)
+@pytest.mark.parametrize("step_tick", [60, 120])
+def test_high_d_is_trilled_with_e_by_both_trill_keys_and_nothing_else(
+    instrument: InstrumentMap, step_tick: int
+) -> None:
+    high_d, trilled = "Eb L2 L3 T", "Eb L2 L3 T tr1 tr2"
+    pitches = [written - instrument.transposition_semitones for written in (86, 88)]
+
+    def planned(notes: tuple[PlainNote, ...]) -> list[str]:
+        times = line_times(Line("p", notes, instrument), PlainClock())
+        return [event.label for event in plan_fingerings(notes, times, instrument, {})[0]]
+
+    assert planned(even(pitches * 8, step_tick)) == [high_d, trilled] * 8
+    # In a run and in slow notes E has a fingering of its own.
+    assert trilled not in planned(even(pitches * 2, 480))
+    run = [written - instrument.transposition_semitones for written in (83, 85, 86, 88, 90, 91)]
+    assert trilled not in planned(even(run, step_tick))
