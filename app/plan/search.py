@@ -84,10 +84,17 @@ SLIDE_LATE_RATE = 3.0
 """... and for each time more that it would need."""
 SLIDE_MAX_SPEED_M_S = 2.5
 """Where the map does not say: speed of a trombonist's arm in fast passages."""
+SLIDE_METRE_COST = 1.0
+"""Each metre of a slide's way in a hurried step: of ways that all arrive in time the nearer one is taken."""
+SAME_PLACE = 0.1
+"""Places of a slide that differ by less of its travel are one position."""
 LEGATO_COST = 1.25
 """A slide moved between notes that touch smears; counts more than one moved in a gap."""
 REVERSAL_COST = 0.5
 """Turning the slide back at speed."""
+OTHER_PLACE_COST = 4.0
+"""A note in another place of the slide than the same pitch two notes before, in hurried steps: nobody changes it within
+a figure for little."""
 
 PHRASE_SILENCE_S = 0.25
 """A silence this long divides phrases, for the comparison with the first choices."""
@@ -231,10 +238,10 @@ class FingeringProblem:
         awkward += TURN_COST * fingers.turns
         if table.leaves_down:
             awkward += MOVE_COST * fingers.moves
+        pace = self._pace
         hurry = np.maximum(FAST_S / step - 1.0, 0.0)
         trill_hurry = TRILL_COST * np.maximum(TRILL_S / step - 1.0, 0.0)
         hurry = np.where(self.in_trill, np.maximum(trill_hurry, hurry), hurry)
-        pace = np.clip((EASY_STEP_S - step) / (EASY_STEP_S - HURRIED_STEP_S), 0.0, 1.0)
         touching = np.clip(1.0 - gap / LIFTED_S, 0.0, 1.0)
         trill = np.where(self.in_trill, TRILL_COST, 1.0)
         cost = np.zeros((len(pair), *fingers.weighted.shape[1:]))
@@ -250,12 +257,19 @@ class FingeringProblem:
         if not self.has_slide:
             return Motions(pair, moves, nothing, nothing, nothing, cost)
         slide_m, needed_s, share, slide_cost = self._slides(gap)
+        cost += SLIDE_METRE_COST * slide_m * pace[:, None, None]
         gliding = glissando_steps(times)
         if gliding.any():
             away = (self._slide_change() * np.diff(times.pitch)[:, None, None] >= 0.0) | (moves[pair] > 0.0)
             slide_cost = np.where(gliding[:, None, None], GLISSANDO_COST * away, slide_cost)
         cost += slide_cost * trill[:, None, None]
         return Motions(pair, moves, slide_m, needed_s, share, cost)
+
+    @cached_property
+    def _pace(self) -> FloatArray:
+        """(N-1,): how hurried every step is, from 0 to 1."""
+        step = np.diff(self.times.onset_s)
+        return np.asarray(np.clip((EASY_STEP_S - step) / (EASY_STEP_S - HURRIED_STEP_S), 0.0, 1.0))
 
     def _slide_change(self) -> FloatArray:
         """(N-1, K, K): how far the slides go out, as a part of their travel."""
@@ -286,7 +300,8 @@ class FingeringProblem:
 
     @cached_property
     def reversal_cost(self) -> FloatArray | None:
-        """(N-2, K, K, K): turning a slide back at speed, by the fingerings of three notes; None without a slide."""
+        """(N-2, K, K, K): turning a slide back at speed, and to another place for the same pitch, by the fingerings of
+        three notes; None without a slide."""
         slides = [place for place, control in enumerate(self.controls) if control.kind == "slide"]
         if not slides or len(self.pitch_index) < 3:
             return None
@@ -295,7 +310,11 @@ class FingeringProblem:
         hurried = np.maximum(self.motions.share - SLIDE_EASY, 0.0)
         turns = change[:-1, :, :, None] * change[1:, None, :, :] < -1e-6
         both = np.minimum(hurried[:-1, :, :, None], hurried[1:, None, :, :])
-        return np.asarray(turns * np.minimum(both, 1.0) * REVERSAL_COST, dtype=np.float64)
+        elsewhere = np.abs(place[2:, None, :] - place[:-2, :, None]) > SAME_PLACE
+        returns = (self.pitch_index[2:] == self.pitch_index[:-2]) * np.minimum(self._pace[:-1], self._pace[1:])
+        cost = turns * np.minimum(both, 1.0) * REVERSAL_COST
+        cost += OTHER_PLACE_COST * (elsewhere * returns[:, None, None])[:, :, None, :]
+        return np.asarray(cost, dtype=np.float64)
 
     def goes_further(self, path: IntArray, other: IntArray, starts: IntArray, ends: IntArray) -> BoolArray:
         """Of spans of notes ``starts[i]``..``ends[i]``: whether a path goes further in them than another, or faster.
@@ -527,7 +546,8 @@ def never_worse(problem: FingeringProblem, path: IntArray) -> IntArray:
     if len(different) == 0:
         return path
     count = len(path)
-    breaks = np.flatnonzero(np.diff(different) > 1)
+    # A slide that stays near for a note between two alternates gains on the first what it may lose on the second.
+    breaks = np.flatnonzero(np.diff(different) > (2 if problem.has_slide else 1))
     starts, ends = different[np.append(0, breaks + 1)], different[np.append(breaks, len(different) - 1)]
     # With the notes on either side, which runs may share: no step belongs to two of them.
     worse = problem.goes_further(path, first_path, np.maximum(starts - 1, 0), np.minimum(ends + 1, count - 1))

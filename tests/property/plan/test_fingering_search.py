@@ -131,7 +131,7 @@ def fingers_cost(
     weighted += 0.5 if rise and fall else 0.0
     flips = 1.0 if turned and rise | fall else 0.0
     crosses = any((a.written_pitch >= edge) != (b.written_pitch >= edge) for edge in instrument.breaks)
-    pace = min(max((0.5 - step) / 0.38, 0.0), 1.0)
+    pace = share_of_pace(step)
     if trill:
         weighted += 0.75 * turned
         weighted += 1.1 if moved == 0 and a.written_pitch != b.written_pitch else 0.0
@@ -181,6 +181,15 @@ def naive_cost(notes: tuple[PlainNote, ...], choice: list[Fingering], instrument
             still = held(a, instrument) == held(b, instrument)
             slide_cost = 0.0 if along and still else 6.0
         cost += slide_cost * (3.0 if trill[index] else 1.0)
+        cost += (
+            1.0
+            * share_of_pace(step)
+            * sum(
+                abs(b.controls.get(control.name, 0.0) - a.controls.get(control.name, 0.0))
+                * (control.motion.travel_m or 0.0)
+                for control in slides
+            )
+        )
         jumps = fingers_cost(a, b, instrument, 9.0, gap, 0.0, False)
         cost += fingers_cost(a, b, instrument, step, gap, hurry, trill[index]) + jumps * (2.0 if trill[index] else 0.0)
         hurried.append(max(share - 0.7, 0.0))
@@ -188,7 +197,14 @@ def naive_cost(notes: tuple[PlainNote, ...], choice: list[Fingering], instrument
     for index in range(len(notes) - 2):
         if moved_by[index] * moved_by[index + 1] < -1e-6:
             cost += 0.5 * min(hurried[index], hurried[index + 1], 1.0)
+        if slides and notes[index].pitch == notes[index + 2].pitch and abs(moved_by[index] + moved_by[index + 1]) > 0.1:
+            cost += 4.0 * min(share_of_pace(steps[index]), share_of_pace(steps[index + 1]))
     return cost
+
+
+def share_of_pace(step: float) -> float:
+    """How hurried a step of this length is: not from half a second on, wholly up to 0.12 s."""
+    return min(max((0.5 - step) / 0.38, 0.0), 1.0)
 
 
 @given(st.sampled_from(sorted(INSTRUMENTS)), st.data())

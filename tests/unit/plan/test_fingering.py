@@ -112,6 +112,21 @@ def test_the_slide_takes_the_attachment_where_six_is_too_far() -> None:
     assert labels(notes, TROMBONE, bpm=60.0) == ["1", "6", "1", "6", "1"]
 
 
+@pytest.mark.parametrize("bpm", [60.0, 100.0, 120.0, 140.0])
+def test_the_slide_stays_near_and_comes_back_to_the_same_place(bpm: float) -> None:
+    # B flat 2, C 3, D 3, C 3: without the trigger C is in 6, out and back between 1 and 4.
+    figure = [46, 48, 50, 48]
+    assert labels(even(figure, 120), TROMBONE, bpm=bpm) == ["1", "T1", "4", "T1"]
+    assert labels(even(figure * 3, 120), TROMBONE, bpm=bpm) == ["1", "T1", "4", "T1"] * 3
+    assert labels(even([*figure, 46], 120), TROMBONE, bpm=80.0) == ["1", "T1", "4", "T1", "1"]
+
+
+def test_a_slur_over_natural_notes_leaves_the_slide_where_it_is() -> None:
+    # G 3, B 3, D 4 are partials of the fourth position; D 4 is first in 1, and there is all the time to go there.
+    assert labels(even([55, 59, 62, 59], 240), TROMBONE) == ["4", "4", "4", "4"]
+    assert labels(even([55, 59, 62, 59], 960), TROMBONE) == ["4", "4", "1", "4"]
+
+
 def test_a_slide_that_cannot_arrive_is_flagged_with_what_it_needs() -> None:
     notes = even([40, 46], 120)
     events, problems = plan(notes, slide(), {"1:1": "7", "1:2": "1"}, bpm=180.0)
