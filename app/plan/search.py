@@ -62,7 +62,7 @@ GLISSANDO_COST = 6.0
 """A step of a glissando in which the slide does not go the way of the pitch, or a lever is turned."""
 LIFTED_S = 0.12
 """In a silence this long a finger is free: it goes from key to key for nothing."""
-KEY_TO_KEY_MOVES = 2
+KEY_TO_KEY_MOVES = 4
 """Such a way counts as so many moves more when passages are compared."""
 EASY_STEP_S, HURRIED_STEP_S = 0.5, 0.12
 """What is awkward costs nothing in steps this long, all in steps this short, in proportion between."""

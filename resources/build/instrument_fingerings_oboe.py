@@ -36,7 +36,7 @@ ROWS: dict[int, tuple[str, tuple[tuple[str, str], ...]]] = {
     72: ("L1 R1", ()),
     73: (f"{HALF} {RIGHT} Rp_cis", (("R1", "trill"), ("L3 R2 R3 oct1", "alternate"))),
     74: (f"{HALF} {RIGHT}", ((f"L2 L3 {RIGHT}", "alternate"),)),
-    75: (f"{HALF} {RIGHT} Rp_ees", ()),
+    75: (f"{HALF} {RIGHT} Rp_ees", ((f"{HALF} {RIGHT} Lp_ees", "alternate"),)),
     76: (
         f"{LEFT} R1 R2 oct1",
         ((f"{LEFT} R1 R2 Lp_gis oct1", "held"), ("L1h L2 L3 R1 R2", "trill"), ("L1h L2 L3 R1 R2 Rp_ees", "trill")),

@@ -100,6 +100,18 @@ def test_the_bundled_oboe_has_its_three_f_where_players_take_them() -> None:
     assert not forked & {"Lp_f", "Rr_f"}
     # From C to E flat one little finger cannot do both: the left hand has the key too.
     assert "Lp_ees" in signs([60, 63, 60])[1]
+    # An octave higher from C sharp likewise.
+    assert "Lp_ees" in signs([73, 75, 73])[1]
+
+
+@pytest.mark.parametrize("step_tick", [FAST, EASY])
+def test_the_bundled_oboe_plays_a_repeated_f_so_that_d_can_follow(step_tick: int) -> None:
+    bundled = bundled_maps()["oboe"]
+    left_f, plate = "key_F_left", "plate_R3"
+    for pitches in ([64, 65, 65, 62], [76, 77, 77, 74]):
+        held = keys(pitches, bundled, step_tick)
+        assert left_f in held[2]
+        assert plate in held[3]
 
 
 def test_the_saxophones_b_flat_depends_on_where_it_comes_from() -> None:
