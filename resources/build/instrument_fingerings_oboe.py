@@ -34,8 +34,8 @@ ROWS: dict[int, tuple[str, tuple[tuple[str, str], ...]]] = {
     70: ("L1 L2 R1", ((f"L1 L2 {RIGHT}", "alternate"), ("L1 L2 R1 Lp_gis", "held"))),
     71: ("L1", ()),
     72: ("L1 R1", ()),
-    73: (f"{HALF} {RIGHT} Rp_cis", (("R1", "trill"), ("L3 R2 R3 oct1", "alternate"))),
-    74: (f"{HALF} {RIGHT}", ((f"L2 L3 {RIGHT}", "alternate"),)),
+    73: (f"{HALF} {RIGHT} Rp_cis", (("R1", "trill"), ("L3 R2 R3 oct1", "alternate"), ("L1 Rm_cis", "trill"))),
+    74: (f"{HALF} {RIGHT}", ((f"L2 L3 {RIGHT}", "alternate"), ("L1 R1 Lr_d", "trill"))),
     75: (f"{HALF} {RIGHT} Rp_ees", ((f"{HALF} {RIGHT} Lp_ees", "alternate"),)),
     76: (
         f"{LEFT} R1 R2 oct1",

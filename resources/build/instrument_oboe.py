@@ -240,6 +240,12 @@ class Oboe:
             else:
                 rod = body.rod(middle - 0.008, middle + 0.010, 43.0 if label == "gis" else 92.0, 0.0052)
             work.key(name, f"Lp_{label}", "left.little.pad", rod, touch, travel_m=0.0038)
+        # The trill key for C to D lies towards the palm beside the ring finger's plate.
+        trill = self.blade(0.2140, 31.0, 0.0110, 0.0150, 0.0054)
+        work.key("key_D_trill", "Lr_d", "left.ring.pad", self.near(0.2060, 0.008, 72.0, 0.0052), trill,
+                 travel_m=0.0032)  # fmt: skip
+        work.linked("cup_D_trill", ("key_D_trill",), self.rod(0.1080, 0.1290, 72.0, 0.0048),
+                    cups=[self.cup(0.1180, 106.0, 0.0050)], drop_m=-0.0025)  # fmt: skip
         work.linked("cup_G_sharp", ("key_G_sharp",), self.rod(0.2430, 0.2640, 76.0, 0.0050),
                     cups=[self.cup(0.2480, 112.0, 0.0058)], drop_m=-0.0026)  # fmt: skip
 
@@ -263,8 +269,13 @@ class Oboe:
                     cups=[self.cup(0.2850, -14.0, 0.0056)], drop_m=0.0025)  # fmt: skip
 
     def right_keys(self) -> None:
-        """The F key of the ring finger and the three keys of the little finger."""
+        """The C sharp trill key of the middle finger, the F key of the ring finger, the three of the little finger."""
         work, body = self.work, self.body
+        trill = self.blade(0.3040, -31.0, 0.0110, 0.0150, 0.0054)
+        work.key("key_C_sharp_trill", "Rm_cis", "right.middle.pad", self.near(0.3040, 0.011, -84.0, 0.0052), trill,
+                 travel_m=0.0032)  # fmt: skip
+        work.linked("cup_C_sharp_trill", ("key_C_sharp_trill",), self.rod(0.1560, 0.1760, -84.0, 0.0048),
+                    cups=[self.cup(0.1660, -118.0, 0.0050)], drop_m=-0.0025)  # fmt: skip
         fork = self.blade(0.3400, -34.0, 0.0110, 0.0150, 0.0056, off=0.0020)
         work.key("key_F", "Rr_f", "right.ring.pad", self.near(0.3400, 0.011, -84.0, 0.0052), fork,
                  travel_m=0.0032)  # fmt: skip

@@ -9,10 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.plan.fingering import plan_fingerings
+from app.plan.generate import Line
+from app.plan.line import line_times
 from instrument_maps.load import bundled_maps
-from instrument_maps.model import Fingering
+from instrument_maps.model import Fingering, InstrumentMap
 from resources.build import instrument_fingerings_oboe as table
 from resources.build.instrument_oboe import INSTRUMENTS
+from tests.support.plan import PlainClock, PlainNote, even
 
 MAPS = bundled_maps()
 OBOE, ENGLISH_HORN = MAPS["oboe"], MAPS["english_horn"]
@@ -100,3 +104,23 @@ def test_length_of_the_wood(name: str, wood_m: float, tolerance_m: float) -> Non
     every = np.vstack(wood)
     ends = every[np.argmin(every[:, 2])], every[np.argmax(every[:, 2])]
     assert np.linalg.norm(ends[1] - ends[0]) == pytest.approx(wood_m, abs=tolerance_m)
+
+
+@pytest.mark.parametrize("instrument", [OBOE, ENGLISH_HORN], ids=lambda one: one.id)
+@pytest.mark.parametrize("step_tick", [60, 120])
+@pytest.mark.parametrize(
+    ("low", "high", "lower", "upper"), [(72, 74, "L1 R1", "L1 Lr_d R1"), (71, 73, "L1", "L1 Rm_cis")]
+)
+def test_trills_over_the_break_open_a_trill_key_and_nothing_else(
+    instrument: InstrumentMap, step_tick: int, low: int, high: int, lower: str, upper: str
+) -> None:
+    pitches = [written - instrument.transposition_semitones for written in (low, high)]
+
+    def planned(notes: tuple[PlainNote, ...]) -> list[str]:
+        times = line_times(Line("p", notes, instrument), PlainClock())
+        return [event.label for event in plan_fingerings(notes, times, instrument, {})[0]]
+
+    assert planned(even(pitches * 8, step_tick)) == [lower, upper] * 8
+    assert upper not in planned(even(pitches * 2, 480))
+    run = [written - instrument.transposition_semitones for written in (69, 71, 72, 73, 74, 76)]
+    assert upper not in planned(even(run, step_tick))
