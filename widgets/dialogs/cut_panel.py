@@ -172,7 +172,7 @@ class CutPanel(QWidget):
         count = len(self.plot.cuts)
         self._title.setText(
             ""
-            if not free
+            if self._found.analysis is None
             else self.tr("Segments: {n}, found").format(n=count)
             if self._draft.cuts is None
             else self.tr("Segments: {n}, set by hand").format(n=count)

@@ -121,7 +121,7 @@ class CutPlot(QWidget):
         area.addItem(self._axes[1], 1, 1)
         area.setContentsMargins(4.0, 6.0, 4.0, 0.0)
         self.plot.setCentralItem(area)
-        self.plot.setMinimumHeight(150)
+        self.plot.setMinimumHeight(120)
         self.plot.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         for item in (*self._items.values(), self._dots):
             self.view.addItem(item)

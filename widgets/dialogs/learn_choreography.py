@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Final
 
 import msgspec
-from PySide6.QtCore import QEvent, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QColor, QDragEnterEvent, QDropEvent, QKeyEvent
 from PySide6.QtWidgets import (
     QDialog,
@@ -48,6 +48,10 @@ MOST_SEED: Final = 2**31 - 1
 _COLUMNS: Final = ("motion", "music", "length", "segments", "states", "offset", "confidence")
 _POLL_MS: Final = 100
 _FORM_PX: Final = 420
+_SIZE: Final = QSize(1180, 840)
+_LEAST_PX: Final = 900
+_FRAME: Final = QSize(40, 80)
+"""What a window's frame and the desktop's bars take of the screen."""
 _RIGHT: Final = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
@@ -136,7 +140,8 @@ class LearnDialog(QDialog):
         self._build()
         self._connect()
         self.retranslate()
-        self.resize(1180, 840)
+        self.setMinimumWidth(_LEAST_PX)
+        self.resize(_SIZE.boundedTo(self.screen().availableSize() - _FRAME))
 
     def _build(self) -> None:
         named: dict[QWidget, str] = {self.list: "pairs", self._add: "add", self._remove: "remove", self._seed: "seed"}
@@ -195,7 +200,7 @@ class LearnDialog(QDialog):
         for name, widget in {"states": self._states, "seed": self._seed, "file": self._file}.items():
             self._labels[name].setBuddy(widget)
         bottom = QHBoxLayout()
-        bottom.addWidget(self._progress, 1)
+        bottom.addWidget(self._progress, 20)
         bottom.addStretch(1)
         for button in (self._use, self._learn, self._close):
             bottom.addWidget(button)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import msgspec
-from PySide6.QtCore import QEvent, Signal
-from PySide6.QtWidgets import QGridLayout, QPushButton, QWidget
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtWidgets import QGridLayout, QPushButton, QScrollArea, QWidget
 
 from app.choreography.music_offset import CONFIDENT
 from app.choreography.read_motion import guesses
@@ -22,7 +22,7 @@ from widgets.dialogs.learn_draft import MIDI_SUFFIXES, MOTION_SUFFIXES, Found, P
 _FILES = {"motion": MOTION_SUFFIXES, "music": MIDI_SUFFIXES, "credits": (CREDITS_SUFFIX,)}
 _LONGEST_S = 24 * 3600.0
 _NOTES_PX = 54
-"""Room for three lines, so that nothing moves when there is something to say."""
+"""Room for three lines; of more the rest is scrolled to."""
 
 
 class PairForm(QWidget):
@@ -47,7 +47,13 @@ class PairForm(QWidget):
         self._notes = Label()
         self._notes.setObjectName("learn_pair_notes")
         self._notes.setWordWrap(True)
-        self._notes.setMinimumHeight(_NOTES_PX)
+        self._notes.setAlignment(Qt.AlignmentFlag.AlignTop)
+        room = QScrollArea()
+        room.setFrameShape(QScrollArea.Shape.NoFrame)
+        room.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        room.setWidgetResizable(True)
+        room.setMinimumHeight(_NOTES_PX)
+        room.setWidget(self._notes)
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setColumnStretch(1, 1)
@@ -67,8 +73,8 @@ class PairForm(QWidget):
             grid.addWidget(self._labels[name], row, 0)
             grid.addWidget(field, row, 1, 1, 2)
             field.changed.connect(self._number_changed)
-        grid.addWidget(self._notes, len(_FILES) + 2, 0, 1, 3)
-        grid.setRowStretch(len(_FILES) + 3, 1)
+        grid.addWidget(room, len(_FILES) + 2, 0, 1, 3)
+        grid.setRowStretch(len(_FILES) + 2, 1)
         self.retranslate()
 
     def show_pair(self, draft: PairDraft, found: Found, busy: bool) -> None:
