@@ -39,6 +39,7 @@ class AutomaticNumber(QWidget):
         self.number.setSingleStep(step)
         self.number.setKeyboardTracking(False)
         self.number.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
+        self.number.lineEdit().setAcceptDrops(False)
         self.setFocusProxy(self.check)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)

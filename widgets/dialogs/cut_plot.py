@@ -129,6 +129,9 @@ class CutPlot(QWidget):
             axis.enableAutoSIPrefix(False)
         self._axes[0].setWidth(_AXIS_PX)
         self.plot.viewport().setMouseTracking(True)
+        for widget in (self.plot, self.plot.viewport()):
+            # Files are dropped on the dialog.
+            widget.setAcceptDrops(False)
         self.plot.installEventFilter(self)
         self.plot.viewport().installEventFilter(self)
 

@@ -164,6 +164,9 @@ class LearnDialog(QDialog):
             header.setSectionResizeMode(column, mode)
         self._seed.setRange(0, MOST_SEED)
         self._seed.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
+        # Files that are dropped are the dialog's, not text of a field.
+        for edit in (self._file, self._seed.lineEdit()):
+            edit.setAcceptDrops(False)
         self._state.setWordWrap(True)
         self._state.setMinimumHeight(40)
         self._progress.setRange(0, 1000)

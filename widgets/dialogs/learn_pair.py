@@ -60,6 +60,7 @@ class PairForm(QWidget):
         for row, name in enumerate(_FILES):
             path, button = self._paths[name], self._choose[name]
             path.setObjectName(f"learn_{name}")
+            path.setAcceptDrops(False)
             button.setObjectName(f"learn_{name}_choose")
             button.setAutoDefault(False)
             self._labels[name].setBuddy(path)

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QMimeData, QPointF, Qt
-from PySide6.QtGui import QDropEvent
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt
+from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QApplication, QCheckBox, QDoubleSpinBox, QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.choreography.learn import learn
@@ -73,13 +73,16 @@ def press(dialog: LearnDialog, name: str) -> None:
     QTest.mouseClick(button, Qt.MouseButton.LeftButton)
 
 
-def drop(dialog: LearnDialog, *paths: Path) -> None:
+def drop(dialog: LearnDialog, *paths: Path, on: QWidget | None = None) -> None:
+    """Drag files over the dialog, or over one of its widgets, and drop them."""
     mime = QMimeData()
     mime.setUrls([url_of(path) for path in paths])
-    event = QDropEvent(
-        QPointF(50, 50), Qt.DropAction.CopyAction, mime, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
-    )
-    dialog.dropEvent(event)
+    # File managers say it as text too, which fields take.
+    mime.setText("\n".join(map(str, paths)))
+    over = dialog.list.viewport() if on is None else on
+    how = Qt.DropAction.CopyAction, mime, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    QApplication.sendEvent(over, QDragEnterEvent(QPoint(5, 5), *how))
+    QApplication.sendEvent(over, QDropEvent(QPointF(5.0, 5.0), *how))
 
 
 def type_number(dialog: LearnDialog, name: str, text: str) -> None:
@@ -162,6 +165,13 @@ def test_pairs_that_are_added_typed_and_dropped_are_learned(
         f"{model.sources[1].offset_s:.2f}",
         f"{model.sources[1].offset_confidence:.2f}",
     ]
+
+
+def test_files_are_dropped_anywhere(dialog: LearnDialog, folder: Path) -> None:
+    drop(dialog, folder / "swings.bvh", on=child(dialog, PathEdit, "learn_file"))
+    drop(dialog, folder / "drums.mid", on=dialog.cuts.plot.plot.viewport())
+    drop(dialog, folder / "steps.txt", on=child(dialog, PathEdit, "learn_credits"))
+    assert dialog.drafts == (PairDraft(folder / "swings.bvh", folder / "drums.mid", folder / "steps.txt"),)
 
 
 def test_a_frame_rate_is_corrected_and_shown(dialog: LearnDialog, folder: Path) -> None:
