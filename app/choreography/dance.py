@@ -25,12 +25,15 @@ class Manner:
         Number of the model's source whose motion is preferred.
     size : float
         Of trunk and arms about their usual pose, 1 as captured.
+    weight : float
+        -1 to 1: how light or heavy it is danced; knees bend by `app.choreography.feet.DEEPER` of a leg more at 1.
     mirrored : bool
     """
 
     seed: int = 0
     source: int | None = None
     size: float = 1.0
+    weight: float = 0.0
     mirrored: bool = False
 
 

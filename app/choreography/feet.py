@@ -39,6 +39,9 @@ SETTLE_S: Final = 0.20
 """Within this time after it leaves the floor, and before it comes to stand, a foot goes over to its own path."""
 REACH_SHARE: Final = 0.985
 """Of a leg's length, how far a foot that stands may be; the hips come down where it would be farther."""
+DEEPER: Final = 0.07
+HIGHER: Final = 0.02
+"""Of a leg's length: how much lower the hips of the heaviest, and how much higher those of the lightest dancer are."""
 SINK_S: Final = 0.12
 """Standard deviation in time of that."""
 
@@ -101,15 +104,26 @@ def _apart(standing: list[Stand], fps: float) -> list[Stand]:
     return found
 
 
-def planted(clip: MotionClip, standing: tuple[Stand, ...]) -> MotionClip:
-    """The motion with its feet where they stand; between two stands they go over from one correction to the other."""
-    if not standing:
+def planted(clip: MotionClip, standing: tuple[Stand, ...], weight: float = 0.0) -> MotionClip:
+    """The motion with its feet where they stand; between two stands they go over from one correction to the other.
+
+    Parameters
+    ----------
+    clip : MotionClip
+    standing : tuple of Stand
+    weight : float
+        -1 to 1: the hips of a heavy dancer are lower over the same steps, those of a light one higher.
+    """
+    if not standing and not weight:
         return clip
     tips = tips_m(clip)
     targets = tips.copy()
     for foot in range(2):
         own = [stand for stand in standing if stand.foot == foot]
         targets[:, foot] += _correction(tips[:, foot], own, float(clip.fps))
+    length_m = leg(clip.shape.skeleton, "left").length_m
+    lower_m = weight * length_m * (DEEPER if weight > 0.0 else HIGHER)
+    clip = replace(clip, hips_m=clip.hips_m - (0.0, lower_m, 0.0))
     clip = replace(clip, hips_m=_sunk(clip, targets, standing))
     rotations, world = clip.rotations.copy(), clip.world()
     for foot, side in enumerate(SIDES):

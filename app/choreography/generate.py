@@ -149,7 +149,7 @@ class Choreographer:
             clip, contacts = mirrored(clip), contacts[:, ::-1]
         clip = out_of_body(clip)
         standing = stands(clip, contacts)
-        return Dance(planted(clip, standing), first_s, plan.steps, speeds, seams, standing)
+        return Dance(planted(clip, standing, manner.weight), first_s, plan.steps, speeds, seams, standing)
 
     def steps(
         self, rhythm: Rhythm, manner: Manner, *, wishes: Wishes | None = None, weights: Weights | None = None

@@ -267,6 +267,13 @@ def _add_generate(actions: Actions) -> None:
         help="of the motion of trunk and arms (default: 1, as captured)",
     )
     command.add_argument(
+        "--weight",
+        type=within(-1.0, 1.0, "a weight", float),
+        default=0.0,
+        metavar="WEIGHT",
+        help="from -1, light, to 1, heavy: how deep knees bend (default: 0, as captured)",
+    )
+    command.add_argument(
         "--fps", type=frame_rate, default=Fraction(60), metavar="RATE", help="frames per second (default: 60)"
     )
     command.set_defaults(run=generate)
@@ -295,7 +302,7 @@ def generate(arguments: argparse.Namespace) -> None:
     name: str = arguments.choreography
     model = read_model(choreography_path(name) if name in bundled_choreographies() else Path(name))
     rhythm = heard_rhythm(uncast_score(read_contents(arguments.piece)))
-    manner = Manner(arguments.seed, _source(model, arguments.prefer), arguments.size)
+    manner = Manner(arguments.seed, _source(model, arguments.prefer), arguments.size, arguments.weight)
     cast = roles(arguments.formation, arguments.dancers, manner, len(model.sources))
     progress = Progress(sys.stderr)
     try:

@@ -126,6 +126,7 @@ def _dancer(dancer: Dancer) -> Table:
         "mirrored": dancer.mirrored,
         "source": dancer.source,
         "size": dancer.size,
+        "weight": dancer.weight,
     }
 
 

@@ -71,6 +71,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.dancer_mirrored": "mirror {dancer}",
     "edit.dancer_seed": "variation of {dancer}",
     "edit.dancer_size": "size of {dancer}'s motion",
+    "edit.dancer_weight": "weight of {dancer}'s motion",
     "edit.dancer_delay_beats": "delay of {dancer}",
     "edit.dancer_place": "place {dancer} on the stage",
     "edit.rename_player": "rename {player}",

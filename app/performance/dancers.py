@@ -164,7 +164,7 @@ class Dancing:
 def manner_of(dancer: Dancer, sources: int) -> Manner:
     """How a dancer dances; a source that the choreography does not have is none."""
     source = dancer.source if 0 <= dancer.source < sources else None
-    return Manner(seed=dancer.seed, source=source, size=dancer.size, mirrored=dancer.mirrored)
+    return Manner(dancer.seed, source, dancer.size, dancer.weight, dancer.mirrored)
 
 
 def choreographer_of(choreography: str) -> Choreographer:

@@ -43,6 +43,7 @@ def _one_dancer_faults(dancer: Dancer, place: str) -> Iterator[Fault]:
     yield from between(f"{place}.delay_beats", dancer.delay_beats, limits.DELAY_BEATS)
     yield from between(f"{place}.source", dancer.source, (-1, limits.CHOREOGRAPHY_INDEX[1]))
     yield from between(f"{place}.size", dancer.size, limits.DANCE_SIZE)
+    yield from between(f"{place}.weight", dancer.weight, limits.DANCE_WEIGHT)
 
 
 def _dance_correction_faults(correction: DanceCorrection, place: str) -> Iterator[Fault]:

@@ -42,6 +42,8 @@ MOST_DANCERS: Final = 200
 DELAY_BEATS: Final = (0.0, 10_000.0)
 DANCE_SIZE: Final = (0.0, 1.5)
 """Of the motion as captured."""
+DANCE_WEIGHT: Final = (-1.0, 1.0)
+"""From light to heavy; 0: as captured."""
 CHOREOGRAPHY_INDEX: Final = (0, 2**31 - 1)
 """Of a basic motion, a segment or a source of a choreography."""
 MOST_TAKES: Final = 2000

@@ -52,10 +52,11 @@ def _with_dancers(raw: Raw) -> Raw:
 
 
 def _with_body_dances(raw: Raw) -> Raw:
-    """7 to 8: players may dance while they play; before, nobody did."""
+    """7 to 8: players may dance while they play; before, nobody did. Dancers have a weight; they danced as captured."""
     still = {"choreography": "", "dance_amount": 0.5, "dance_variation": 0}
     players = [{**player, "parameters": {**player["parameters"], **still}} for player in raw["players"]]
-    return {**raw, "players": players}
+    dancers = [{**dancer, "weight": 0.0} for dancer in raw["dancers"]]
+    return {**raw, "players": players, "dancers": dancers}
 
 
 MIGRATIONS: Final[tuple[Migration, ...]] = (

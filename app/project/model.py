@@ -85,6 +85,8 @@ class Dancer(msgspec.Struct, frozen=True):
         Index of the choreography's source whose segments are preferred; -1: none is.
     size : float
         Of the motion, 0..1.5; 1: as captured.
+    weight : float
+        -1..1, from light to heavy: how deep the knees bend; 0: as captured.
     colour : str
         ``"#rrggbb"``; empty: the theme's.
     """
@@ -99,6 +101,7 @@ class Dancer(msgspec.Struct, frozen=True):
     mirrored: bool = False
     source: int = -1
     size: float = 1.0
+    weight: float = 0.0
     colour: str = ""
 
 

@@ -452,6 +452,10 @@
             <translation>{dancer} の動きの大きさ</translation>
         </message>
         <message>
+            <source>weight of {dancer}'s motion</source>
+            <translation>{dancer} の動きの重さ</translation>
+        </message>
+        <message>
             <source>delay of {dancer}</source>
             <translation>{dancer} の遅れ</translation>
         </message>

@@ -140,6 +140,14 @@
         <translation>体幹と腕の動き：1 はキャプチャのまま</translation>
     </message>
     <message>
+        <source>Weight</source>
+        <translation>重さ</translation>
+    </message>
+    <message>
+        <source>From light to heavy: how deep the knees bend; 0 as captured</source>
+        <translation>軽い動きから重い動きへ：膝を曲げる深さ。0 はキャプチャのまま</translation>
+    </message>
+    <message>
         <source>Delay</source>
         <translation>遅れ</translation>
     </message>

@@ -118,6 +118,7 @@ def dancers(draw: st.DrawFn, id: str, name: str, folder: str) -> Dancer:
         mirrored=draw(st.booleans()),
         source=draw(st.integers(-1, 9)),
         size=draw(within(limits.DANCE_SIZE)),
+        weight=draw(within(limits.DANCE_WEIGHT)),
         colour=draw(st.sampled_from(["", "#0A1b2C"])),
     )
 

@@ -80,6 +80,7 @@ class DancersSection(QWidget):
         self._sliders = {
             "seed": NumberSlider(session, 0.0, float(2**31 - 1), decimals=0, step=1.0, slides=False),
             "size": NumberSlider(session, *limits.DANCE_SIZE, default=1.0, step=0.05),
+            "weight": NumberSlider(session, *limits.DANCE_WEIGHT, default=0.0, step=0.05),
             "delay_beats": NumberSlider(session, 0.0, 32.0, default=0.0, step=1.0, decimals=1),
             **{name: NumberSlider(session, -most, most, decimals=decimals, step=step, slides=slides)
                for name, most, decimals, step, slides in _PLACES},
@@ -124,14 +125,15 @@ class DancersSection(QWidget):
         seed.addWidget(self._dice)
         grid.addLayout(seed, 3, 0, 1, 2)
         grid.addWidget(self._sliders["size"], 4, 0, 1, 2)
-        grid.addWidget(self._sliders["delay_beats"], 5, 0, 1, 2)
-        grid.addWidget(self._mirrored, 6, 0, 1, 2)
+        grid.addWidget(self._sliders["weight"], 5, 0, 1, 2)
+        grid.addWidget(self._sliders["delay_beats"], 6, 0, 1, 2)
+        grid.addWidget(self._mirrored, 7, 0, 1, 2)
         place = QHBoxLayout()
         place.setSpacing(4)
         for name in ("x_m", "z_m"):
             place.addWidget(self._sliders[name], 1)
-        grid.addLayout(place, 7, 0, 1, 2)
-        grid.addWidget(self._sliders["turn_rad"], 8, 0, 1, 2)
+        grid.addLayout(place, 8, 0, 1, 2)
+        grid.addWidget(self._sliders["turn_rad"], 9, 0, 1, 2)
         self._section.body.addWidget(self.list)
         self._section.body.addWidget(self._form)
         outer = QVBoxLayout(self)
@@ -159,7 +161,7 @@ class DancersSection(QWidget):
         self._mirrored.clicked.connect(lambda on: self._change("mirrored", mirrored=bool(on)))
         self._dice.clicked.connect(self._new_variation)
         self._look.clicked.connect(self._show_choreography)
-        for name in ("seed", "size", "delay_beats"):
+        for name in ("seed", "size", "weight", "delay_beats"):
             slider, whole = self._sliders[name], name == "seed"
             slider.changed.connect(
                 lambda value, token, name=name, whole=whole: self._change(
@@ -211,12 +213,12 @@ class DancersSection(QWidget):
         self._source.set_options([Option("-1", self.tr("None")), *self._sources(dancer)])
         self._source.show_option(str(dancer.source))
         self._mirrored.setChecked(dancer.mirrored)
-        values = {"seed": dancer.seed, "size": dancer.size, "delay_beats": dancer.delay_beats}
+        values = {name: getattr(dancer, name) for name in ("seed", "size", "weight", "delay_beats")}
         values |= {name: getattr(dancer.stage, name) for name in ("x_m", "z_m")}
         values["turn_rad"] = round(math.degrees(dancer.stage.turn_rad))
         for name, slider in self._sliders.items():
             default = 1.0 if name == "size" else 0.0
-            changed = name in ("size", "delay_beats") and float(values[name]) != default
+            changed = name in ("size", "weight", "delay_beats") and float(values[name]) != default
             slider.show_value(float(values[name]), default=default, by_hand=changed)
 
     def _sources(self, dancer: Dancer) -> list[Option]:
@@ -364,6 +366,7 @@ class DancersSection(QWidget):
         words = {
             "seed": (self.tr("Variation"), "", self.tr("Another number is another dance to the same music")),
             "size": (self.tr("Size of motion"), "×", self.tr("Of trunk and arms: 1 as captured")),
+            "weight": (self.tr("Weight"), "", self.tr("From light to heavy: how deep the knees bend; 0 as captured")),
             "delay_beats": (self.tr("Delay"), self.tr("beats"), self.tr("In a canon: so much later than the music")),
             "x_m": (self.tr("X"), metres, self.tr("To the right as the audience sees it, from the middle")),
             "z_m": (self.tr("Z"), metres, self.tr("Towards the audience, from the middle")),

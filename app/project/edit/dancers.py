@@ -36,6 +36,7 @@ BOUNDS: Final[Mapping[str, limits.Bounds]] = {
     "delay_beats": limits.DELAY_BEATS,
     "source": (-1, limits.CHOREOGRAPHY_INDEX[1]),
     "size": limits.DANCE_SIZE,
+    "weight": limits.DANCE_WEIGHT,
 }
 """Lowest and highest value of the numbers of a dancer."""
 

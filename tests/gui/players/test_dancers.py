@@ -77,6 +77,7 @@ def test_a_dancer_comes_is_changed_and_goes_and_all_is_undone(
     assert dancer.choreography == str(choreography)
     assert section.dancer is dancer
     slide(section, "dancer_size", "1.25")
+    slide(section, "dancer_weight", "-0.5")
     slide(section, "dancer_delay_beats", "4")
     slide(section, "dancer_x_m", "1.5")
     mirrored = section.findChild(QCheckBox, "dancer_mirrored")
@@ -89,7 +90,8 @@ def test_a_dancer_comes_is_changed_and_goes_and_all_is_undone(
     source.setCurrentIndex(2)
     source.activated.emit(2)
     (changed,) = session.project.dancers
-    assert (changed.size, changed.delay_beats, changed.mirrored, changed.source) == (1.25, 4.0, True, 1)
+    assert (changed.size, changed.weight, changed.delay_beats) == (1.25, -0.5, 4.0)
+    assert (changed.mirrored, changed.source) == (True, 1)
     assert changed.stage.x_m == 1.5
     assert changed.seed != dancer.seed
     click(section, "dancers_duplicate_button")

@@ -9,11 +9,11 @@ import pytest
 
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
-from app.choreography.contacts import BoolArray, tips_m
-from app.choreography.feet import STEP_S, Stand, planted, stands
+from app.choreography.contacts import BoolArray, foot_contacts, tips_m
+from app.choreography.feet import DEEPER, HIGHER, STEP_S, Stand, planted, stands
 from app.rig import quaternion
 from tests.support.dance_measures import angular_jumps
-from tests.support.dances import still
+from tests.support.dances import SHANK_M, THIGH_M, stepping, still
 
 
 def carried(way_m: float) -> tuple[MotionClip, BoolArray]:
@@ -59,3 +59,24 @@ def test_a_knee_that_is_a_little_more_than_straight_bends_forwards() -> None:
     hip, knee, ankle = (places_m[:, 1 + SEGMENTS.index(f"left{name}")] for name in ("UpperLeg", "LowerLeg", "Foot"))
     assert (knee[:, 2] - 0.5 * (hip + ankle)[:, 2]).min() > 0.05
     assert angular_jumps(found).max() < 0.5
+
+
+@pytest.mark.parametrize("weight", [-1.0, 0.5, 1.0])
+def test_the_heavy_bend_their_knees_and_step_where_they_stepped(weight: float) -> None:
+    clip = stepping(12)
+    standing = stands(clip, foot_contacts(clip))
+    plain, weighed = planted(clip, standing), planted(clip, standing, weight)
+    lower_m = plain.hips_m[:, 1] - weighed.hips_m[:, 1]
+    leg_m = THIGH_M + SHANK_M
+    if weight > 0.0:
+        # Straight legs come down a little to reach their places anyway.
+        assert np.allclose(lower_m, weight * DEEPER * leg_m, atol=0.015)
+        assert np.abs(tips_m(weighed) - tips_m(plain)).max() < 1e-6
+    else:
+        # Straight legs reach no higher.
+        assert -HIGHER * leg_m - 1e-9 <= lower_m.min()
+    for stand in standing:
+        here = slice(stand.start, stand.stop)
+        assert np.abs(tips_m(weighed)[here, stand.foot] - stand.place_m).max() < 1e-3
+    assert np.allclose(weighed.hips_m[:, [0, 2]], plain.hips_m[:, [0, 2]])
+    assert angular_jumps(weighed).max() < 2.0 * angular_jumps(plain).max() + 1.0
