@@ -172,7 +172,8 @@ def _through_third_valve(model: Model, at: Layout) -> None:
         [(0, low, at.front - 0.068), (0, low, last + 0.028), (0.0085, low, last + 0.0115), (VALVE_X, low, last)],
         [0.02, 0.02],
     )
-    model.add("lacquered_brass", tube(into_valve, 0.0066))
+    # Its first stretch runs along Z but for the last bit, which differs from processor to processor.
+    model.add("lacquered_brass", tube(into_valve, 0.0066, side=Y))
     _ferrule(model, (0, low, at.front - 0.084), 0.0073, 0.016)
 
 

@@ -37,5 +37,6 @@ def failing(path: Path, folder: Path) -> None:
 
 if __name__ == "__main__":
     KINDS["failing"] = Kind("failing", failing, lambda: [b"good"], (), ".txt")
-    child.HANG_CPU_S = 2
+    # A gigabyte took more than 2 s to be filled on a slow machine.
+    child.HANG_CPU_S = 6
     child.main()

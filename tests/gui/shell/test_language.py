@@ -25,6 +25,7 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 import resources
+from app.choreography.library import bundled_choreographies
 from app.shell.app import Program
 from app.shell.language import Language
 from app.shell.preferences import show_preferences
@@ -79,6 +80,7 @@ def left_overs(program: Program) -> list[str]:
     names = [player.name for player in program.session.project.players]
     names += [part.name for part in program.session.project.score.parts]
     names += [program.editor.files.name, program.session.project.score.title, program.session.project.source]
+    names += bundled_choreographies()
     found = []
     for where, text in texts(program.window):
         words = english(text, tuple(filter(None, names)))
