@@ -22,6 +22,7 @@ from app.choreography.dance import Dance, Manner, Step
 from app.choreography.feet import planted, stands
 from app.choreography.hands import out_of_body
 from app.choreography.joins import distances_m
+from app.choreography.judge import usual_change_rad_s
 from app.choreography.model import ChoreographyModel
 from app.choreography.rhythm import Rhythm
 from app.choreography.sequence import Candidates, Grid, Weights, Wishes, choose, grid_of, symbol_scores
@@ -90,6 +91,7 @@ class Choreographer:
         self._stitcher = Stitcher(model)
         self._speeds = [joint_speed_m_s(clip) for clip in model.clips]
         self._hits_s = self._slowest_s()
+        self._usual_rad_s: dict[Fraction, float] = {}
 
     @cached_property
     def candidates(self) -> Candidates:
@@ -150,6 +152,12 @@ class Choreographer:
         clip = out_of_body(clip)
         standing = stands(clip, contacts)
         return Dance(planted(clip, standing, manner.weight), first_s, plan.steps, speeds, seams, standing)
+
+    def usual_change_rad_s(self, fps: Fraction) -> float:
+        """See `app.choreography.judge.usual_change_rad_s`: of the model's capture."""
+        if fps not in self._usual_rad_s:
+            self._usual_rad_s[fps] = usual_change_rad_s(self.model.clips, fps)
+        return self._usual_rad_s[fps]
 
     def steps(
         self, rhythm: Rhythm, manner: Manner, *, wishes: Wishes | None = None, weights: Weights | None = None

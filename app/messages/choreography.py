@@ -38,6 +38,12 @@ TEMPLATES: Final[dict[str, str]] = {
         "basic motion {number} is danced here although it is forbidden: nothing else fits; forbid fewer basic motions, "
         "or for a shorter time"
     ),
+    "dance.seam_shows": (
+        "the change from basic motion {before} to {after} can be seen: pin another motion here, or move this one"
+    ),
+    "dance.foot_slides": (
+        "the {side} foot slides over the floor while it stands: pin another motion here, or move this one"
+    ),
     "learn.no_motion": "there is no motion to learn from in {motions}: the body is still, or the clips are too short",
     "learn.states": "{states} basic motions cannot be learned from {segments} motions; ask for fewer states",
     "learn.no_overlap": (

@@ -6,7 +6,8 @@ everything before. It is made once for each frame rate and kept while nothing ch
 Messages: those of `app.choreography.model_file`; ``project.character_missing``; those of
 `app.project.storage.choreography_missing`; and of corrections that a dance does
 not hold, with basic motions and segments counted from 1: ``dance.state_not_held`` (number), ``dance.segment_not_held``
-(number), ``dance.state_not_avoided`` (number).
+(number), ``dance.state_not_avoided`` (number); and of what is seen of a dance, ``dance.seam_shows`` (before, after:
+basic motions), ``dance.foot_slides`` (side).
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ import numpy.typing as npt
 from app.choreography.dance import Dance, Manner, Step
 from app.choreography.derived_rhythm import heard_rhythm
 from app.choreography.generate import Choreographer
+from app.choreography.judge import jerking_seams, sliding_stands
 from app.choreography.library import choreography_path
 from app.choreography.model_file import read_model
 from app.choreography.retarget import retarget
@@ -135,7 +137,8 @@ class Dancing:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """Corrections that the dance does not hold; none before it is generated."""
+        """Corrections that the dance does not hold, joins that show and feet that slide; none before it is
+        generated."""
         return self._problems
 
     def _whole(self, fps: Fraction) -> tuple[Dance, Motion]:
@@ -153,7 +156,9 @@ class Dancing:
                     # Half a frame less: rounding must not add one.
                     end_s=frame.first_frame_s + (count - 0.5) * fps.denominator / fps.numerator,
                 )
-                self._problems = not_held(self._corrections, dance.steps, grid, self._tempo_map)
+                held = not_held(self._corrections, dance.steps, grid, self._tempo_map)
+                seen = visible_faults(dance, self.choreographer.usual_change_rad_s(fps))
+                self._problems = tuple(sorted(held + seen, key=lambda problem: problem.start_s))
                 motion = retarget(dance.clip, self.character, frame.first_frame_s)
                 times_s = frame.first_frame_s + np.arange(count) * fps.denominator / fps.numerator
                 shut = _blinks(self.dancer, frame).sample(times_s).astype(np.float32)
@@ -282,6 +287,25 @@ def not_held(
         if not held:
             time_s = tempo_map.seconds(float(item.tick))
             found.append(Problem(message, None, time_s, time_s))
+    return tuple(found)
+
+
+def visible_faults(dance: Dance, usual_rad_s: float) -> tuple[Problem, ...]:
+    """A problem for every join that shows, and for every standing foot that slides (`app.choreography.judge`)."""
+    fps = float(dance.clip.fps)
+    found = []
+    for seam in jerking_seams(dance.clip, dance.seams, usual_rad_s):
+        time_s = dance.first_s + seam / fps
+        before, after = (
+            next((step.state + 1 for step in dance.steps if step.end_s > at_s), dance.steps[-1].state + 1)
+            for at_s in (time_s - 1.5 / fps, time_s + 0.5 / fps)
+        )
+        message = Message("dance.seam_shows", {"before": before, "after": after})
+        found.append(Problem(message, None, time_s, time_s))
+    for stand in sliding_stands(dance.clip, dance.standing):
+        side = ("left", "right")[stand.foot]
+        start_s, end_s = (dance.first_s + frame / fps for frame in (stand.start, stand.stop))
+        found.append(Problem(Message("dance.foot_slides", {"side": side}), None, start_s, end_s))
     return tuple(found)
 
 

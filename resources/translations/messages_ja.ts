@@ -176,6 +176,14 @@
             <translation>禁止された基本動作 {number} が、ここで踊られています。ほかに合う動作がありません。禁止する基本動作を減らすか、区間を短くしてください</translation>
         </message>
         <message>
+            <source>the change from basic motion {before} to {after} can be seen: pin another motion here, or move this one</source>
+            <translation>基本動作 {before} から {after} への切り替わりが目立ちます。ここに別の動作を固定するか、この動作を移動してください</translation>
+        </message>
+        <message>
+            <source>the {side} foot slides over the floor while it stands: pin another motion here, or move this one</source>
+            <translation>{side}足が接地しているあいだに床の上を滑ります。ここに別の動作を固定するか、この動作を移動してください</translation>
+        </message>
+        <message>
             <source>there is no motion to learn from in {motions}: the body is still, or the clips are too short</source>
             <translation>{motions} には学習できる動きがありません。体が静止しているか、クリップが短すぎます</translation>
         </message>

@@ -11,9 +11,11 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.choreography.dance import Manner
+from app.choreography.generate import Choreographer
 from app.choreography.model_file import write_model
 from app.errors import AppError
-from app.performance.dancers import dancing_of, wishes_of
+from app.performance.dancers import dancing_of, visible_faults, wishes_of
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.performance.span import whole_span
@@ -22,7 +24,8 @@ from app.project.casting import StagePosition
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
 from app.project.edit.generation import vary_everyone
 from app.project.model import Dancer, Project
-from tests.support.dances import model
+from app.rig import quaternion
+from tests.support.dances import beaten, model
 from tests.unit.project.pieces import small_project
 
 FPS = Fraction(30)
@@ -228,3 +231,21 @@ def test_a_choreography_that_is_not_there_is_named_with_what_to_do(tmp_path: Pat
         with pytest.raises(AppError) as raised:
             dancing_of(Performance(project), project.dancers[0])
         assert raised.value.message.id == id
+
+
+def test_what_can_be_seen_of_a_dance_is_a_problem() -> None:
+    choreographer = Choreographer(model())
+    dance = choreographer.dance(beaten(48, 0.55), Manner(), Fraction(60), first_s=-1.0)
+    usual = choreographer.usual_change_rad_s(Fraction(60))
+    assert visible_faults(dance, usual) == ()
+    seam, stand = dance.seams[1], dance.standing[6]
+    rotations, hips = dance.clip.rotations.copy(), dance.clip.hips_m.copy()
+    turn = quaternion.from_axis_angle(np.array([0.0, 1.0, 0.0]), 0.4)
+    rotations[seam:, 2] = quaternion.multiply(turn, rotations[seam:, 2])
+    hips[stand.start : stand.stop, 0] += np.linspace(0.0, 0.02, stand.stop - stand.start)
+    broken = replace(dance, clip=replace(dance.clip, hips_m=hips, rotations=rotations))
+    found = {(one.message.id, one.start_s): one.message.arguments for one in visible_faults(broken, usual)}
+    states = [step.state + 1 for step in dance.steps]
+    at = next(number for number, step in enumerate(dance.steps) if abs(step.start_s - (seam / 60.0 - 1.0)) < 0.02)
+    assert found["dance.seam_shows", seam / 60.0 - 1.0] == {"before": states[at - 1], "after": states[at]}
+    assert found["dance.foot_slides", stand.start / 60.0 - 1.0] == {"side": ("left", "right")[stand.foot]}
