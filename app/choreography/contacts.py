@@ -11,6 +11,7 @@ from scipy.ndimage import gaussian_filter1d, label
 from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.rig import quaternion
+from app.rig.skeleton import JointTransforms
 
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]
@@ -28,9 +29,9 @@ SMOOTH_S: Final = 0.025
 """Standard deviation of the Gaussian over the speed: one frame of noise is no step."""
 
 
-def tips_m(clip: MotionClip) -> FloatArray:
-    """(F, 2, 3) places of the tips of the left and the right foot, in the world."""
-    world = clip.world()
+def tips_m(clip: MotionClip, world: JointTransforms | None = None) -> FloatArray:
+    """(F, 2, 3) places of the tips of the left and the right foot, in the world (that of the clip, where given)."""
+    world = clip.world() if world is None else world
     joints = [1 + SEGMENTS.index(foot) for foot in FEET]
     ends = clip.shape.ends_m[[ENDS.index(foot) for foot in FEET]]
     return world.positions_m[:, joints] + quaternion.rotate(world.rotations[:, joints], ends)

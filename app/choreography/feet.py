@@ -16,6 +16,7 @@ from app.choreography.contacts import BoolArray, tips_m
 from app.choreography.limbs import bend
 from app.rig import quaternion
 from app.rig.ik import Side, leg
+from app.rig.skeleton import JointTransforms
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -116,16 +117,18 @@ def planted(clip: MotionClip, standing: tuple[Stand, ...], weight: float = 0.0) 
     """
     if not standing and not weight:
         return clip
-    tips = tips_m(clip)
+    world = clip.world()
+    tips = tips_m(clip, world)
     targets = tips.copy()
     for foot in range(2):
         own = [stand for stand in standing if stand.foot == foot]
         targets[:, foot] += _correction(tips[:, foot], own, float(clip.fps))
     length_m = leg(clip.shape.skeleton, "left").length_m
     lower_m = weight * length_m * (DEEPER if weight > 0.0 else HIGHER)
-    clip = replace(clip, hips_m=clip.hips_m - (0.0, lower_m, 0.0))
-    clip = replace(clip, hips_m=_sunk(clip, targets, standing))
-    rotations, world = clip.rotations.copy(), clip.world()
+    lower = (lower_m + _sink_m(clip, world, targets, standing, lower_m))[:, None] * np.array((0.0, 1.0, 0.0))
+    clip = replace(clip, hips_m=clip.hips_m - lower)
+    world = replace(world, positions_m=world.positions_m - lower[:, None])
+    rotations = clip.rotations.copy()
     for foot, side in enumerate(SIDES):
         turned = world.rotations[:, 1 + SEGMENTS.index(FEET[foot])]
         ankle = targets[:, foot] - quaternion.rotate(turned, clip.shape.ends_m[ENDS.index(FEET[foot])])
@@ -218,9 +221,11 @@ def _eased(value: FloatArray, slope: FloatArray, u: FloatArray, fade: float) -> 
     return np.asarray((1.0 - u) ** 2 * (1.0 + 2.0 * u) * value + (1.0 - u) ** 2 * u * fade * slope)
 
 
-def _sunk(clip: MotionClip, targets: FloatArray, standing: tuple[Stand, ...]) -> FloatArray:
-    """(F, 3) hips, lower where a foot that stands would be out of reach."""
-    world, fps = clip.world(), float(clip.fps)
+def _sink_m(
+    clip: MotionClip, world: JointTransforms, targets: FloatArray, standing: tuple[Stand, ...], lower_m: float
+) -> FloatArray:
+    """(F,) how much farther than by ``lower_m`` the hips come down where a foot that stands would be out of reach."""
+    fps = float(clip.fps)
     sink = np.zeros(len(clip))
     for stand in standing:
         limb = leg(clip.shape.skeleton, SIDES[stand.foot])
@@ -231,9 +236,8 @@ def _sunk(clip: MotionClip, targets: FloatArray, standing: tuple[Stand, ...]) ->
         way = world.positions_m[here, limb.upper] - ankle
         across2 = np.square(way[:, [0, 2]]).sum(axis=1)
         allowed = np.sqrt(np.maximum((REACH_SHARE * limb.length_m) ** 2 - across2, 0.25 * limb.length_m**2))
-        sink[here] = np.maximum(sink[here], way[:, 1] - allowed)
+        sink[here] = np.maximum(sink[here], way[:, 1] - lower_m - allowed)
     if not sink.any():
-        return clip.hips_m
+        return sink
     wide = 2 * round(2.5 * SINK_S * fps) + 1
-    smooth = gaussian_filter1d(maximum_filter1d(sink, wide, mode="nearest"), SINK_S * fps, mode="nearest")
-    return np.asarray(clip.hips_m - smooth[:, None] * (0.0, 1.0, 0.0))
+    return np.asarray(gaussian_filter1d(maximum_filter1d(sink, wide, mode="nearest"), SINK_S * fps, mode="nearest"))

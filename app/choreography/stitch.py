@@ -128,20 +128,21 @@ class Stitcher:
             segment = int(frames.segments[step])
             if before is None:
                 turn, moved = self._home(segment, body)
-                goes_on = True
+                carried = 0
             else:
                 earlier = int(frames.segments[before])
                 follows = self.follows(segment, earlier)
                 if not follows or step != before + 1:
                     turn, moved = self._aligned(earlier, segment, turn, moved, self._heights_m[body])
                 turn, moved = _steered(turn, moved, out, start)
-                goes_on = follows and kept == (turn, moved) and not out.is_fading(start)
+                # Of what follows in the capture only the place and the facing may have been steered.
+                carried = max(out.fading(start), int(kept != (turn, moved))) if follows else len(SEGMENTS)
                 if not follows:
                     seams.append(start)
             # One frame more: by the first two it is known how fast the old and the new motion go apart.
             here = slice(start + run, stop + run + 1)
             hips, rotations = _placed(captured[0][here], captured[1][here], turn, moved)
-            out.append(start, hips, rotations, faded_in=not goes_on)
+            out.append(start, hips, rotations, carried)
             before = step
         shape = self._model.clips[body].shape
         return MotionClip(shape, fps, out.hips, quaternion.continuous(out.rotations)), contacts, tuple(seams)
@@ -210,34 +211,39 @@ class _Output:
         self.hips = np.zeros((count, 3))
         self.rotations = np.tile(quaternion.IDENTITY, (count, len(SEGMENTS), 1))
         self._faces: ComplexArray = np.ones(count, np.complex128)
-        self._fades_until = 0
+        self._fades_until, self._carried = 0, 0
 
-    def is_fading(self, frame: int) -> bool:
-        """Whether at a frame something of an earlier motion is left."""
-        return frame < self._fades_until
+    def fading(self, frame: int) -> int:
+        """Of how many segments something of an earlier motion is left at a frame."""
+        return self._carried if frame < self._fades_until else 0
 
-    def append(self, start: int, hips: FloatArray, rotations: FloatArray, *, faded_in: bool) -> None:
-        """Add frames; the last of what is given is what would come next, and is not added."""
+    def append(self, start: int, hips: FloatArray, rotations: FloatArray, carried: int) -> None:
+        """Add frames; the last of what is given is what would come next, and is not added.
+
+        The place of the hips and the rotations of the first ``carried`` segments are carried over from the motion
+        before, and fade; 0: nothing is.
+        """
         count = len(hips) - 1
-        if faded_in and start >= 2:
-            (hips_before, hips_last), (turns_before, turns_last) = (
-                each[start - 2 : start] for each in (self.hips, self.rotations)
-            )
+        if carried and start >= 2:
+            hips_before, hips_last = self.hips[start - 2 : start]
+            turns_before, turns_last = self.rotations[start - 2 : start, :carried]
             # Where the old motion would go on to: this frame and the next.
             step, turn = hips_last - hips_before, quaternion.multiply(turns_last, quaternion.conjugate(turns_before))
             off = hips_last + step * np.array([[1.0], [2.0]]) - hips[:2]
             goes_on = np.stack([once := quaternion.multiply(turn, turns_last), quaternion.multiply(turn, once)])
-            turned = quaternion.to_rotation_vector(quaternion.multiply(goes_on, quaternion.conjugate(rotations[:2])))
+            turned = quaternion.to_rotation_vector(
+                quaternion.multiply(goes_on, quaternion.conjugate(rotations[:2, :carried]))
+            )
             spin = turned[1] - turned[0]
             # A difference about half a turn has two ways round; no join as bad as that is chosen.
             spin = np.where(np.linalg.norm(spin, axis=-1, keepdims=True) > 1.0, 0.0, spin)
             length = math.ceil(FADE_S * self._rate)
-            self._fades_until = start + length
+            self._fades_until, self._carried = start + length, carried
             fading = slice(0, min(count, length))
             times_s = np.arange(fading.stop) / self._rate
             hips[fading] += faded(off[0], (off[1] - off[0]) * self._rate, times_s)
-            carried = quaternion.from_rotation_vector(faded(turned[0], spin * self._rate, times_s))
-            rotations[fading] = quaternion.multiply(carried, rotations[fading])
+            off_turns = quaternion.from_rotation_vector(faded(turned[0], spin * self._rate, times_s))
+            rotations[fading, :carried] = quaternion.multiply(off_turns, rotations[fading, :carried])
         here = slice(start, start + count)
         self.hips[here], self.rotations[here] = hips[:-1], rotations[:-1]
         self._faces[here] = np.exp(1j * quaternion.twist_angle(rotations[:-1, 0], _UP))
