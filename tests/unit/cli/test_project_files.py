@@ -58,7 +58,7 @@ def test_inspect_tells_of_dancers(run: Run, tmp_path: Path) -> None:
         {
             "name": "Ana", "choreography": str(tmp_path / "salsa.choreography"), "character": "woman_adult",
             "x_m": 1.5, "z_m": 3.0, "turn_deg": 90.0, "seed": 0, "delay_beats": 0.0, "mirrored": False, "source": -1,
-            "size": 1.0,
+            "size": 1.0, "weight": 0.0,
         }
     ]  # fmt: skip
     assert len(found["players"]) == 2
