@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,9 +14,10 @@ from app.choreography.clip import MotionClip
 from app.choreography.cuts import FLOOR_RAD_S2, Cut, segment
 from app.choreography.read_motion import read_motion
 from app.rig import quaternion
+from tests.support.dance_measures import SHARED
 from tests.unit.choreography.test_features import shape
 
-CLIPS = Path("/work/shared/data/mocap")
+CLIPS = SHARED / "mocap"
 
 
 def arm_swings(fps: int, swings_s: tuple[float, ...] = (1.0, 2.5, 4.0, 5.5, 7.0), length_s: float = 8.5) -> MotionClip:

@@ -15,8 +15,9 @@ from app.choreography.body import SEGMENTS
 from app.choreography.read_motion import read_motion
 from app.errors import FileError
 from app.rig import quaternion
+from tests.support.dance_measures import SHARED
 
-CLIPS = Path("/work/shared/data/mocap")
+CLIPS = SHARED / "mocap"
 LIMBS = {"UpperArm": 0, "LowerArm": 1, "Hand": 2, "UpperLeg": 3, "LowerLeg": 4, "Foot": 5}
 POSER = ("Shldr", "ForeArm", "Hand", "Thigh", "Shin", "Foot")
 MIXAMO = ("Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot")
