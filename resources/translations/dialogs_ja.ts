@@ -247,6 +247,10 @@ Bones: {bones}, morphs: {morphs}</source>
         <translation>遷移</translation>
     </message>
     <message>
+        <source>Graph</source>
+        <translation>グラフ</translation>
+    </message>
+    <message>
         <source>Percussion</source>
         <translation>打楽器</translation>
     </message>
@@ -261,6 +265,10 @@ Bones: {bones}, morphs: {morphs}</source>
     <message>
         <source>What follows what, in percent: a row is what is danced, a column what comes next. Basic motions in colour are danced in this piece, so many times.</source>
         <translation>どの動作の次にどの動作が続くか(%)。行が現在の動作、列が次の動作です。色付きの基本動作はこの曲で踊られるもので、下の数字はその回数です。</translation>
+    </message>
+    <message>
+        <source>An arrow for each transition that was learned, the wider the likelier. Point at a basic motion.</source>
+        <translation>学習した遷移を矢印で示します。太いほど確率が高くなります。基本動作を指すと、その遷移が強調されます。</translation>
     </message>
     <message>
         <source>Close</source>

@@ -32,6 +32,7 @@ from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import sentence
 from widgets.dialogs.motion_gallery import MotionGallery
 from widgets.dialogs.probability_table import ProbabilityTable, Side
+from widgets.dialogs.transition_graph import TransitionGraph
 
 if TYPE_CHECKING:
     # What dancing is made with is loaded where somebody dances.
@@ -95,16 +96,18 @@ class ChoreographyDialog(QDialog):
         self._error: AppError | None = None
         self._asked: tuple[Performance, Dancer] | None = None
         self._heading, self._use = Label(), Label()
-        self._hints = {name: Label() for name in ("motions", "transitions", "percussion")}
+        self._hints = {name: Label() for name in ("motions", "transitions", "graph", "percussion")}
         self._details = {name: Label() for name in self._hints}
         self.tabs = QTabWidget()
         self.gallery = MotionGallery(session)
         self.transitions = ProbabilityTable(session, _MOTION_ROW_PX)
+        self.graph = TransitionGraph(session)
         self.percussion = ProbabilityTable(session, _SOUND_ROW_PX)
         self.credits = QPlainTextEdit()
         self._close = QPushButton()
         self._build()
         self.gallery.selected.connect(lambda state: self._details["motions"].setText(self._about(state)))
+        self.graph.pointed.connect(lambda state: self._details["graph"].setText(self._about(state)))
         self.transitions.pointed.connect(self._details["transitions"].setText)
         self.percussion.pointed.connect(self._details["percussion"].setText)
         self._close.clicked.connect(self.close)
@@ -117,7 +120,12 @@ class ChoreographyDialog(QDialog):
         self._ask()
 
     def _build(self) -> None:
-        views = {"motions": self.gallery, "transitions": self.transitions, "percussion": self.percussion}
+        views: dict[str, QWidget] = {
+            "motions": self.gallery,
+            "transitions": self.transitions,
+            "graph": self.graph,
+            "percussion": self.percussion,
+        }
         names: dict[str, QWidget] = {
             "choreography_tabs": self.tabs,
             "choreography_heading": self._heading,
@@ -141,9 +149,9 @@ class ChoreographyDialog(QDialog):
             column.addWidget(self._details[name])
             self.tabs.addTab(page, "")
         # Of two lines, so that the cards stay where they are.
-        two_lines = 2 * self._details["motions"].fontMetrics().lineSpacing() + 2
-        self._details["motions"].setMinimumHeight(two_lines)
-        self._details["motions"].setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
+        for name in ("motions", "graph"):
+            self._details[name].setMinimumHeight(2 * self._details[name].fontMetrics().lineSpacing() + 2)
+            self._details[name].setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         page = QWidget()
         column = QVBoxLayout(page)
         column.setContentsMargins(0, 10, 0, 0)
@@ -246,6 +254,7 @@ class ChoreographyDialog(QDialog):
             figures,
         )
         self.transitions.show_table(model.transition, states, states, self._followed(model.transition))
+        self.graph.show_graph(model.transition, figures, frozenset(shown.used), self._session.colour(shown.dancer))
         symbols = list(shown.symbols)
         marked = frozenset(row for row, symbol in enumerate(symbols) if symbol in shown.struck)
         sounds = Side(tuple(names[symbol] for symbol in symbols), marked, {})
@@ -304,10 +313,16 @@ class ChoreographyDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        titles = (self.tr("Basic Motions"), self.tr("Transitions"), self.tr("Percussion"), self.tr("Credits"))
+        titles = (
+            self.tr("Basic Motions"),
+            self.tr("Transitions"),
+            self.tr("Graph"),
+            self.tr("Percussion"),
+            self.tr("Credits"),
+        )
         for number, title in enumerate(titles):
             self.tabs.setTabText(number, title)
-        views: tuple[QWidget, ...] = (self.gallery, self.transitions, self.percussion, self.credits)
+        views: tuple[QWidget, ...] = (self.gallery, self.transitions, self.graph, self.percussion, self.credits)
         for view, title in zip(views, titles, strict=True):
             view.setAccessibleName(title)
         self._hints["motions"].setText(
@@ -318,6 +333,9 @@ class ChoreographyDialog(QDialog):
                 "What follows what, in percent: a row is what is danced, a column what comes next. "
                 "Basic motions in colour are danced in this piece, so many times."
             )
+        )
+        self._hints["graph"].setText(
+            self.tr("An arrow for each transition that was learned, the wider the likelier. Point at a basic motion.")
         )
         self._hints["percussion"].setText(self._percussion_hint(self._shown is not None and self._shown.derived))
         self._close.setText(self.tr("Close"))

@@ -137,8 +137,30 @@ def test_transitions_are_the_models_percentages_and_the_cell_is_read_out(
     assert not session.document.done[1:]
 
 
-def test_sounds_are_those_learned_and_those_of_the_piece_which_are_marked(dialog: ChoreographyDialog) -> None:
+def test_the_graph_has_an_arrow_for_each_learned_transition(dialog: ChoreographyDialog) -> None:
     dialog.tabs.setCurrentIndex(2)
+    graph, transition = dialog.graph, learned(6, "").transition
+    seen = {
+        (row, column) for row in range(6) for column in range(6) if transition[row][column] > 1.5 * min(transition[row])
+    }
+    assert set(graph.arrows()) == seen
+    assert 0 < len(seen) < 36
+    QTest.mouseMove(graph, graph.place(2).toPoint())
+    assert graph.looked_at == 2
+    assert text(dialog, "graph_details").startswith("Basic motion 3 · ")
+    press(graph, Qt.Key.Key_Right)
+    assert text(dialog, "graph_details").startswith("Basic motion 4 · ")
+    places = [graph.place(state) for state in range(6)]
+    assert all(graph.rect().contains(place.toPoint()) for place in places)
+    picture = graph.grab().toImage()
+    drawn = {
+        picture.pixelColor(x, y).rgb() for x in range(0, picture.width(), 3) for y in range(0, picture.height(), 3)
+    }
+    assert len(drawn) > 10
+
+
+def test_sounds_are_those_learned_and_those_of_the_piece_which_are_marked(dialog: ChoreographyDialog) -> None:
+    dialog.tabs.setCurrentIndex(3)
     table = dialog.percussion.table
     assert table.rows.names == ("Cowbell", "Claves")
     assert table.rows.marked == {1}
