@@ -60,7 +60,7 @@ def bounds(cuts: Sequence[Cut]) -> tuple[int, ...]:
 def moved_bound(cuts: Cuts, bound: int, to: int, frames: int) -> Cuts:
     """Move a bound, at most up to the accents and bounds beside it, and within a clip of so many frames.
 
-    Bounds of different motions never meet: two that do could not be told apart any more.
+    Bounds of different motions never meet: two that do could not be distinguished any more.
     """
     accents = [cut.accent for cut in cuts]
     fixed = sorted({*accents, *bounds(cuts)} - {bound})

@@ -58,13 +58,6 @@ class Clouds:
         self.flat: ComplexArray = flat - self.middle[:, None]
         self.height: FloatArray = cloud[..., 1]
 
-    def one(self, number: int) -> Clouds:
-        """One of the bodies."""
-        found = object.__new__(Clouds)
-        here = slice(number, number + 1)
-        found.flat, found.middle, found.height = self.flat[here], self.middle[here], self.height[here]
-        return found
-
 
 STATURE_M: Final = 1.7
 _WEIGHTS: FloatArray = np.tile([_HEAVY.get(name, 1.0) for name in (*SEGMENTS, *ENDS)], len(AROUND_S))
@@ -84,9 +77,9 @@ def _square(before: FloatArray, after: FloatArray) -> FloatArray:
     return summed
 
 
-def best_turn_rad(before: Clouds, after: Clouds) -> FloatArray:
-    """(N,) turn about +Y that lays each body of ``after`` over the one of ``before``."""
-    return np.asarray(np.angle((after.flat.conj() * before.flat) @ _WEIGHTS))
+def best_turn_rad(before: ComplexArray, after: ComplexArray) -> float:
+    """Turn about +Y that lays one body over another, both as `Clouds.flat` has them (P,)."""
+    return float(np.angle((after.conj() * before) @ _WEIGHTS))
 
 
 def faded(value: FloatArray, slope: FloatArray, times_s: FloatArray, fade_s: float = FADE_S) -> FloatArray:

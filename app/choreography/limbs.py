@@ -52,11 +52,11 @@ def bend(
     thigh, shank, foot = (world.rotations[:, at] for at in (thigh_at, shank_at, foot_at))
     upper, lower = (float(np.linalg.norm(clip.shape.offsets_m[at - 1])) for at in (shank_at, foot_at))
     line = ankle - hip
-    wanted = np.linalg.norm(line, axis=-1)
+    requested = np.linalg.norm(line, axis=-1)
     natural = np.linalg.norm(was - hip, axis=-1)
-    distance = np.maximum(_softly(wanted, upper + lower), np.minimum(wanted, natural))
+    distance = np.maximum(_softly(requested, upper + lower), np.minimum(requested, natural))
     distance = np.maximum(distance, abs(upper - lower) + 1e-4)
-    way = line / np.maximum(wanted, 1e-9)[:, None]
+    way = line / np.maximum(requested, 1e-9)[:, None]
     points = quaternion.rotate(thigh, np.array(ahead))
     # The knee stays off the line from hip to ankle where it was, whose plane turns with the line alone; of a leg that
     # is straight, or a little more than straight, it goes where the thigh faces, for there is no plane to keep.

@@ -319,7 +319,7 @@ class _Search:
         return self._shortest_s <= gap_s <= self._longest_s
 
     def _moves(self, gap_s: float) -> npt.NDArray[np.float32]:
-        """(S, S) score of going to the one's accent from the other's in a time; times are told apart to one in 50."""
+        """(S, S) score of going to the one's accent from the other's in a time; times are rounded to one in 50."""
         key = round(50.0 * float(np.log(gap_s)))
         if key not in self._between:
             off = np.log(self._lasts_s / np.exp(key / 50.0))

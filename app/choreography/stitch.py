@@ -172,7 +172,7 @@ class Stitcher:
         """Turn and move that put the start of a segment at the dancer's place, facing the audience."""
         one = self._model.segments[segment]
         source = self._model.clips[one.clip]
-        turn = -_yaw(facing(source.span(one.start, one.start + 1)))
+        turn = -float(quaternion.twist_angle(facing(source.span(one.start, one.start + 1)), _UP)[0])
         hips = source.hips_m[one.start] * self._heights_m[body] / self._heights_m[one.clip]
         return turn, -complex(np.exp(1j * turn)) * complex(hips[2], hips[0])
 
@@ -180,7 +180,7 @@ class Stitcher:
         self, before: int, after: int, turn: float, moved: complex, own_height_m: float
     ) -> tuple[float, complex]:
         """Turn and move of a segment that lay it over the end of the one before."""
-        own = float(best_turn_rad(self.ends.one(before), self.starts.one(after))[0])
+        own = best_turn_rad(self.ends.flat[before], self.starts.flat[after])
         scale = own_height_m / STATURE_M
         reached = complex(np.exp(1j * turn)) * self.ends.middle[before] * scale + moved
         turn += own
@@ -285,7 +285,3 @@ def _placed(hips: FloatArray, rotations: FloatArray, turn: float, moved: complex
     rotations = rotations.copy()
     rotations[:, 0] = quaternion.multiply(quaternion.from_axis_angle(_UP, turn), rotations[:, 0])
     return np.stack([flat.imag, hips[:, 1], flat.real], axis=1), rotations
-
-
-def _yaw(turns: FloatArray) -> float:
-    return float(2.0 * np.arctan2(turns[0, 1], turns[0, 3]))

@@ -147,7 +147,7 @@ def stream(arguments: argparse.Namespace) -> int:
 
 
 def _dancing(performance: Performance, dancer: Dancer) -> Dancing:
-    # What dancing is made with is loaded where somebody dances.
+    # The modules of dances are loaded only for pieces with dancers.
     from app.performance.dancers import dancing_of
 
     return dancing_of(performance, dancer)

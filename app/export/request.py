@@ -129,7 +129,7 @@ def cast_of(
         return performer_of(request.performance, player)
 
     def make_dance(dancer: Dancer) -> Dancing:
-        # What dancing is made with is loaded where somebody dances.
+        # The modules of dances are loaded only for pieces with dancers.
         from app.performance.dancers import dancing_of
 
         if stop_wanted():

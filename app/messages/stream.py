@@ -16,7 +16,7 @@ TEMPLATES: Final[dict[str, str]] = {
         "{host} is a multicast or broadcast address: every computer on the network could receive what is sent. Nothing "
         "was sent"
     ),
-    "stream.nobody": "there is nobody to stream",
+    "stream.nobody": "there are no players or dancers to stream",
     "stream.from": "--from {time_s:g}: the piece goes from {first_s:g} to {end_s:g} seconds",
     "stream.port": "{port} is no port that can be sent to; possible: {least} to {most}",
     "stream.no_room": (

@@ -1,7 +1,7 @@
 """What players dance while they play: the layer of their bodies, from the dance that a dancer of the same choreography
 and variation dances to the piece (`app.performance.dancers`), or from one of the player's own.
 
-A player whose choreography is not there or damaged moves as is generated, and the plan tells why. Messages: those of
+A player whose choreography is not there or damaged moves as generated, and the plan reports why. Messages: those of
 `app.project.storage.choreography_missing` and of `app.choreography.model_file`.
 """
 

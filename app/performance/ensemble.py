@@ -386,7 +386,7 @@ def _not_danced(player: Player) -> tuple[Message, ...]:
     """What to tell of a choreography that the player cannot dance."""
     if not player.parameters.choreography:
         return ()
-    # What dancing is made with is loaded where somebody dances.
+    # The modules of dances are loaded only for pieces with dancers.
     from app.performance.body_dance import unfit_choreography
 
     unfit = unfit_choreography(player)

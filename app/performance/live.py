@@ -471,7 +471,7 @@ class LiveMotion:
         return track.prepared
 
     def _dancing(self, shown: _Shown, track: _Track, dancer: Dancer) -> Dancing | None:
-        # What dancing is made with is loaded where somebody dances.
+        # The modules of dances are loaded only for pieces with dancers.
         from app.performance.dancers import dancing_of
 
         try:

@@ -39,7 +39,7 @@ def playing_of(
     instrument, character, hold, body = performer.instrument, performer.character, performer.hold, performer.body
     dance = None
     if danced and player.parameters.choreography:
-        # What dancing is made with is loaded where somebody dances.
+        # The modules of dances are loaded only for pieces with dancers.
         from app.performance.body_dance import layer_of
 
         dance = layer_of(performance, player)

@@ -1680,7 +1680,7 @@
             <translation>{host} はマルチキャストまたはブロードキャストのアドレスです。送信すると、ネットワーク上のすべてのコンピューターが受信できます。まだ何も送信していません</translation>
         </message>
         <message>
-            <source>there is nobody to stream</source>
+            <source>there are no players or dancers to stream</source>
             <translation>配信する出演者がいません</translation>
         </message>
         <message>

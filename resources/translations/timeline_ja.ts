@@ -144,7 +144,7 @@
         <translation>各ダンサーの踊り。動作をクリックで選択、ドラッグで別の拍へ移動、上下キーで別の動作に変更、右クリックでその他の操作、Backspaceで自動生成に戻します</translation>
     </message>
     <message>
-        <source>Nobody dances yet. Add a dancer in the Players panel.</source>
+        <source>No dancers yet. Add one in the Players panel.</source>
         <translation>ダンサーはまだいません。「プレイヤー」パネルで追加してください。</translation>
     </message>
     <message>

@@ -35,7 +35,7 @@ from widgets.dialogs.probability_table import ProbabilityTable, Side
 from widgets.dialogs.transition_graph import TransitionGraph
 
 if TYPE_CHECKING:
-    # What dancing is made with is loaded where somebody dances.
+    # The modules of dances are loaded only for pieces with dancers.
     from app.choreography.model import ChoreographyModel
     from app.choreography.overview import BasicMotion
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPointF, QSize, Qt
+import numpy as np
+from PySide6.QtCore import QPointF, QSize
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
@@ -10,12 +11,11 @@ from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.cuts import Cut
 from app.choreography.features import POSES, FloatArray, features
-from app.performance.dance_steps import BONES, HEAD
+from widgets.common.dance_figures import HIGHEST, draw_figures, placed
 from widgets.common.session import Session
 
-_HIGHEST = 1.3
 _WIDEST = 0.95
-"""In parts of the body's height: with the arms up, and with the arms to the sides."""
+"""In parts of the body's height, with the arms to the sides."""
 _PEN_PX = 2.5
 
 
@@ -64,18 +64,9 @@ class PoseFigure(QWidget):
         painter.fillRect(self.rect(), QColor(tokens.sunken))
         if self._pose is None:
             return
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        scale = 0.95 * min(self.height() / _HIGHEST, self.width() / _WIDEST)
-        floor_px = self.height() / 2.0 + scale * _HIGHEST / 2.0 - 4.0
-        points = [QPointF(self.width() / 2.0 + scale * x, floor_px - scale * y) for x, y in self._pose.tolist()]
+        height_px = 0.95 * min(self.height(), self.width() * HIGHEST / _WIDEST)
+        floor_px = 0.5 * (self.height() + height_px) - 4.0
         painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
         painter.drawLine(QPointF(0.0, floor_px), QPointF(self.width(), floor_px))
-        painter.setPen(QPen(QColor(tokens.text), _PEN_PX, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-        for first, second in BONES:
-            painter.drawLine(points[first], points[second])
-        neck, crown = (points[at] for at in HEAD)
-        way = crown - neck
-        tall = max(1.0, (way.x() ** 2 + way.y() ** 2) ** 0.5)
-        painter.setBrush(QColor(tokens.text))
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.drawEllipse((neck + crown) / 2.0, 0.36 * tall, 0.5 * tall)
+        points = placed(self._pose[None], np.array([self.width() / 2.0]), floor_px, height_px)
+        draw_figures(painter, points, QColor(tokens.text), _PEN_PX, height_px)

@@ -27,7 +27,7 @@ from widgets.timeline.lanes.dance_menu import DanceMenu
 from widgets.timeline.lanes.row_names import RowNames
 
 if TYPE_CHECKING:
-    # What dancing is made with is loaded where somebody dances.
+    # The modules of dances are loaded only for pieces with dancers.
     from app.performance.dance_steps import DanceSteps
 
 ROW_PX, LEAST_ROW_PX, MOST_ROW_PX = 46, 26, 90
@@ -94,7 +94,7 @@ class DanceLane(Lane):
 
     def empty_text(self) -> str:
         """How there comes to be a dance; empty where somebody dances."""
-        return "" if self.dancers else self.tr("Nobody dances yet. Add a dancer in the Players panel.")
+        return "" if self.dancers else self.tr("No dancers yet. Add one in the Players panel.")
 
     def reason(self, dance: DanceSteps) -> str:
         """Why a dancer does not dance; empty for one who does."""
