@@ -40,6 +40,8 @@ SMOOTH_S: Final = 0.08
 PASSES: Final = 2
 """A hand that is pushed out of one part may come into another."""
 LEAST_M: Final = 0.002
+NEAR_M: Final = 0.001
+"""Rounding, when hands are left out that are farther from a part of the body than they are long."""
 ELBOW: Final = (0.0, 0.0, -1.0)
 """Where an elbow points, of an upper arm."""
 
@@ -94,22 +96,33 @@ def _deepest_m(clip: MotionClip, world: JointTransforms, side: str) -> FloatArra
     hand = 1 + SEGMENTS.index(f"{side}Hand")
     along = quaternion.rotate(world.rotations[:, hand], clip.shape.ends_m[ENDS.index(f"{side}Hand")])
     ahead = quaternion.rotate(world.rotations[:, 1 + SEGMENTS.index("chest")], np.array((0.0, 0.0, AHEAD_M)))
+    length_m = float(np.linalg.norm(clip.shape.ends_m[ENDS.index(f"{side}Hand")]))
     result, depths = np.zeros((len(clip), 3)), np.zeros(len(clip))
     for first, last, part in CAPSULES:
         radius = part * height_m(clip)
         start, end = (_place_m(clip, world, name) for name in (first, last))
-        axis = end - start
-        squared = np.maximum(np.einsum("fi,fi->f", axis, axis), 1e-9)
+        wrist = world.positions_m[:, hand]
+        # A wrist that is farther from the capsule than this has its whole hand outside.
+        near = np.flatnonzero(np.linalg.norm(_away_m(wrist, start, end), axis=1) < radius + length_m + NEAR_M)
+        if not len(near):
+            continue
+        wrist, start, end = wrist[near], start[near], end[near]
         for share in ALONG:
-            point = world.positions_m[:, hand] + share * along
-            at = np.clip(np.einsum("fi,fi->f", point - start, axis) / squared, 0.0, 1.0)
-            away = point - (start + at[:, None] * axis)
+            away = _away_m(wrist + share * along[near], start, end)
             depth = radius - np.linalg.norm(away, axis=1)
-            out = away + np.clip(depth / radius, 0.0, 1.0)[:, None] * ahead
+            out = away + np.clip(depth / radius, 0.0, 1.0)[:, None] * ahead[near]
             out /= np.maximum(np.linalg.norm(out, axis=1), 1e-9)[:, None]
-            deeper = depth > depths
-            result[deeper], depths[deeper] = (depth[:, None] * out)[deeper], depth[deeper]
+            deeper = depth > depths[near]
+            result[near[deeper]], depths[near[deeper]] = (depth[:, None] * out)[deeper], depth[deeper]
     return result
+
+
+def _away_m(point: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+    """(F, 3) from the nearest place of a line to a point."""
+    axis = end - start
+    squared = np.maximum(np.einsum("fi,fi->f", axis, axis), 1e-9)
+    at = np.clip(np.einsum("fi,fi->f", point - start, axis) / squared, 0.0, 1.0)
+    return np.asarray(point - (start + at[:, None] * axis))
 
 
 def _place_m(clip: MotionClip, world: JointTransforms, name: str) -> FloatArray:
