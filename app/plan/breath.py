@@ -35,25 +35,22 @@ breath.too_long(note, phrase_s, air_s, lung_s): "From note {note} on, {phrase_s}
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable
 from typing import NamedTuple
 
 import msgspec
 import numpy as np
 
 from app.errors import Argument, Message
+from app.plan.catch_lengths import CATCH_MIN_S, catch_lengths_s, drop_lengths_s
+from app.plan.catch_places import catch_places
 from app.plan.corrections import BY_HAND, WITHIN, Correction, SetBreath, removed_ids, without_removed
-from app.plan.heard import BREATH_S, Blown, Silences, gaps_within, silences
+from app.plan.heard import Blown, Silences, gaps_within, silences
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import (
-    CATCH_MIN_S,
     EPSILON,
     FULL_BREATH_S,
     air_used_s,
-    catch_lengths_s,
-    catch_places,
     drawn,
-    drop_lengths_s,
     levels,
     lungful_s,
     needed_rests,
@@ -62,6 +59,7 @@ from app.plan.lungs import (
 )
 from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, Problem, TimeFrame
 from app.plan.notation import at_score_tempo, notated
+from app.plan.rest_breaths import heard_breaths, heard_catch, rest_breaths, within_note
 from app.plan.rests import rest_ticks
 from app.plan.stagger import ALONE, Shared, within_held
 from instrument_maps.model import Air
@@ -117,120 +115,260 @@ def plan_breaths(
     """
     if not notes:
         return BreathPlan((), (), frozenset(), {}, frozenset())
-    removed = removed_ids(corrections)
-    index_of = {note.id: index for index, note in enumerate(notes)}
-    placed = {(item.kind, item.note_id): item for item in corrections
-              if isinstance(item, SetBreath) and item.note_id in index_of}  # fmt: skip
+    line = _Breather(notes, times, piece, parameters, {note.id: index for index, note in enumerate(notes)})
+    score = _read(line, air, heard)
+    given = _given(line, score, frame, corrections, shared)
+    stock, spare = _stock(line, score, given)
+    catches = _catches(line, score, stock, given.untouchable, shared, seeds)
+    caught = [_caught(line, score, stock, spare, index) for index in catches]
+    refill = stock.refill.copy()
+    for event, index in zip(caught, catches, strict=True):
+        refill[index] = drawn(event.end_s - event.start_s)
+    kept = [event for event in (*given.kept, *given.by_hand) if event not in spare.values()]
+    events = tuple(sorted([*kept, *caught], key=lambda event: (event.start_s, event.end_s)))
+    early_end_s, cut = _cut_notes(line, events)
+    return BreathPlan(
+        events=_with_depths(events, stock.used, score.lung_s, refill, line.index_of),
+        problems=(*cut, *_too_long(notes, times, stock.used, score.lung_s, refill)),
+        generated_ids=frozenset(event.id for event in (*given.generated, *caught)),
+        early_end_s=early_end_s,
+        catch_notes=frozenset(notes[index].id for index in catches),
+    )
+
+
+class _Breather(NamedTuple):
+    """Who breathes for which notes; ``index_of`` is by their ids."""
+
+    notes: tuple[Note, ...]
+    times: LineTimes
+    piece: Piece
+    parameters: PlayerParameters
+    index_of: dict[str, int]
+
+    def index(self, event: BreathEvent) -> int:
+        """The note that a breath is before, or within."""
+        return self.index_of[event.id.split(":", 1)[1]]
+
+
+class _Score(NamedTuple):
+    """What the line says about breathing.
+
+    Attributes
+    ----------
+    written, steady : LineTimes
+        As a score would have it, and that without short changes of tempo, by which is decided what is needed.
+    rests : (N,) int64
+        Ticks of rest before each note.
+    gaps : Silences or None
+        Where the breath that was blown tells of breaths.
+    used, steady_used : (N + 1,) float
+        `app.plan.lungs.air_used_s` of both.
+    lung_s : float
+        `app.plan.lungs.lungful_s`.
+    within : tuple of BreathEvent
+        Breaths that were heard within notes.
+    """
+
+    written: LineTimes
+    steady: LineTimes
+    rests: IntArray
+    gaps: Silences | None
+    used: FloatArray
+    steady_used: FloatArray
+    lung_s: float
+    within: tuple[BreathEvent, ...]
+
+
+class _Given(NamedTuple):
+    """The breaths that rests, silences and the animator give.
+
+    Attributes
+    ----------
+    generated : tuple of BreathEvent
+        What the rules made of rests, ...
+    kept : tuple of BreathEvent
+        ... less what was removed or set by hand.
+    by_hand : tuple of BreathEvent
+    untouchable : frozenset of str
+        Ids of breaths that the rules may not make.
+    """
+
+    generated: tuple[BreathEvent, ...]
+    kept: tuple[BreathEvent, ...]
+    by_hand: tuple[BreathEvent, ...]
+    untouchable: frozenset[str]
+
+
+class _Stock(NamedTuple):
+    """The air there is without catch breaths, and what these could bring.
+
+    Attributes
+    ----------
+    used, steady_used : (N + 1,) float
+        As of `_Score`, less what breaths within notes and through the nose bring.
+    refill : (N,) float
+        Part of the lungs that the breath before each note fills.
+    air_s : (N,) float
+        How much air there is at each note.
+    length_s, drop_s : (N,) float
+        How long a catch breath before each note may be: as it is, and where notes are left out for it.
+    """
+
+    used: FloatArray
+    steady_used: FloatArray
+    refill: FloatArray
+    air_s: FloatArray
+    length_s: FloatArray
+    drop_s: FloatArray
+
+
+def _read(line: _Breather, air: Air | None, heard: Blown | None) -> _Score:
+    times, piece = line.times, line.piece
     gaps = None if heard is None or not heard.tells_breaths(times) else silences(heard, times)
-    score = notated(times, piece) if gaps is None else times
-    # What is a rest is read from the score, how long it is from what sounds.
-    rests = np.where(rest_ticks(score, piece.beat_ticks_at(times.onset_tick)) > 0, times.silence_tick, 0)
-    used, lung_s = air_used_s(score, air, None if gaps is None else heard), lungful_s(parameters, air)
-    if gaps is None:
-        generated = rest_breaths(notes, times, piece, parameters, frame, rests)
-        if not parameters.circular_breathing:
-            generated += within_held(notes, times, piece, used, lung_s, shared)
-    else:
+    lung_s = lungful_s(line.parameters, air)
+    if gaps is not None:
         assert heard is not None
-        within = tuple(_within(notes[index], piece, *gap_s) for index, *gap_s in gaps_within(heard, times))
-        generated = (*heard_breaths(notes, times, piece, parameters, frame, gaps), *within)
-    by_hand = [_by_hand(item, times, index_of[item.note_id], piece) for item in placed.values()]
-    hand_ids = {event.id for event in by_hand}
-    kept = [event for event in without_removed(generated, removed) if event.id not in hand_ids]
-    refill, spared_s = np.zeros(len(notes)), np.zeros(len(notes))
-    for event in [*kept, *by_hand]:
-        index, share = index_of[_note_id(event)], max(0.0, drawn(event.end_s - event.start_s) * _full(event))
+        used = air_used_s(times, air, heard)
+        within = tuple(within_note(line.notes[index], piece, *gap_s) for index, *gap_s in gaps_within(heard, times))
+        return _Score(times, times, _rests(times, times, piece), gaps, used, used, lung_s, within)
+    written = notated(times, piece)
+    steady = at_score_tempo(written, piece)
+    used = air_used_s(written, air)
+    steady_used = used if steady is written else air_used_s(steady, air)
+    return _Score(written, steady, _rests(written, times, piece), None, used, steady_used, lung_s, ())
+
+
+def _rests(written: LineTimes, times: LineTimes, piece: Piece) -> IntArray:
+    """What is a rest is read from the score, how long it is from what sounds."""
+    rests = rest_ticks(written, piece.beat_ticks_at(times.onset_tick))
+    return np.where(rests > 0, times.silence_tick, 0)
+
+
+def _given(
+    line: _Breather, score: _Score, frame: TimeFrame, corrections: tuple[Correction, ...], shared: Shared
+) -> _Given:
+    notes, times, piece, parameters = line.notes, line.times, line.piece, line.parameters
+    if score.gaps is not None:
+        generated = (*heard_breaths(notes, times, piece, parameters, frame, score.gaps), *score.within)
+    else:
+        generated = rest_breaths(notes, times, piece, parameters, frame, score.rests)
+        if not parameters.circular_breathing:
+            generated += within_held(notes, times, piece, score.used, score.lung_s, shared)
+    placed = {(item.kind, item.note_id): item for item in corrections
+              if isinstance(item, SetBreath) and item.note_id in line.index_of}  # fmt: skip
+    by_hand = tuple(_by_hand(item, times, line.index_of[item.note_id], piece) for item in placed.values())
+    removed, hand_ids = removed_ids(corrections), frozenset(event.id for event in by_hand)
+    kept = tuple(event for event in without_removed(generated, removed) if event.id not in hand_ids)
+    return _Given(generated, kept, by_hand, removed | hand_ids)
+
+
+def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[int, BreathEvent]]:
+    """The air there is, and the breaths in rests that are not needed, by their notes."""
+    times, lung_s, count = line.times, score.lung_s, len(line.notes)
+    refill, spared_s = np.zeros(count), np.zeros(count)
+    for event in (*given.kept, *given.by_hand):
+        index, share = line.index(event), max(0.0, drawn(event.end_s - event.start_s) * _full(event))
         if _is_within(event):
             # Lungs are counted from note to note: such a note takes so much less.
             spared_s[index] += share * lung_s
         elif event.kind == "breath":
             refill[index] = share
-    used = _less(used, spared_s)
-    # What is needed is decided at the tempo of the score.
-    steady = at_score_tempo(score, piece) if gaps is None else score
-    steady_used = used if steady is score else _less(air_used_s(steady, air), spared_s)
+    used, steady_used = _less(score.used, spared_s), _less(score.steady_used, spared_s)
     # No longer than the notes that really sound leave room for.
-    length_s = np.minimum(catch_lengths_s(steady, rests), catch_lengths_s(times, rests))
+    length_s = np.minimum(catch_lengths_s(score.steady, score.rests), catch_lengths_s(times, score.rests))
     spare: dict[int, BreathEvent] = {}
-    if gaps is not None:
-        length_s = np.where(gaps.played, gaps.length_s, length_s)
+    if score.gaps is not None:
+        length_s = np.where(score.gaps.played, score.gaps.length_s, length_s)
+        drop_s = np.zeros(count)
     else:
-        optional = rests < parameters.breath_prepare_beats * piece.beat_ticks_at(times.onset_tick)
-        optional[0] = False
-        optional[[index_of[_note_id(event)] for event in by_hand]] = False
-        needed = needed_rests(steady_used, lung_s, refill, optional, parameters.breath_need)
-        spare = {index: event for event in kept
-                 if event.kind == "breath" and not _is_within(event)
-                 and not needed[index := index_of[_note_id(event)]]}  # fmt: skip
-        kept = [event for event in kept if _is_within(event) or index_of[_note_id(event)] not in spare]
+        spare = _spare(line, score, given, steady_used, refill)
         for index, event in spare.items():
             refill[index], length_s[index] = 0.0, event.end_s - event.start_s
-    if parameters.circular_breathing:
+        drop_s = drop_lengths_s(times)
+    if line.parameters.circular_breathing:
         used = with_circular_breathing(used, lung_s, refill)
         steady_used = with_circular_breathing(steady_used, lung_s, refill)
-    level = levels(used, lung_s, refill)
-    drop_s = drop_lengths_s(times) if gaps is None else np.zeros(len(notes))
+    air_s = levels(used, lung_s, refill) * lung_s
+    return _Stock(used, steady_used, refill, air_s, length_s, drop_s), spare
 
-    taken = frozenset(notes[index].id for index in shared.caught)
 
-    def catches_between(line: LineTimes, line_used: FloatArray, filled: FloatArray) -> list[int]:
-        full = levels(line_used, lung_s, filled)
+def _spare(
+    line: _Breather, score: _Score, given: _Given, steady_used: FloatArray, refill: FloatArray
+) -> dict[int, BreathEvent]:
+    """The breaths in rests that are not needed, by their notes."""
+    onset_tick, parameters = line.times.onset_tick, line.parameters
+    optional = score.rests < parameters.breath_prepare_beats * line.piece.beat_ticks_at(onset_tick)
+    optional[0] = False
+    optional[[line.index(event) for event in given.by_hand]] = False
+    needed = needed_rests(steady_used, score.lung_s, refill, optional, parameters.breath_need)
+    in_rests = [(line.index(event), event) for event in given.kept if event.kind == "breath" and not _is_within(event)]
+    return {index: event for index, event in in_rests if not needed[index]}
+
+
+def _catches(
+    line: _Breather, score: _Score, stock: _Stock, untouchable: frozenset[str], shared: Shared, seeds: Seeds
+) -> list[int]:
+    """The notes before which catch breaths are taken: decided at the tempo of the score, corrected where a change of
+    tempo takes more air."""
+    taken = frozenset(line.notes[index].id for index in shared.caught)
+
+    def between(times: LineTimes, used: FloatArray, filled: FloatArray) -> list[int]:
+        full = levels(used, score.lung_s, filled)
         return catch_places(
-            notes,
-            line,
-            line_used,
-            piece,
-            lung_s,
+            line.notes,
+            times,
+            used,
+            line.piece,
+            score.lung_s,
             filled,
             full,
-            removed | hand_ids,
+            untouchable,
             taken,
             seeds,
-            rests,
-            length_s,
-            drop_s,
+            score.rests,
+            stock.length_s,
+            stock.drop_s,
         )
 
-    catches = catches_between(steady, steady_used, refill)
-    if steady is not score and catches:
-        filled = refill.copy()
-        fits = length_s[catches] >= CATCH_MIN_S - EPSILON
-        filled[catches] = np.minimum(np.where(fits, length_s[catches], drop_s[catches]) / FULL_BREATH_S, 1.0)
-        again = where_short(used, lung_s, refill, filled)
-        if len(again):
-            filled[again] = refill[again]
-            catches = sorted({*catches} - {*again.tolist()} | {*catches_between(score, used, filled)})
-    breaths, air_s = np.flatnonzero(refill > 0.0), level * lung_s
-    caught = []
-    for index in catches:
-        if index in spare:
-            caught.append(spare[index])
-        elif gaps is None or not gaps.played[index]:
-            dropped_s = 0.0 if length_s[index] >= CATCH_MIN_S - EPSILON else float(drop_s[index])
-            caught.append(
-                _catch(notes, times, piece, air_s, breaths, dropped_s or float(length_s[index]), index, dropped_s > 0.0)
-            )
-        else:
-            caught.append(_heard_catch(notes[index], piece, gaps, index))
-    for event, index in zip(caught, catches, strict=True):
-        refill[index] = drawn(event.end_s - event.start_s)
-    events = tuple(sorted([*kept, *by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
+    catches = between(score.steady, stock.steady_used, stock.refill)
+    if score.steady is score.written or not catches:
+        return catches
+    filled = stock.refill.copy()
+    fits = stock.length_s[catches] >= CATCH_MIN_S - EPSILON
+    lasts_s = np.where(fits, stock.length_s[catches], stock.drop_s[catches])
+    filled[catches] = np.minimum(lasts_s / FULL_BREATH_S, 1.0)
+    again = where_short(stock.used, score.lung_s, stock.refill, filled)
+    if len(again):
+        filled[again] = stock.refill[again]
+        catches = sorted({*catches} - {*again.tolist()} | {*between(score.written, stock.used, filled)})
+    return catches
+
+
+def _caught(line: _Breather, score: _Score, stock: _Stock, spare: dict[int, BreathEvent], index: int) -> BreathEvent:
+    """The catch breath before a note; in a rest it is the one that the rest would have given."""
+    if index in spare:
+        return spare[index]
+    if score.gaps is not None and score.gaps.played[index]:
+        return heard_catch(line.notes[index], line.piece, score.gaps, index)
+    dropped_s = 0.0 if stock.length_s[index] >= CATCH_MIN_S - EPSILON else float(stock.drop_s[index])
+    breaths, length_s = np.flatnonzero(stock.refill > 0.0), dropped_s or float(stock.length_s[index])
+    return _catch(line, stock.air_s, breaths, length_s, index, dropped_s > 0.0)
+
+
+def _cut_notes(line: _Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[int, float], list[Problem]]:
+    """The notes whose lips leave early for a breath, and when; what is to be said where a hand set it so."""
+    times = line.times
     early_end_s: dict[int, float] = {}
     problems = []
     for event in events:
-        index = index_of[_note_id(event)]
+        index = line.index(event)
         if event.kind == "breath" and index > 0 and event.start_s < times.played_end_s[index - 1]:
             early_end_s[index - 1] = max(event.start_s, float(times.onset_s[index - 1]))
             if event.corrected:
-                message = Message("breath.inside_note", {"note": notes[index - 1].id})
-                problems.append(Problem(message, notes[index - 1].id, event.start_s, event.end_s))
-    return BreathPlan(
-        events=_with_depths(events, used, lung_s, refill, index_of),
-        problems=(*problems, *_too_long(notes, times, used, lung_s, refill)),
-        generated_ids=frozenset(event.id for event in (*generated, *caught)),
-        early_end_s=early_end_s,
-        catch_notes=frozenset(notes[index].id for index in catches),
-    )
+                note_id = line.notes[index - 1].id
+                message = Message("breath.inside_note", {"note": note_id})
+                problems.append(Problem(message, note_id, event.start_s, event.end_s))
+    return early_end_s, problems
 
 
 def breath_inputs(notes: tuple[Note, ...], times: LineTimes) -> tuple[object, ...]:
@@ -238,175 +376,8 @@ def breath_inputs(notes: tuple[Note, ...], times: LineTimes) -> tuple[object, ..
     return tuple(note.id for note in notes), times.phrasing
 
 
-def rest_breaths(
-    notes: tuple[Note, ...],
-    times: LineTimes,
-    piece: Piece,
-    parameters: PlayerParameters,
-    frame: TimeFrame,
-    rests: IntArray,
-) -> tuple[BreathEvent, ...]:
-    """The breaths that the rests may give, by the thresholds."""
-    silence = rests.astype(np.float64)
-    silence[0] = _before_first(times, piece, frame)
-    beats = piece.beat_ticks_at(times.onset_tick)
-    serving = np.flatnonzero((silence / beats >= parameters.breath_min_beats) & (silence > 0))
-    told = _Told(
-        lambda index, rest, long, prepared: _rest_reason(index, rest, long, prepared, parameters),
-        lambda index, rest: _preparation_reason(rest, parameters),
-    )
-    room = times.silence_tick.astype(np.float64)
-    return _in_silences(notes, serving, silence, room, times.onset_tick, times.onset_s, piece, parameters, told)
-
-
-def heard_breaths(
-    notes: tuple[Note, ...],
-    times: LineTimes,
-    piece: Piece,
-    parameters: PlayerParameters,
-    frame: TimeFrame,
-    gaps: Silences,
-) -> tuple[BreathEvent, ...]:
-    """The breaths of somebody who was heard to blow: in the gaps, each shaped by its length as in a rest.
-
-    What the rests of the score say counts only before the first note and before notes that were not blown.
-    """
-    known = np.flatnonzero(gaps.length_s >= BREATH_S - EPSILON)
-    end_tick, end_s = times.onset_tick.copy(), times.onset_s.copy()
-    silence = np.where(gaps.played, 0.0, times.silence_tick)
-    end_tick[known] = np.round(piece.clock.ticks(gaps.end_s[known]))
-    end_s[known] = piece.clock.seconds(end_tick[known].astype(np.float64))
-    silence[known] = np.maximum(end_tick[known] - np.round(piece.clock.ticks(gaps.start_s[known])), 1.0)
-    silence[0] = _before_first(times, piece, frame)
-    enough = (silence > 0) & (silence / piece.beat_ticks_at(times.onset_tick) >= parameters.breath_min_beats)
-    guessed = ~gaps.played & enough
-    guessed[0] = enough[0]
-    heard = np.zeros(len(notes), dtype=bool)
-    heard[known] = True
-    heard[0] = False
-    serving = np.flatnonzero(guessed | heard)
-
-    def reason(index: int, rest: float, long: bool, prepared: bool) -> Message:
-        if heard[index]:
-            return _heard_reason("breath.heard", gaps, index)
-        return _rest_reason(index, rest, long, prepared, parameters)
-
-    def preparation(index: int, rest: float) -> Message:
-        if heard[index]:
-            return _heard_reason("breath.heard_preparation", gaps, index)
-        return _preparation_reason(rest, parameters)
-
-    told = _Told(reason, preparation)
-    return _in_silences(notes, serving, silence, silence, end_tick, end_s, piece, parameters, told)
-
-
-class _Told(NamedTuple):
-    """Why a breath, and the preparation for one, are there: by note, length in beats, and which thresholds it has."""
-
-    breath: Callable[[int, float, bool, bool], Message]
-    preparation: Callable[[int, float], Message]
-
-
-def _before_first(times: LineTimes, piece: Piece, frame: TimeFrame) -> float:
-    """Ticks of silence before the first note."""
-    frame_tick = round(piece.clock.ticks(frame.first_frame_s), 3)
-    return max(float(times.onset_tick[0]) - frame_tick, 0.0)
-
-
-def _in_silences(
-    notes: tuple[Note, ...],
-    serving: IntArray,
-    silence: FloatArray,
-    room: FloatArray,
-    end_tick: IntArray,
-    end_s: FloatArray,
-    piece: Piece,
-    parameters: PlayerParameters,
-    told: _Told,
-) -> tuple[BreathEvent, ...]:
-    """Breaths in silences, by the thresholds.
-
-    Parameters
-    ----------
-    serving : (K,) int64
-        The notes before which a breath is taken.
-    silence : (N,) float64
-        Ticks of silence before each note as written, which decides the kind of breath ...
-    room : (N,) float64
-        ... as it sounds, which the breath has to fit into ...
-    end_tick, end_s : (N,)
-        ... and where it ends.
-    """
-    beats = piece.beat_ticks_at(end_tick)
-    rests, beat = silence / beats, beats[serving]
-    onsets = end_tick[serving].astype(np.float64)
-    long = rests[serving] >= parameters.breath_last_beat_beats
-    # A threshold below one beat lets a rest shorter than a beat count as "last beat": then it is all there is.
-    lasts = np.where(long, np.minimum(silence[serving], beat), room[serving])
-    starts = onsets - np.minimum(lasts, room[serving])
-    prepared = rests[serving] >= parameters.breath_prepare_beats
-    preparations = onsets - np.minimum(np.minimum(silence[serving], 2 * beat), room[serving])
-    start_s, preparation_s = piece.clock.seconds(starts), piece.clock.seconds(preparations)
-    events: list[BreathEvent] = []
-    for place, index in enumerate(serving.tolist()):
-        note_id, rest = notes[index].id, round(float(rests[index]), 3)
-        if prepared[place] and preparations[place] < starts[place]:
-            events.append(
-                BreathEvent(
-                    id=f"preparation:{note_id}",
-                    kind="preparation",
-                    start_tick=round(preparations[place]),
-                    end_tick=round(starts[place]),
-                    start_s=float(preparation_s[place]),
-                    end_s=float(start_s[place]),
-                    depth=1.0,
-                    reason=told.preparation(index, rest),
-                )
-            )
-        events.append(
-            BreathEvent(
-                id=f"breath:{note_id}",
-                kind="breath",
-                start_tick=round(starts[place]),
-                end_tick=int(end_tick[index]),
-                start_s=float(start_s[place]),
-                end_s=float(end_s[index]),
-                depth=1.0,
-                reason=told.breath(index, rest, bool(long[place]), bool(prepared[place])),
-            )
-        )
-    return tuple(events)
-
-
-def _heard_reason(id: str, gaps: Silences, index: int) -> Message:
-    return Message(id, {"gap_s": round(float(gaps.length_s[index]), 2)})
-
-
-def _preparation_reason(rest: float, parameters: PlayerParameters) -> Message:
-    return Message("breath.preparation", {"rest_beats": rest, "prepare_beats": parameters.breath_prepare_beats})
-
-
-def _rest_reason(index: int, rest: float, long: bool, prepared: bool, parameters: PlayerParameters) -> Message:
-    if index == 0:
-        return Message("breath.first", {"beats": rest})
-    if prepared:
-        return Message("breath.prepared", {"rest_beats": rest, "prepare_beats": parameters.breath_prepare_beats})
-    last = parameters.breath_last_beat_beats
-    if long:
-        return Message(
-            "breath.last_beat",
-            {"rest_beats": rest, "last_beat_beats": last, "prepare_beats": parameters.breath_prepare_beats},
-        )
-    return Message(
-        "breath.rest_whole",
-        {"rest_beats": rest, "min_beats": parameters.breath_min_beats, "last_beat_beats": last},
-    )
-
-
 def _catch(
-    notes: tuple[Note, ...],
-    times: LineTimes,
-    piece: Piece,
+    line: _Breather,
     air_s: FloatArray,
     breaths: IntArray,
     length_s: float,
@@ -415,6 +386,7 @@ def _catch(
 ) -> BreathEvent:
     """``breaths`` are the notes before which rests give a breath, ascending; ``drops`` that the note before the breath
     is left out for it."""
+    notes, times = line.notes, line.times
     onset_s = float(times.onset_s[index])
     start_s = onset_s - length_s
     place = int(np.searchsorted(breaths, index))
@@ -433,39 +405,12 @@ def _catch(
     return BreathEvent(
         id=f"breath:{notes[index].id}",
         kind="breath",
-        start_tick=round(piece.clock.ticks(start_s)),
+        start_tick=round(line.piece.clock.ticks(start_s)),
         end_tick=int(times.onset_tick[index]),
         start_s=start_s,
         end_s=onset_s,
         depth=1.0,
         reason=reason,
-    )
-
-
-def _heard_catch(note: Note, piece: Piece, gaps: Silences, index: int) -> BreathEvent:
-    start_s, end_s = float(gaps.start_s[index]), float(gaps.end_s[index])
-    return BreathEvent(
-        id=f"breath:{note.id}",
-        kind="breath",
-        start_tick=round(piece.clock.ticks(start_s)),
-        end_tick=round(piece.clock.ticks(end_s)),
-        start_s=start_s,
-        end_s=end_s,
-        depth=1.0,
-        reason=_heard_reason("breath.heard_short", gaps, index),
-    )
-
-
-def _within(note: Note, piece: Piece, start_s: float, end_s: float) -> BreathEvent:
-    return BreathEvent(
-        id=f"{WITHIN}:{note.id}",
-        kind="breath",
-        start_tick=round(piece.clock.ticks(start_s)),
-        end_tick=round(piece.clock.ticks(end_s)),
-        start_s=start_s,
-        end_s=end_s,
-        depth=1.0,
-        reason=Message("breath.heard", {"gap_s": round(end_s - start_s, 2)}),
     )
 
 
@@ -482,10 +427,6 @@ def _full(event: BreathEvent) -> float:
     return event.depth if event.corrected else 1.0
 
 
-def _note_id(event: BreathEvent) -> str:
-    return event.id.split(":", 1)[1]
-
-
 def _with_depths(
     events: tuple[BreathEvent, ...],
     used: FloatArray,
@@ -498,7 +439,7 @@ def _with_depths(
     result = []
     for event in events:
         if not event.corrected:
-            index = index_of[_note_id(event)]
+            index = index_of[event.id.split(":", 1)[1]]
             until = breaths[bisect_right(breaths, index)]
             # Within a note nobody knows what the rest of it needs: there the time says it.
             need = 1.0 if _is_within(event) else (used_s[until] - used_s[index]) / lung_s

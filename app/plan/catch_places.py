@@ -1,0 +1,147 @@
+"""Where catch breaths are best taken when no rest comes in time."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.catch_lengths import CATCH_MIN_S, catch_lengths_s
+from app.plan.line import IntArray, LineTimes, Piece, Seeds
+from app.plan.lungs import EPSILON, FULL_BREATH_S, HASTY_SHARE
+from app.plan.model import FloatArray, Note
+from app.plan.phrase_ends import place_costs
+
+EARLY_COST = 1.0
+"""Breathing in with lungs still full; with half a lungful a quarter of it."""
+HASTY_COST = 10.0
+"""Breathing in again before `HASTY_SHARE` of the lungs is used up."""
+TOO_LONG_COST = 1000.0
+DROPPED_COST = 30.0
+"""Leaving out a note, where none is long enough to take a gasp from."""
+
+
+def catch_places(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    used: FloatArray,
+    piece: Piece,
+    lung_s: float,
+    refill: FloatArray,
+    level: FloatArray,
+    removed: frozenset[str],
+    taken: frozenset[str],
+    seeds: Seeds,
+    rests: IntArray,
+    length_s: FloatArray | None = None,
+    drop_s: FloatArray | None = None,
+) -> list[int]:
+    """Indices of the notes before which a catch breath is needed.
+
+    Between two breaths that the rests give, the cheapest chain of places such that no stretch takes more air than
+    there is (a shortest path; the cost of a place falls with how good a phrase end it is). Where nothing helps, the
+    stretch stays.
+
+    Parameters
+    ----------
+    used : (N + 1,) float
+        `air_used_s`.
+    lung_s : float
+        `lungful_s`.
+    refill : (N,) float
+        Part of the lungs that the breath before each note fills; 0 where there is none.
+    level : (N,) float
+        How full the lungs are at each note.
+    rests : (N,) int64
+        Ticks of rest before each note, as `app.plan.rests.rest_ticks` finds them.
+    length_s : (N,) float, optional
+        How long a catch breath before each note may be, where that was heard; `catch_lengths_s` otherwise.
+    drop_s : (N,) float, optional
+        `drop_lengths_s`: taken where nothing else gives the air.
+    """
+    length_s = catch_lengths_s(times, rests) if length_s is None else length_s
+    drop_s = np.zeros(len(notes)) if drop_s is None else drop_s
+    open_ = (length_s >= CATCH_MIN_S - EPSILON) & (refill == 0.0)
+    open_[0] = False
+    breaths = np.flatnonzero(refill > 0.0)
+    starts = np.unique(np.concatenate(([0], breaths)))
+    ends = np.append(starts[1:], len(notes))
+    short = used[ends] - used[starts] > level[starts] * lung_s + EPSILON
+    stretches = list(zip(starts[short].tolist(), ends[short].tolist(), strict=True))
+    if not stretches:
+        return []
+    may = np.zeros(len(notes), dtype=bool)
+    for start, end in stretches:
+        may[start + 1 : end] = [f"breath:{note.id}" not in removed for note in notes[start + 1 : end]]
+    dropping = ~open_ & (drop_s > 0.0) & (refill == 0.0)
+    cost = np.full(len(notes), np.inf)
+    at = np.flatnonzero(open_ & may)
+    cost[at] = place_costs(notes, times, piece, rests, at, taken, seeds)
+    air_s = np.minimum(np.where(dropping, drop_s, length_s) / FULL_BREATH_S, 1.0) * lung_s
+
+    def chain(start: int, end: int, allowed: npt.NDArray[np.bool_]) -> tuple[list[int], bool]:
+        places = start + 1 + np.flatnonzero(allowed[start + 1 : end])
+        nodes = np.concatenate(([start], places, [end]))
+        found, is_enough = _cheapest_chain(
+            used[nodes].tobytes(), cost[places].tobytes(), air_s[places].tobytes(), float(level[start]), lung_s
+        )
+        return places[list(found)].tolist(), is_enough
+
+    result: list[int] = []
+    for start, end in stretches:
+        found, is_enough = chain(start, end, open_ & may)
+        also = start + 1 + np.flatnonzero(dropping[start + 1 : end] & may[start + 1 : end])
+        if not is_enough and len(also):
+            # As good as a breath before the note that is left out, but for the note.
+            cost[also] = place_costs(notes, times, piece, rests, also - 1, taken, seeds) + DROPPED_COST
+            found, _ = chain(start, end, (open_ | dropping) & may)
+        result += found
+    return result
+
+
+@lru_cache(maxsize=4096)
+def _cheapest_chain(
+    used_bytes: bytes, cost_bytes: bytes, drawn_bytes: bytes, level: float, lung_s: float
+) -> tuple[tuple[int, ...], bool]:
+    """The places, and whether the air lasts with them.
+
+    Label by label: what is left of the best way so far, and what the catch breath adds, is the air of a place.
+
+    Remembered by its numbers: an edit leaves nearly all stretches of a line as they were.
+
+    Parameters
+    ----------
+    used_bytes : bytes of (K + 2,) float64
+        Air used until the stretch begins, until each place, and until it ends.
+    cost_bytes, drawn_bytes : bytes of (K,) float64
+        What each place costs, and the air that a catch breath brings there.
+    """
+    used, cost, drawn_s = (np.frombuffer(data) for data in (used_bytes, cost_bytes, drawn_bytes))
+    last = len(used) - 1
+    air_s = np.zeros(last + 1)
+    air_s[0] = level * lung_s
+    total = np.full(last + 1, np.inf)
+    total[0] = 0.0
+    origin = np.zeros(last + 1, dtype=np.int64)
+    # No lungful reaches further back than this; where it does not even reach the place before, that one has to do.
+    reach = np.minimum(np.searchsorted(used, used - lung_s - EPSILON), np.arange(last + 1) - 1)
+    for node in range(1, last + 1):
+        back = int(reach[node])
+        needed = used[node] - used[back:node]
+        left_s = air_s[back:node] - needed
+        ways = total[back:node] + np.where(left_s < -EPSILON, TOO_LONG_COST * (1.0 - left_s), 0.0)
+        left_s = np.maximum(left_s, 0.0)
+        ways += HASTY_COST * np.maximum(1.0 - needed / (HASTY_SHARE * lung_s), 0.0)
+        if node < last:
+            ways += cost[node - 1] + EARLY_COST * np.square(left_s / lung_s)
+        best = int(np.argmin(ways))
+        origin[node], total[node] = back + best, ways[best]
+        if node < last:
+            air_s[node] = min(left_s[best] + drawn_s[node - 1], lung_s)
+    chain = []
+    node = int(origin[-1])
+    while node > 0:
+        chain.append(node - 1)
+        node = int(origin[node])
+    return tuple(chain[::-1]), bool(total[-1] < TOO_LONG_COST)

@@ -1,0 +1,210 @@
+"""The breaths that rests give, or the silences of somebody who was heard to blow.
+
+Their messages are those of `app.plan.breath`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from app.errors import Message
+from app.plan.corrections import WITHIN
+from app.plan.heard import BREATH_S, Silences
+from app.plan.line import IntArray, LineTimes, Piece
+from app.plan.lungs import EPSILON
+from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, TimeFrame
+
+
+def rest_breaths(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    piece: Piece,
+    parameters: PlayerParameters,
+    frame: TimeFrame,
+    rests: IntArray,
+) -> tuple[BreathEvent, ...]:
+    """The breaths that the rests may give, by the thresholds."""
+    silence = rests.astype(np.float64)
+    silence[0] = _before_first(times, piece, frame)
+    beats = piece.beat_ticks_at(times.onset_tick)
+    serving = np.flatnonzero((silence / beats >= parameters.breath_min_beats) & (silence > 0))
+    told = _Told(
+        lambda index, rest, long, prepared: _rest_reason(index, rest, long, prepared, parameters),
+        lambda index, rest: _preparation_reason(rest, parameters),
+    )
+    room = times.silence_tick.astype(np.float64)
+    return _in_silences(notes, serving, silence, room, times.onset_tick, times.onset_s, piece, parameters, told)
+
+
+def heard_breaths(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    piece: Piece,
+    parameters: PlayerParameters,
+    frame: TimeFrame,
+    gaps: Silences,
+) -> tuple[BreathEvent, ...]:
+    """The breaths of somebody who was heard to blow: in the gaps, each shaped by its length as in a rest.
+
+    What the rests of the score say counts only before the first note and before notes that were not blown.
+    """
+    known = np.flatnonzero(gaps.length_s >= BREATH_S - EPSILON)
+    end_tick, end_s = times.onset_tick.copy(), times.onset_s.copy()
+    silence = np.where(gaps.played, 0.0, times.silence_tick)
+    end_tick[known] = np.round(piece.clock.ticks(gaps.end_s[known]))
+    end_s[known] = piece.clock.seconds(end_tick[known].astype(np.float64))
+    silence[known] = np.maximum(end_tick[known] - np.round(piece.clock.ticks(gaps.start_s[known])), 1.0)
+    silence[0] = _before_first(times, piece, frame)
+    enough = (silence > 0) & (silence / piece.beat_ticks_at(times.onset_tick) >= parameters.breath_min_beats)
+    guessed = ~gaps.played & enough
+    guessed[0] = enough[0]
+    heard = np.zeros(len(notes), dtype=bool)
+    heard[known] = True
+    heard[0] = False
+    serving = np.flatnonzero(guessed | heard)
+
+    def reason(index: int, rest: float, long: bool, prepared: bool) -> Message:
+        if heard[index]:
+            return _heard_reason("breath.heard", gaps, index)
+        return _rest_reason(index, rest, long, prepared, parameters)
+
+    def preparation(index: int, rest: float) -> Message:
+        if heard[index]:
+            return _heard_reason("breath.heard_preparation", gaps, index)
+        return _preparation_reason(rest, parameters)
+
+    told = _Told(reason, preparation)
+    return _in_silences(notes, serving, silence, silence, end_tick, end_s, piece, parameters, told)
+
+
+class _Told(NamedTuple):
+    """Why a breath, and the preparation for one, are there: by note, length in beats, and which thresholds it has."""
+
+    breath: Callable[[int, float, bool, bool], Message]
+    preparation: Callable[[int, float], Message]
+
+
+def _before_first(times: LineTimes, piece: Piece, frame: TimeFrame) -> float:
+    """Ticks of silence before the first note."""
+    frame_tick = round(piece.clock.ticks(frame.first_frame_s), 3)
+    return max(float(times.onset_tick[0]) - frame_tick, 0.0)
+
+
+def _in_silences(
+    notes: tuple[Note, ...],
+    serving: IntArray,
+    silence: FloatArray,
+    room: FloatArray,
+    end_tick: IntArray,
+    end_s: FloatArray,
+    piece: Piece,
+    parameters: PlayerParameters,
+    told: _Told,
+) -> tuple[BreathEvent, ...]:
+    """Breaths in silences, by the thresholds.
+
+    Parameters
+    ----------
+    serving : (K,) int64
+        The notes before which a breath is taken.
+    silence : (N,) float64
+        Ticks of silence before each note as written, which decides the kind of breath ...
+    room : (N,) float64
+        ... as it sounds, which the breath has to fit into ...
+    end_tick, end_s : (N,)
+        ... and where it ends.
+    """
+    beats = piece.beat_ticks_at(end_tick)
+    rests, beat = silence / beats, beats[serving]
+    onsets = end_tick[serving].astype(np.float64)
+    long = rests[serving] >= parameters.breath_last_beat_beats
+    # A threshold below one beat lets a rest shorter than a beat count as "last beat": then it is all there is.
+    lasts = np.where(long, np.minimum(silence[serving], beat), room[serving])
+    starts = onsets - np.minimum(lasts, room[serving])
+    prepared = rests[serving] >= parameters.breath_prepare_beats
+    preparations = onsets - np.minimum(np.minimum(silence[serving], 2 * beat), room[serving])
+    start_s, preparation_s = piece.clock.seconds(starts), piece.clock.seconds(preparations)
+    events: list[BreathEvent] = []
+    for place, index in enumerate(serving.tolist()):
+        note_id, rest = notes[index].id, round(float(rests[index]), 3)
+        if prepared[place] and preparations[place] < starts[place]:
+            events.append(
+                BreathEvent(
+                    id=f"preparation:{note_id}",
+                    kind="preparation",
+                    start_tick=round(preparations[place]),
+                    end_tick=round(starts[place]),
+                    start_s=float(preparation_s[place]),
+                    end_s=float(start_s[place]),
+                    depth=1.0,
+                    reason=told.preparation(index, rest),
+                )
+            )
+        events.append(
+            BreathEvent(
+                id=f"breath:{note_id}",
+                kind="breath",
+                start_tick=round(starts[place]),
+                end_tick=int(end_tick[index]),
+                start_s=float(start_s[place]),
+                end_s=float(end_s[index]),
+                depth=1.0,
+                reason=told.breath(index, rest, bool(long[place]), bool(prepared[place])),
+            )
+        )
+    return tuple(events)
+
+
+def _heard_reason(id: str, gaps: Silences, index: int) -> Message:
+    return Message(id, {"gap_s": round(float(gaps.length_s[index]), 2)})
+
+
+def _preparation_reason(rest: float, parameters: PlayerParameters) -> Message:
+    return Message("breath.preparation", {"rest_beats": rest, "prepare_beats": parameters.breath_prepare_beats})
+
+
+def _rest_reason(index: int, rest: float, long: bool, prepared: bool, parameters: PlayerParameters) -> Message:
+    if index == 0:
+        return Message("breath.first", {"beats": rest})
+    if prepared:
+        return Message("breath.prepared", {"rest_beats": rest, "prepare_beats": parameters.breath_prepare_beats})
+    last = parameters.breath_last_beat_beats
+    if long:
+        return Message(
+            "breath.last_beat",
+            {"rest_beats": rest, "last_beat_beats": last, "prepare_beats": parameters.breath_prepare_beats},
+        )
+    return Message(
+        "breath.rest_whole",
+        {"rest_beats": rest, "min_beats": parameters.breath_min_beats, "last_beat_beats": last},
+    )
+
+
+def heard_catch(note: Note, piece: Piece, gaps: Silences, index: int) -> BreathEvent:
+    start_s, end_s = float(gaps.start_s[index]), float(gaps.end_s[index])
+    return BreathEvent(
+        id=f"breath:{note.id}",
+        kind="breath",
+        start_tick=round(piece.clock.ticks(start_s)),
+        end_tick=round(piece.clock.ticks(end_s)),
+        start_s=start_s,
+        end_s=end_s,
+        depth=1.0,
+        reason=_heard_reason("breath.heard_short", gaps, index),
+    )
+
+
+def within_note(note: Note, piece: Piece, start_s: float, end_s: float) -> BreathEvent:
+    return BreathEvent(
+        id=f"{WITHIN}:{note.id}",
+        kind="breath",
+        start_tick=round(piece.clock.ticks(start_s)),
+        end_tick=round(piece.clock.ticks(end_s)),
+        start_s=start_s,
+        end_s=end_s,
+        depth=1.0,
+        reason=Message("breath.heard", {"gap_s": round(end_s - start_s, 2)}),
+    )
