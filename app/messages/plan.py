@@ -93,6 +93,10 @@ TEMPLATES: Final[dict[str, str]] = {
         "a catch breath instead of note {after_note}, which is left out: {phrase_s:g} s without a breath in a rest "
         "need more than the {lung_s:g} s of air there are, and no note is long enough to take it from"
     ),
+    "breath.catch_dropped_two": (
+        "a catch breath instead of notes {first_note} and {after_note}, which are left out: {phrase_s:g} s without a "
+        "breath in a rest need more than the {lung_s:g} s of air there are, and no note is long enough to take it from"
+    ),
     "breath.staggered": (
         "a breath within a note that others of the line hold on: it takes {air_s:g} s of air, and there are {lung_s:g}"
     ),

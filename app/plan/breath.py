@@ -24,6 +24,9 @@ breath.catch(after_note, phrase_s, lung_s, from_note_ms): "A catch breath after 
 breath.catch_dropped(after_note, phrase_s, lung_s): "A catch breath instead of note {after_note}, which is left out:
     {phrase_s} s without a breath in a rest need more than the {lung_s} s of air there are, and no note is long enough
     to take it from."
+breath.catch_dropped_two(first_note, after_note, phrase_s, lung_s): "A catch breath instead of notes {first_note} and
+    {after_note}, which are left out: {phrase_s} s without a breath in a rest need more than the {lung_s} s of air
+    there are, and no note is long enough to take it from."
 breath.heard(gap_s): "Heard in the breath: {gap_s} s without blowing."
     Within a note too, which is blown on afterwards.
 breath.heard_preparation(gap_s): "Heard in the breath: {gap_s} s without blowing; getting ready to breathe."
@@ -41,7 +44,7 @@ import msgspec
 import numpy as np
 
 from app.errors import Argument, Message
-from app.plan.catch_lengths import CATCH_MIN_S, catch_lengths_s, drop_lengths_s
+from app.plan.catch_lengths import CATCH_MIN_S, Room, catch_lengths_s, drop_lengths_s
 from app.plan.catch_places import catch_places
 from app.plan.corrections import BY_HAND, WITHIN, Correction, SetBreath, removed_ids, without_removed
 from app.plan.heard import Blown, Silences, gaps_within, silences
@@ -210,16 +213,14 @@ class _Stock(NamedTuple):
         Part of the lungs that the breath before each note fills.
     air_s : (N,) float
         How much air there is at each note.
-    length_s, drop_s : (N,) float
-        How long a catch breath before each note may be: as it is, and where notes are left out for it.
+    room : Room
     """
 
     used: FloatArray
     steady_used: FloatArray
     refill: FloatArray
     air_s: FloatArray
-    length_s: FloatArray
-    drop_s: FloatArray
+    room: Room
 
 
 def _read(line: _Breather, air: Air | None, heard: Blown | None) -> _Score:
@@ -258,8 +259,13 @@ def _given(
               if isinstance(item, SetBreath) and item.note_id in line.index_of}  # fmt: skip
     by_hand = tuple(_by_hand(item, times, line.index_of[item.note_id], piece) for item in placed.values())
     removed, hand_ids = removed_ids(corrections), frozenset(event.id for event in by_hand)
-    kept = tuple(event for event in without_removed(generated, removed) if event.id not in hand_ids)
-    return _Given(generated, kept, by_hand, removed | hand_ids)
+    kept = [event for event in without_removed(generated, removed) if event.id not in hand_ids]
+    if score.gaps is None and parameters.breath_need > 0.0:
+        # In a rest too short for it nobody breathes unless the note before is shortened too: a catch breath.
+        kept = [
+            event for event in kept if event.kind != "breath" or event.end_s - event.start_s >= CATCH_MIN_S - EPSILON
+        ]
+    return _Given(generated, tuple(kept), by_hand, removed | hand_ids)
 
 
 def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[int, BreathEvent]]:
@@ -277,19 +283,19 @@ def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[
     # No longer than the notes that really sound leave room for.
     length_s = np.minimum(catch_lengths_s(score.steady, score.rests), catch_lengths_s(times, score.rests))
     spare: dict[int, BreathEvent] = {}
+    drop_s, dropped = np.zeros(count), np.zeros(count, np.int64)
     if score.gaps is not None:
         length_s = np.where(score.gaps.played, score.gaps.length_s, length_s)
-        drop_s = np.zeros(count)
     else:
         spare = _spare(line, score, given, steady_used, refill)
         for index, event in spare.items():
             refill[index], length_s[index] = 0.0, event.end_s - event.start_s
-        drop_s = drop_lengths_s(times)
+        drop_s, dropped = drop_lengths_s(times)
     if line.parameters.circular_breathing:
         used = with_circular_breathing(used, lung_s, refill)
         steady_used = with_circular_breathing(steady_used, lung_s, refill)
     air_s = levels(used, lung_s, refill) * lung_s
-    return _Stock(used, steady_used, refill, air_s, length_s, drop_s), spare
+    return _Stock(used, steady_used, refill, air_s, Room(length_s, drop_s, dropped)), spare
 
 
 def _spare(
@@ -326,17 +332,14 @@ def _catches(
             taken,
             seeds,
             score.rests,
-            stock.length_s,
-            stock.drop_s,
+            stock.room,
         )
 
     catches = between(score.steady, stock.steady_used, stock.refill)
     if score.steady is score.written or not catches:
         return catches
     filled = stock.refill.copy()
-    fits = stock.length_s[catches] >= CATCH_MIN_S - EPSILON
-    lasts_s = np.where(fits, stock.length_s[catches], stock.drop_s[catches])
-    filled[catches] = np.minimum(lasts_s / FULL_BREATH_S, 1.0)
+    filled[catches] = np.minimum(stock.room.lasts_s[catches] / FULL_BREATH_S, 1.0)
     again = where_short(stock.used, score.lung_s, stock.refill, filled)
     if len(again):
         filled[again] = stock.refill[again]
@@ -350,9 +353,7 @@ def _caught(line: _Breather, score: _Score, stock: _Stock, spare: dict[int, Brea
         return spare[index]
     if score.gaps is not None and score.gaps.played[index]:
         return heard_catch(line.notes[index], line.piece, score.gaps, index)
-    dropped_s = 0.0 if stock.length_s[index] >= CATCH_MIN_S - EPSILON else float(stock.drop_s[index])
-    breaths, length_s = np.flatnonzero(stock.refill > 0.0), dropped_s or float(stock.length_s[index])
-    return _catch(line, stock.air_s, breaths, length_s, index, dropped_s > 0.0)
+    return _catch(line, stock, index)
 
 
 def _cut_notes(line: _Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[int, float], list[Problem]]:
@@ -362,12 +363,16 @@ def _cut_notes(line: _Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[i
     problems = []
     for event in events:
         index = line.index(event)
-        if event.kind == "breath" and index > 0 and event.start_s < times.played_end_s[index - 1]:
-            early_end_s[index - 1] = max(event.start_s, float(times.onset_s[index - 1]))
-            if event.corrected:
-                note_id = line.notes[index - 1].id
-                message = Message("breath.inside_note", {"note": note_id})
-                problems.append(Problem(message, note_id, event.start_s, event.end_s))
+        before = index - 1
+        if event.kind != "breath" or before < 0 or event.start_s >= times.played_end_s[before]:
+            continue
+        if event.corrected:
+            note_id = line.notes[before].id
+            message = Message("breath.inside_note", {"note": note_id})
+            problems.append(Problem(message, note_id, event.start_s, event.end_s))
+        while before >= 0 and event.start_s < times.played_end_s[before]:
+            early_end_s[before] = max(event.start_s, float(times.onset_s[before]))
+            before -= 1
     return early_end_s, problems
 
 
@@ -376,32 +381,30 @@ def breath_inputs(notes: tuple[Note, ...], times: LineTimes) -> tuple[object, ..
     return tuple(note.id for note in notes), times.phrasing
 
 
-def _catch(
-    line: _Breather,
-    air_s: FloatArray,
-    breaths: IntArray,
-    length_s: float,
-    index: int,
-    drops: bool,
-) -> BreathEvent:
-    """``breaths`` are the notes before which rests give a breath, ascending; ``drops`` that the note before the breath
-    is left out for it."""
-    notes, times = line.notes, line.times
+def _catch(line: _Breather, stock: _Stock, index: int) -> BreathEvent:
+    notes, times, room = line.notes, line.times, stock.room
     onset_s = float(times.onset_s[index])
-    start_s = onset_s - length_s
+    start_s = onset_s - float(room.lasts_s[index])
+    breaths = np.flatnonzero(stock.refill > 0.0)
     place = int(np.searchsorted(breaths, index))
     first = int(breaths[place - 1]) if place else 0
     last = int(breaths[place]) if place < len(breaths) else len(notes)
-    arguments: dict[str, Argument] = {
-        "after_note": notes[index - 1].id,
+    why: dict[str, Argument] = {
         "phrase_s": round(float(times.played_end_s[last - 1] - times.onset_s[first]), 2),
-        "lung_s": round(float(air_s[first]), 2),
+        "lung_s": round(float(stock.air_s[first]), 2),
     }
-    if drops:
-        reason = Message("breath.catch_dropped", arguments)
+    dropped = 0 if room.length_s[index] > 0.0 else int(room.dropped[index])
+    after = {"after_note": notes[index - max(dropped, 1)].id}
+    if dropped > 1:
+        reason = Message(
+            "breath.catch_dropped_two",
+            {"first_note": notes[index - dropped].id, "after_note": notes[index - 1].id, **why},
+        )
+    elif dropped:
+        reason = Message("breath.catch_dropped", {**after, **why})
     else:
         from_note_s = max(float(times.played_end_s[index - 1]) - start_s, 0.0)
-        reason = Message("breath.catch", {**arguments, "from_note_ms": round(from_note_s * 1000.0)})
+        reason = Message("breath.catch", {**after, **why, "from_note_ms": round(from_note_s * 1000.0)})
     return BreathEvent(
         id=f"breath:{notes[index].id}",
         kind="breath",

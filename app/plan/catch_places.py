@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from app.plan.catch_lengths import CATCH_MIN_S, catch_lengths_s
+from app.plan.catch_lengths import Room
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import EPSILON, FULL_BREATH_S, HASTY_SHARE
 from app.plan.model import FloatArray, Note
@@ -34,8 +34,7 @@ def catch_places(
     taken: frozenset[str],
     seeds: Seeds,
     rests: IntArray,
-    length_s: FloatArray | None = None,
-    drop_s: FloatArray | None = None,
+    room: Room,
 ) -> list[int]:
     """Indices of the notes before which a catch breath is needed.
 
@@ -55,14 +54,10 @@ def catch_places(
         How full the lungs are at each note.
     rests : (N,) int64
         Ticks of rest before each note, as `app.plan.rests.rest_ticks` finds them.
-    length_s : (N,) float, optional
-        How long a catch breath before each note may be, where that was heard; `catch_lengths_s` otherwise.
-    drop_s : (N,) float, optional
-        `drop_lengths_s`: taken where nothing else gives the air.
+    room : Room
+        What is left out of a line is left out only where nothing else gives the air.
     """
-    length_s = catch_lengths_s(times, rests) if length_s is None else length_s
-    drop_s = np.zeros(len(notes)) if drop_s is None else drop_s
-    open_ = (length_s >= CATCH_MIN_S - EPSILON) & (refill == 0.0)
+    open_ = (room.length_s > 0.0) & (refill == 0.0)
     open_[0] = False
     breaths = np.flatnonzero(refill > 0.0)
     starts = np.unique(np.concatenate(([0], breaths)))
@@ -74,11 +69,11 @@ def catch_places(
     may = np.zeros(len(notes), dtype=bool)
     for start, end in stretches:
         may[start + 1 : end] = [f"breath:{note.id}" not in removed for note in notes[start + 1 : end]]
-    dropping = ~open_ & (drop_s > 0.0) & (refill == 0.0)
+    dropping = ~open_ & (room.drop_s > 0.0) & (refill == 0.0)
     cost = np.full(len(notes), np.inf)
     at = np.flatnonzero(open_ & may)
     cost[at] = place_costs(notes, times, piece, rests, at, taken, seeds)
-    air_s = np.minimum(np.where(dropping, drop_s, length_s) / FULL_BREATH_S, 1.0) * lung_s
+    air_s = np.minimum(room.lasts_s / FULL_BREATH_S, 1.0) * lung_s
 
     def chain(start: int, end: int, allowed: npt.NDArray[np.bool_]) -> tuple[list[int], bool]:
         places = start + 1 + np.flatnonzero(allowed[start + 1 : end])
@@ -93,8 +88,9 @@ def catch_places(
         found, is_enough = chain(start, end, open_ & may)
         also = start + 1 + np.flatnonzero(dropping[start + 1 : end] & may[start + 1 : end])
         if not is_enough and len(also):
-            # As good as a breath before the note that is left out, but for the note.
-            cost[also] = place_costs(notes, times, piece, rests, also - 1, taken, seeds) + DROPPED_COST
+            # As good as a breath before the notes that are left out, but for these.
+            dropped = room.dropped[also]
+            cost[also] = place_costs(notes, times, piece, rests, also - dropped, taken, seeds) + DROPPED_COST * dropped
             found, _ = chain(start, end, (open_ | dropping) & may)
         result += found
     return result

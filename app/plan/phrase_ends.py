@@ -46,8 +46,8 @@ ALL_SLURRED = (0.75, 0.9)
 count less, and from the second value on not at all."""
 BEFORE_REST = -8.0
 """When a rest comes within a felt beat."""
-CLIPPED = -1.0
-"""Out of a note so short that it loses more than the usual part."""
+CLIPPED = -2.0
+"""Out of a note that loses all of it; in proportion where it loses more than the usual part."""
 JITTER = 0.2
 """Players differ where places are equally good."""
 TAKEN_COST = 6.0
@@ -96,7 +96,8 @@ def place_costs(
     good += SILENCE * (times.silence_tick[at] > 0)
     good += SLURRED * (1.0 - _legato(times, rests)) * times.slurs_next[at - 1]
     good += BEFORE_REST * (~rest & _rest_follows(rests, onsets, at, beat))
-    good += CLIPPED * (gaps_s(times)[at] + CATCH_NOTE_SHARE * before < CATCH_MIN_S)
+    taken_share = (CATCH_MIN_S - gaps_s(times)[at]) / np.maximum(before, EPSILON)
+    good += CLIPPED * np.clip(taken_share / CATCH_NOTE_SHARE - 1.0, 0.0, 1.0)
     quarter = piece.clock.ticks_per_quarter
     good += JITTER * seeds.chances_at("catch", onset, (2 * PLACES * onset + quarter) // (2 * quarter))
     good -= TAKEN_COST * np.array([notes[index].id in taken for index in at.tolist()])

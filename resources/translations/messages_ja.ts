@@ -1028,6 +1028,10 @@
             <translation>音符 {after_note} を省いた素早いブレス: 休符でブレスしないまま {phrase_s:g} 秒続き、{lung_s:g} 秒分の息では足りません。息継ぎできる長さの音もありません</translation>
         </message>
         <message>
+            <source>a catch breath instead of notes {first_note} and {after_note}, which are left out: {phrase_s:g} s without a breath in a rest need more than the {lung_s:g} s of air there are, and no note is long enough to take it from</source>
+            <translation>音符 {first_note} と {after_note} を省いた素早いブレス: 休符でブレスしないまま {phrase_s:g} 秒続き、{lung_s:g} 秒分の息では足りません。息継ぎできる長さの音もありません</translation>
+        </message>
+        <message>
             <source>a breath within a note that others of the line hold on: it takes {air_s:g} s of air, and there are {lung_s:g}</source>
             <translation>同じ声部の他の奏者がのばしている音の途中のブレス: {air_s:g} 秒分の息が要りますが、{lung_s:g} 秒分しかありません</translation>
         </message>

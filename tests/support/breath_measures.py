@@ -14,6 +14,7 @@ from pathlib import Path
 
 import msgspec
 import numpy as np
+import numpy.typing as npt
 
 from app.performance.ensemble import Performance
 from app.plan.line import Line, line_times
@@ -24,6 +25,8 @@ from instrument_maps.load import bundled_maps
 
 SHORT_S = 1.5
 """A breath after less playing than this is one too many, unless a long rest asks for it."""
+GASP_S = 0.2
+"""Nobody breathes in so short a time."""
 
 
 class Measures(msgspec.Struct, frozen=True):
@@ -40,6 +43,10 @@ class Measures(msgspec.Struct, frozen=True):
         ... of which this many stand in rests of two felt beats and more, where every player breathes.
     in_slur : int
         Between notes that overlap or touch with no silence where the track tongues elsewhere by a gap.
+    gasps : int
+        Shorter than `GASP_S`.
+    dropped : int
+        For which notes are left out.
     active_s : float
         Time between the first onset and the last end, without rests of more than 4 s.
     """
@@ -49,6 +56,8 @@ class Measures(msgspec.Struct, frozen=True):
     short: int
     short_in_rest: int
     in_slur: int
+    gasps: int
+    dropped: int
     active_s: float
 
 
@@ -79,9 +88,11 @@ def measures(performance: Performance, line: Line, plan: PlayerPlan) -> Measures
         if played_s < SHORT_S:
             short += 1
             in_rest += line.notes[here].id in long_rest
+    gasps = sum(event.end_s - event.start_s < GASP_S - 1e-6 for _, _, event in places[1:])
+    dropped = sum("dropped" in event.reason.id for _, _, event in places)
     rests_s = np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)
     active_s = float(times.played_end_s[-1] - times.onset_s[0] - rests_s[rests_s > 4.0].sum())
-    return Measures(line.instrument_map.id, len(places) - 1, short, in_rest, in_slur, active_s)
+    return Measures(line.instrument_map.id, len(places) - 1, short, in_rest, in_slur, gasps, dropped, active_s)
 
 
 def main(folders: list[str]) -> None:
@@ -94,15 +105,17 @@ def main(folders: list[str]) -> None:
             measures(performance, line, performance.plans[line.player_id]) for line in performance.lines if line.notes
         ]
         print(f"{path.name}: {time.perf_counter() - start:.1f} s", file=sys.stderr)
-    print(f"{'file':48} {'':5} breaths short in-long-rest slur")
+    print(f"{'file':48} {'':5} breaths short in-long-rest slur gasps dropped")
     for group in ("tuned", "held out"):
-        total = np.zeros(4, int)
+        total = np.zeros(6, int)
         for name, found in rows.items():
             if is_held_out(name) == (group == "held out"):
-                sums = np.array([[m.breaths, m.short, m.short_in_rest, m.in_slur] for m in found]).sum(axis=0)
+                sums = np.array(
+                    [[m.breaths, m.short, m.short_in_rest, m.in_slur, m.gasps, m.dropped] for m in found]
+                ).sum(axis=0)
                 total += sums
-                print(f"{name[:48]:48} {group[:5]} {sums[0]:7} {sums[1]:5} {sums[2]:12} {sums[3]:4}")
-        print(f"{group + ' in all':48} {'':5} {total[0]:7} {total[1]:5} {total[2]:12} {total[3]:4}")
+                print(f"{name[:48]:48} {group[:5]} {_figures(sums)}")
+        print(f"{group + ' in all':48} {'':5} {_figures(total)}")
     by_instrument = defaultdict[str, list[Measures]](list)
     for found in rows.values():
         for one in found:
@@ -112,6 +125,10 @@ def main(folders: list[str]) -> None:
         each = [60.0 * one.breaths / one.active_s for one in found if one.active_s > 20.0]
         if each:
             print(f"{name:32} {np.mean(each):6.1f} {min(each):6.1f} {max(each):6.1f}  ({len(each)} players)")
+
+
+def _figures(sums: npt.NDArray[np.int64]) -> str:
+    return "".join(f"{value:{width}}" for value, width in zip(sums, (7, 6, 13, 5, 6, 8), strict=True))
 
 
 if __name__ == "__main__":

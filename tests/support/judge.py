@@ -314,9 +314,20 @@ def _unserved(
     return wrong
 
 
+CATCH_BREATH_S, SHORTEST_NOTE_S = 0.2, 1.0 / 24.0
+"""The least that a breath takes, and the least that is heard of a note whose end is given up for it."""
+
+
 def leaves_out(breath: Mapping[str, Any], note: Mapping[str, Any], following: Mapping[str, Any]) -> bool:
-    """Whether a breath says that it takes the place of a note, of which half would be no gasp (0.12 s)."""
-    return f"instead of note {note['id']}" in breath["reason"] and following["onset_s"] - note["onset_s"] < 0.24
+    """Whether a breath says that it takes the place of a note, of which nothing would be left but for a gasp."""
+    named = re.search(r"instead of notes? (\S+?)(?: and (\S+?))?,", breath["reason"])
+    step_s = following["onset_s"] - note["onset_s"]
+    return named is not None and note["id"] in named.groups() and step_s < CATCH_BREATH_S + SHORTEST_NOTE_S
+
+
+def _given_up_s(length_s: float) -> float:
+    """What of a note may be given up for a breath: half of it, or for the least breath all but its beginning."""
+    return max(0.5 * length_s, min(length_s - SHORTEST_NOTE_S, CATCH_BREATH_S))
 
 
 def _breaths(
@@ -382,9 +393,9 @@ def _breaths(
         wrong += min(readings, key=len)
         if breath is not None and rest < least:
             before = notes[index - 1]
-            cut_s = before["onset_s"] + min(before["duration_s"], note["onset_s"] - before["onset_s"])
-            share = 0.0 if leaves_out(breath, before, note) else 0.5
-            if breath["start_s"] < before["onset_s"] + share * (cut_s - before["onset_s"]) - 1e-9:
+            length_s = min(before["duration_s"], note["onset_s"] - before["onset_s"])
+            least_s = before["onset_s"] + length_s - _given_up_s(length_s)
+            if breath["start_s"] < least_s - 1e-6 and not leaves_out(breath, before, note):
                 wrong.append(f"the catch breath at {breath['end_s']} takes most of the note before")
         reach = max(reach, onset + note["duration_tick"])
     for event in player["breaths"]:
@@ -393,9 +404,12 @@ def _breaths(
             if following is not None:
                 end_s = min(end_s, following["onset_s"])
             inside_s = min(end_s, event["end_s"]) - max(note["onset_s"], event["start_s"])
-            tail = following is not None and abs(following["onset_s"] - event["end_s"]) <= 0.05
-            share = 1.0 if following is not None and leaves_out(event, note, following) else 0.5
-            most_s = share * (end_s - note["onset_s"]) if tail and event["kind"] == "breath" else 0.0
+            most_s = 0.0
+            if following is not None and event["kind"] == "breath":
+                out = leaves_out(event, note, following)
+                before_out = "instead of note" in event["reason"] and event["start_s"] < following["onset_s"]
+                if out or before_out or abs(following["onset_s"] - event["end_s"]) <= 0.05:
+                    most_s = end_s - note["onset_s"] if out else _given_up_s(end_s - note["onset_s"])
             if inside_s > most_s + 1e-6:
                 wrong.append(f"{event['kind']} {event['start_s']}..{event['end_s']} inside note {note['id']}")
     return wrong

@@ -20,7 +20,7 @@ from instrument_maps.load import bundled_maps
 
 ENSEMBLE = Path(__file__).parents[2] / "data" / "midi" / "ensemble"
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
-CATCHES = {"breath.catch", "breath.catch_dropped"}
+CATCHES = {"breath.catch", "breath.catch_dropped", "breath.catch_dropped_two"}
 FILES = sorted(path.name for path in ENSEMBLE.glob("*.mid"))
 
 
