@@ -39,9 +39,9 @@ OUT_OF_PLACE_COST = 6.0
 """... and so much more than its rank elsewhere."""
 HELD_COST = 0.1
 """A key left down that the note does not need (tag "held") costs this, whatever its rank."""
-RARE_COST = 4.0
+RARE_COST = 10.0
 """A fingering that players know and hardly ever take (tag "rare") costs this beside its rank, ..."""
-RARE_TRILL_COST = 11.0
+RARE_TRILL_COST = 18.0
 """... and so much more in a trill, which saves motion with every step."""
 QUICK_S = 0.15
 """A note is fast that lasts no longer than this, from the one before or to the next."""
@@ -95,6 +95,11 @@ REVERSAL_COST = 0.5
 OTHER_PLACE_COST = 4.0
 """A note in another place of the slide than the same pitch two notes before, in hurried steps: nobody changes it within
 a figure for little."""
+
+REPEATED_COST = 8.0
+"""Another fingering for a note that is repeated: nobody changes it without a trill or a correction; ..."""
+REPEATED_REST_S = 1.0
+"""... after so long a silence it costs nothing, in proportion before."""
 
 PHRASE_SILENCE_S = 0.25
 """A silence this long divides phrases, for the comparison with the first choices."""
@@ -252,6 +257,8 @@ class FingeringProblem:
             still = (fingers.moves == 0.0) & (before != after)[:, None, None]
             more = LIP_TRILL_WEIGHT * still + LEVER_TRILL_WEIGHT * fingers.levers
             cost += more[pair] * np.where(self.in_trill, hurry, 0.0)[:, None, None]
+        again, rate = self._repeated(gap)
+        cost[again] += rate[:, None, None] * ~np.eye(cost.shape[1], dtype=bool)
         moves = fingers.moves + KEY_TO_KEY_MOVES * fingers.apart
         nothing = np.zeros((len(pair), 1, 1))
         if not self.has_slide:
@@ -264,6 +271,12 @@ class FingeringProblem:
             slide_cost = np.where(gliding[:, None, None], GLISSANDO_COST * away, slide_cost)
         cost += slide_cost * trill[:, None, None]
         return Motions(pair, moves, slide_m, needed_s, share, cost)
+
+    def _repeated(self, gap: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Steps to the same pitch again, and what another fingering costs there; not where a correction pins one."""
+        alike = (self.allowed[1:] == self.allowed[:-1]).all(axis=1)
+        again = np.flatnonzero((self.pitch_index[1:] == self.pitch_index[:-1]) & alike)
+        return again, REPEATED_COST * np.clip(1.0 - gap[again] / REPEATED_REST_S, 0.0, 1.0)
 
     @cached_property
     def _pace(self) -> FloatArray:

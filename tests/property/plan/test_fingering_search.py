@@ -81,7 +81,7 @@ def choice_cost(fingering: Fingering, first: Fingering, length: float, places: s
     cost = float(min(fingering.rank - 1, 3))
     if fingering.rank > 1:
         cost += 0.5 if "forked" in fingering.tags else 0.0
-        cost += 4.0 if "rare" in fingering.tags else 0.0
+        cost += 10.0 if "rare" in fingering.tags else 0.0
         cost = 0.1 if "held" in fingering.tags else cost
         meant = set(fingering.tags) & {"trill", "fast", "forte", "piano", "chromatic", "attack"}
         if meant & places:
@@ -164,6 +164,8 @@ def naive_cost(notes: tuple[PlainNote, ...], choice: list[Fingering], instrument
     for index, step in enumerate(steps):
         a, b = choice[index], choice[index + 1]
         gap = max(onset[index + 1] - end[index], 0.0)
+        if notes[index].pitch == notes[index + 1].pitch and a != b:
+            cost += 8.0 * max(1.0 - gap, 0.0)
         hurry = max(0.085 / step - 1.0, 0.0)
         if trill[index]:
             hurry = max(hurry, 3.0 * max(0.15 / step - 1.0, 0.0))

@@ -121,6 +121,30 @@ def test_the_slide_stays_near_and_comes_back_to_the_same_place(bpm: float) -> No
     assert labels(even([*figure, 46], 120), TROMBONE, bpm=80.0) == ["1", "T1", "4", "T1", "1"]
 
 
+@pytest.mark.parametrize("step_tick", [240, 120, 100, 80])
+@pytest.mark.parametrize("figure", [[48, 50, 48, 50], [48, 50] * 4, [50, 48, 50, 48], [43, 48, 50, 48, 43]])
+def test_d_beside_c_is_played_in_four_without_the_attachment(figure: list[int], step_tick: int) -> None:
+    # Nobody turns the lever with every note to save a hand's breadth of the slide's way.
+    assert "T4" not in labels(even(figure, step_tick), TROMBONE)
+
+
+def test_c_between_b_flats_takes_the_attachment_and_b_flat_does_not() -> None:
+    # From the bass of the bundled quartet, at its tempo: C, B flat, C, D flat.
+    notes = line_of((0, 480, 48), (480, 240, 46), (720, 240, 48), (960, 480, 49), (1440, 480, 49))
+    assert labels(notes, TROMBONE, bpm=156.0) == ["T1", "1", "T1", "5", "5"]
+
+
+def test_a_repeated_note_keeps_its_fingering_but_for_a_pin_or_a_rest() -> None:
+    # B flat comes from B flat, D flat comes next: of two C, the one in between suits both, or one is changed.
+    notes = line_of((0, 240, 44), (240, 240, 46), (480, 480, 48), (960, 480, 48), (1440, 480, 49))
+    found = labels(notes, TROMBONE, bpm=156.0)
+    assert found[2] == found[3]
+    pinned, _ = plan(notes, TROMBONE, {"1:4": "6"}, bpm=156.0)
+    assert [event.label for event in pinned[2:4]] == ["T1", "6"]
+    free = line_of((0, 240, 44), (240, 240, 46), (480, 480, 48), (1440 + 960, 480, 48), (2880, 480, 49))
+    assert labels(free, TROMBONE, bpm=156.0)[2:4] == ["T1", "6"]
+
+
 def test_a_slur_over_natural_notes_leaves_the_slide_where_it_is() -> None:
     # G 3, B 3, D 4 are partials of the fourth position; D 4 is first in 1, and there is all the time to go there.
     assert labels(even([55, 59, 62, 59], 240), TROMBONE) == ["4", "4", "4", "4"]
