@@ -280,8 +280,7 @@ def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[
         elif event.kind == "breath":
             refill[index] = share
     used, steady_used = _less(score.used, spared_s), _less(score.steady_used, spared_s)
-    # No longer than the notes that really sound leave room for.
-    length_s = np.minimum(catch_lengths_s(score.steady, score.rests), catch_lengths_s(times, score.rests))
+    length_s = catch_lengths_s(score.steady, times, score.rests)
     spare: dict[int, BreathEvent] = {}
     drop_s, dropped = np.zeros(count), np.zeros(count, np.int64)
     if score.gaps is not None:
@@ -290,7 +289,7 @@ def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[
         spare = _spare(line, score, given, steady_used, refill)
         for index, event in spare.items():
             refill[index], length_s[index] = 0.0, event.end_s - event.start_s
-        drop_s, dropped = drop_lengths_s(times)
+        drop_s, dropped = drop_lengths_s(score.steady, times)
     if line.parameters.circular_breathing:
         used = with_circular_breathing(used, lung_s, refill)
         steady_used = with_circular_breathing(steady_used, lung_s, refill)

@@ -21,6 +21,8 @@ CATCH_NOTE_SHARE = 0.5
 """A catch breath takes at most this part of the note before it ..."""
 LEAST_SOUNDING_S = 1.0 / 24.0
 """... unless that would be no breath: then as much as one needs, but for the shortest staccato."""
+LEAST_PLAYED_S = 0.01
+"""Of a note that was played shorter than it is written so little may be left."""
 MOST_DROPPED = 2
 """Notes that may be left out for one breath."""
 
@@ -49,25 +51,38 @@ class Room:
         return np.where(self.length_s > 0.0, self.length_s, self.drop_s)
 
 
-def catch_lengths_s(times: LineTimes, rests: IntArray) -> FloatArray:
+def catch_lengths_s(score: LineTimes, times: LineTimes, rests: IntArray) -> FloatArray:
     """(N,): how long a catch breath before each note may be: the rest there, else also a part of the note before.
 
     Parameters
     ----------
+    score : LineTimes
+        The line at the tempo of the score, which decides whether there is a breath ...
+    times : LineTimes
+        ... and as it sounds, which may leave less room for it.
     rests : (N,) int64
         Ticks of rest before each note; a silence without a rest is the end of a detached note.
     """
-    gap = gaps_s(times)
-    before = np.insert(times.duration_s[:-1], 0, 0.0)
-    tail = np.maximum(CATCH_NOTE_SHARE * before, np.minimum(CATCH_MIN_S - gap, before - LEAST_SOUNDING_S))
-    length = np.where((gap >= CATCH_MIN_S) & (rests > 0), gap, gap + tail)
+    length = np.minimum(_length_s(score, rests, LEAST_SOUNDING_S), _length_s(times, rests, LEAST_PLAYED_S))
     length[0] = 0.0
     return np.where(length >= CATCH_MIN_S - EPSILON, np.minimum(length, CATCH_MAX_S), 0.0)
 
 
-def drop_lengths_s(times: LineTimes) -> tuple[FloatArray, IntArray]:
+def _length_s(times: LineTimes, rests: IntArray, least_s: float) -> FloatArray:
+    gap = gaps_s(times)
+    before = np.insert(times.duration_s[:-1], 0, 0.0)
+    tail = np.maximum(CATCH_NOTE_SHARE * before, np.minimum(CATCH_MIN_S - gap, before - least_s))
+    return np.asarray(np.where((gap >= CATCH_MIN_S) & (rests > 0), gap, gap + tail), dtype=np.float64)
+
+
+def drop_lengths_s(score: LineTimes, times: LineTimes) -> tuple[FloatArray, IntArray]:
     """How long a catch breath before each note may be that takes the place of the notes before, and of how many: as
     few as will do. The first note of a line is never left out.
+
+    Parameters
+    ----------
+    score, times : LineTimes
+        As of `catch_lengths_s`.
 
     Returns
     -------
@@ -76,16 +91,23 @@ def drop_lengths_s(times: LineTimes) -> tuple[FloatArray, IntArray]:
     """
     count = len(times.onset_s)
     length_s, dropped = np.zeros(count), np.zeros(count, np.int64)
-    gap = gaps_s(times)
     for notes in range(MOST_DROPPED, 0, -1):
         if count <= notes + 1:
             continue
-        span_s = times.onset_s[notes + 1 :] - times.onset_s[1:-notes]
-        span_s = span_s + gap[1:-notes] + CATCH_NOTE_SHARE * times.duration_s[: -notes - 1]
-        enough = np.flatnonzero(span_s >= CATCH_MIN_S - EPSILON)
-        length_s[enough + notes + 1] = np.minimum(span_s[enough], CATCH_MAX_S)
+        written_s, _ = _left_out_s(score, notes)
+        least_s, most_s = _left_out_s(times, notes)
+        lasts_s = np.clip(written_s, least_s, most_s)
+        enough = np.flatnonzero(np.minimum(written_s, lasts_s) >= CATCH_MIN_S - EPSILON)
+        length_s[enough + notes + 1] = np.minimum(lasts_s[enough], CATCH_MAX_S)
         dropped[enough + notes + 1] = notes
     return length_s, dropped
+
+
+def _left_out_s(times: LineTimes, notes: int) -> tuple[FloatArray, FloatArray]:
+    """(N - notes - 1,): how long a breath that so many notes are left out for usually is, and may be at most."""
+    span_s = times.onset_s[notes + 1 :] - times.onset_s[1:-notes] + gaps_s(times)[1:-notes]
+    before_s = times.duration_s[: -notes - 1]
+    return span_s + CATCH_NOTE_SHARE * before_s, span_s + np.maximum(before_s - LEAST_PLAYED_S, 0.0)
 
 
 def gaps_s(times: LineTimes) -> FloatArray:

@@ -7,7 +7,7 @@ import dataclasses
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.plan.catch_lengths import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_SOUNDING_S
+from app.plan.catch_lengths import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_PLAYED_S
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
 from instrument_maps.load import bundled_maps
@@ -94,7 +94,7 @@ def test_breaths_end_at_onsets_and_never_lie_in_a_sounding_note(drawn: tuple[Pie
                 start_s, end_s = onsets_s[note.id], piece.clock.seconds(float(end_tick))
                 inside_s = min(end_s, breath.end_s) - max(start_s, breath.start_s)
                 whole_s = end_s - start_s
-                tail_s = max(CATCH_NOTE_SHARE * whole_s, min(whole_s - LEAST_SOUNDING_S, CATCH_MIN_S)) if catch else 0.0
+                tail_s = max(CATCH_NOTE_SHARE * whole_s, min(whole_s - LEAST_PLAYED_S, CATCH_MIN_S)) if catch else 0.0
                 assert inside_s <= (whole_s if note.id in left_out else tail_s) + 1e-6
 
 
