@@ -28,6 +28,9 @@ FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.intp]
 Controls = Mapping[str, npt.NDArray[np.floating]]
 
+LIFT_STAY_M = 0.004
+"""A finger on its way is lifted as far as that is easy: towards what it cannot reach it would be thrown from one end of
+its range to the other."""
 LOW_HOVER = 0.123
 """In slow passages a finger waits as low as if its control had come so far: at the map's height, which is 1 / 1.3 of
 the highest (`app.rig.grip_problem.HOVER_MORE`)."""
@@ -212,7 +215,7 @@ def _raised(
     outer = max(near, far, key=lambda station: station.tip_joint)
     tips = np.broadcast_to(outer.tip_m, (len(share), 3))
     wanted = _tip(table, rotations, tips, outer.tip_joint) + np.multiply.outer(np.sin(np.pi * share), away_m)
-    return Asked(table.chain, rotations, outer.tip_joint, outer.tip_m, wanted)
+    return Asked(table.chain, rotations, outer.tip_joint, outer.tip_m, wanted, LIFT_STAY_M)
 
 
 def _sampled(table: FingerTable, controls: Controls, here: IntArray) -> Controls:

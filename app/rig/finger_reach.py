@@ -38,6 +38,8 @@ class Asked:
         ... in its frame ...
     wanted_m : (K, 3) float64
         ... comes here, in the wrist's frame.
+    stay_m : float
+        How much each angle is kept where it is: 0 where the place counts, more where only about the way there does.
     """
 
     chain: Chain
@@ -45,6 +47,7 @@ class Asked:
     joint: int
     tip_m: FloatArray
     wanted_m: FloatArray
+    stay_m: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -94,6 +97,7 @@ def brought(asked: Sequence[Asked]) -> list[FloatArray]:
             np.repeat([one.joint for one in together], counts),
             np.repeat([one.tip_m for one in together], counts, axis=0),
             np.concatenate([one.wanted_m for one in together]),
+            np.repeat([one.stay_m for one in together], counts),
         )
         for place, own in zip(places, np.split(solved, np.cumsum(counts)[:-1]), strict=True):
             result[place] = own
@@ -101,7 +105,12 @@ def brought(asked: Sequence[Asked]) -> list[FloatArray]:
 
 
 def _brought(
-    chains: _Rows, rotations: FloatArray, joint: IntArray, tip_m: FloatArray, wanted_m: FloatArray
+    chains: _Rows,
+    rotations: FloatArray,
+    joint: IntArray,
+    tip_m: FloatArray,
+    wanted_m: FloatArray,
+    stay_m: FloatArray,
 ) -> FloatArray:
     """A few damped Gauss-Newton steps (Wampler 1986) on the angles that a finger has."""
     rows = np.arange(len(rotations))
@@ -109,7 +118,9 @@ def _brought(
     moves = (chains.used & (joints <= joint[:, None]))[..., None]
     angles = _angles(chains, rotations)
     now = angles[each, joints, kinds]
+    start = now
     low, high = np.minimum(chains.low, now), np.maximum(chains.high, now)
+    stiff = (DAMPING_M**2 + stay_m**2)[:, None, None] * np.eye(3)
     above = np.empty_like(rotations)
     above[:, 0] = quaternion.IDENTITY
     turned = _turned(chains, angles)
@@ -123,13 +134,16 @@ def _brought(
         axes = quaternion.rotate(above[each, joints], _axes(chains, angles)[each, joints, kinds])
         slopes = quaternion.cross(axes, tip[:, None] - places[each, joints]) * moves
         now = angles[each, joints, kinds]
-        step = _step(slopes, off)
+        # Back to where it was first, as much as that is asked, then towards the place.
+        back = np.where(stay_m[:, None] > 0.0, start - now, 0.0)
+        off = off - np.einsum("kdi,kd->ki", slopes, back)
+        step = back + _step(slopes, off, stiff)
         # What would leave its range stands still, and the other joints make up for it.
         for _ in range(2):
             stuck = (now + step < low) | (now + step > high)
             stand = np.where(stuck, np.minimum(np.maximum(now + step, low), high) - now, 0.0)
-            left = off - np.einsum("kdi,kd->ki", slopes, stand)
-            step = np.where(stuck, stand, _step(np.where(stuck[..., None], 0.0, slopes), left))
+            left = off - np.einsum("kdi,kd->ki", slopes, np.where(stuck, stand - back, 0.0))
+            step = np.where(stuck, stand, back + _step(np.where(stuck[..., None], 0.0, slopes), left, stiff))
         now = np.minimum(np.maximum(now + step, low), high)
         for column in range(now.shape[1]):
             own = chains.used[:, column]
@@ -151,9 +165,9 @@ def _axes(chains: _Rows, angles: FloatArray) -> FloatArray:
     return result
 
 
-def _step(slopes: FloatArray, off_m: FloatArray) -> FloatArray:
+def _step(slopes: FloatArray, off_m: FloatArray, stiff: FloatArray) -> FloatArray:
     """Damped least squares: the angles (R, D) that bring a point by ``off_m`` (R, 3)."""
-    normal = np.einsum("kdi,kdj->kij", slopes, slopes) + DAMPING_M**2 * np.eye(3)
+    normal = np.einsum("kdi,kdj->kij", slopes, slopes) + stiff
     step: FloatArray = np.einsum("kdi,ki->kd", slopes, np.linalg.solve(normal, off_m[..., None])[..., 0])
     return step
 

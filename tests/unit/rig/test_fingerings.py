@@ -26,6 +26,8 @@ from metadata.load import load_body
 WAITS_MM, WAY_MM = 3.0, 4.0
 """A finger that waits keeps out of the instrument as all of the hand does; on its way it goes by in some hundredths
 of a second."""
+THROWN_DEG = 40.0
+"""In a hundredth of its way no joint turns so far."""
 STILL_DEEPER_MM = {("woman_adult", "clarinet_A"): 5.5}
 """Ways that no height brings clear yet: to the side keys."""
 
@@ -206,3 +208,23 @@ def _depths_mm(fingered: Fingered, hand: HandHold, table: FingerTable, raised: f
     nodes, turns = node_transforms(fingered.model, fingered.instrument, fingered.controls, len(fingered))
     placed = proxy.Nodes(nodes[0], quaternion.to_matrix(turns[0]))
     return np.array([1000.0 * proxy.inside(bodies, placed, one, np.zeros(len(one)))[0].max() for one in skin])
+
+
+def test_no_finger_is_thrown_about_on_its_way(fingered: Fingered) -> None:
+    """Where it cannot be lifted as far as asked, it went from one end of its joints' range to the other at once."""
+    shares = np.linspace(0.0, 1.0, 121)
+    still = {one.name: np.full(len(shares), one.rest_value) for one in fingered.instrument.controls}
+    home = np.zeros(len(shares))
+    for hand in fingered.hold.hands:
+        for table in hand.fingers:
+            columns = [fingered.hold.finger_joints.index(joint) for joint in table.joints]
+            for place in range(1, len(table.stations)):
+                there = np.full(len(shares), float(place))
+                placed = {
+                    table.finger: Placed(home, there, shares),
+                    giving_for(table.finger): Placed(home, there, home),
+                }
+                found = finger_rotations(fingered.hold, still, len(shares), placed)[:, columns]
+                steps = quaternion.multiply(quaternion.conjugate(found[:-1]), found[1:])
+                most_deg = np.rad2deg(np.linalg.norm(quaternion.to_rotation_vector(steps), axis=-1)).max()
+                assert most_deg < THROWN_DEG, (table.finger, place)
