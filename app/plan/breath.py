@@ -240,9 +240,9 @@ def _read(line: _Breather, air: Air | None, heard: Blown | None) -> _Score:
 
 
 def _rests(written: LineTimes, times: LineTimes, piece: Piece) -> IntArray:
-    """What is a rest is read from the score, how long it is from what sounds."""
+    """Rests are those of the score, also their lengths: who lets a note go early does not make the rest longer."""
     rests = rest_ticks(written, piece.beat_ticks_at(times.onset_tick))
-    return np.where(rests > 0, times.silence_tick, 0)
+    return np.where((rests > 0) & (times.silence_tick > 0), written.silence_tick, 0)
 
 
 def _given(
@@ -273,7 +273,7 @@ def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[
     times, lung_s, count = line.times, score.lung_s, len(line.notes)
     refill, spared_s = np.zeros(count), np.zeros(count)
     for event in (*given.kept, *given.by_hand):
-        index, share = line.index(event), max(0.0, drawn(event.end_s - event.start_s) * _full(event))
+        index, share = line.index(event), max(0.0, drawn(_lasts_s(score, line, event)) * _full(event))
         if _is_within(event):
             # Lungs are counted from note to note: such a note takes so much less.
             spared_s[index] += share * lung_s
@@ -288,13 +288,22 @@ def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[
     else:
         spare = _spare(line, score, given, steady_used, refill)
         for index, event in spare.items():
-            refill[index], length_s[index] = 0.0, event.end_s - event.start_s
+            refill[index], length_s[index] = 0.0, _lasts_s(score, line, event)
         drop_s, dropped = drop_lengths_s(score.steady, times)
     if line.parameters.circular_breathing:
         used = with_circular_breathing(used, lung_s, refill)
         steady_used = with_circular_breathing(steady_used, lung_s, refill)
     air_s = levels(used, lung_s, refill) * lung_s
     return _Stock(used, steady_used, refill, air_s, Room(length_s, drop_s, dropped)), spare
+
+
+def _lasts_s(score: _Score, line: _Breather, event: BreathEvent) -> float:
+    """How long a breath is, as the score would have it where a rest gives it."""
+    index, length_s = line.index(event), event.end_s - event.start_s
+    if index == 0 or event.corrected or score.gaps is not None or _is_within(event):
+        return length_s
+    rest_s = float(score.written.onset_s[index] - score.written.played_end_s[index - 1])
+    return min(length_s, rest_s) if rest_s > 0.0 else length_s
 
 
 def _spare(

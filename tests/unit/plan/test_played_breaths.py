@@ -10,7 +10,7 @@ import pytest
 
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.line import MEZZOFORTE, marked
-from app.plan.model import PlayerPlan
+from app.plan.model import PlayerParameters, PlayerPlan
 from tests.support.plan import PlainClock, PlainNote, line_of, valves
 
 Q = 480
@@ -42,8 +42,10 @@ def as_played(notes: Iterable[PlainNote], seed: int) -> tuple[PlainNote, ...]:
     return line_of(*result)
 
 
-def plan(notes: tuple[PlainNote, ...], clock: PlainClock, loudness: tuple[float, ...] = ()) -> PlayerPlan:
-    line = Line("p", notes, valves(), loudness=loudness)
+def plan(
+    notes: tuple[PlainNote, ...], clock: PlainClock, loudness: tuple[float, ...] = (), **parameters: float
+) -> PlayerPlan:
+    line = Line("p", notes, valves(), PlayerParameters(**parameters), loudness=loudness)
     return make_plans(Piece(clock), (line,), time_frame((line,), clock))["p"]
 
 
@@ -82,3 +84,30 @@ def test_the_mark_nearest_to_a_loudness() -> None:
     assert marked(np.array([0.0, 0.60, MEZZOFORTE, 0.68, 1.0])).tolist() == pytest.approx(
         [16 / 127, MEZZOFORTE, MEZZOFORTE, MEZZOFORTE, 126 / 127]
     )
+
+
+@pytest.mark.parametrize("early_s", [0.035, 0.05])
+@pytest.mark.parametrize("lung_s", [6.0, 6.5])
+def test_rests_after_notes_let_go_early_serve_as_written_ones(early_s: float, lung_s: float) -> None:
+    """Which rest is breathed in and how much air it brings is read from the score."""
+    lengths, sounds = (1.5, 1, 0.25, 0.75, 0.5, 1, 1, 1, 1) * 10, (1.5, 1, 0.25, 0, 0.5, 1, 1, 0.5, 1) * 10
+    onsets = np.concatenate(([0.0], np.cumsum(lengths)))
+    rows = [
+        (round(onset * Q), round(sound * Q), 60 + index % 7)
+        for index, (onset, sound) in enumerate(zip(onsets, sounds, strict=False))
+        if sound
+    ]
+    per_s = Q * 120.0 / 60.0
+    chance = random.Random(1)
+    as_played_ = [
+        (
+            max(onset + round(chance.uniform(-0.01, 0.01) * per_s), 0),
+            length - round(min(early_s, 0.3 * length / per_s) * per_s),
+            pitch,
+        )
+        for onset, length, pitch in rows
+    ]
+    clock = PlainClock(((0, 120.0),))
+    written, found = (breaths(plan(line_of(*notes), clock, lung_s=lung_s)) for notes in (rows, as_played_))
+    assert len(written) > 5
+    assert len(written & found) >= 0.8 * len(written)
