@@ -16,9 +16,7 @@ _CLICK_S: Final = 0.035
 
 
 def click_track(project: Project, start_s: float, end_s: float) -> Track:
-    """Clicks on every beat of a span, the first of a bar higher.
-
-    The beat is the one that is felt where it divides the bar (a 6/8 in two), else the metre's own.
+    """Clicks on every beat of a span that is counted aloud (`MetreMap.counted`), the first of a bar higher.
 
     Parameters
     ----------
@@ -26,20 +24,15 @@ def click_track(project: Project, start_s: float, end_s: float) -> Track:
     start_s, end_s : float
         Seconds of the performance; from before the first note if the pre-roll is to be counted.
     """
-    score = project.score
-    tempo_map = score.tempo_map
-    bar = score.bar_of_tick(int(np.floor(tempo_map.ticks(start_s))))
-    pieces = []
-    while True:
-        bar_tick, next_tick = score.tick_of_bar(bar), score.tick_of_bar(bar + 1)
-        if tempo_map.seconds(float(bar_tick)) >= end_s:
-            break
-        for index, tick in enumerate(_beats(project, bar_tick, next_tick)):
-            at_s = tempo_map.seconds(float(tick))
-            if start_s <= at_s < end_s:
-                pieces.append(Piece(round(at_s * RATE_HZ), _click(_BEAT_HZ if index else _BAR_HZ)))
-        bar += 1
-    return Track(pieces)
+    tempo_map, metre_map = project.score.tempo_map, project.metre_map
+    first, last = (metre_map.bar_of_tick(int(np.floor(tempo_map.ticks(at_s)))) for at_s in (start_s, end_s))
+    ticks, beats = metre_map.counted(first, max(last + 1, first))
+    times_s = tempo_map.seconds(ticks)
+    within = (times_s >= start_s) & (times_s < end_s)
+    return Track(
+        Piece(round(at_s * RATE_HZ), _click(_BEAT_HZ if beat else _BAR_HZ))
+        for at_s, beat in zip(times_s[within].tolist(), beats[within].tolist(), strict=True)
+    )
 
 
 def steady_clicks(times_s: Iterable[float], high: int) -> Track:
@@ -48,20 +41,6 @@ def steady_clicks(times_s: Iterable[float], high: int) -> Track:
         Piece(round(at_s * RATE_HZ), _click(_BAR_HZ if index < high else _BEAT_HZ))
         for index, at_s in enumerate(times_s)
     )
-
-
-def _beats(project: Project, bar_tick: int, next_tick: int) -> list[float]:
-    """Ticks of a bar's beats."""
-    score = project.score
-    length = next_tick - bar_tick
-    felt = project.felt_beat_ticks(bar_tick)
-    if length % felt == 0:
-        return [float(bar_tick + beat) for beat in range(0, length, felt)]
-    metre = next(metre for metre in reversed(score.metres) if metre.tick <= max(bar_tick, score.metres[0].tick))
-    step = 4 * score.ticks_per_quarter / metre.denominator
-    # A pickup's beats are counted back from the bar line.
-    count = int(np.ceil(length / step - 1e-9))
-    return [tick for tick in (next_tick - (count - beat) * step for beat in range(count)) if tick >= bar_tick]
 
 
 @cache

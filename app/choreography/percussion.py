@@ -16,7 +16,8 @@ from typing import Final
 import numpy as np
 
 from app.choreography.rhythm import SYMBOLS, FloatArray, IntArray, Rhythm
-from app.plan.felt_beat import felt_beats
+from app.score.felt_beat import felt_beats
+from app.score.metre_map import beat_ticks_at
 from app.score.model import Score
 
 SAME_SOUND: Final = {22: 42, 26: 46}
@@ -55,11 +56,10 @@ def piece_beats(score: Score) -> tuple[FloatArray, IntArray]:
     """
     end = score.sounding_end_tick
     first = 0 if score.pickup_ticks else 1
-    lines = np.array([score.tick_of_bar(bar) for bar in range(first, score.bar_of_tick(max(end - 1, 0)) + 2)], np.int64)
+    metre_map = score.metre_map
+    lines = metre_map.tick_of_bar(np.arange(first, metre_map.bar_of_tick(max(end - 1, 0)) + 2))
     bars = lines[:-1]
-    changes = felt_beats(score.tempo_map, score.metres, bars)
-    places = np.searchsorted([tick for tick, _ in changes], bars, side="right") - 1
-    beat_ticks = [changes[place][1] for place in places]
+    beat_ticks = beat_ticks_at(felt_beats(score.tempo_map, metre_map, bars), bars)
     ticks = [np.arange(start, stop, beat) for start, stop, beat in zip(bars, lines[1:], beat_ticks, strict=True)]
     counts = [np.arange(len(bar)) for bar in ticks]
     if score.pickup_ticks and len(ticks) > 1:

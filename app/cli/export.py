@@ -199,7 +199,7 @@ def _bars(performance: Performance, arguments: argparse.Namespace) -> tuple[int,
         return None
     score = performance.project.score
     lowest = 0 if score.pickup_ticks else 1
-    highest = score.bar_of_tick(max(score.end_tick - 1, 0))
+    highest = score.last_bar
     first = lowest if arguments.from_bar is None else arguments.from_bar
     last = highest if arguments.to_bar is None else arguments.to_bar
     if not lowest <= first <= last <= highest:

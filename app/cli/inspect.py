@@ -26,17 +26,16 @@ from app.plan.bends import bends
 from app.plan.line import dynamic_mark, staccato
 from app.plan.model import (
     BreathEvent,
-    Clock,
     CueEvent,
     ExpressionEvent,
     FingeringEvent,
     GestureEvent,
-    Note,
     PoseEvent,
 )
 from app.project.model import Dancer, Player
-from app.score.model import UnplayedPart
+from app.score.model import Note, UnplayedPart
 from app.score.mutes import is_muted
+from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 
 Table = dict[str, Any]
@@ -232,7 +231,7 @@ def _articulations(notes: Sequence[Note], tongued: Set[str], quarter_ticks: int)
     ]
 
 
-def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, clock: Clock) -> Table:
+def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, clock: TempoMap) -> Table:
     onset_s = clock.seconds(float(note.onset_tick))
     return {
         "id": note.id,
@@ -250,7 +249,7 @@ def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, cloc
 
 
 def _spans(
-    events: Sequence[BreathEvent | CueEvent | ExpressionEvent | GestureEvent | PoseEvent], clock: Clock
+    events: Sequence[BreathEvent | CueEvent | ExpressionEvent | GestureEvent | PoseEvent], clock: TempoMap
 ) -> list[Table]:
     """When the events are, in seconds and in quarters."""
     seconds = np.array([(event.start_s, event.end_s) for event in events]).reshape(-1, 2)

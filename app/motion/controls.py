@@ -15,8 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.motion.curve import Curve, minimum_jerk, moves
-from app.plan.line import FeltBeats, beat_ticks_at
 from app.plan.model import FingeringEvent
+from app.score.metre_map import FeltBeats, beat_ticks_at
 from instrument_maps.model import Control
 
 SLOWEST_FRAME_S = 1.0 / 24.0

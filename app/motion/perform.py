@@ -22,11 +22,11 @@ from app.motion.posture import hips_path, stance, trunk
 from app.motion.solve import Curves, Player, padding, solve
 from app.motion.splice import changed_stretch, spliced
 from app.motion.stations import raised_curve, sampled, station_curves
-from app.plan.line import FeltBeats
 from app.plan.model import PlayerParameters, PlayerPlan, TimeFrame, same_events
 from app.rig.carriage import carrying
 from app.rig.hold import Hold, Lips, Placed, giving_for
 from app.rig.model import Character
+from app.score.metre_map import FeltBeats
 from instrument_maps.model import Carriage, InstrumentMap
 from metadata.load import load_expressions
 from metadata.model import Body, Embouchure, Expression, Posture

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.motion.curve import Curve
-from app.plan.line import FeltBeats, beat_ticks_at
 from app.plan.model import FingeringEvent
+from app.score.metre_map import FeltBeats, beat_ticks_at
 
 APART_S = 3.0
 """Notes this far apart, and by a beat, know nothing of one another: ways back, home and out again take less."""

@@ -84,23 +84,9 @@ class Performance:
     def piece(self) -> Piece:
         """What all players share."""
         with self._lock:
-            score, felt_beats = self.project.score, self.project.felt_beats
-            return self._memo.step(
-                "piece",
-                lambda: Piece(
-                    clock=score.tempo_map,
-                    metres=score.metres,
-                    bar_ticks=tuple(score.bar_starts.tolist()),
-                    felt_beats=felt_beats,
-                    accompaniment=score.accompaniment,
-                ),
-                score.tempo_map,
-                score.metres,
-                score.pickup_ticks,
-                score.end_tick,
-                felt_beats,
-                score.accompaniment,
-            )
+            score = self.project.score
+            keys = (score.tempo_map, self.project.metre_map, score.accompaniment)
+            return self._memo.step("piece", lambda: Piece(*keys), *keys)
 
     @cached_property
     def lines(self) -> tuple[Line, ...]:
@@ -144,7 +130,7 @@ class Performance:
             first_ticks += [hit.tick for hit in self.project.score.percussion[:1]]
             last_ticks.append(self.project.score.sounding_end_tick)
         first_tick, last_tick = min(first_ticks, default=0), max(last_ticks, default=0)
-        beat_ticks = self.project.felt_beat_ticks(first_tick)
+        beat_ticks = self.project.metre_map.felt_ticks_at(first_tick)
         return frame_around(first_tick, last_tick, self.piece.clock, self.project.preroll_beats, beat_ticks)
 
     @cached_property

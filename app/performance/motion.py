@@ -35,7 +35,11 @@ def playing_of(
 
     ``danced`` says whether the player's choreography is wanted, which may take seconds to generate.
     """
-    player, plan, felt_beats = performer.player, performance.plan(performer.player), performance.piece.beat_changes
+    player, plan, felt_beats = (
+        performer.player,
+        performance.plan(performer.player),
+        performance.piece.metre_map.felt_beats,
+    )
     instrument, character, hold, body = performer.instrument, performer.character, performer.hold, performer.body
     dance = None
     if danced and player.parameters.choreography:

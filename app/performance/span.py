@@ -54,8 +54,8 @@ def bars_span(performance: Performance, fps: Fraction, bars: tuple[int, int], pr
     """
     frame = performance.time_frame
     score, clock = performance.project.score, performance.piece.clock
-    first_tick, end_tick = score.tick_of_bar(bars[0]), score.tick_of_bar(bars[1] + 1)
-    preroll_ticks = preroll_beats * performance.project.felt_beat_ticks(first_tick)
+    first_tick, end_tick = score.metre_map.tick_of_bar(bars[0]), score.metre_map.tick_of_bar(bars[1] + 1)
+    preroll_ticks = preroll_beats * performance.project.metre_map.felt_ticks_at(first_tick)
     first_s = clock.seconds(float(first_tick))
     start_s = min(clock.seconds(first_tick - preroll_ticks), first_s - PREROLL_LEAST_S)
     end_s = frame.end_s if end_tick >= score.end_tick else clock.seconds(float(end_tick))

@@ -34,25 +34,24 @@ def with_felt_bars(piece: Piece, lines: Sequence[LineTimes]) -> Piece:
 
     Pieces that change their metre, or have a pickup already, keep their bars.
     """
-    bars = np.array(piece.bar_ticks, np.int64)
-    if len(piece.metres) > 1 or len(bars) < 2:
+    metre_map, quarter = piece.metre_map, piece.clock.ticks_per_quarter
+    metre = metre_map.metres[0]
+    end = max((int(times.played_end_tick[-1]) for times in lines if len(times.onset_tick)), default=0)
+    bars = metre_map.bars(metre.tick, end)
+    if len(metre_map.metres) > 1 or len(bars) < 2:
         return piece
-    unit = min(4 * piece.clock.ticks_per_quarter // _denominator(piece), piece.clock.ticks_per_quarter)
-    bar = piece.bar_length_tick(int(bars[0]))
+    unit = min(4 * quarter // metre.denominator, quarter)
+    bar = metre_map.bar_ticks_at(metre.tick)
     if bar % unit or np.any(np.diff(bars) != bar):
         return piece
-    onsets = [written_onsets(times.onset_tick, piece.clock.ticks_per_quarter, bars) - bars[0] for times in lines]
+    onsets = [written_onsets(times.onset_tick, quarter, bars) - bars[0] for times in lines]
     beats = _weights(lines, onsets, unit, bar // unit)
     best = int(np.argmax(beats))
     others = np.delete(beats, best)
     if beats[0] >= GIVEN_MOST or beats[best] < BEST_LEAST or beats[best] < CLEAR * others.max():
         return piece
-    shifted = (bars[0] - bar + best * unit + bar * np.arange(len(bars) + 1)).tolist()
-    return msgspec.structs.replace(piece, bar_ticks=tuple(shifted))
-
-
-def _denominator(piece: Piece) -> int:
-    return piece.metres[0].denominator if piece.metres else 4
+    felt = msgspec.structs.replace(metre, tick=metre.tick - bar + best * unit)
+    return msgspec.structs.replace(piece, metre_map=msgspec.structs.replace(metre_map, metres=(felt,)))
 
 
 def _weights(lines: Sequence[LineTimes], onsets: Sequence[IntArray], unit_ticks: int, count: int) -> FloatArray:

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 
 from app.plan.line import Steps
-from app.plan.model import Note
+from app.score.model import Note
 
 LEAST_BEND: Final = 0.3
 """Share of the bend range between a note's end and its middle: 60 cents on the usual range of two semitones, which is

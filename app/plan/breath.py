@@ -60,11 +60,12 @@ from app.plan.lungs import (
     where_short,
     with_circular_breathing,
 )
-from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, Problem, TimeFrame
+from app.plan.model import BreathEvent, FloatArray, PlayerParameters, Problem, TimeFrame
 from app.plan.notation import at_score_tempo, notated
 from app.plan.rest_breaths import heard_breaths, heard_catch, rest_breaths, within_note
 from app.plan.rests import rest_ticks
 from app.plan.stagger import ALONE, Shared, within_held
+from app.score.model import Note
 from instrument_maps.model import Air
 
 LEAST_DEPTH = 0.3

@@ -25,7 +25,6 @@ import msgspec
 from app.errors import Message
 from app.plan.model import (
     BreathEvent,
-    Clock,
     CueEvent,
     EmbouchureEvent,
     ExpressionEvent,
@@ -33,6 +32,7 @@ from app.plan.model import (
     PoseTarget,
     Problem,
 )
+from app.score.tempo import TempoMap
 
 BY_HAND = Message("correction.by_hand")
 
@@ -303,7 +303,7 @@ def correct_embouchures(
 
 
 def correct_gestures(
-    events: tuple[GestureEvent, ...], corrections: tuple[Correction, ...], clock: Clock
+    events: tuple[GestureEvent, ...], corrections: tuple[Correction, ...], clock: TempoMap
 ) -> tuple[GestureEvent, ...]:
     """Gestures without the removed ones, with the changed and the added ones, ordered by start."""
     changes = {item.event_id: item for item in corrections if isinstance(item, ChangeGesture)}
@@ -326,7 +326,7 @@ def correct_gestures(
 
 
 def correct_expressions(
-    events: tuple[ExpressionEvent, ...], corrections: tuple[Correction, ...], clock: Clock
+    events: tuple[ExpressionEvent, ...], corrections: tuple[Correction, ...], clock: TempoMap
 ) -> tuple[ExpressionEvent, ...]:
     """Expressions without the removed ones, with the changed and the added ones, ordered by start."""
     changes = {item.event_id: item for item in corrections if isinstance(item, ChangeExpression)}
@@ -357,7 +357,7 @@ def _corrected_spans(
     changes: Mapping[str, ChangeGesture | ChangeExpression],
     added: tuple[Span, ...],
     fields: tuple[str, ...],
-    clock: Clock,
+    clock: TempoMap,
 ) -> tuple[Span, ...]:
     """``fields`` of a change that are not None take the place of the event's."""
     removed = removed_ids(corrections)
@@ -371,7 +371,7 @@ def _corrected_spans(
 
 
 def _changed(
-    event: Span, change: ChangeGesture | ChangeExpression | None, fields: tuple[str, ...], clock: Clock
+    event: Span, change: ChangeGesture | ChangeExpression | None, fields: tuple[str, ...], clock: TempoMap
 ) -> Span:
     if change is None:
         return event

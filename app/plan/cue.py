@@ -144,7 +144,7 @@ def _beat(piece: Piece, tick: int) -> int:
 def _together(piece: Piece, tick: int) -> int:
     """How long after a tick others still come in with it, ticks: at once, or within a beat of the bar line after a
     pickup."""
-    beat, bar = _beat(piece, tick), piece.bar_length_tick(tick)
+    beat, bar = _beat(piece, tick), piece.metre_map.bar_ticks_at(tick)
     bars = piece.bars(tick, tick + bar + 1)
     following = int(bars[np.searchsorted(bars, tick, side="right")]) - tick if bars[-1] > tick else bar
     return following + beat if following <= bar / 2 else max(round(ON_BEAT * beat), 1)
@@ -185,7 +185,7 @@ def _common_entries(sounding: list[tuple[int, LineTimes]], lines: _Spans, piece:
 
 def _silence(sounding: list[tuple[int, LineTimes]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
     """Why everybody needs a cue after a silence of all from ``end`` to ``tick``; None if nobody does."""
-    bars, beats = (tick - end) / piece.bar_length_tick(end), (tick - end) / _beat(piece, tick)
+    bars, beats = (tick - end) / piece.metre_map.bar_ticks_at(end), (tick - end) / _beat(piece, tick)
     if beats >= LEAST_BEATS:
         if rest_s >= COMMON_REST_S or (bars >= COMMON_REST_BARS and rest_s >= COMMON_REST_LEAST_S):
             return "cue.after_rest"
@@ -207,7 +207,7 @@ def _silence(sounding: list[tuple[int, LineTimes]], end: int, tick: int, rest_s:
 
 def _tempo_entries(sounding: list[tuple[int, LineTimes]], lines: _Spans, piece: Piece) -> list[Entry]:
     """Where a new tempo begins and stays, or the old one goes on after a fermata."""
-    beats = piece.beats(int(lines.starts[0]), int(lines.ends[-1]))
+    beats = piece.metre_map.felt_between(int(lines.starts[0]), int(lines.ends[-1]))
     seconds = piece.clock.seconds(beats.astype(np.float64))
     lasts_s: FloatArray = np.diff(seconds) / np.maximum(np.diff(beats), 1)
     changes = np.abs(np.diff(np.log(np.maximum(lasts_s, 1e-12)))) >= np.log(OTHER_TEMPO)
@@ -254,15 +254,15 @@ def _joining(sounding: list[tuple[int, LineTimes]], lines: _Spans, shared: list[
         # A voice that comes in first of all after the others needs no long rest for it.
         for index in np.flatnonzero((rests_s >= LONG_REST_LEAST_S) | (np.arange(len(rests_s)) == 0)).tolist():
             tick, rest_s = int(times.onset_tick[index]), float(rests_s[index])
-            bars = (tick - int(ends[index])) / piece.bar_length_tick(tick)
+            bars = (tick - int(ends[index])) / piece.metre_map.bar_ticks_at(tick)
             long = rest_s >= LONG_REST_S or bars >= LONG_REST_BARS
             if bars >= 1.0 if index == 0 else long and bars >= LONG_REST_LEAST_BARS:
                 rows.append((tick, rest_s, line, index))
     rows.sort()
-    given = [(entry.tick, entry.tick + piece.bar_length_tick(entry.tick)) for entry in shared]
+    given = [(entry.tick, entry.tick + piece.metre_map.bar_ticks_at(entry.tick)) for entry in shared]
     found: list[Entry] = []
     for tick, rest_s, line, index in rows:
-        if found and tick < found[-1].tick + piece.bar_length_tick(found[-1].tick):
+        if found and tick < found[-1].tick + piece.metre_map.bar_ticks_at(found[-1].tick):
             last = found[-1]
             found[-1] = msgspec.structs.replace(last, players=(*last.players, (line, index)))
         elif not any(start <= tick < end for start, end in given) and lines.sounds_before(tick, _beat(piece, tick)):
@@ -286,7 +286,7 @@ def leader_of(
     free = sorted(line for line in entering if lines[line].parameters.cue_leader is not False)
     if len(free) <= 1:
         return (free[0] if free else None), "melody"
-    end = entry.tick + MELODY_BARS * piece.bar_length_tick(entry.tick)
+    end = entry.tick + MELODY_BARS * piece.metre_map.bar_ticks_at(entry.tick)
     heights, tunes = {}, {}
     for line in free:
         times = all_times[line]
@@ -373,7 +373,7 @@ def _cue(player_id: str, note: str, entry: Entry, why: str, piece: Piece, frame:
     clock, tick, beat = piece.clock, entry.tick, _beat(piece, entry.tick)
     end_s = clock.seconds(float(tick))
     beat_s = clock.seconds(float(tick + beat)) - end_s
-    beats = piece.beats(tick - 2 * beat, tick + 1)
+    beats = piece.metre_map.felt_between(tick - 2 * beat, tick + 1)
     late = (tick - int(beats[np.searchsorted(beats, tick, side="right") - 1])) / beat
     peak_s = end_s - beat_s * (1.0 + (late if ON_BEAT < late < 1.0 - ON_BEAT else 0.0))
     start_s = peak_s - (LEAD_BEATS - 1.0) * beat_s

@@ -34,7 +34,7 @@ def ending_of(all_times: tuple[LineTimes, ...], piece: Piece) -> Ending:
     pitch, loudness = (np.concatenate([getattr(times, name) for times in lines]) for name in ("pitch", "loudness"))
     last = int(end.max())
     beat = int(piece.beat_ticks_at(np.array([last]))[0])
-    first = max(last - BARS * piece.bar_length_tick(last), int(onset.min()))
+    first = max(last - BARS * piece.metre_map.bar_ticks_at(last), int(onset.min()))
     lasts_s = piece.clock.seconds(float(last)) - piece.clock.seconds(float(first))
     bpm = 60.0 * (last - first) / beat / max(lasts_s, 1e-9)
     tonic = int(pitch[end > last - beat].min()) % 12

@@ -23,15 +23,15 @@ from app.plan.ending import Ending
 from app.plan.line import LineTimes
 from app.plan.model import (
     BreathEvent,
-    Clock,
     CueEvent,
     EmbouchureEvent,
     ExpressionEvent,
     FloatArray,
     GestureEvent,
-    Note,
     TimeFrame,
 )
+from app.score.model import Note
+from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
 from metadata.model import Expression
@@ -54,7 +54,7 @@ SMILE_ID = "expression:smile"
 def plan_expressions(
     notes: tuple[Note, ...],
     times: LineTimes,
-    clock: Clock,
+    clock: TempoMap,
     instrument: InstrumentMap,
     frame: TimeFrame,
     embouchures: tuple[EmbouchureEvent, ...],
@@ -125,7 +125,7 @@ def _moments(
     notes: tuple[Note, ...],
     times: LineTimes,
     strength: FloatArray,
-    clock: Clock,
+    clock: TempoMap,
     reason: Callable[[int], Message],
 ) -> list[ExpressionEvent]:
     """One expression for every run of notes with a strength above 0 and no more than `JOIN_S` between them."""
@@ -148,7 +148,7 @@ def _entries(
     face: Expression,
     notes: tuple[Note, ...],
     times: LineTimes,
-    clock: Clock,
+    clock: TempoMap,
     breaths: tuple[BreathEvent, ...],
     cues: tuple[CueEvent, ...],
 ) -> list[ExpressionEvent]:
@@ -174,7 +174,7 @@ def _entries(
 
 
 def _event(
-    event_id: str, face: Expression, start_s: float, end_s: float, strength: float, clock: Clock, reason: Message
+    event_id: str, face: Expression, start_s: float, end_s: float, strength: float, clock: TempoMap, reason: Message
 ) -> ExpressionEvent:
     return ExpressionEvent(
         id=event_id,

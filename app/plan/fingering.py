@@ -25,8 +25,9 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.line import IntArray, LineTimes
-from app.plan.model import FingeringEvent, Note, Problem, Vent
+from app.plan.model import FingeringEvent, Problem, Vent
 from app.plan.search import TOLERANCE, FingeringProblem, best_path, even_trills, fingering_problem, never_worse
+from app.score.model import Note
 from instrument_maps.model import Fingering, InstrumentMap
 
 LEAST_HELD_S = 0.1

@@ -40,11 +40,12 @@ from app.plan.gesture import Pulse, plan_gestures, pulse
 from app.plan.heard import blown
 from app.plan.line import Line, LineTimes, Piece, Seeds, line_times
 from app.plan.memo import Memo
-from app.plan.model import Clock, CueEvent, PlayerPlan, Problem, TimeFrame
+from app.plan.model import CueEvent, PlayerPlan, Problem, TimeFrame
 from app.plan.pose import plan_poses
 from app.plan.stagger import Breathed, Shared, SharedLine, breathed_of, shared_line, shared_with
 from app.plan.together import one_at_a_time
 from app.plan.traces import plan_traces
+from app.score.tempo import TempoMap
 from metadata.load import load_expressions
 from metadata.model import Expression
 
@@ -66,7 +67,7 @@ AFTER_LAST_S = 2.0
 
 
 def time_frame(
-    lines: tuple[Line, ...], clock: Clock, preroll_beats: float = PREROLL_BEATS, beat_ticks: int | None = None
+    lines: tuple[Line, ...], clock: TempoMap, preroll_beats: float = PREROLL_BEATS, beat_ticks: int | None = None
 ) -> TimeFrame:
     """The performance's span: a pre-roll of some beats, at least 2 s, before the first note of all lines, to 2 s
     after the last. Times before the first tick are negative. Without any note: around tick 0.
@@ -84,7 +85,7 @@ def time_frame(
 def frame_around(
     first_tick: int,
     last_tick: int,
-    clock: Clock,
+    clock: TempoMap,
     preroll_beats: float = PREROLL_BEATS,
     beat_ticks: int | None = None,
 ) -> TimeFrame:
@@ -213,7 +214,7 @@ def _go_on(stop_wanted: Callable[[], bool]) -> None:
 
 
 def _playable(
-    line: Line, clock: Clock, faces: tuple[str, ...], at_s: float, memo: Memo
+    line: Line, clock: TempoMap, faces: tuple[str, ...], at_s: float, memo: Memo
 ) -> tuple[Line, LineTimes, tuple[Problem, ...]]:
     """A line as it can be played, with its times, and what to tell of the rest."""
     sound, unsound = memo.step(

@@ -38,7 +38,9 @@ from app.errors import Message
 from app.plan.dynamics import Dynamics, grown
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.memo import Memo
-from app.plan.model import BreathEvent, Clock, CueEvent, FloatArray, GestureEvent, Note, TimeFrame
+from app.plan.model import BreathEvent, CueEvent, FloatArray, GestureEvent, TimeFrame
+from app.score.model import Note
+from app.score.tempo import TempoMap
 
 SWING_S = 1.1
 """A body's half swing takes about this long, whatever the tempo: 1, 2, 4 ... beats of it."""
@@ -174,7 +176,7 @@ def pulse(piece: Piece, frame: TimeFrame, swing_at_s: float) -> Pulse:
     first_tick, last_tick = int(clock.ticks(frame.first_frame_s)), int(np.ceil(clock.ticks(frame.end_s)))
     # Players whose swings are twice as long have whole ones too.
     margin = 4 * swing_beats * beat
-    beats = piece.beats(first_tick - margin, last_tick + margin)
+    beats = piece.metre_map.felt_between(first_tick - margin, last_tick + margin)
     bars = np.append(piece.bars(first_tick, last_tick), last_tick)
     in_s = clock.seconds
     return Pulse(swing_beats, beat_s, beats, in_s(beats.astype(np.float64)), bars, in_s(bars.astype(np.float64)))
@@ -240,7 +242,7 @@ def _stirring(times: LineTimes, frame: TimeFrame, edges_s: FloatArray) -> IntArr
 
 
 def weight_shifts(
-    times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: Clock, dynamics: Dynamics
+    times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: TempoMap, dynamics: Dynamics
 ) -> list[GestureEvent]:
     """Shifts of weight at arbitrary times (T7), about every `SHIFT_MEAN_S`: bar by bar a player shifts or not."""
     places = _stirring(times, frame, pulse.bars_s)

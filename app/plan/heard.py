@@ -13,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.plan.line import IntArray, LineTimes, Steps
-from app.plan.model import Clock, FloatArray
+from app.plan.model import FloatArray
+from app.score.tempo import TempoMap
 
 BoolArray = npt.NDArray[np.bool_]
 
@@ -94,7 +95,7 @@ class Silences:
         return np.nan_to_num(self.end_s - self.start_s)
 
 
-def blown(steps: Steps, clock: Clock) -> Blown:
+def blown(steps: Steps, clock: TempoMap) -> Blown:
     """A breath curve in time, with its gaps."""
     at_s = clock.seconds(steps.ticks)
     return Blown(at_s, steps.values, find_gaps(at_s, steps.values))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -12,10 +11,12 @@ import numpy as np
 import numpy.typing as npt
 
 from app.plan.corrections import Correction
-from app.plan.model import Clock, FloatArray, Metre, Note, PlayerParameters
+from app.plan.model import FloatArray, PlayerParameters
+from app.score.metre_map import IntArray as IntArray
+from app.score.metre_map import MetreMap
+from app.score.model import Note
+from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
-
-IntArray = npt.NDArray[np.int64]
 
 MEZZOFORTE = 0.63
 """Loudness 0..1 of mezzoforte: MIDI velocity 80 of 127."""
@@ -105,107 +106,29 @@ class Line(msgspec.Struct, frozen=True):
     heard: Heard | None = None
 
 
-FeltBeats = tuple[tuple[int, int], ...]
-"""The beat that is felt from each tick on, as (tick, ticks), by tick; at least one."""
-
-
-def beat_ticks_at(beats: FeltBeats, ticks: IntArray) -> IntArray:
-    """Ticks of the beat that is felt at each of some ticks; before the first known one it is felt too."""
-    if len(beats) == 1:
-        return np.full(np.shape(ticks), beats[0][1])
-    starts, lengths = np.array(beats, np.int64).T
-    return np.asarray(lengths[np.maximum(np.searchsorted(starts, ticks, side="right") - 1, 0)])
-
-
-class Piece(msgspec.Struct, frozen=True, dict=True):
+class Piece(msgspec.Struct, frozen=True):
     """What all players share.
 
     Attributes
     ----------
-    metres : tuple of Metre
-        Ordered by tick; 4/4 before the first.
-    felt_beat_ticks : int or None
-        The beat that is felt throughout; None: ``felt_beats`` say.
-    felt_beats : tuple of (tick, ticks)
-        The beat that is felt from each tick on, by tick (see `app.plan.felt_beat`); empty: the quarter.
+    clock : TempoMap
+    metre_map : MetreMap
+        With the beat that is felt, and the bars where they are felt to begin.
     accompaniment : tuple of (start tick, end tick)
         Where parts sound that nobody plays, in order and apart from each other.
-    bar_ticks : tuple of int
-        Where the bars begin, where the score knows better than the metres (pickups); empty: the metres say.
     """
 
-    clock: Clock
-    metres: tuple[Metre, ...] = ()
-    felt_beat_ticks: int | None = None
-    bar_ticks: tuple[int, ...] = ()
-    felt_beats: FeltBeats = ()
+    clock: TempoMap
+    metre_map: MetreMap
     accompaniment: tuple[tuple[int, int], ...] = ()
-
-    @property
-    def beat_changes(self) -> FeltBeats:
-        """The beats that count: of ``felt_beat_ticks``, ``felt_beats`` and the quarter the first that is given."""
-        if self.felt_beat_ticks:
-            return ((0, self.felt_beat_ticks),)
-        return self.felt_beats or ((0, self.clock.ticks_per_quarter),)
 
     def beat_ticks_at(self, ticks: IntArray) -> IntArray:
         """Ticks of the beat that is felt at each of some ticks."""
-        return beat_ticks_at(self.beat_changes, ticks)
-
-    @cached_property
-    def _metre_ticks(self) -> tuple[int, ...]:
-        return tuple(metre.tick for metre in self.metres)
-
-    @cached_property
-    def _bar_ticks(self) -> IntArray:
-        return np.asarray(self.bar_ticks, np.int64)
-
-    def bar_length_tick(self, tick: int) -> int:
-        """Length of a whole bar in the metre that holds at a tick; a bar cut short is not meant."""
-        index = bisect_right(self._metre_ticks, tick) - 1
-        numerator, denominator = (
-            (self.metres[index].numerator, self.metres[index].denominator) if index >= 0 else (4, 4)
-        )
-        return max(4 * self.clock.ticks_per_quarter * numerator // denominator, 1)
+        return self.metre_map.felt_ticks_at(ticks)
 
     def bars(self, first_tick: int, last_tick: int) -> IntArray:
-        """Ticks at which bars begin, from the bar that holds ``first_tick`` to the last before ``last_tick``.
-
-        Before the first known bar the first metre runs backwards, so that a pre-roll has bars too.
-        """
-        quarter = self.clock.ticks_per_quarter
-        spans = [(metre.tick, max(quarter * 4 * metre.numerator // metre.denominator, 1)) for metre in self.metres]
-        if not spans or spans[0][0] > 0:
-            spans.insert(0, (0, quarter * 4))
-        if self.bar_ticks:
-            known = self._bar_ticks
-            before = np.arange(known[0] - spans[0][1], first_tick - spans[0][1], -spans[0][1], dtype=np.int64)[::-1]
-            after = np.arange(known[-1] + spans[-1][1], last_tick, spans[-1][1], dtype=np.int64)
-            ticks = np.concatenate((before, known, after))
-        else:
-            origin, length = spans[0]
-            start = origin + (first_tick - origin) // length * length if first_tick < origin else origin
-            ends = [span[0] for span in spans[1:]] + [max(last_tick, spans[-1][0] + 1)]
-            starts = [start] + [span[0] for span in spans[1:]]
-            ticks = np.concatenate(
-                [
-                    np.arange(low, high, span[1], dtype=np.int64)
-                    for low, high, span in zip(starts, ends, spans, strict=True)
-                ]
-            )
-        low = max(int(np.searchsorted(ticks, first_tick, side="right")) - 1, 0)
-        return ticks[low : int(np.searchsorted(ticks, last_tick, side="left"))]
-
-    def beats(self, first_tick: int, last_tick: int) -> IntArray:
-        """Ticks of the felt beats, counted anew in every bar, from before ``first_tick`` to after ``last_tick``."""
-        bars = self.bars(first_tick, last_tick + 1)
-        beats = self.beat_ticks_at(bars)
-        lengths = np.diff(bars, append=max(int(bars[-1]) + 1, last_tick + int(beats[-1])))
-        counts = -(-lengths // beats)
-        before = np.cumsum(counts) - counts
-        within = np.arange(counts.sum()) - np.repeat(before, counts)
-        ticks: IntArray = np.repeat(bars, counts) + within * np.repeat(beats, counts)
-        return ticks
+        """See `MetreMap.bars`."""
+        return self.metre_map.bars(first_tick, last_tick)
 
 
 @dataclass(frozen=True, eq=False)
@@ -321,7 +244,7 @@ def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> np
     return short & (between <= STACCATO_QUARTERS * quarter_ticks)
 
 
-def line_times(line: Line, clock: Clock) -> LineTimes:
+def line_times(line: Line, clock: TempoMap) -> LineTimes:
     """The times of a line's notes. A line without notes gives empty arrays."""
     notes = line.notes
     count = len(notes)

@@ -7,7 +7,7 @@ float64 seconds of the performance, which may be negative before the first tick.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final, Literal, Protocol, TypeAlias, overload
+from typing import Final, Literal, TypeAlias
 
 import msgspec
 import numpy as np
@@ -17,47 +17,6 @@ from app.errors import Message
 from app.identity_cache import IdentityCache
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
-
-
-class Note(Protocol):
-    """A sounding note of one monophonic line, as the plan needs it."""
-
-    @property
-    def id(self) -> str: ...
-    @property
-    def onset_tick(self) -> int: ...
-    @property
-    def duration_tick(self) -> int: ...
-    @property
-    def pitch(self) -> int: ...
-    @property
-    def velocity(self) -> int: ...
-
-
-class Clock(Protocol):
-    """Ticks to seconds and back, through every tempo change; defined for negative times too."""
-
-    @property
-    def ticks_per_quarter(self) -> int: ...
-    @overload
-    def seconds(self, ticks: float) -> float: ...
-    @overload
-    def seconds(self, ticks: FloatArray) -> FloatArray: ...
-    @overload
-    def ticks(self, seconds: float) -> float: ...
-    @overload
-    def ticks(self, seconds: FloatArray) -> FloatArray: ...
-
-
-class Metre(Protocol):
-    """A metre and the tick at which it begins."""
-
-    @property
-    def tick(self) -> int: ...
-    @property
-    def numerator(self) -> int: ...
-    @property
-    def denominator(self) -> int: ...
 
 
 class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

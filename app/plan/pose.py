@@ -15,7 +15,8 @@ import numpy as np
 
 from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, Correction, PoseCorrection
-from app.plan.model import Clock, PlayerParameters, PoseEvent, PoseTarget, Problem
+from app.plan.model import PlayerParameters, PoseEvent, PoseTarget, Problem
+from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_body
 from metadata.model import Body
@@ -51,7 +52,7 @@ _PEAK = 10.0 / math.sqrt(3.0)
 
 
 def plan_poses(
-    corrections: tuple[Correction, ...], instrument: InstrumentMap, parameters: PlayerParameters, clock: Clock
+    corrections: tuple[Correction, ...], instrument: InstrumentMap, parameters: PlayerParameters, clock: TempoMap
 ) -> tuple[tuple[PoseEvent, ...], tuple[Problem, ...]]:
     """Pose corrections as events, ordered by start, and a problem for each that asks for more than a body does."""
     events: list[PoseEvent] = []

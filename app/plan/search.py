@@ -16,7 +16,8 @@ import numpy.typing as npt
 from app.plan.figures import TRILL_S, attacked_notes, chromatic_notes, glissando_steps, trill_steps
 from app.plan.finger_ways import FingerPlaces, finger_places
 from app.plan.line import IntArray, LineTimes
-from app.plan.model import FloatArray, Note
+from app.plan.model import FloatArray
+from app.score.model import Note
 from instrument_maps.model import Control, Fingering, InstrumentMap
 
 BoolArray = npt.NDArray[np.bool_]

@@ -17,8 +17,9 @@ import numpy as np
 from app.errors import Message
 from app.plan.corrections import WITHIN
 from app.plan.line import LineTimes, Piece
-from app.plan.model import BreathEvent, FloatArray, Note
+from app.plan.model import BreathEvent, FloatArray
 from app.plan.notation import PLACES, notated
+from app.score.model import Note
 
 UNISON_NOTES = 4
 """So many notes in a row that others have too are a unison; fewer may meet by chance."""

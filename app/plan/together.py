@@ -12,13 +12,15 @@ import msgspec
 
 from app.errors import Message
 from app.plan.line import Line
-from app.plan.model import Clock, Note, Problem
+from app.plan.model import Problem
+from app.score.model import Note
+from app.score.tempo import TempoMap
 
 LEGATO_OVERLAP_S = 0.030
 """Players of keyboards and wind controllers hold a note this long into the next: that is legato, no mistake."""
 
 
-def one_at_a_time(line: Line, clock: Clock) -> tuple[Line, tuple[Problem, ...]]:
+def one_at_a_time(line: Line, clock: TempoMap) -> tuple[Line, tuple[Problem, ...]]:
     """The line without notes that cannot sound beside others: of those struck at one tick the highest is played.
 
     Returns
@@ -51,13 +53,13 @@ def one_at_a_time(line: Line, clock: Clock) -> tuple[Line, tuple[Problem, ...]]:
     return playable, tuple(problems)
 
 
-def _together(lower: Note, higher: Note, clock: Clock) -> Problem:
+def _together(lower: Note, higher: Note, clock: TempoMap) -> Problem:
     message = Message("note.struck_together", {"note": lower.id, "other": higher.id})
     start_s = clock.seconds(float(lower.onset_tick))
     return Problem(message, lower.id, start_s, clock.seconds(float(lower.onset_tick + lower.duration_tick)))
 
 
-def _note_overlap(note: Note, following: Note, clock: Clock, problems: list[Problem]) -> None:
+def _note_overlap(note: Note, following: Note, clock: TempoMap, problems: list[Problem]) -> None:
     end_tick = note.onset_tick + note.duration_tick
     if end_tick <= following.onset_tick:
         return

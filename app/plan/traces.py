@@ -15,7 +15,9 @@ from app.plan.corrections import Correction, SetEmbouchure
 from app.plan.embouchure import strain_of, tension_of
 from app.plan.heard import Blown, step_means
 from app.plan.line import Heard, LineTimes, Steps
-from app.plan.model import Clock, FloatArray, Note, PlayerParameters, Traces
+from app.plan.model import FloatArray, PlayerParameters, Traces
+from app.score.model import Note
+from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 
 STEP_S = 0.01
@@ -33,7 +35,7 @@ BEND_TENSION, MOST_BEND_TENSION = 1.4, 0.3
 def plan_traces(
     notes: tuple[Note, ...],
     times: LineTimes,
-    clock: Clock,
+    clock: TempoMap,
     instrument: InstrumentMap,
     parameters: PlayerParameters,
     heard: Heard | None,
@@ -98,7 +100,7 @@ def _spans(
     return spans
 
 
-def _pressed(heard: Heard, clock: Clock, at_s: FloatArray, sounds: npt.NDArray[np.bool_]) -> FloatArray:
+def _pressed(heard: Heard, clock: TempoMap, at_s: FloatArray, sounds: npt.NDArray[np.bool_]) -> FloatArray:
     """What bite and pitch bend add to the tension: the bite by how far it is from the usual one."""
     bite = bend = np.zeros(len(at_s))
     if heard.bite is not None:
@@ -115,7 +117,7 @@ def pressed_by(bite: FloatArray, bend: FloatArray) -> FloatArray:
     return pressed
 
 
-def _sampled(steps: Steps, clock: Clock, at_s: FloatArray) -> FloatArray:
+def _sampled(steps: Steps, clock: TempoMap, at_s: FloatArray) -> FloatArray:
     return step_means(clock.seconds(steps.ticks), steps.values, at_s - STEP_S / 2.0, at_s + STEP_S / 2.0)
 
 

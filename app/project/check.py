@@ -27,7 +27,8 @@ from app.project.fault import (
 from app.project.model import AudioTrack, Player, PlayerTakes, Project
 from app.project.parameters import is_possible, range_text
 from app.score.limits import too_long
-from app.score.model import ControllerCurve, Marker, Metre, Note, Part, PercussionHit, Score
+from app.score.metre_map import Metre
+from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score
 from app.score.take import Take, is_message
 from app.score.tempo import TempoChange
 from metadata.model import ARKIT_MORPHS, Expression

@@ -31,8 +31,7 @@ class Grid(msgspec.Struct, frozen=True):
         """The nearest line of the grid; bars are lines too, so that no step crosses one."""
         if not self.enabled:
             return round(tick)
-        bar = score.bar_of_tick(round(tick))
-        start, following = score.tick_of_bar(bar), score.tick_of_bar(bar + 1)
+        start, following = score.metre_map.span_of_bar(score.metre_map.bar_of_tick(round(tick)))
         step = self.step_ticks(score)
         below = start + step * ((Fraction(tick) - start) // step)
         lines = (round(below), min(round(below + step), following))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -13,7 +12,6 @@ import numpy as np
 
 from app.errors import UsageError
 from app.plan.corrections import Correction
-from app.plan.felt_beat import felt_beats
 from app.plan.generate import PREROLL_BEATS
 from app.plan.model import PlayerParameters
 from app.project.casting import StagePosition, amplitude, choose_characters, player_seed, stage_seats, usual_posture
@@ -25,6 +23,8 @@ from app.project.parameters import with_settings as parameters_with
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.model import Character
 from app.score.choose import MapChoice
+from app.score.felt_beat import felt_beats
+from app.score.metre_map import FeltBeats, MetreMap
 from app.score.model import ControllerCurve, Note, Part, Score
 from app.score.take import Take
 from instrument_maps.model import Control, InstrumentMap
@@ -216,17 +216,14 @@ class Project:
     dance_corrections: Mapping[str, tuple[DanceCorrection, ...]] = field(default_factory=dict)
 
     @cached_property
-    def felt_beats(self) -> tuple[tuple[int, int], ...]:
-        """The beat that is felt from each tick on, as (tick, whole ticks, at least one)."""
+    def metre_map(self) -> MetreMap:
+        """The score's, with the beat that is felt."""
         score = self.score
         if self.felt_beat_quarters is not None:
-            return ((0, max(round(self.felt_beat_quarters * score.ticks_per_quarter), 1)),)
-        return felt_beats(score.tempo_map, score.metres, score.bar_starts)
-
-    def felt_beat_ticks(self, tick: float) -> int:
-        """The beat that is felt at a tick, in ticks."""
-        beats = self.felt_beats
-        return beats[max(bisect_right(beats, tick, key=lambda beat: beat[0]) - 1, 0)][1]
+            felt: FeltBeats = ((0, max(round(self.felt_beat_quarters * score.ticks_per_quarter), 1)),)
+        else:
+            felt = felt_beats(score.tempo_map, score.metre_map, score.bar_starts)
+        return msgspec.structs.replace(score.metre_map, felt=felt)
 
     def part(self, player: Player) -> Part:
         """What a player plays."""

@@ -43,7 +43,7 @@ def too_long(score: Score, end_tick: int | None = None) -> dict[str, Argument] |
     """
     end = score.sounding_end_tick if end_tick is None else end_tick
     hours = score.tempo_map.seconds(float(end)) / 3600.0
-    quarters, bars = end // score.ticks_per_quarter, score.bar_of_tick(end)
+    quarters, bars = end // score.ticks_per_quarter, score.metre_map.bar_of_tick(end)
     if end <= LAST_TICK and hours <= MOST_HOURS and quarters <= MOST_QUARTERS and bars <= MOST_BARS:
         return None
     return {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Iterable
 from functools import cached_property
 from typing import Final, Literal, TypeAlias
@@ -12,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import Message
+from app.score.metre_map import Metre, MetreMap
 from app.score.tempo import TempoMap
 
 MOST_VOICES: Final = 16
@@ -65,14 +65,6 @@ class ControllerCurve(msgspec.Struct, frozen=True):
     kind: CurveKind
     ticks: tuple[int, ...]
     values: tuple[float, ...]
-
-
-class Metre(msgspec.Struct, frozen=True):
-    """A time signature from one tick on; it begins a new bar."""
-
-    tick: int
-    numerator: int
-    denominator: int
 
 
 class Marker(msgspec.Struct, frozen=True):
@@ -236,53 +228,19 @@ class Score(msgspec.Struct, frozen=True, dict=True):
         return max((self.end_tick, last_hit_end, *(part.end_tick for part in self.unplayed)))
 
     @cached_property
-    def _first_bars(self) -> tuple[int, ...]:
-        """The number of the bar with which each metre begins."""
-        numbers = [0 if self.pickup_ticks else 1]
-        for metre, following in zip(self.metres, self.metres[1:], strict=False):
-            length = following.tick - metre.tick
-            bars = -(-length * metre.denominator // (4 * self.ticks_per_quarter * metre.numerator))
-            numbers.append(numbers[-1] + bars)
-        return tuple(numbers)
+    def metre_map(self) -> MetreMap:
+        """Where its bars and beats are; what beat is felt the project says (`app.project.model.Project.metre_map`)."""
+        return MetreMap(self.ticks_per_quarter, self.metres, self.pickup_ticks > 0)
 
-    @cached_property
-    def _metre_ticks(self) -> tuple[int, ...]:
-        return tuple(metre.tick for metre in self.metres)
+    @property
+    def last_bar(self) -> int:
+        """The number of the bar in which the last note ends."""
+        return self.metre_map.bar_of_tick(max(self.end_tick - 1, 0))
 
     @property
     def bar_starts(self) -> npt.NDArray[np.int64]:
-        """Ticks at which the bars begin, to the bar in which the last note ends; int64.
+        """Ticks at which the bars begin, to the bar in which the last note ends.
 
         The first is the pickup (bar 0) if there is one, else bar 1.
         """
-        last = self.bar_of_tick(max(self.end_tick - 1, 0))
-        stops = (*self._first_bars[1:], last + 1)
-        starts = []
-        for metre, first, stop in zip(self.metres, self._first_bars, stops, strict=True):
-            whole = 4 * self.ticks_per_quarter * metre.numerator
-            starts.append(
-                metre.tick + np.arange(min(stop, last + 1) - first, dtype=np.int64) * whole // metre.denominator
-            )
-        return np.concatenate(starts)
-
-    def metre_at(self, tick: int) -> Metre:
-        """The metre that holds at a tick."""
-        return self.metres[max(bisect_right(self._metre_ticks, tick) - 1, 0)]
-
-    def tick_of_bar(self, bar: int) -> int:
-        """The tick at which a bar begins. Bars count from 1, a pickup is bar 0; before and after, the metre goes on."""
-        index = max(bisect_right(self._first_bars, bar) - 1, 0)
-        metre = self.metres[index]
-        # The bar line after a pickup does not come a whole bar later: it is the second metre's own tick.
-        return metre.tick + (bar - self._first_bars[index]) * 4 * self.ticks_per_quarter * metre.numerator // (
-            metre.denominator
-        )
-
-    def bar_of_tick(self, tick: int) -> int:
-        """The bar in which a tick lies; numbers as in `tick_of_bar`."""
-        index = max(bisect_right(self._metre_ticks, tick) - 1, 0)
-        metre = self.metres[index]
-        # The largest k with floor(k * bar) <= tick - start, where a bar need not be a whole number of ticks.
-        whole = 4 * self.ticks_per_quarter * metre.numerator
-        bar = ((tick - metre.tick + 1) * metre.denominator - 1) // whole
-        return self._first_bars[index] + bar
+        return self.metre_map.bars(0, max(self.end_tick, 1))

@@ -236,10 +236,8 @@ def _reason(stream: Stream, crowded: bool, maps: Sequence[MapChoice]) -> Message
 def _about(id_: str, part: str, notes: Sequence[Note], piece: Score, **more: Argument) -> Message:
     """A message about some notes: how many, and where the first one is."""
     first = notes[0]
-    bar = piece.bar_of_tick(first.onset_tick)
-    metre = piece.metre_at(first.onset_tick)
-    beats = (first.onset_tick - piece.tick_of_bar(bar)) * metre.denominator / (4 * piece.ticks_per_quarter)
-    place: dict[str, Argument] = {"bar": bar, "beat": round(beats + 1.0, 1), "pitch": first.pitch}
+    bar, beat = piece.metre_map.bar_of_tick(first.onset_tick), piece.metre_map.beat_of_tick(first.onset_tick)
+    place: dict[str, Argument] = {"bar": bar, "beat": round(beat, 1), "pitch": first.pitch}
     return Message(id_, {"part": part, "count": len(notes), **place, **more})
 
 

@@ -66,7 +66,8 @@ from app.score.choose import PERCUSSION_CHANNEL, MapChoice, Stream, is_drum_kit,
 from app.score.chunks import Container, Track, read_container
 from app.score.doublings import doubled_instruments
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
-from app.score.model import MOST_VOICES, Marker, Metre, Part, PercussionHit, Score, UnplayedPart
+from app.score.metre_map import Metre
+from app.score.model import MOST_VOICES, Marker, Part, PercussionHit, Score, UnplayedPart
 from app.score.mutes import muted_spans
 from app.score.parts import PartWish, parts_of, stream_name, wished_parts
 from app.score.repair import Repaired, last_suspicious, repaired

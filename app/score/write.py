@@ -50,7 +50,8 @@ import msgspec
 from app.errors import AppError, Message
 from app.formats.atomic import atomic_write
 from app.score.choose import PERCUSSION_CHANNEL, MapChoice, plays
-from app.score.model import ControllerCurve, CurveKind, Metre, Note, Part, Score
+from app.score.metre_map import Metre
+from app.score.model import ControllerCurve, CurveKind, Note, Part, Score
 from app.score.tempo import TempoChange
 from app.score.tracks import CONTROLLERS, LEAST_TEMPO
 from app.score.voices import is_one_voice
@@ -204,7 +205,7 @@ def _conductor(score: Score) -> list[_Event]:
 def _unwritable(score: Score, change: TempoChange) -> AppError:
     return AppError(
         "midi.tempo_unwritable",
-        bar=score.bar_of_tick(change.tick),
+        bar=score.metre_map.bar_of_tick(change.tick),
         bpm=round(60e6 / change.microseconds_per_quarter, 3),
         low=round(60e6 / MOST_TEMPO, 3),
         high=round(60e6 / LEAST_TEMPO),

@@ -354,10 +354,9 @@ class Recorder(QObject):
         if self._state.count_in_bars == 0:
             return start_s
         score = self._session.project.score
-        bar = score.bar_of_tick(round(score.tempo_map.ticks(start_s)))
-        first = score.tick_of_bar(bar)
-        length = score.tick_of_bar(bar + 1) - first
-        return score.tempo_map.seconds(float(first - self._state.count_in_bars * length))
+        bar = score.metre_map.bar_of_tick(round(score.tempo_map.ticks(start_s)))
+        start, end = score.metre_map.span_of_bar(bar)
+        return score.tempo_map.seconds(float(start - self._state.count_in_bars * (end - start)))
 
     def stop(self) -> None:
         """End the take; the performance stops."""

@@ -263,7 +263,7 @@ class Sound(QObject):
 
     def _clicks(self, project: Project) -> Track:
         score, frame = project.score, span_of(project)
-        sources = (score.tempo_map, score.metres, score.pickup_ticks, project.felt_beats)
+        sources = (score.tempo_map, project.metre_map)
         start_s, end_s = frame.first_frame_s, frame.end_s
         if self._counted_s is not None:
             start_s, end_s = min(start_s, self._counted_s[0]), max(end_s, self._counted_s[1]) + _CLICKS_ON_S
@@ -370,7 +370,7 @@ def span_of(project: Project) -> TimeFrame:
     parts = [project.part(player) for player in project.players]
     first_tick = min((part.notes[0].onset_tick for part in parts if part.notes), default=0)
     last_tick = max((part.end_tick for part in parts), default=0)
-    beat_ticks = project.felt_beat_ticks(first_tick)
+    beat_ticks = project.metre_map.felt_ticks_at(first_tick)
     return frame_around(first_tick, last_tick, project.score.tempo_map, project.preroll_beats, beat_ticks)
 
 

@@ -32,7 +32,7 @@ def check(score: Score) -> None:
             assert all(a < b for a, b in zip(curve.ticks, curve.ticks[1:], strict=False))
             assert all(-1 <= value <= 1 for value in curve.values)
     assert score.tempo_map.seconds(score.end_tick) >= 0
-    assert score.tick_of_bar(score.bar_of_tick(score.end_tick)) <= score.end_tick
+    assert score.metre_map.tick_of_bar(score.metre_map.bar_of_tick(score.end_tick)) <= score.end_tick
 
 
 def opens_or_says_why(data: bytes) -> None:

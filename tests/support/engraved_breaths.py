@@ -9,14 +9,14 @@ from pathlib import Path
 from typing import Any
 
 import msgspec
-import numpy as np
 
-from app.plan.felt_beat import felt_beats
-from app.plan.generate import Line, Piece, make_plans, time_frame
-from app.plan.line import line_times
+from app.plan.generate import Line, make_plans, time_frame
+from app.plan.line import Piece, line_times
 from app.plan.model import PlayerParameters
+from app.score.felt_beat import felt_beats
+from app.score.metre_map import Metre, MetreMap
 from instrument_maps.load import bundled_maps
-from tests.support.plan import PlainClock, PlainMetre, PlainNote
+from tests.support.plan import PlainClock, PlainNote
 
 FILE = Path(__file__).parents[1] / "data" / "breaths" / "engraved.json"
 TICKS = 480
@@ -60,10 +60,9 @@ def agreement(row: dict[str, Any], parameters: PlayerParameters = USUAL) -> Agre
     )
     clock = PlainClock(((0, float(row["quarters_per_minute"])),))
     bar, pickup = TICKS * 4 * row["metre"][0] // row["metre"][1], round(row["pickup_quarters"] * TICKS)
-    metres = (PlainMetre(0, *row["metre"]),)
-    end = notes[-1].onset_tick + bar
-    bars = tuple(range(pickup - bar if pickup else 0, end, bar))
-    piece = Piece(clock, metres, None, bars, felt_beats(clock, metres, np.array(bars, np.int64)))
+    metre_map = MetreMap(TICKS, (Metre(pickup - bar if pickup else 0, *row["metre"]),))
+    felt = felt_beats(clock, metre_map, metre_map.bars(-1 if pickup else 0, notes[-1].onset_tick + bar))
+    piece = Piece(clock, msgspec.structs.replace(metre_map, felt=felt))
     line = Line("1", notes, bundled_maps()[row["instrument"]], parameters)
     plan = make_plans(piece, (line,), time_frame((line,), clock))["1"]
     times = line_times(line, clock)

@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from app.plan.line import Piece
+from app.score.metre_map import Metre, MetreMap
 from instrument_maps.model import (
     Carriage,
     Control,
@@ -32,13 +34,6 @@ class PlainNote:
     duration_tick: int
     pitch: int
     velocity: int = 80
-
-
-@dataclass(frozen=True)
-class PlainMetre:
-    tick: int
-    numerator: int
-    denominator: int
 
 
 @dataclass(frozen=True)
@@ -65,6 +60,18 @@ class PlainClock:
         place = np.maximum(np.searchsorted(at, seconds, side="right") - 1, 0)
         result = knots[place] + (np.asarray(seconds, dtype=np.float64) - at[place]) / per_tick[place]
         return result if np.ndim(seconds) else float(result)
+
+
+def piece_of(
+    clock: Any,
+    metres: tuple[Metre, ...] = (Metre(0, 4, 4),),
+    felt_ticks: int | None = None,
+    has_pickup: bool = False,
+    accompaniment: tuple[tuple[int, int], ...] = (),
+) -> Piece:
+    """A piece of such metres, in which one beat is felt throughout, the quarter by default."""
+    felt = () if felt_ticks is None else ((0, felt_ticks),)
+    return Piece(clock, MetreMap(clock.ticks_per_quarter, metres, has_pickup, felt), accompaniment)
 
 
 def line_of(*notes: tuple[int, int, int] | tuple[int, int, int, int], track: int = 1) -> tuple[PlainNote, ...]:

@@ -15,7 +15,8 @@ from app.project.casting import StagePosition
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
 from app.project.model import AudioTrack, Dancer, Player, Project
 from app.score.limits import too_long
-from app.score.model import ControllerCurve, Metre, Note, Part, PercussionHit, Score, UnplayedPart
+from app.score.metre_map import Metre
+from app.score.model import ControllerCurve, Note, Part, PercussionHit, Score, UnplayedPart
 from app.score.tempo import TempoChange, TempoMap
 from metadata.model import ARKIT_MORPHS, Expression
 

@@ -141,7 +141,7 @@ class Work:
         """Bring bars into view."""
         score = self.session.project.score
         clock = score.tempo_map
-        start_s, end_s = (clock.seconds(float(score.tick_of_bar(bar))) for bar in (first, last + 1))
+        start_s, end_s = (clock.seconds(float(score.metre_map.tick_of_bar(bar))) for bar in (first, last + 1))
         self.timeline.axis.show(start_s, end_s)
         self.session.set_playhead(start_s)
         self.application.processEvents()
@@ -172,7 +172,7 @@ def pin_three(work: Work) -> None:
         ]
         if not others:
             continue
-        bar = work.session.project.score.bar_of_tick(note.onset_tick)
+        bar = work.session.project.score.metre_map.bar_of_tick(note.onset_tick)
         work.show_bars(max(bar - 1, 1), bar + 2)
         work.click_note(note.id)
         work.keys(work.timeline.roll.plot, [digits[sign] for sign in others[0]])
@@ -224,9 +224,13 @@ def strain(work: Work) -> None:
     score = work.session.project.score
     roll = work.timeline.roll
     part = work.session.project.part(work.session.project.players[0])
-    inside = [note for note in part.notes if score.tick_of_bar(17) <= note.onset_tick < score.tick_of_bar(19)]
+    inside = [
+        note
+        for note in part.notes
+        if score.metre_map.tick_of_bar(17) <= note.onset_tick < score.metre_map.tick_of_bar(19)
+    ]
     high = max(inside, key=lambda note: note.pitch)
-    left, right = (roll.axis.x_px(score.tempo_map.seconds(float(score.tick_of_bar(bar)))) for bar in (17, 19))
+    left, right = (roll.axis.x_px(score.tempo_map.seconds(float(score.metre_map.tick_of_bar(bar)))) for bar in (17, 19))
     hand = Hand(roll.plot)
     hand.drag((left + 2, roll.y_px(high.pitch + 4)), (right - 2, roll.y_px(min(n.pitch for n in inside) - 1)))
     assert set(work.session.selection.notes) >= {note.id for note in inside[1:-1]}

@@ -137,7 +137,7 @@ class Film:
         """The part of the player in front as somebody might play it: a little uneven, breath by phrase."""
         chance = random.Random(seed)
         project, score = self.session.project, self.session.project.score
-        first, last = score.tick_of_bar(FIRST_BAR), score.tick_of_bar(LAST_BAR)
+        first, last = score.metre_map.tick_of_bar(FIRST_BAR), score.metre_map.tick_of_bar(LAST_BAR)
         notes = [note for note in project.part(project.players[0]).notes if first <= note.onset_tick < last]
         played: list[Played] = []
         for number, note in enumerate(notes):
@@ -229,11 +229,11 @@ def record(film: Film) -> None:
     session = film.session
     score, playback = session.project.score, session.playback
     assert playback is not None
-    start_s = score.tempo_map.seconds(float(score.tick_of_bar(FIRST_BAR)))
-    end_s = score.tempo_map.seconds(float(score.tick_of_bar(LAST_BAR)))
+    start_s = score.tempo_map.seconds(float(score.metre_map.tick_of_bar(FIRST_BAR)))
+    end_s = score.tempo_map.seconds(float(score.metre_map.tick_of_bar(LAST_BAR)))
     session.viewport.set_view("hands")
     session.listening.set(click=True)
-    beat_s = score.tempo_map.seconds(float(session.project.felt_beat_ticks(0)))
+    beat_s = score.tempo_map.seconds(float(session.project.metre_map.felt_ticks_at(0)))
     player = session.project.players[0].id
     for number in range(3):
         session.set_playhead(start_s)
@@ -265,7 +265,7 @@ def takes(film: Film) -> None:
     session = film.session
     panel = film.window.timeline
     score = session.project.score
-    first, last = score.tick_of_bar(FIRST_BAR), score.tick_of_bar(LAST_BAR)
+    first, last = score.metre_map.tick_of_bar(FIRST_BAR), score.metre_map.tick_of_bar(LAST_BAR)
     for id in ("audio", "fingering", "breath", "acting", "curves", "problems"):
         panel.lanes[id].set_folded(True)
     panel.takes.set_folded(False)

@@ -16,7 +16,6 @@ from instrument_maps.library import all_maps
 from instrument_maps.model import PARTS
 from widgets.common.event_names import kind_name, pose_name
 from widgets.common.instrument_name import instrument_name
-from widgets.common.musical_time import beat_ticks, place_text
 from widgets.common.pitch import pitch_text
 from widgets.common.session import Session
 
@@ -52,9 +51,7 @@ def sentence(message: Message, session: Session | None = None, player_id: str | 
 def note_text(session: Session, note: Note, player: Player | None) -> str:
     """A note as a person finds it: its pitch, and bar and beat."""
     score = session.project.score
-    bar = score.bar_of_tick(note.onset_tick)
-    start_tick = score.tick_of_bar(bar)
-    beat = 1 + (note.onset_tick - start_tick) / beat_ticks(score, start_tick)
+    bar, beat = score.metre_map.bar_of_tick(note.onset_tick), score.metre_map.beat_of_tick(note.onset_tick)
     return QCoreApplication.translate("Told", "{pitch} (bar {bar}, beat {beat})").format(
         pitch=_pitch(session, note.pitch, player), bar=bar, beat=f"{beat:.2f}".rstrip("0").rstrip(".")
     )
@@ -98,7 +95,7 @@ def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -
     if note is not None:
         place = note_text(session, note, player)
     elif rest.startswith("@") and rest[1:].lstrip("-").isdecimal():
-        place = place_text(session.project.score, int(rest[1:]))
+        place = session.project.score.metre_map.label(int(rest[1:]))
     return f"{kind_name(kind)} {place}"
 
 

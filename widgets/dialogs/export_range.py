@@ -37,7 +37,7 @@ class RangeChooser(QWidget):
         self._first_bar.setObjectName("export_first_bar")
         self._last_bar.setObjectName("export_last_bar")
         lowest = 0 if score.pickup_ticks else 1
-        highest = max(score.bar_of_tick(max(score.end_tick - 1, 0)), lowest)
+        highest = max(score.last_bar, lowest)
         for spin, value in ((self._first_bar, lowest), (self._last_bar, highest)):
             spin.setRange(lowest, highest)
             spin.setValue(value)
@@ -59,7 +59,8 @@ class RangeChooser(QWidget):
             return None
         span = self._session.selection.span
         if self._choice.currentData() == _SELECTION and span is not None:
-            return self._score.bar_of_tick(span[0]), self._score.bar_of_tick(max(span[1] - 1, span[0]))
+            bar_of_tick = self._score.metre_map.bar_of_tick
+            return bar_of_tick(span[0]), bar_of_tick(max(span[1] - 1, span[0]))
         return self._first_bar.value(), self._last_bar.value()
 
     @property

@@ -15,7 +15,6 @@ from app.project.edit.corrections import take_back
 from app.project.model import Player, Project
 from app.project.reimport import orphaned, reattached
 from widgets.common.icons import icon
-from widgets.common.musical_time import place_text
 from widgets.common.plain import Label
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
@@ -145,7 +144,9 @@ class CorrectionList(QWidget):
             detail = self.tr("Lost its place: it does nothing. Select a note and re-attach it, or revert it.")
             return Line(place, title, "", detail, self._session.colour(player), "warning")
         if isinstance(place.correction, Vary):
-            start, end = (place_text(score, tick) for tick in (place.correction.start_tick, place.correction.end_tick))
+            start, end = (
+                score.metre_map.label(tick) for tick in (place.correction.start_tick, place.correction.end_tick)
+            )
             return Line(place, title, start, self.tr("with other chances, up to {end}").format(end=end),
                         self._session.colour(player), "by_hand")  # fmt: skip
         now, before = self._value(place.correction, place.event), self._value(place.correction, place.generated)
@@ -161,7 +162,7 @@ class CorrectionList(QWidget):
             if now and now != before:
                 detail = self.tr("yours {now} · {generated}").format(now=now, generated=detail)
         tick = self._tick(place)
-        where = place_text(score, tick) if tick != LATE_TICK else ""
+        where = score.metre_map.label(tick) if tick != LATE_TICK else ""
         return Line(place, title, where, detail, self._session.colour(player), "by_hand")
 
     def _value(self, correction: Correction, event: Event | None) -> str:

@@ -18,7 +18,6 @@ from app.project.edit.events import Placed
 from app.project.model import Project
 from widgets.common.combo import Combo, Option
 from widgets.common.event_names import expression_name, kind_name
-from widgets.common.musical_time import place_text, tick_of_place
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.common.section import Section
@@ -263,7 +262,7 @@ class EventSection(QWidget):
 
         def changed(project: Project, plan: PlayerPlan) -> Project:
             for event in events:
-                start = event.end_tick - round(LEAD_BEATS * value * project.felt_beat_ticks(event.end_tick))
+                start = event.end_tick - round(LEAD_BEATS * value * project.metre_map.felt_ticks_at(event.end_tick))
                 project = edit.resize(project, plan, (event.id,), start_ticks=start - event.start_tick)
             return project
 
@@ -300,10 +299,10 @@ class EventSection(QWidget):
     # Words
 
     def _place_text(self, value: float) -> str:
-        return place_text(self._session.project.score, round(value))
+        return self._session.project.score.metre_map.label(round(value))
 
     def _place_from(self, text: str) -> float | None:
-        tick = tick_of_place(self._session.project.score, text)
+        tick = self._session.project.score.metre_map.tick_of_label(text)
         return None if tick is None else float(tick)
 
     def _amount_word(self, field: str) -> str:
@@ -345,4 +344,4 @@ class EventSection(QWidget):
 
 
 def _cue_beats(event: CueEvent, project: Project) -> float:
-    return round((event.end_tick - event.start_tick) / LEAD_BEATS / project.felt_beat_ticks(event.end_tick), 2)
+    return round((event.end_tick - event.start_tick) / LEAD_BEATS / project.metre_map.felt_ticks_at(event.end_tick), 2)

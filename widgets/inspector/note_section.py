@@ -18,7 +18,6 @@ from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import words_of_tags
 from widgets.common.fingering_text import short_label
 from widgets.common.flow import FlowLayout
-from widgets.common.musical_time import beat_ticks, place_text, tick_of_place
 from widgets.common.number_slider import NumberSlider
 from widgets.common.pitch import pitch_text
 from widgets.common.plain import Label
@@ -139,7 +138,7 @@ class NoteSection(QWidget):
         self._section.header.set_texts(title, owner)
         grid = self._session.grid.step_ticks(score)
         self._numbers["onset"].set_step(float(grid) if grid > 1 else 1.0)
-        beat = beat_ticks(score, note.onset_tick)
+        beat = score.metre_map.beat_length(note.onset_tick)
         values = {
             "pitch": (float(note.pitch), {one.pitch for one in notes}),
             "onset": (float(note.onset_tick), {one.onset_tick for one in notes}),
@@ -292,10 +291,10 @@ class NoteSection(QWidget):
         return None if pitch is None else float(pitch)
 
     def _place_text(self, value: float) -> str:
-        return place_text(self._session.project.score, round(value))
+        return self._session.project.score.metre_map.label(round(value))
 
     def _place_from(self, text: str) -> float | None:
-        tick = tick_of_place(self._session.project.score, text)
+        tick = self._session.project.score.metre_map.tick_of_label(text)
         return None if tick is None else float(tick)
 
     # Editing
@@ -320,7 +319,7 @@ class NoteSection(QWidget):
         if self._shown is None:
             return
         notes, score = self._shown.notes, self._session.project.score
-        ticks = max(round(value * beat_ticks(score, self._shown.note.onset_tick)), 1)
+        ticks = max(round(value * score.metre_map.beat_length(self._shown.note.onset_tick)), 1)
 
         def resized(project: Project) -> Project:
             for note in notes:

@@ -11,7 +11,6 @@ from app.plan.model import Problem
 from app.project.model import Dancer, Player
 from app.score.model import Score
 from widgets.common.combo import Combo, Option
-from widgets.common.musical_time import place_text
 from widgets.common.plain import Label
 from widgets.common.selection import Selection
 from widgets.common.session import Session
@@ -122,7 +121,7 @@ class ProblemList(QWidget):
             )
 
     def _line(self, player: Player | Dancer, problem: Problem, colour: str, score: Score) -> Line:
-        place = place_text(score, round(score.tempo_map.ticks(problem.start_s)))
+        place = score.metre_map.label(round(score.tempo_map.ticks(problem.start_s)))
         text = sentence(problem.message, self._session, player.id)
         return Line((player.id, problem), player.name, place, text, colour, "warning")
 

@@ -23,7 +23,6 @@ from app.plan.model import FingeringEvent as Fingered
 from app.project.edit.events import Placed
 from app.score.model import Score
 from widgets.common.event_names import expression_name, kind_name, pose_name
-from widgets.common.musical_time import place_text
 
 
 def amount_field(event: Placed) -> str | None:
@@ -57,10 +56,10 @@ def event_text(score: Score, event: Event | None) -> str:
             return " ".join(f"{value:.2f}" for value in (event.tension, event.effort, event.air))
         case CueEvent():
             return QCoreApplication.translate("Inspector", "entry {place}, beat {seconds} s").format(
-                place=place_text(score, event.end_tick), seconds=f"{event.beat_s:.2f}"
+                place=score.metre_map.label(event.end_tick), seconds=f"{event.beat_s:.2f}"
             )
         case BreathEvent() | GestureEvent() | ExpressionEvent() | PoseEvent():
-            span = f"{place_text(score, event.start_tick)}–{place_text(score, event.end_tick)}"
+            span = f"{score.metre_map.label(event.start_tick)}–{score.metre_map.label(event.end_tick)}"
             if isinstance(event, PoseEvent):
                 angles = [f"{value:g}°".replace("-", "−") for value in (event.up_deg, event.left_deg, event.roll_deg)]
                 return f"{span}, {' '.join(angles)}"

@@ -156,7 +156,7 @@ class Flags(Pictured):
 
     def tip(self, flag: Flag) -> str:
         """All of a flag's text, and its bar."""
-        bar = self.session.project.score.bar_of_tick(flag.tick)
+        bar = self.session.project.score.metre_map.bar_of_tick(flag.tick)
         where = self.tr("Bar {bar}").format(bar=bar)
         return f"{flag.text}\n{where}"
 

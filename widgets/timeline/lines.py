@@ -64,30 +64,31 @@ def visible_lines(score: Score, grid: Grid, start_s: float, end_s: float, px_per
     start_s, end_s : float
     px_per_s : float
     """
-    tempo = score.tempo_map
-    first = score.bar_of_tick(int(np.floor(tempo.ticks(start_s))))
-    last = score.bar_of_tick(int(np.ceil(tempo.ticks(end_s)))) + 1
+    tempo, metre_map = score.tempo_map, score.metre_map
+    first = metre_map.bar_of_tick(int(np.floor(tempo.ticks(start_s))))
+    last = metre_map.bar_of_tick(int(np.ceil(tempo.ticks(end_s)))) + 1
     every = _bar_step(score, first, last, px_per_s)
     # Counted from bar 1: 1, 5, 9 ...
-    bars = list(range(first - (first - 1) % every, last + 1, every))
-    bar_ticks = [score.tick_of_bar(bar) for bar in bars]
+    bars = np.arange(first - (first - 1) % every, last + 1, every, dtype=np.int64)
+    bar_ticks = metre_map.tick_of_bar(bars)
+    bar_s = tempo.seconds(bar_ticks)
     beats: list[Floats] = []
     steps: list[Floats] = []
     if every == 1:
-        bar_s = tempo.seconds(np.array(bar_ticks, np.float64)).tolist()
-        for (start, end), (start_s, after_s) in zip(pairwise(bar_ticks), pairwise(bar_s), strict=True):
-            px_per_tick = (after_s - start_s) * px_per_s / max(end - start, 1)
-            beat = 4 * score.ticks_per_quarter / _denominator(score, start)
+        step = float(grid.quarters * score.ticks_per_quarter)
+        spans = zip(bars.tolist(), pairwise(bar_ticks.tolist()), pairwise(bar_s.tolist()), strict=False)
+        for bar, (start, end), (from_s, after_s) in spans:
+            px_per_tick = (after_s - from_s) * px_per_s / max(end - start, 1)
+            beat = metre_map.beat_length(start)
+            on_beats = metre_map.beats_of_bar(bar)
             if beat * px_per_tick >= LEAST_BEAT_PX:
-                beats.append(_between(start, end, beat))
-            step = float(grid.quarters * score.ticks_per_quarter)
+                beats.append(on_beats[1:].astype(np.float64))
             if grid.enabled and step < beat and step * px_per_tick >= LEAST_STEP_PX:
                 lines = _between(start, end, step)
-                in_beats = (lines - start) / beat
-                steps.append(lines[np.abs(in_beats - np.round(in_beats)) > 1e-6])
+                steps.append(lines[~np.isin(np.floor(lines + 1e-6), on_beats)])
     return Lines(
-        tuple(bars),
-        tempo.seconds(np.array(bar_ticks, np.float64)),
+        tuple(bars.tolist()),
+        bar_s,
         tempo.seconds(np.concatenate(beats or [np.empty(0)])),
         tempo.seconds(np.concatenate(steps or [np.empty(0)])),
     )
@@ -95,9 +96,8 @@ def visible_lines(score: Score, grid: Grid, start_s: float, end_s: float, px_per
 
 def _bar_step(score: Score, first: int, last: int, px_per_s: float) -> int:
     """Every which bar is labelled: 1, 2, 4 ... by the usual length of the visible bars."""
-    tempo = score.tempo_map
-    seconds = tempo.seconds(float(score.tick_of_bar(last))) - tempo.seconds(float(score.tick_of_bar(first)))
-    px = seconds / max(last - first, 1) * px_per_s
+    start_s, end_s = (score.tempo_map.seconds(float(score.metre_map.tick_of_bar(bar))) for bar in (first, last))
+    px = (end_s - start_s) / max(last - first, 1) * px_per_s
     every = 1
     while px * every < LEAST_BAR_PX and every < 4096:
         every *= 2
@@ -106,18 +106,7 @@ def _bar_step(score: Score, first: int, last: int, px_per_s: float) -> int:
 
 def beat_of_tick(score: Score, tick: float) -> str:
     """The beat of its bar in which a tick lies, counted from 1: ``"3.5"``."""
-    start = score.tick_of_bar(score.bar_of_tick(int(tick // 1)))
-    beat = 1 + (tick - start) * _denominator(score, start) / (4 * score.ticks_per_quarter)
-    return f"{beat:.2f}".rstrip("0").rstrip(".")
-
-
-def _denominator(score: Score, tick: int) -> int:
-    metre = score.metres[0]
-    for candidate in score.metres:
-        if candidate.tick > tick:
-            break
-        metre = candidate
-    return metre.denominator
+    return f"{score.metre_map.beat_of_tick(tick):.2f}".rstrip("0").rstrip(".")
 
 
 def _between(start: int, end: int, step: float) -> Floats:

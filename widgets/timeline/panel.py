@@ -315,8 +315,8 @@ class TimelinePanel(QWidget):
         """As much as can be read at once: a short piece whole, of a longer one the first bars."""
         score = self.session.project.score
         self.axis.fit()
-        if score.bar_of_tick(max(score.sounding_end_tick - 1, 0)) > MOST_FIRST_BARS:
-            end_s = score.tempo_map.seconds(float(score.tick_of_bar(FIRST_BARS + 1)))
+        if score.metre_map.bar_of_tick(max(score.sounding_end_tick - 1, 0)) > MOST_FIRST_BARS:
+            end_s = score.tempo_map.seconds(float(score.metre_map.tick_of_bar(FIRST_BARS + 1)))
             self.axis.show(self.axis.start_s, end_s)
 
     def _set_limits(self) -> None:

@@ -471,7 +471,7 @@ class PianoRoll(Lane):
         """Say what is under the mouse: place and pitch, or the note; problems of a note as a tool tip."""
         score = self.session.project.score
         tick = mouse.tick if note is None else note.onset_tick
-        bar = score.bar_of_tick(int(tick // 1))
+        bar = score.metre_map.bar_of_tick(int(tick // 1))
         beat = beat_of_tick(score, tick)
         pitch = self.pitch_text(int(mouse.value // 1))
         text = self.tr("{pitch} · bar {bar}, beat {beat}").format(pitch=pitch, bar=bar, beat=beat)

@@ -289,7 +289,7 @@ class Ruler(Pictured):
             bpm = next(bpm for at, bpm in reversed(score.tempo_map.bpm) if at <= tick)
             text = f"{bpm:.6g}"
         else:
-            metre = next(metre for metre in reversed(score.metres) if metre.tick <= tick)
+            metre = score.metre_map.metre_at(tick)
             text = f"{metre.numerator}/{metre.denominator}"
         self._editing = (kind, tick)
         self._editor.setText(text)
@@ -347,9 +347,9 @@ class Ruler(Pictured):
             remove.setEnabled(mark.tick > 0)
             remove.triggered.connect(lambda: self._remove(mark.kind, mark.tick))
             menu.addSeparator()
-        score = self.session.project.score
+        metre_map = self.session.project.score.metre_map
         tick = self._tick_at(place.x(), False)
-        bar_tick = max(score.tick_of_bar(score.bar_of_tick(tick)), 0)
+        bar_tick = max(metre_map.tick_of_bar(metre_map.bar_of_tick(tick)), 0)
         menu.addAction(self.tr("Add Tempo Here")).triggered.connect(lambda: self.edit_mark("tempo", tick))
         menu.addAction(self.tr("Add Metre at This Bar")).triggered.connect(lambda: self.edit_mark("metre", bar_tick))
         felt = [action for id, action in self.session.actions.items() if id.startswith("beat.")]
@@ -376,9 +376,9 @@ class Ruler(Pictured):
             )
 
     def _select_bar(self, tick: int) -> None:
-        score = self.session.project.score
-        bar = score.bar_of_tick(tick)
-        self.session.select(Selection(span=(max(score.tick_of_bar(bar), 0), score.tick_of_bar(bar + 1))))
+        metre_map = self.session.project.score.metre_map
+        start, end = metre_map.span_of_bar(metre_map.bar_of_tick(tick))
+        self.session.select(Selection(span=(max(start, 0), end)))
 
     # The mouse
 
@@ -438,9 +438,9 @@ class Ruler(Pictured):
         # The place under the mouse is that of the piece before the drag: moved, a tempo would carry it along.
         tick = without.score.tempo_map.ticks(self.axis.seconds(x - GUTTER_PX))
         if mark.kind == "metre" and not free:
-            score = without.score
-            bar = score.bar_of_tick(max(round(tick), 0))
-            to = min(score.tick_of_bar(bar), score.tick_of_bar(bar + 1), key=lambda place: abs(place - tick))
+            metre_map = without.score.metre_map
+            bar = metre_map.bar_of_tick(max(round(tick), 0))
+            to = min(metre_map.span_of_bar(bar), key=lambda place: abs(place - tick))
         else:
             to = round(tick) if free else self.session.grid.snap(base.score, tick)
         move = tempo_edit.move_metre if mark.kind == "metre" else tempo_edit.move_tempo

@@ -14,7 +14,6 @@ from widgets.common.combo import Combo, Option
 from widgets.common.grids import GRIDS
 from widgets.common.icons import icon, pixmap
 from widgets.common.listening import LEAST_SPEED, MOST_SPEED, SOURCES
-from widgets.common.musical_time import metre_at
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.common.session import Session
@@ -217,7 +216,7 @@ class TransportBar(QWidget):
         self.frames.show_value(float(floor(frames + 1e-6)), by_hand=False)
         self.beat.show_time(playhead_s)
         self._show_take(playhead_s)
-        metre = metre_at(score, max(tick, 0))
+        metre = score.metre_map.metre_at(max(tick, 0))
         bpm = next((bpm for at, bpm in reversed(score.tempo_map.bpm) if at <= tick), score.tempo_map.bpm[0][1])
         text = f"♩= {bpm:.1f}".removesuffix(".0") + f"   {metre.numerator}/{metre.denominator}"
         if text != self.tempo.text():
@@ -229,7 +228,7 @@ class TransportBar(QWidget):
         if recording.running and playhead_s < recording.start_s - 1e-6:
             project = self._session.project
             now, start = map(project.score.tempo_map.ticks, (playhead_s, recording.start_s))
-            beats = (start - now) / project.felt_beat_ticks(start)
+            beats = (start - now) / project.metre_map.felt_ticks_at(start)
             text = f"−{ceil(beats - 1e-6)}"
         elif recording.running:
             text = self.tr("REC") if recording.passes < 2 else self.tr("REC {number}").format(number=recording.passes)

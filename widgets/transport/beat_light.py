@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import floor
 
+import numpy as np
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
@@ -38,16 +39,14 @@ class BeatLight(QWidget):
         session = self._session
         if not session.playing or not (session.listening.click or session.recording.running):
             return _OFF
-        project = session.project
-        score = project.score
-        tick = score.tempo_map.ticks(playhead_s)
-        first = score.tick_of_bar(score.bar_of_tick(floor(tick)))
-        felt = project.felt_beat_ticks(first)
-        beat = floor((tick - first) / felt + 1e-6)
-        since_s = playhead_s - score.tempo_map.seconds(float(first + beat * felt))
-        if since_s > FLASH_S * session.listening.speed:
+        tempo_map, metre_map = session.project.score.tempo_map, session.project.metre_map
+        tick = tempo_map.ticks(playhead_s) + 1e-3
+        bar = metre_map.bar_of_tick(floor(tick))
+        ticks, beats = metre_map.counted(bar, bar + 1)
+        place = int(np.searchsorted(ticks, tick, side="right")) - 1
+        if place < 0 or playhead_s - tempo_map.seconds(float(ticks[place])) > FLASH_S * session.listening.speed:
             return _OFF
-        return _BEAT if beat else _BAR
+        return _BEAT if beats[place] else _BAR
 
     # Qt's own names
 

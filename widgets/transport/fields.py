@@ -7,7 +7,6 @@ import re
 import unicodedata
 
 from app.score.model import Score
-from widgets.common.musical_time import beat_ticks, tick_of_place
 from widgets.common.number_slider import NumberSlider
 from widgets.common.session import Session
 
@@ -18,9 +17,8 @@ MOST_S = 12 * 3600.0
 
 def bars_text(score: Score, tick: int) -> str:
     """``"12|3|240"``: bar, beat, ticks; always all three, so that they stand still while it plays."""
-    bar = score.bar_of_tick(tick)
-    beat, rest = divmod(tick - score.tick_of_bar(bar), beat_ticks(score, tick))
-    return f"{bar}|{beat + 1}|{rest:03d}".replace("-", "−")
+    bar, beat, rest = score.metre_map.place_of_tick(tick)
+    return f"{bar}|{beat}|{rest:03d}".replace("-", "−")
 
 
 def clock_text(time_s: float) -> str:
@@ -54,7 +52,7 @@ class BarsField(NumberSlider):
         self.setObjectName("bars_field")
         self.set_wording(
             lambda tick: bars_text(session.project.score, round(tick)),
-            lambda text: _float(tick_of_place(session.project.score, text)),
+            lambda text: _float(session.project.score.metre_map.tick_of_label(text)),
         )
 
 

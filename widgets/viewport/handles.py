@@ -155,11 +155,10 @@ class Span:
 def span_of(project: Project, chosen: tuple[int, int] | None, playhead_tick: int) -> Span:
     """The chosen span, else the bar at the playhead; faded over a felt beat."""
     if chosen is not None:
-        return Span(chosen[0], chosen[1], project.felt_beat_ticks(chosen[0]))
-    score = project.score
-    bar = score.bar_of_tick(max(playhead_tick, 0))
-    start = score.tick_of_bar(bar)
-    return Span(start, score.tick_of_bar(bar + 1), project.felt_beat_ticks(start))
+        return Span(chosen[0], chosen[1], project.metre_map.felt_ticks_at(chosen[0]))
+    metre_map = project.metre_map
+    start, end = metre_map.span_of_bar(metre_map.bar_of_tick(max(playhead_tick, 0)))
+    return Span(start, end, metre_map.felt_ticks_at(start))
 
 
 def correction_at(

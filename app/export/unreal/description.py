@@ -18,10 +18,10 @@ from app.export.unreal.layout import FigurePlace, Layout
 from app.export.unreal.manifest import OwnFile
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
-from app.plan.model import Clock
 from app.project.casting import StagePosition
 from app.project.model import Dancer, Player
 from app.score.model import Score
+from app.score.tempo import TempoMap
 
 SCHEMA: Final = 2
 """Rises when a script that knows the schema before would misread the file: one that knows 1 would take dancers for
@@ -273,7 +273,7 @@ def _assets(places: Iterable[FigurePlace]) -> tuple[str, ...]:
 class _Time:
     """The animation's time, and which frames it has."""
 
-    clock: Clock
+    clock: TempoMap
     span: FrameSpan
 
     def after_s(self, tick: float) -> float:
@@ -294,8 +294,8 @@ class _Time:
 
 
 def _bars(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[Bar, ...]:
-    first, last = bars or (0 if score.pickup_ticks else 1, score.bar_of_tick(max(score.end_tick - 1, 0)))
-    starts = [(number, score.tick_of_bar(number)) for number in range(first, last + 1)]
+    first, last = bars or (0 if score.pickup_ticks else 1, score.last_bar)
+    starts = [(number, score.metre_map.tick_of_bar(number)) for number in range(first, last + 1)]
     told = (Bar(number, tick, time.after_s(tick), time.frame(time.after_s(tick))) for number, tick in starts)
     return tuple(bar for bar in told if time.shows(bar.frame))
 
@@ -303,7 +303,7 @@ def _bars(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[Bar,
 def _markers(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[Marker, ...]:
     told = []
     for marker in score.markers:
-        bar, s = score.bar_of_tick(marker.tick), time.after_s(marker.tick)
+        bar, s = score.metre_map.bar_of_tick(marker.tick), time.after_s(marker.tick)
         if bars is None or bars[0] <= bar <= bars[1]:
             told.append(Marker(marker.text, bar, marker.tick, s, time.frame(s)))
     return tuple(marker for marker in told if time.shows(marker.frame))

@@ -169,7 +169,7 @@ def add_breath(
     removed = [item for item in corrections_of(project, plan.player_id, (event_id,)) if isinstance(item, RemoveEvent)]
     end = note.onset_tick
     if kind == "preparation":
-        beat = project.felt_beat_ticks(end)
+        beat = project.metre_map.felt_ticks_at(end)
         breath = there.get(f"breath:{note.id}")
         end = breath.start_tick if breath is not None else end - beat
         start = end - beat
@@ -457,14 +457,14 @@ def _cue_at(project: Project, player_id: str, event: CueEvent, start: int, end: 
     said = corrections_of(project, player_id, (event.id,))
     before = next((item for item in said if isinstance(item, SetCue)), SetCue(event.id.split(":", 1)[1]))
     note = next((note.id for note in _notes(project, player_id) if note.onset_tick == end), f"@{end}")
-    beats = max(round((end - start) / (LEAD_BEATS * project.felt_beat_ticks(end)), 4), 0.05)
+    beats = max(round((end - start) / (LEAD_BEATS * project.metre_map.felt_ticks_at(end)), 4), 0.05)
     return msgspec.structs.replace(before, note_id=note, beats=beats, moved_from=_moved_from(before, note))
 
 
 def _room_before(project: Project, notes: Sequence[Note], index: int) -> int:
     """Where an added breath before a note begins."""
     onset, clock = notes[index].onset_tick, project.score.tempo_map
-    beat = project.felt_beat_ticks(onset)
+    beat = project.metre_map.felt_ticks_at(onset)
     if index == 0:
         return onset - beat
     before = notes[index - 1]

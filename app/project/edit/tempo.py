@@ -26,7 +26,8 @@ from app.errors import UsageError
 from app.project import limits
 from app.project.edit.length import with_score
 from app.project.model import Project
-from app.score.model import Metre, Score
+from app.score.metre_map import Metre
+from app.score.model import Score
 from app.score.tempo import TempoChange, TempoMap
 
 

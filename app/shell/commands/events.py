@@ -62,7 +62,7 @@ def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
         span = session.selection.span
         if span is None:
             start = session.grid.snap(session.project.score, _playhead_tick(session))
-            span = (start, start + NEW_BEATS * session.project.felt_beat_ticks(start))
+            span = (start, start + NEW_BEATS * session.project.metre_map.felt_ticks_at(start))
         found = [(session.player.id, *span)]
     return [(plan, start, end) for player_id, start, end in found if (plan := plan_of(session, player_id)) is not None]
 

@@ -75,12 +75,14 @@ def select_bar(session: Session) -> None:
     score = project.score
     chosen = list(notes.chosen_notes(project, session.selection.notes))
     if chosen:
-        bars = {score.bar_of_tick(note.onset_tick) for _, mine in chosen for note in mine}
+        bars = {score.metre_map.bar_of_tick(note.onset_tick) for _, mine in chosen for note in mine}
         parts = [part for part, _ in chosen]
     else:
-        bars = {score.bar_of_tick(_playhead_tick(session))}
+        bars = {score.metre_map.bar_of_tick(_playhead_tick(session))}
         parts = [project.part(session.player)] if session.player is not None else []
-    found = frozenset(note.id for part in parts for note in part.notes if score.bar_of_tick(note.onset_tick) in bars)
+    found = frozenset(
+        note.id for part in parts for note in part.notes if score.metre_map.bar_of_tick(note.onset_tick) in bars
+    )
     session.select(Selection(found))
 
 

@@ -205,12 +205,12 @@ def _go_frames(session: Session, count: int) -> None:
 def _bar(session: Session) -> int:
     score = session.project.score
     # A moment that was reached by its bar line is in that bar, however it was rounded.
-    return score.bar_of_tick(floor(score.tempo_map.ticks(session.playhead_s + _NEAR_S)))
+    return score.metre_map.bar_of_tick(floor(score.tempo_map.ticks(session.playhead_s + _NEAR_S)))
 
 
 def _bar_s(session: Session, bar: int) -> float:
     score = session.project.score
-    return score.tempo_map.seconds(float(score.tick_of_bar(bar)))
+    return score.tempo_map.seconds(float(score.metre_map.tick_of_bar(bar)))
 
 
 def _onsets_s(session: Session) -> list[float]:

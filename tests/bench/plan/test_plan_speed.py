@@ -6,11 +6,12 @@ import time
 
 import pytest
 
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.line import line_times
 from app.plan.search import best_path, fingering_problem
+from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
-from tests.support.plan import PlainClock, PlainMetre, even
+from tests.support.plan import PlainClock, even, piece_of
 from tests.support.woodwinds import many_keys
 
 pytestmark = pytest.mark.bench
@@ -25,7 +26,7 @@ def test_a_thousand_hurried_notes(name: str) -> None:
     instrument = many_keys() if name == "many keys" else bundled_maps()[name]
     line = Line("p", even(PITCHES, 120), instrument)
     frame = time_frame((line,), CLOCK)
-    piece = Piece(CLOCK, (PlainMetre(0, 4, 4),))
+    piece = piece_of(CLOCK, (Metre(0, 4, 4),))
     make_plans(piece, (line,), frame)
     searched, planned = [], []
     for _ in range(5):

@@ -115,7 +115,7 @@ def test_the_subject_of_the_fugato_stays_with_one_player() -> None:
     # Bar 8: a line alone in the sopranos' track, leaping a fourth and a fifth; bar 14 the answer, before a chord above.
     score = score_of("brass_quintet_pezel_sonata21")
     for bar, subject in ((8, [67, 66, 67, 69, 69, 71, 64, 66, 64, 64, 63]), (14, [66, 64, 66, 67, 67, 69, 62])):
-        first, last = score.tick_of_bar(bar), score.tick_of_bar(bar + (2 if bar == 8 else 1))
+        first, last = score.metre_map.tick_of_bar(bar), score.metre_map.tick_of_bar(bar + (2 if bar == 8 else 1))
         lines = [
             [note.pitch for note in part.notes if first <= note.onset_tick < last]
             for part in score.parts

@@ -24,7 +24,9 @@ def note(session: Session) -> Note:
     assert session.player is not None
     notes = session.project.part(session.player).notes
     score = session.project.score
-    return next(item for item in notes if item.onset_tick == score.tick_of_bar(2) + 2 * score.ticks_per_quarter)
+    return next(
+        item for item in notes if item.onset_tick == score.metre_map.tick_of_bar(2) + 2 * score.ticks_per_quarter
+    )
 
 
 @pytest.fixture

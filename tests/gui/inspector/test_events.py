@@ -59,11 +59,14 @@ def test_start_and_end_in_bars_and_in_seconds(panel: InspectorPanel, planned: Se
     gesture = next(event for event in plan(planned).gestures if event.kind == "bell_height" and event.start_tick > 0)
     select(planned, gesture.id)
     score = planned.project.score
-    bar = score.bar_of_tick(gesture.start_tick)
+    bar = score.metre_map.bar_of_tick(gesture.start_tick)
     type_into(number(panel, "event_end_tick"), f"{bar + 3}.2")
     [item] = said(planned)
     assert isinstance(item, ChangeGesture)
-    assert item.end_tick == score.tick_of_bar(bar + 3) + 4 * score.ticks_per_quarter // score.metres[0].denominator
+    assert (
+        item.end_tick
+        == score.metre_map.tick_of_bar(bar + 3) + 4 * score.ticks_per_quarter // score.metres[0].denominator
+    )
     start_s = gesture.start_s - 0.2
     type_into(number(panel, "event_start_s"), f"{start_s:.3f}")
     [item] = said(planned)

@@ -57,7 +57,7 @@ def test_a_note_is_edited_as_numbers(panel: InspectorPanel, planned: Session) ->
     type_into(number(panel, "note_onset"), "40.2.10")
     score = planned.project.score
     beat = 4 * score.ticks_per_quarter // score.metres[-1].denominator
-    assert note_now(planned, note.id).onset_tick == score.tick_of_bar(40) + beat + 10
+    assert note_now(planned, note.id).onset_tick == score.metre_map.tick_of_bar(40) + beat + 10
     type_into(number(panel, "note_length"), "3/2")
     assert note_now(planned, note.id).duration_tick == round(1.5 * beat)
     assert len(planned.document.done) == 5

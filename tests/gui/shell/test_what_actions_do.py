@@ -435,7 +435,7 @@ def looping(desk: Desk) -> bool:
 
 def bar_s(desk: Desk, bar: int) -> float:
     score = desk.project.score
-    return score.tempo_map.seconds(float(score.tick_of_bar(bar)))
+    return score.tempo_map.seconds(float(score.metre_map.tick_of_bar(bar)))
 
 
 def go(ready_s: Callable[[Desk], float], wanted_s: Callable[[Desk], float]) -> Case:
@@ -533,17 +533,17 @@ CASES: dict[str, Case] = {
             == {
                 note.id
                 for note in d.notes()
-                if d.project.score.bar_of_tick(note.onset_tick)
-                in {d.project.score.bar_of_tick(chosen.onset_tick) for chosen, _ in d.chosen()}
+                if d.project.score.metre_map.bar_of_tick(note.onset_tick)
+                in {d.project.score.metre_map.bar_of_tick(chosen.onset_tick) for chosen, _ in d.chosen()}
             }
         )
     ),
     "notes.select_span": Case(
         lambda d: (
             d.session.selection.notes
-            == {note.id for note in d.notes() if note.onset_tick < d.project.score.tick_of_bar(3)}
+            == {note.id for note in d.notes() if note.onset_tick < d.project.score.metre_map.tick_of_bar(3)}
         ),
-        lambda d: d.session.select(Selection(span=(0, d.project.score.tick_of_bar(3)))),
+        lambda d: d.session.select(Selection(span=(0, d.project.score.metre_map.tick_of_bar(3)))),
     ),
     **{f"notes.tool_{name}": tool(name) for name in ("select", "draw", "erase", "split")},
     "notes.split": Case(

@@ -76,7 +76,7 @@ def test_places_are_typed(qtbot: QtBot, bar: TransportBar, session: Session) -> 
     score = session.project.score
     type_into(qtbot, bar.bars, "12.2")
     assert session.playhead_s == pytest.approx(
-        score.tempo_map.seconds(score.tick_of_bar(12) + 2 * score.ticks_per_quarter)
+        score.tempo_map.seconds(score.metre_map.tick_of_bar(12) + 2 * score.ticks_per_quarter)
     )
     assert bar.bars.value_text() == "12|2|000"
     type_into(qtbot, bar.clock, "0:19.25")
@@ -107,7 +107,7 @@ def test_places_are_dragged_and_copied(qtbot: QtBot, bar: TransportBar, session:
 
 def test_tempo_and_metre_at_the_playhead(bar: TransportBar, session: Session) -> None:
     score = session.project.score
-    tick = score.tick_of_bar(5)
+    tick = score.metre_map.tick_of_bar(5)
     session.attempt(Message("edit.set_offset"), lambda project: set_metre(set_tempo(project, tick, 63.5), tick, 5, 8))
     session.set_playhead(0.0)
     assert "5/8" not in bar.tempo.text()

@@ -36,7 +36,7 @@ def run(session: Session, table: ActionTable) -> object:
 
 def seconds(session: Session, bar: int) -> float:
     score = session.project.score
-    return score.tempo_map.seconds(float(score.tick_of_bar(bar)))
+    return score.tempo_map.seconds(float(score.metre_map.tick_of_bar(bar)))
 
 
 def test_play_and_stop_here(run, session: Session, elapse: Elapse) -> None:  # type: ignore[no-untyped-def]

@@ -497,7 +497,7 @@ def test_dragging_the_bell_up_is_one_step_that_can_be_undone(posing: ViewportPan
     score = session.project.score
     tick = round(score.tempo_map.ticks(AT_S))
     assert held.start_tick <= tick < held.end_tick
-    assert held.start_tick == score.tick_of_bar(score.bar_of_tick(tick))
+    assert held.start_tick == score.metre_map.tick_of_bar(score.metre_map.bar_of_tick(tick))
     assert len(session.document.done) == 1
     session.document.undo()
     assert session.project is before

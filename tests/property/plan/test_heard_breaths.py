@@ -9,12 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.performance.loudness import heard, note_loudness, sounding_curve
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.heard import GASP_S
 from app.plan.model import PlayerParameters
 from app.score.model import ControllerCurve, Note, Part
 from instrument_maps.load import bundled_maps
 from tests.support.blown import TEMPO
+from tests.support.plan import piece_of
 
 TRUMPET = bundled_maps()["trumpet_Bb"]
 LEVELS = (0.0, 0.0, 0.01, 0.03, 0.4, 0.8, 1.0)
@@ -42,7 +43,7 @@ def parts(draw: st.DrawFn) -> Part:
 def test_breaths_are_in_order_and_end_before_what_they_serve(part: Part, lung_s: float) -> None:
     line = Line("p", part.notes, TRUMPET, PlayerParameters(lung_s=lung_s), (), note_loudness(part), heard(part))
     frame = time_frame((line,), TEMPO)
-    plan = make_plans(Piece(TEMPO), (line,), frame)["p"]
+    plan = make_plans(piece_of(TEMPO), (line,), frame)["p"]
     onset_s = {f"breath:{note.id}": TEMPO.seconds(float(note.onset_tick)) for note in part.notes}
     before_s = dict(zip(onset_s, [-np.inf, *onset_s.values()], strict=False))
     end_s = {f"within:{note.id}": TEMPO.seconds(float(note.onset_tick + note.duration_tick)) for note in part.notes}

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from app.plan.catch_lengths import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_PLAYED_S
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
+from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
-from tests.support.plan import PlainClock, PlainMetre, PlainNote, valves
+from tests.support.plan import PlainClock, PlainNote, piece_of, valves
 
 TUPLES = ("fingerings", "breaths", "tongues", "embouchures", "cues", "gestures", "expressions")
 MAPS = (valves(), *bundled_maps().values())
@@ -51,8 +52,8 @@ felt_beats = st.sampled_from([None, None, 720, 240])
 
 @st.composite
 def pieces(draw: st.DrawFn) -> tuple[Piece, tuple[Line, ...]]:
-    metre = PlainMetre(0, draw(st.integers(2, 7)), draw(st.sampled_from([4, 8])))
-    piece = Piece(draw(clocks), (metre,), draw(felt_beats))
+    metre = Metre(0, draw(st.integers(2, 7)), draw(st.sampled_from([4, 8])))
+    piece = piece_of(draw(clocks), (metre,), draw(felt_beats))
     lines = tuple(
         Line(f"p{track}", draw(tunes(track)), draw(st.sampled_from(MAPS)), draw(parameters))
         for track in range(1, draw(st.integers(1, 3)) + 1)
@@ -61,7 +62,7 @@ def pieces(draw: st.DrawFn) -> tuple[Piece, tuple[Line, ...]]:
 
 
 def made(piece: Piece, lines: tuple[Line, ...]) -> dict[str, PlayerPlan]:
-    return make_plans(piece, lines, time_frame(lines, piece.clock, beat_ticks=piece.felt_beat_ticks))
+    return make_plans(piece, lines, time_frame(lines, piece.clock, beat_ticks=piece.metre_map.felt_ticks_at(0)))
 
 
 @given(pieces())
@@ -138,8 +139,8 @@ def test_the_same_notes_a_bar_later_are_fingered_and_breathed_alike(
     drawn: tuple[Piece, tuple[Line, ...]], bars: int
 ) -> None:
     piece, lines = drawn
-    steady = Piece(PlainClock(piece.clock.changes[:1]), piece.metres, piece.felt_beat_ticks)  # type: ignore[attr-defined]
-    metre = piece.metres[0]
+    steady = Piece(PlainClock(piece.clock.changes[:1]), piece.metre_map)  # type: ignore[attr-defined]
+    metre = piece.metre_map.metres[0]
     shift = bars * 1920 * metre.numerator // metre.denominator
     moved = tuple(
         Line(

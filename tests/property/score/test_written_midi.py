@@ -14,7 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.score.limits import MOST_HOURS
-from app.score.model import ControllerCurve, CurveKind, Marker, Metre, Note, Part, Score
+from app.score.metre_map import Metre
+from app.score.model import ControllerCurve, CurveKind, Marker, Note, Part, Score
 from app.score.parts import PartWish
 from app.score.read import read_contents, read_midi, wished_score
 from app.score.tempo import TempoChange, TempoMap

@@ -11,7 +11,8 @@ import numpy as np
 
 from app.audio.track import RATE_HZ, Piece, Samples, Track
 from app.project.model import Project, map_choices, project_from_score
-from app.score.model import Metre, Note, Part, Score
+from app.score.metre_map import Metre
+from app.score.model import Note, Part, Score
 from app.score.read import read_midi
 from app.score.tempo import TempoMap
 from instrument_maps.load import bundled_maps

@@ -9,7 +9,7 @@ import pytest
 
 from app.audio.click import click_track, steady_clicks
 from app.audio.track import RATE_HZ
-from app.score.model import Metre
+from app.score.metre_map import Metre
 from tests.unit.audio.pieces import melody, piece
 
 

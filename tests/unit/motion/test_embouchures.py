@@ -13,7 +13,7 @@ import pytest
 
 from app.motion.model import Motion
 from app.motion.perform import perform
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.model import PlayerParameters, PlayerPlan
 from app.rig import quaternion
 from app.rig.character_library import bundled_characters, character_named
@@ -23,10 +23,11 @@ from app.rig.lips import fit_lips, lip_places
 from app.rig.model import Character, Landmark
 from app.rig.skeleton import forward
 from app.rig.skinning import deform, mesh_named, patch
+from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Carriage, Embouchure, InstrumentMap
 from metadata.load import load_body
-from tests.support.plan import PlainClock, PlainMetre, line_of
+from tests.support.plan import PlainClock, line_of, piece_of
 
 FloatArray = npt.NDArray[np.float64]
 KINDS = {
@@ -100,7 +101,7 @@ def played(name: str, character_id: str) -> Played:
         rows.append((tick, length, 54 + (index * 7) % 30, 30 + (index * 13) % 90))
         tick += length + (240 if index % 7 == 6 else 0) + (7680 if index == 20 else 0)
     line, clock = Line("p", line_of(*rows), instrument, PlayerParameters(amplitude=0.8)), PlainClock()
-    plan = make_plans(Piece(clock, (PlainMetre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
+    plan = make_plans(piece_of(clock, (Metre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
     hold = hold_for(character, bundled_instrument(trumpet), trumpet, BODY)
     hold = replace(hold, lips=fit_lips(character, instrument, BODY))
     motion = perform(plan, line.parameters, instrument, character, hold, BODY, felt_beats=((0, 480),), fps=FPS)

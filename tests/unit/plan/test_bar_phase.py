@@ -9,17 +9,17 @@ import pytest
 from app.plan.bar_phase import with_felt_bars
 from app.plan.generate import Piece
 from app.plan.line import Line, LineTimes, line_times
+from app.score.metre_map import Metre
 from tests.support.engraved_breaths import TICKS, marked_lines
-from tests.support.plan import PlainClock, PlainMetre, line_of, valves
+from tests.support.plan import PlainClock, line_of, piece_of, valves
 
 
 def times_of(*notes: tuple[int, int, int]) -> LineTimes:
     return line_times(Line("p", line_of(*notes), valves()), PlainClock())
 
 
-def piece_in(numerator: int, denominator: int, bars: int) -> Piece:
-    bar = 4 * TICKS * numerator // denominator
-    return Piece(PlainClock(), (PlainMetre(0, numerator, denominator),), None, tuple(range(0, bars * bar, bar)))
+def piece_in(numerator: int, denominator: int) -> Piece:
+    return piece_of(PlainClock(), (Metre(0, numerator, denominator),))
 
 
 def waltz(pickup: int, late_ticks: int = 0) -> LineTimes:
@@ -35,27 +35,28 @@ def waltz(pickup: int, late_ticks: int = 0) -> LineTimes:
 @pytest.mark.parametrize("late_ticks", [0, 11])
 @pytest.mark.parametrize("pickup", [1, 2])
 def test_bars_begin_after_the_pickup(pickup: int, late_ticks: int) -> None:
-    felt = with_felt_bars(piece_in(3, 4, 18), (waltz(pickup, late_ticks),))
-    assert {tick % (3 * TICKS) for tick in felt.bar_ticks} == {pickup * TICKS}
-    assert felt.bar_ticks[0] <= 0
-    assert felt.bar_ticks[-1] >= 17 * 3 * TICKS
+    felt = with_felt_bars(piece_in(3, 4), (waltz(pickup, late_ticks),))
+    bars = felt.bars(0, 18 * 3 * TICKS)
+    assert set(bars % (3 * TICKS)) == {pickup * TICKS}
+    assert bars[0] <= 0
+    assert len(bars) == 19
 
 
 def test_bars_that_fit_stay() -> None:
-    piece = piece_in(3, 4, 18)
+    piece = piece_in(3, 4)
     assert with_felt_bars(piece, (waltz(0),)) is piece
 
 
 def test_even_notes_say_nothing() -> None:
-    piece = piece_in(3, 4, 18)
+    piece = piece_in(3, 4)
     assert with_felt_bars(piece, (times_of(*((beat * TICKS, TICKS, 65) for beat in range(48))),)) is piece
     assert with_felt_bars(piece, ()) is piece
 
 
 def test_a_known_pickup_and_changes_of_metre_are_left_alone() -> None:
-    known = Piece(PlainClock(), (PlainMetre(0, 3, 4),), None, (0, 2 * TICKS, 5 * TICKS, 8 * TICKS))
+    known = piece_of(PlainClock(), (Metre(0, 3, 4), Metre(2 * TICKS, 3, 4)), has_pickup=True)
     assert with_felt_bars(known, (waltz(1),)) is known
-    changing = Piece(PlainClock(), (PlainMetre(0, 3, 4), PlainMetre(30 * TICKS, 4, 4)), None, (0, 3 * TICKS))
+    changing = piece_of(PlainClock(), (Metre(0, 3, 4), Metre(30 * TICKS, 4, 4)))
     assert with_felt_bars(changing, (waltz(1),)) is changing
 
 
@@ -69,8 +70,8 @@ def test_engraved_pieces_are_never_moved_away_from_their_bars() -> None:
         metre = rows[0]["metre"]
         notes = [[(round(at * TICKS), round(long * TICKS), pitch) for at, long, pitch in row["notes"]] for row in rows]
         bar = 4 * TICKS * metre[0] // metre[1]
-        piece = piece_in(metre[0], metre[1], max(one[-1][0] for one in notes) // bar + 1)
+        piece = piece_in(metre[0], metre[1])
         felt = with_felt_bars(piece, [times_of(*one) for one in notes])
         moved += felt is not piece
-        assert felt is piece or felt.bar_ticks[0] % bar == rows[0]["pickup_quarters"] * TICKS
+        assert felt is piece or felt.bars(0, 1)[0] % bar == rows[0]["pickup_quarters"] * TICKS
     assert moved == 1

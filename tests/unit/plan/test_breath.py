@@ -10,13 +10,14 @@ import pytest
 
 from app.plan.catch_lengths import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_SOUNDING_S
 from app.plan.corrections import RemoveEvent, SetBreath
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
+from app.score.metre_map import Metre
 from instrument_maps.model import Air
-from tests.support.plan import PlainClock, PlainMetre, PlainNote, even, line_of, valves
+from tests.support.plan import PlainClock, PlainNote, even, line_of, piece_of, valves
 
 Q = 480
-METRE = (PlainMetre(0, 4, 4),)
+METRE = (Metre(0, 4, 4),)
 
 
 def plan(
@@ -27,7 +28,7 @@ def plan(
     **parameters: object,
 ) -> PlayerPlan:
     clock = clock or PlainClock()
-    piece = Piece(clock, METRE, felt)
+    piece = piece_of(clock, METRE, felt)
     line = Line("p", notes, valves(), PlayerParameters(**{"breath_need": 0.0, **parameters}))  # type: ignore[arg-type]
     return make_plans(piece, (line,), time_frame((line,), clock, preroll, felt))["p"]
 
@@ -239,7 +240,7 @@ def test_in_endless_quick_notes_weak_notes_are_left_out(bpm: float, left_out: in
     gone = caught[0]
     corrections = (RemoveEvent(gone.id, gone.id.removeprefix("breath:")),)
     line = Line("p", notes, valves(), PlayerParameters(), corrections)
-    again = make_plans(Piece(clock, METRE), (line,), time_frame((line,), clock))["p"]
+    again = make_plans(piece_of(clock, METRE), (line,), time_frame((line,), clock))["p"]
     assert gone.id not in {event.id for event in again.breaths}
     played = {event.note_id: event for event in again.embouchures}[str(gone.reason.arguments["after_note"])]
     assert played.end_s > played.start_s
@@ -271,7 +272,7 @@ def test_with_circular_breathing_the_line_goes_on_until_a_rest() -> None:
     hand = SetBreath("1:40", -240, 0, 0.5)
     line = Line("p", notes, valves(), PlayerParameters(circular_breathing=True), (hand,))
     clock = PlainClock()
-    made = make_plans(Piece(clock, METRE), (line,), time_frame((line,), clock))["p"]
+    made = make_plans(piece_of(clock, METRE), (line,), time_frame((line,), clock))["p"]
     assert "breath:1:40" in {event.id for event in made.breaths}
 
 
@@ -281,7 +282,7 @@ def test_an_instrument_that_takes_little_air_is_breathed_for_seldom() -> None:
     def breaths(notes_: tuple[PlainNote, ...], air: Air | None, **parameters: float) -> list[BreathEvent]:
         instrument = msgspec.structs.replace(valves(), air=air)
         line, clock = Line("p", notes_, instrument, PlayerParameters(**parameters)), PlainClock()
-        made = make_plans(Piece(clock, METRE), (line,), time_frame((line,), clock))["p"]
+        made = make_plans(piece_of(clock, METRE), (line,), time_frame((line,), clock))["p"]
         return [event for event in made.breaths if event.kind == "breath"]
 
     clarinet, flute, tuba = Air(15.0, 12.0, 9.0), Air(14.0, 9.0, 6.0), Air(10.0, 6.5, 4.0)
@@ -311,7 +312,7 @@ def test_players_of_one_line_breathe_in_different_places(octave: int) -> None:
     )
     clock = PlainClock()
     lines = (Line("a", notes, valves()), Line("b", twin, valves()))
-    plans = make_plans(Piece(clock, METRE), lines, time_frame(lines, clock))
+    plans = make_plans(piece_of(clock, METRE), lines, time_frame(lines, clock))
     places = [{event.end_tick for event in plans[name].breaths if event.reason.id == "breath.catch"} for name in "ab"]
     assert places[0]
     assert places[1]

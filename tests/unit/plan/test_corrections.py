@@ -17,13 +17,14 @@ from app.plan.corrections import (
     SetCue,
     SetEmbouchure,
 )
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.model import PlayerPlan
-from tests.support.plan import PlainClock, PlainMetre, PlainNote, line_of, valves
+from app.score.metre_map import Metre
+from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
 
 Q = 480
 CLOCK = PlainClock()
-PIECE = Piece(CLOCK, (PlainMetre(0, 4, 4),))
+PIECE = piece_of(CLOCK, (Metre(0, 4, 4),))
 NOTES = line_of((0, Q, 65), (Q, 2 * Q, 77), (5 * Q, Q, 67), (6 * Q, Q, 69), (24 * Q, 4 * Q, 82))
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.model import CueEvent, PlayerParameters
-from tests.support.plan import PlainClock, PlainMetre, line_of, slide, valves
+from app.score.metre_map import Metre
+from tests.support.plan import PlainClock, line_of, piece_of, slide, valves
 
 Q = 480
 HIGH = Line("high", line_of((0, 4 * Q, 72), (16 * Q, Q, 70), track=1), valves())
@@ -18,7 +19,7 @@ def cues(
     *lines: Line, clock: PlainClock | None = None, felt: int | None = None, preroll: float = 4.0
 ) -> list[CueEvent]:
     clock = clock or PlainClock()
-    piece = Piece(clock, (PlainMetre(0, 4, 4),), felt)
+    piece = piece_of(clock, (Metre(0, 4, 4),), felt)
     plans = make_plans(piece, lines, time_frame(lines, clock, preroll, felt))
     found = [cue for plan in plans.values() for cue in plan.cues]
     for name, plan in plans.items():
@@ -81,9 +82,9 @@ def test_long_common_rests_and_general_pauses_need_a_new_start(rest_beats: int, 
 
 def test_a_bar_cut_short_is_no_measure_of_a_rest() -> None:
     # 3/4, restated a quarter after a bar line: the rest of two quarters that holds it is not two bars long.
-    metres = (PlainMetre(0, 3, 4), PlainMetre(7 * Q, 3, 4))
+    metres = (Metre(0, 3, 4), Metre(7 * Q, 3, 4))
     notes = line_of((5 * Q, Q // 2, 65), (8 * Q, Q, 67))
-    piece = Piece(PlainClock(), metres, bar_ticks=(0, 3 * Q, 6 * Q, 7 * Q))
+    piece = piece_of(PlainClock(), metres)
     line = Line("p", notes, valves())
     cues = make_plans(piece, (line,), time_frame((line,), piece.clock))["p"].cues
     assert [cue.end_tick for cue in cues] == [5 * Q]

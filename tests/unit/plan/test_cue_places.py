@@ -9,10 +9,12 @@ from dataclasses import dataclass
 
 import pytest
 
-from app.plan.generate import Line, Piece, make_plans, time_frame
-from app.score.model import Metre, Note, sounding_spans
+from app.plan.generate import Line, make_plans, time_frame
+from app.score.metre_map import Metre
+from app.score.model import Note, sounding_spans
 from app.score.tempo import TempoChange, TempoMap
 from instrument_maps.load import bundled_maps
+from tests.support.plan import piece_of
 
 Q = 480
 MAPS = bundled_maps()
@@ -211,7 +213,6 @@ HELD_OUT = (
 def cues_of(row: Row) -> list[tuple[float, str, float]]:
     clock = TempoMap(Q, tuple(TempoChange(round(at * Q), 60e6 / bpm) for at, bpm in row.tempi))
     numerator, denominator = row.metre
-    bar = 4 * Q * numerator // denominator
     first = round(row.pickup * Q)
     metres = (Metre(0, numerator, denominator), *((Metre(first, numerator, denominator),) if first else ()))
     felt = 3 * Q // 2 if denominator == 8 else Q
@@ -223,8 +224,7 @@ def cues_of(row: Row) -> list[tuple[float, str, float]]:
         )
         lines.append(Line(name, tuple(made), MAPS[map_id]))
     heard = sounding_spans(((round(at * Q), round((at + length) * Q)) for at, length, _ in row.unplayed), Q)
-    starts = (*((0,) if first else ()), *range(first, 200 * Q, bar))
-    piece = Piece(clock, metres, felt, starts, accompaniment=heard)
+    piece = piece_of(clock, metres, felt, bool(first), heard)
     plans = make_plans(piece, tuple(lines), time_frame(tuple(lines), clock))
     cues = sorted((cue for plan in plans.values() for cue in plan.cues), key=lambda cue: cue.end_tick)
     return [(cue.end_tick / Q, cue.player_id, cue.end_s - cue.peak_s) for cue in cues]

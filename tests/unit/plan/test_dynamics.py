@@ -11,16 +11,17 @@ from hypothesis import strategies as st
 
 from app.motion.body import Layers
 from app.plan.dynamics import grown, vigour_of
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.gesture import ARCH, RELEASE
 from app.plan.line import Heard, Steps
 from app.plan.model import PlayerPlan
+from app.score.metre_map import Metre
 from metadata.load import load_body
-from tests.support.plan import PlainClock, PlainMetre, PlainNote, line_of, valves
+from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
 
 Q = 480
 CLOCK = PlainClock()
-PIECE = Piece(CLOCK, (PlainMetre(0, 4, 4),))
+PIECE = piece_of(CLOCK, (Metre(0, 4, 4),))
 TUNE = [60, 64, 67, 72, 71, 67, 65, 62]
 BODY = load_body()
 
@@ -49,7 +50,7 @@ def sizes(plan: PlayerPlan, kind: str, start_s: float, end_s: float) -> float:
 def motion(plan: PlayerPlan, start_s: float, end_s: float) -> dict[str, float]:
     """How far the layers of the body go within a span, before the player's amplitude: range of each."""
     times_s = np.arange(start_s, end_s, 0.02)
-    levels = Layers.of(plan, BODY, PIECE.beat_changes).sample(times_s)
+    levels = Layers.of(plan, BODY, PIECE.metre_map.felt_beats).sample(times_s)
     return {name: float(np.ptp(getattr(levels, name))) for name in ("sway", "height", "bobbing")}
 
 
@@ -95,7 +96,9 @@ def test_an_accent_lifts_the_bell() -> None:
     plain = tune(70, 71)
     accented = tuple(replace(note, velocity=110) if note.onset_tick == 10 * Q else note for note in plain)
     before, after = plan_of(plain), plan_of(accented)
-    heights = [Layers.of(plan, BODY, PIECE.beat_changes).sample(np.array([5.4])).height[0] for plan in (before, after)]
+    heights = [
+        Layers.of(plan, BODY, PIECE.metre_map.felt_beats).sample(np.array([5.4])).height[0] for plan in (before, after)
+    ]
     assert heights[1] > heights[0] + 0.2
     (event,) = [event for event in after.gestures if event.reason.id == "gesture.bell_accent"]
     assert (event.kind, event.start_tick) == ("bell_height", 10 * Q)
@@ -104,7 +107,7 @@ def test_an_accent_lifts_the_bell() -> None:
 def test_the_bell_sinks_at_the_end_of_a_phrase() -> None:
     notes = line_of(*((beat * Q, Q, 67 + (beat == 6)) for beat in range(12)), (16 * Q, 4 * Q, 67))
     bells = [event for event in plan_of(notes).gestures if event.kind == "bell_height"]
-    layers = Layers.of(plan_of(notes), BODY, PIECE.beat_changes).sample(np.array([3.3, 5.9]))
+    layers = Layers.of(plan_of(notes), BODY, PIECE.metre_map.felt_beats).sample(np.array([3.3, 5.9]))
     assert len(bells) >= 2
     assert layers.height[1] < layers.height[0]
 

@@ -7,15 +7,16 @@ import pytest
 
 from app.plan.corrections import ChangeExpression, RemoveEvent
 from app.plan.embouchure import TONGUE_S
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.line import MEZZOFORTE, chance, line_times
 from app.plan.model import ExpressionEvent, PlayerParameters, PlayerPlan
+from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
-from tests.support.plan import PlainClock, PlainMetre, PlainNote, even, line_of, slide, valves
+from tests.support.plan import PlainClock, PlainNote, even, line_of, piece_of, slide, valves
 
 Q = 480
 CLOCK = PlainClock()
-PIECE = Piece(CLOCK, (PlainMetre(0, 4, 4),))
+PIECE = piece_of(CLOCK, (Metre(0, 4, 4),))
 
 
 def plan(line: Line) -> PlayerPlan:
@@ -105,7 +106,7 @@ def test_only_a_bright_ending_is_smiled_at(third: int, bpm: float, velocity: int
     line = Line("p", notes, valves())
 
     def smile(line: Line) -> list[ExpressionEvent]:
-        plan = make_plans(Piece(clock, (PlainMetre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
+        plan = make_plans(piece_of(clock, (Metre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
         assert plan.problems == ()
         return [event for event in plan.expressions if event.id == "expression:smile"]
 
@@ -148,12 +149,12 @@ def test_the_pre_roll_counts_from_the_first_note() -> None:
 
 
 def test_bars_run_through_metres_backwards_and_from_a_pickup() -> None:
-    metres = (PlainMetre(0, 4, 4), PlainMetre(8 * Q, 3, 4))
-    assert Piece(CLOCK, metres).bars(0, 14 * Q).tolist() == [0, 4 * Q, 8 * Q, 11 * Q]
-    assert Piece(CLOCK, metres).bars(-5 * Q, Q).tolist() == [-8 * Q, -4 * Q, 0]
-    assert Piece(CLOCK, metres).bars(9 * Q, 12 * Q).tolist() == [8 * Q, 11 * Q]
-    assert Piece(CLOCK).bars(0, 5 * Q).tolist() == [0, 4 * Q]
-    pickup = Piece(CLOCK, metres[:1], bar_ticks=(Q, 5 * Q, 9 * Q))
+    metres = (Metre(0, 4, 4), Metre(8 * Q, 3, 4))
+    assert piece_of(CLOCK, metres).bars(0, 14 * Q).tolist() == [0, 4 * Q, 8 * Q, 11 * Q]
+    assert piece_of(CLOCK, metres).bars(-5 * Q, Q).tolist() == [-8 * Q, -4 * Q, 0]
+    assert piece_of(CLOCK, metres).bars(9 * Q, 12 * Q).tolist() == [8 * Q, 11 * Q]
+    assert piece_of(CLOCK).bars(0, 5 * Q).tolist() == [0, 4 * Q]
+    pickup = piece_of(CLOCK, (Metre(Q, 4, 4),))
     assert pickup.bars(-2 * Q, 18 * Q).tolist() == [-3 * Q, Q, 5 * Q, 9 * Q, 13 * Q, 17 * Q]
 
 

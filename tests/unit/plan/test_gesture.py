@@ -8,14 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.gesture import ARCH, LOWER_S, LOWERED_LEAST_S, RAISE_S, RELEASE, STIR_S
 from app.plan.model import GestureEvent, PlayerParameters, PlayerPlan
-from tests.support.plan import PlainClock, PlainMetre, PlainNote, even, line_of, valves
+from app.score.metre_map import Metre
+from tests.support.plan import PlainClock, PlainNote, even, line_of, piece_of, valves
 
 Q = 480
 CLOCK = PlainClock()
-PIECE = Piece(CLOCK, (PlainMetre(0, 4, 4),))
+PIECE = piece_of(CLOCK, (Metre(0, 4, 4),))
 
 
 def plans(*lines: Line, seed: int = 0) -> dict[str, PlayerPlan]:
@@ -43,7 +44,7 @@ def test_a_swing_takes_a_bodys_time_at_every_tempo() -> None:
     for bpm in (40.0, 60.0, 90.0, 132.0, 200.0, 6000.0):
         clock = PlainClock(((0, bpm),))
         line = Line("p", tune(), valves())
-        plan = make_plans(Piece(clock), (line,), time_frame((line,), clock))["p"]
+        plan = make_plans(piece_of(clock), (line,), time_frame((line,), clock))["p"]
         lengths = {round(event.end_s - event.start_s, 3) for event in of_kind(plan, "sway")}
         assert len(lengths) == 1
         assert 0.7 <= lengths.pop() <= 3.2
@@ -151,11 +152,11 @@ def test_a_player_without_notes_holds_the_instrument_down() -> None:
 
 
 def test_sway_follows_the_bars_through_a_pickup_and_odd_metres() -> None:
-    metres = (PlainMetre(0, 4, 4), PlainMetre(8 * Q, 7, 8))
-    piece = Piece(CLOCK, metres, bar_ticks=(Q // 2, 4 * Q + Q // 2, *range(8 * Q + Q // 2, 64 * Q, 7 * Q // 2)))
+    metres = (Metre(0, 4, 4), Metre(Q // 2, 4, 4), Metre(8 * Q + Q // 2, 7, 8))
+    piece = piece_of(CLOCK, metres, has_pickup=True)
     line = Line("p", tune(), valves())
     plan = make_plans(piece, (line,), time_frame((line,), CLOCK))["p"]
-    beats = set(piece.beats(-10 * Q, 140 * Q).tolist())
+    beats = set(piece.metre_map.felt_between(-10 * Q, 140 * Q).tolist())
     assert set(piece.bars(-10 * Q, 140 * Q).tolist()) <= beats
     sways = of_kind(plan, "sway")
     assert {event.start_tick for event in sways} <= beats

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from app.performance.loudness import heard, note_loudness
 from app.plan.corrections import RemoveEvent, SetBreath
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.heard import BLOWS_FROM, STOPS_AT, blown, find_gaps, silences
 from app.plan.line import line_times
 from app.plan.lungs import air_used_s
@@ -18,6 +18,7 @@ from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
 from app.score.model import ControllerCurve, Part
 from instrument_maps.load import bundled_maps
 from tests.support.blown import TEMPO, Blow, breath_curve, take, ticks
+from tests.support.plan import piece_of
 
 TRUMPET = bundled_maps()["trumpet_Bb"]
 
@@ -32,7 +33,7 @@ def plan_of(part: Part, corrections: tuple[object, ...] = (), **parameters: floa
         note_loudness(part),
         heard(part),
     )
-    return make_plans(Piece(TEMPO), (line,), time_frame((line,), TEMPO))["p"]
+    return make_plans(piece_of(TEMPO), (line,), time_frame((line,), TEMPO))["p"]
 
 
 def breaths(plan: PlayerPlan) -> list[BreathEvent]:

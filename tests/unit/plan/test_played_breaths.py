@@ -8,10 +8,10 @@ from collections.abc import Iterable
 import numpy as np
 import pytest
 
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.line import MEZZOFORTE, marked
 from app.plan.model import PlayerParameters, PlayerPlan
-from tests.support.plan import PlainClock, PlainNote, line_of, valves
+from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
 
 Q = 480
 BPM = 66.0
@@ -46,7 +46,7 @@ def plan(
     notes: tuple[PlainNote, ...], clock: PlainClock, loudness: tuple[float, ...] = (), **parameters: float
 ) -> PlayerPlan:
     line = Line("p", notes, valves(), PlayerParameters(**parameters), loudness=loudness)
-    return make_plans(Piece(clock), (line,), time_frame((line,), clock))["p"]
+    return make_plans(piece_of(clock), (line,), time_frame((line,), clock))["p"]
 
 
 def breaths(plan_: PlayerPlan) -> set[str]:

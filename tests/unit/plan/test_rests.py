@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import pytest
 
-from app.plan.felt_beat import felt_beat_ticks
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.line import line_times
 from app.plan.model import PlayerParameters
 from app.plan.rests import rest_ticks
-from tests.support.plan import PlainClock, PlainMetre, PlainNote, line_of, valves
+from app.score.felt_beat import felt_beat_ticks
+from app.score.metre_map import Metre
+from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
 
 Q = 480
 
 
 def rests(notes: tuple[PlainNote, ...]) -> list[int]:
     times = line_times(Line("p", notes, valves()), PlainClock())
-    return rest_ticks(times, Piece(PlainClock()).beat_ticks_at(times.onset_tick)).tolist()[1:]  # type: ignore[no-any-return]
+    return rest_ticks(times, piece_of(PlainClock()).beat_ticks_at(times.onset_tick)).tolist()[1:]  # type: ignore[no-any-return]
 
 
 @pytest.mark.parametrize("gate", [0.3, 0.5, 0.8, 0.95])
@@ -78,7 +79,7 @@ def test_a_rest_is_breathed_in_when_enough_air_is_spent() -> None:
 
     def breaths(need: float) -> list[int]:
         line = Line("p", notes, valves(), PlayerParameters(breath_need=need))
-        plan = make_plans(Piece(clock, (PlainMetre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
+        plan = make_plans(piece_of(clock, (Metre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
         return [event.end_tick // (4 * Q) for event in plan.breaths if event.kind == "breath"]
 
     assert breaths(0.0) == list(range(12))

@@ -8,12 +8,13 @@ import random
 import pytest
 
 from app.plan.corrections import Correction, RemoveEvent
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.model import PlayerParameters, PlayerPlan
-from tests.support.plan import PlainClock, PlainMetre, line_of, valves
+from app.score.metre_map import Metre
+from tests.support.plan import PlainClock, line_of, piece_of, valves
 
 Q = 480
-METRES = (PlainMetre(0, 4, 4),)
+METRES = (Metre(0, 4, 4),)
 Row = tuple[int, int, int]
 
 
@@ -25,7 +26,7 @@ def plans(*parts: list[Row], corrections: tuple[Correction, ...] = (), lung_s: f
         Line(f"p{number}", line_of(*rows, track=number), valves(), parameters, corrections if number == 1 else ())
         for number, rows in enumerate(parts, 1)
     )
-    return list(make_plans(Piece(clock, METRES), lines, time_frame(lines, clock)).values())
+    return list(make_plans(piece_of(clock, METRES), lines, time_frame(lines, clock)).values())
 
 
 def running(first: int, count: int, low: int = 60) -> list[Row]:

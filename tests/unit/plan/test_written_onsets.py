@@ -6,10 +6,10 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import Line, make_plans, time_frame
 from app.plan.line import line_times
 from app.plan.notation import DIVISIONS, notated, simplest_places, written_onsets
-from tests.support.plan import PlainClock, line_of, valves
+from tests.support.plan import PlainClock, line_of, piece_of, valves
 
 QUARTER = 480
 BARS = np.arange(0, 9600, 4 * QUARTER)
@@ -33,10 +33,10 @@ def test_a_silence_is_no_longer_than_the_written_step() -> None:
     onsets = [11, 490, 530, 1013, 1451, 1931]
     clock = PlainClock()
     line = Line("p", line_of(*((onset, 10, 65) for onset in onsets)), valves())
-    score = notated(line_times(line, clock), Piece(clock))
+    score = notated(line_times(line, clock), piece_of(clock))
     assert (score.silence_tick[1:] <= np.diff(score.onset_tick)).all()
     assert (score.played_end_tick >= score.onset_tick).all()
-    assert make_plans(Piece(clock), (line,), time_frame((line,), clock))["p"].breaths
+    assert make_plans(piece_of(clock), (line,), time_frame((line,), clock))["p"].breaths
 
 
 def test_a_played_note_stands_at_the_simplest_place_near() -> None:
@@ -45,7 +45,7 @@ def test_a_played_note_stands_at_the_simplest_place_near() -> None:
     late_s = [0.0, 0.012, -0.013, 0.011, -0.012, 0.0, 0.013, 0.01]
     onsets = [round(QUARTER * (place + 1 + late * 200.0 / 60.0)) for place, late in enumerate(late_s)]
     line = Line("p", line_of(*((onset, 430, 65) for onset in onsets)), valves())
-    score = notated(line_times(line, clock), Piece(clock))
+    score = notated(line_times(line, clock), piece_of(clock))
     assert score.onset_tick.tolist() == [QUARTER * (place + 1) for place in range(len(onsets))]
     # They end 20 to 60 ms early, which is no rest.
     assert score.silence_tick[1:].tolist() == [0] * (len(onsets) - 1)

@@ -22,7 +22,8 @@ from app.plan.model import PlayerParameters
 from app.project.casting import StagePosition, stage_arc
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
 from app.project.model import AudioTrack, CompSpan, Dancer, Player, PlayerTakes, Project
-from app.score.model import ControllerCurve, Marker, Metre, Note, Part, PercussionHit, Score, UnplayedPart
+from app.score.metre_map import Metre
+from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score, UnplayedPart
 from app.score.take import Cleaning, Take, Wiring
 from app.score.tempo import TempoChange, TempoMap
 from metadata.model import Expression

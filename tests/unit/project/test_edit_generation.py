@@ -31,7 +31,7 @@ def test_the_chosen_players_perform_anew_and_the_others_as_before() -> None:
 def test_only_the_chosen_bars_are_performed_anew() -> None:
     project = quartet()
     player = project.players[0]
-    start, end = project.score.tick_of_bar(5), project.score.tick_of_bar(9)
+    start, end = project.score.metre_map.tick_of_bar(5), project.score.metre_map.tick_of_bar(9)
     varied = generation.vary_span(project, [player.id], start, end)
     before, after = dict(sways(project, 0)), dict(sways(varied, 0))
     assert before.keys() == after.keys()

@@ -19,7 +19,7 @@ from app.project.edit import notes, tempo
 from app.project.edit import piece as edit
 from app.project.edit.corrections import put
 from app.project.model import Project
-from app.score.model import Metre
+from app.score.metre_map import Metre
 from tests.unit.project.pieces import ANGRY, full_project, small_project
 
 
@@ -101,7 +101,7 @@ def test_pickups(project: Project) -> None:
     assert picked.score.pickup_ticks == 480
     assert picked.score.metres == (Metre(0, 3, 4), Metre(480, 3, 4))
     assert picked.score.bar_starts.tolist() == [0, 480]
-    assert picked.score.bar_of_tick(0) == 0
+    assert picked.score.metre_map.bar_of_tick(0) == 0
     assert list(faults(picked)) == []
     longer = tempo.set_pickup(picked, 960)
     assert longer.score.metres == (Metre(0, 3, 4), Metre(960, 3, 4))

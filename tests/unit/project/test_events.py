@@ -41,7 +41,7 @@ def piece() -> Project:
     """The first bars of the bundled quartet."""
     maps = bundled_maps()
     project = project_from_score(read_midi(QUARTET, maps=map_choices(maps.values())), maps)
-    end = project.score.tick_of_bar(BARS)
+    end = project.score.metre_map.tick_of_bar(BARS)
     parts = tuple(
         msgspec.structs.replace(part, notes=tuple(note for note in part.notes if note.end_tick <= end))
         for part in project.score.parts

@@ -8,7 +8,8 @@ import pytest
 
 from app.errors import FileError
 from app.score.limits import LAST_TICK, MOST_NAME, MOST_PARTS, MOST_STREAMS
-from app.score.model import MOST_VOICES, Marker, Metre, PercussionHit
+from app.score.metre_map import Metre
+from app.score.model import MOST_VOICES, Marker, PercussionHit
 from app.score.read import read_contents, read_midi, uncast_score
 from tests.unit.score.midi_bytes import END, MAPS, chunk, header, heard, ids, meta, note, one_track, score_of
 
@@ -92,7 +93,7 @@ def test_tempo_and_metre_are_taken_from_any_track() -> None:
 def test_a_first_bar_with_a_metre_of_its_own_is_a_pickup(second: bytes) -> None:
     score = one_track(meta(0x58, bytes([1, 2, 24, 8])) + meta(0x58, second, 96) + SCALE_BYTES)
     assert score.pickup_ticks == 96
-    assert score.tick_of_bar(1) == 96
+    assert score.metre_map.tick_of_bar(1) == 96
 
 
 def test_a_metre_restated_within_the_first_bar_marks_a_pickup_and_on_a_bar_line_says_nothing() -> None:

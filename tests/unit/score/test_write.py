@@ -8,7 +8,8 @@ import pytest
 
 from app.errors import AppError
 from app.messages import error_text
-from app.score.model import ControllerCurve, Metre, Note, Part, Score
+from app.score.metre_map import Metre
+from app.score.model import ControllerCurve, Note, Part, Score
 from app.score.read import read_midi
 from app.score.tempo import TempoChange, TempoMap
 from app.score.write import Performer, midi_file, write_midi

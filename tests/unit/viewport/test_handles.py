@@ -112,12 +112,12 @@ def test_a_correction_covers_the_chosen_span_or_the_bar_at_the_playhead() -> Non
     project = quartet()
     score = project.score
     assert span_of(project, (100, 900), 0).start_tick == 100
-    start = score.tick_of_bar(3)
+    start = score.metre_map.tick_of_bar(3)
     span = span_of(project, None, start + 5)
-    assert (span.start_tick, span.end_tick) == (start, score.tick_of_bar(4))
-    assert span.fade_ticks == project.felt_beat_ticks(span.start_tick)
+    assert (span.start_tick, span.end_tick) == (start, score.metre_map.tick_of_bar(4))
+    assert span.fade_ticks == project.metre_map.felt_ticks_at(span.start_tick)
     before_music = span_of(project, None, -500)
-    assert before_music.start_tick == score.tick_of_bar(score.bar_of_tick(0))
+    assert before_music.start_tick == score.metre_map.tick_of_bar(score.metre_map.bar_of_tick(0))
 
 
 def test_the_correction_in_force_is_found_and_the_names_differ() -> None:

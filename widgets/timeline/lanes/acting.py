@@ -443,7 +443,7 @@ class ActingLane(RegionLane):
 
     def _new_span(self, mouse: LaneMouse) -> tuple[int, int]:
         start = self.snap(mouse.tick, mouse)
-        return start, start + NEW_BEATS * self.session.project.felt_beat_ticks(start)
+        return start, start + NEW_BEATS * self.session.project.metre_map.felt_ticks_at(start)
 
     def _add_cue(self, mouse: LaneMouse) -> None:
         self._add(Message("edit.add_cue"), lambda project, plan: add_cue(project, plan, round(mouse.tick)))

@@ -13,7 +13,7 @@ from app.project.document import Change
 from app.project.edit.takes import BEFORE, comp, comp_whole, comp_with, move_take, rename_take
 from app.project.model import CompSpan, PlayerTakes, Project
 from app.score.clean import Fault
-from app.score.model import Metre
+from app.score.metre_map import Metre
 from app.score.take import Take
 from app.score.tempo import TempoMap
 from instrument_maps.library import all_maps

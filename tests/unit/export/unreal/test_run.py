@@ -96,7 +96,7 @@ def test_what_is_there_and_what_it_says(unreal: UnrealProject, export: Export) -
     assert [bar["number"] for bar in told["bars"]] == [1]
     score = request.performance.project.score
     assert told["bars"][0]["s"] == pytest.approx(
-        score.tempo_map.seconds(float(score.tick_of_bar(1))) - request.span.first_frame_s
+        score.tempo_map.seconds(float(score.metre_map.tick_of_bar(1))) - request.span.first_frame_s
     )
     assert set(told["files"]) == {"Audio/S_quartet.wav", player["character"]["file"], player["instrument"]["file"]}
     report = json.loads((unreal.folder / SOURCES / "report.json").read_text(encoding="utf-8"))

@@ -193,7 +193,7 @@ def test_the_sound_is_at_its_offset_and_the_bars_are_marked(editor: Editor) -> N
 def test_rehearsal_markers_are_marked_with_their_bars_and_an_artists_letters_stay(two: Editor) -> None:
     unreal, sequence = two.unreal, two.sequence()
     sequence.add_marked_frame_to_sequence(unreal.MovieSceneMarkedFrame(unreal.FrameNumber(3), "A"))
-    one, two_at, three = (quartet().score.tick_of_bar(bar) for bar in (1, 2, 3))
+    one, two_at, three = (quartet().score.metre_map.tick_of_bar(bar) for bar in (1, 2, 3))
     within = (one + two_at) // 2
     named = (
         Marker(one, "A"),

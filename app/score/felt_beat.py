@@ -9,12 +9,11 @@ duple one is halved.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
 
 import numpy as np
 
-from app.plan.line import IntArray
-from app.plan.model import Clock, FloatArray, Metre
+from app.score.metre_map import FeltBeats, IntArray, MetreMap
+from app.score.tempo import Floats, TempoMap
 
 SLOWEST_BPM = 40.0
 """Slower beats are divided, if they are longer than a quarter."""
@@ -26,16 +25,17 @@ STEADY_BARS = 9
 """The tempo is the median over so many bars, so that a ritardando or a fermata does not change how one counts."""
 
 
-def felt_beats(clock: Clock, metres: Sequence[Metre], bars: IntArray) -> tuple[tuple[int, int], ...]:
+def felt_beats(clock: TempoMap, metre_map: MetreMap, bars: IntArray) -> FeltBeats:
     """The beat that is felt from each tick on, as (tick, ticks), wherever it changes.
 
     Parameters
     ----------
-    metres : sequence of Metre
-        At least one, by tick.
+    clock : TempoMap
+    metre_map : MetreMap
     bars : (B,) int64
         Where the bars of the piece begin, B >= 1.
     """
+    metres = metre_map.metres
     places = np.maximum(np.searchsorted([metre.tick for metre in metres], bars, side="right") - 1, 0)
     quarters = np.array([4.0 * metre.numerator / metre.denominator for metre in metres])[places]
     ends = np.append(bars[1:], bars[-1] + round(quarters[-1] * clock.ticks_per_quarter)).astype(np.float64)
@@ -74,7 +74,7 @@ def felt_beat_ticks(numerator: int, denominator: int, quarters_bpm: float, ticks
     return max(round(quarters * ticks_per_quarter), 1)
 
 
-def _steady(bpm: FloatArray, metres: IntArray) -> FloatArray:
+def _steady(bpm: Floats, metres: IntArray) -> Floats:
     """The tempo of each bar, by those around it in the same metre (by its number)."""
     result = bpm.copy()
     half = STEADY_BARS // 2

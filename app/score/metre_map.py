@@ -1,0 +1,265 @@
+"""Metre map: musical ticks to bars, beats and felt beats and back, exactly, as `app.score.tempo` does for seconds.
+
+Bars count from 1, a pickup is bar 0; before the first bar and after the last metre the metre goes on. Bars and beats
+need not be whole numbers of ticks: each begins at the last tick that is not behind it, so they never drift.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from bisect import bisect_right
+from functools import cached_property
+from typing import TypeAlias, overload
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+IntArray: TypeAlias = npt.NDArray[np.int64]
+FeltBeats: TypeAlias = tuple[tuple[int, int], ...]
+"""The beat that is felt from each tick on, as (tick, ticks), by tick; at least one."""
+
+_PLACE = re.compile(r"^\s*([-−]?\d+)(?:\s*[.|:]\s*(\d+)(?:\s*[.|:]\s*(\d+))?)?\s*$")
+_MOST_BAR, _MOST_BEAT = 1_000_000, 10_000
+"""Numbers that are typed are kept within these."""
+
+
+class Metre(msgspec.Struct, frozen=True):
+    """A time signature from one tick on; it begins a new bar."""
+
+    tick: int
+    numerator: int
+    denominator: int
+
+
+def beat_ticks_at(beats: FeltBeats, ticks: npt.ArrayLike) -> IntArray:
+    """Ticks of the beat that is felt at each of some ticks; before the first known one it is felt too."""
+    if len(beats) == 1:
+        return np.full(np.shape(ticks), beats[0][1])
+    starts, lengths = np.array(beats, np.int64).T
+    return np.asarray(lengths[np.maximum(np.searchsorted(starts, ticks, side="right") - 1, 0)])
+
+
+class MetreMap(msgspec.Struct, frozen=True, dict=True):
+    """Ticks to bars and beats, and back.
+
+    Attributes
+    ----------
+    ticks_per_quarter : int
+    metres : tuple of Metre
+        By tick, at least one. The first extends backwards, so that the pre-roll has bars too.
+    has_pickup : bool
+        The bars before the second metre are one incomplete bar, whose beats are counted back from its end.
+    felt : tuple of (tick, ticks)
+        The beat that is felt from each tick on, by tick (see `app.score.felt_beat`); empty: the quarter.
+    """
+
+    ticks_per_quarter: int
+    metres: tuple[Metre, ...] = (Metre(0, 4, 4),)
+    has_pickup: bool = False
+    felt: FeltBeats = ()
+
+    @cached_property
+    def _ticks(self) -> tuple[int, ...]:
+        return tuple(metre.tick for metre in self.metres)
+
+    @cached_property
+    def _first_bars(self) -> tuple[int, ...]:
+        """The number of the bar with which each metre begins."""
+        numbers = [0 if self.has_pickup else 1]
+        for metre, following in zip(self.metres, self.metres[1:], strict=False):
+            length = following.tick - metre.tick
+            bars = -(-length * metre.denominator // (4 * self.ticks_per_quarter * metre.numerator))
+            numbers.append(numbers[-1] + bars)
+        return tuple(numbers)
+
+    @cached_property
+    def _table(self) -> tuple[IntArray, IntArray, IntArray, IntArray]:
+        """Of each metre: its tick, its first bar, and numerator and denominator of the ticks of its bar."""
+        wholes = [4 * self.ticks_per_quarter * metre.numerator for metre in self.metres]
+        denominators = [metre.denominator for metre in self.metres]
+        return tuple(np.array(row, np.int64) for row in (self._ticks, self._first_bars, wholes, denominators))  # type: ignore[return-value]
+
+    # Bars
+
+    @overload
+    def bar_of_tick(self, ticks: int) -> int: ...
+    @overload
+    def bar_of_tick(self, ticks: IntArray) -> IntArray: ...
+    def bar_of_tick(self, ticks: int | IntArray) -> int | IntArray:
+        """The number of the bar in which each tick lies."""
+        # The largest k with floor(k * bar) <= tick - start.
+        if not isinstance(ticks, np.ndarray):
+            index = max(bisect_right(self._ticks, ticks) - 1, 0)
+            metre = self.metres[index]
+            whole = 4 * self.ticks_per_quarter * metre.numerator
+            return self._first_bars[index] + ((ticks - metre.tick + 1) * metre.denominator - 1) // whole
+        starts, bars, wholes, denominators = self._table
+        place = np.maximum(np.searchsorted(starts, ticks, side="right") - 1, 0)
+        numbers: IntArray = bars[place] + ((ticks - starts[place] + 1) * denominators[place] - 1) // wholes[place]
+        return numbers
+
+    @overload
+    def tick_of_bar(self, bars: int) -> int: ...
+    @overload
+    def tick_of_bar(self, bars: IntArray) -> IntArray: ...
+    def tick_of_bar(self, bars: int | IntArray) -> int | IntArray:
+        """The tick at which each bar begins."""
+        # The bar line after a pickup does not come a whole bar later: it is the second metre's own tick.
+        if not isinstance(bars, np.ndarray):
+            index = max(bisect_right(self._first_bars, bars) - 1, 0)
+            metre = self.metres[index]
+            whole = 4 * self.ticks_per_quarter * metre.numerator
+            return metre.tick + (bars - self._first_bars[index]) * whole // metre.denominator
+        starts, first_bars, wholes, denominators = self._table
+        place = np.maximum(np.searchsorted(first_bars, bars, side="right") - 1, 0)
+        ticks: IntArray = starts[place] + (bars - first_bars[place]) * wholes[place] // denominators[place]
+        return ticks
+
+    def span_of_bar(self, bar: int) -> tuple[int, int]:
+        """The ticks from which and to which a bar lasts."""
+        return self.tick_of_bar(bar), self.tick_of_bar(bar + 1)
+
+    def bars(self, first_tick: int, last_tick: int) -> IntArray:
+        """Ticks at which bars begin, from the bar that holds ``first_tick`` to the last before ``last_tick``."""
+        first, stop = self.bar_of_tick(first_tick), self.bar_of_tick(last_tick - 1) + 1
+        return self.tick_of_bar(np.arange(first, max(stop, first), dtype=np.int64))
+
+    def metre_at(self, tick: float) -> Metre:
+        """The metre that holds at a tick."""
+        return self.metres[max(bisect_right(self._ticks, tick) - 1, 0)]
+
+    def bar_ticks_at(self, tick: int) -> int:
+        """Length of a whole bar in the metre that holds at a tick, at least 1; a bar cut short is not meant."""
+        metre = self.metre_at(tick)
+        return max(4 * self.ticks_per_quarter * metre.numerator // metre.denominator, 1)
+
+    # Beats as they are written
+
+    def beat_length(self, tick: int) -> float:
+        """Length of the beat that the metre at a tick counts in, in ticks; it need not be whole."""
+        return 4 * self.ticks_per_quarter / self.metre_at(tick).denominator
+
+    def place_of_tick(self, tick: int) -> tuple[int, int, int]:
+        """Bar, beat of the bar counted from 1, and ticks after the beat."""
+        bar, start, early = self._bar_at(tick)
+        since = tick - start - early
+        if since < 0:
+            return bar, 1, tick - start
+        whole, denominator = 4 * self.ticks_per_quarter, self.metre_at(start).denominator
+        beat = ((since + 1) * denominator - 1) // whole
+        return bar, beat + 1 + (early > 0), since - beat * whole // denominator
+
+    def tick_of_place(self, bar: int, beat: int = 1, ticks: int = 0) -> int:
+        """The inverse of `place_of_tick`; beats that the bar has not go on behind it."""
+        bar, start, early = self._bar_at(self.tick_of_bar(bar)) if bar == 0 else (bar, self.tick_of_bar(bar), 0)
+        whole, denominator = 4 * self.ticks_per_quarter, self.metre_at(start).denominator
+        if early and beat == 1:
+            return start + ticks
+        return start + early + (beat - 1 - (early > 0)) * whole // denominator + ticks
+
+    def beat_of_tick(self, tick: float) -> float:
+        """The beat of its bar in which a tick lies, counted from 1, with the part of it that is over."""
+        whole = int(tick // 1)
+        _, beat, since = self.place_of_tick(whole)
+        return beat + (since + tick - whole) / self.beat_length(whole)
+
+    def beats_of_bar(self, bar: int) -> IntArray:
+        """Ticks at which the beats of a bar begin, the bar itself first."""
+        ticks, _ = self._written(bar, bar + 1)
+        start = self.tick_of_bar(bar)
+        return ticks if len(ticks) and ticks[0] == start else np.insert(ticks, 0, start)
+
+    def label(self, tick: int) -> str:
+        """``"12.3"``, or ``"12.3.240"`` where the place is not on the beat."""
+        bar, beat, rest = self.place_of_tick(tick)
+        text = f"{bar}.{beat}".replace("-", "−")
+        return f"{text}.{rest:03d}" if rest else text
+
+    def tick_of_label(self, text: str) -> int | None:
+        """The tick that such a text means; None where it means none. A bar alone is its first beat."""
+        match = _PLACE.match(unicodedata.normalize("NFKC", text))
+        if match is None:
+            return None
+        bar, beat, rest = (int(group.replace("−", "-")) for group in match.groups("1"))
+        rest = 0 if match.group(3) is None else rest
+        if abs(bar) > _MOST_BAR or not 0 < beat <= _MOST_BEAT:
+            return None
+        return self.tick_of_place(bar, beat, rest)
+
+    # Beats as they are felt
+
+    @property
+    def felt_beats(self) -> FeltBeats:
+        """The beats that are felt: the quarter where nothing else is known."""
+        return self.felt or ((0, self.ticks_per_quarter),)
+
+    @overload
+    def felt_ticks_at(self, ticks: float) -> int: ...
+    @overload
+    def felt_ticks_at(self, ticks: IntArray) -> IntArray: ...
+    def felt_ticks_at(self, ticks: float | IntArray) -> int | IntArray:
+        """Ticks of the beat that is felt at each of some ticks."""
+        beats = self.felt_beats
+        if isinstance(ticks, np.ndarray):
+            return beat_ticks_at(beats, ticks)
+        return beats[max(bisect_right(beats, ticks, key=lambda beat: beat[0]) - 1, 0)][1]
+
+    def felt_between(self, first_tick: int, last_tick: int) -> IntArray:
+        """Ticks of the felt beats, counted anew in every bar, from before ``first_tick`` to after ``last_tick``."""
+        bars = self.bars(first_tick, last_tick + 1)
+        beats = self.felt_ticks_at(bars)
+        lengths = np.diff(bars, append=max(int(bars[-1]) + 1, last_tick + int(beats[-1])))
+        ticks, _ = _beats(bars, -(-lengths // beats), beats, np.ones_like(beats))
+        return ticks
+
+    def counted(self, first_bar: int, end_bar: int) -> tuple[IntArray, IntArray]:
+        """The beats that one counts aloud in some bars: the felt ones where they divide the bar (a 6/8 in two), else
+        those of the metre; a pickup is counted back from the bar line.
+
+        Returns
+        -------
+        ticks, numbers : (N,) int64
+            Where each beat is, and which of its bar, from 0.
+        """
+        starts = self.tick_of_bar(np.arange(first_bar, end_bar + 1, dtype=np.int64))
+        felt = self.felt_ticks_at(starts[:-1])
+        return self._written(first_bar, end_bar, np.where(np.diff(starts) % felt == 0, felt, 0))
+
+    def _bar_at(self, tick: int) -> tuple[int, int, int]:
+        """Number and start of the bar in which a tick lies, and how long its first beat is where that is incomplete, as
+        that of a pickup may be."""
+        bar = self.bar_of_tick(tick)
+        start = self.tick_of_bar(bar)
+        if bar != 0 or not self.has_pickup:
+            return bar, start, 0
+        length, whole, denominator = self.tick_of_bar(1) - start, 4 * self.ticks_per_quarter, self.metres[0].denominator
+        return bar, start, length - length * denominator // whole * whole // denominator
+
+    def _written(
+        self, first_bar: int, end_bar: int, instead_ticks: IntArray | None = None
+    ) -> tuple[IntArray, IntArray]:
+        """The whole beats of some bars, and their numbers; ``instead_ticks`` (B,) long where that is not 0."""
+        numbers = np.arange(first_bar, end_bar + 1, dtype=np.int64)
+        starts = self.tick_of_bar(numbers)
+        lengths, starts = np.diff(starts), starts[:-1]
+        place = np.maximum(np.searchsorted(self._table[0], starts, side="right") - 1, 0)
+        wholes, denominators = np.full(len(starts), 4 * self.ticks_per_quarter), self._table[3][place]
+        if instead_ticks is not None:
+            wholes = np.where(instead_ticks > 0, instead_ticks, wholes)
+            denominators = np.where(instead_ticks > 0, 1, denominators)
+        counts = -(-lengths * denominators // wholes)
+        if self.has_pickup and first_bar <= 0 < end_bar:
+            counts[-first_bar] = lengths[-first_bar] * denominators[-first_bar] // wholes[-first_bar]
+            early = lengths[-first_bar] - counts[-first_bar] * wholes[-first_bar] // denominators[-first_bar]
+            starts[-first_bar] += early
+        return _beats(starts, counts, wholes, denominators)
+
+
+def _beats(starts: IntArray, counts: IntArray, wholes: IntArray, denominators: IntArray) -> tuple[IntArray, IntArray]:
+    """So many beats of ``wholes / denominators`` ticks from each start on, and their numbers from 0."""
+    before = np.cumsum(counts) - counts
+    numbers = np.arange(counts.sum()) - np.repeat(before, counts)
+    ticks: IntArray = np.repeat(starts, counts) + numbers * np.repeat(wholes, counts) // np.repeat(denominators, counts)
+    return ticks, numbers
