@@ -18,7 +18,7 @@ import msgspec
 from app.errors import AppError, Cancelled, MapError, Message
 from app.performance.bodies import hold_now, hold_of, is_held, suited_to
 from app.performance.loudness import heard, note_loudness
-from app.performance.reach import reached
+from app.performance.reach import posed_body, reached
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.generate import BREATH_PARAMETERS, EnsemblePlan, Line, Piece, frame_around, plan_ensemble
 from app.plan.memo import Memo
@@ -85,8 +85,7 @@ class Performance:
         """What all players share."""
         with self._lock:
             score = self.project.score
-            keys = (score.tempo_map, self.project.metre_map, score.accompaniment)
-            return self._memo.step("piece", lambda: Piece(*keys), *keys)
+            return self._memo.step("piece", Piece, score.tempo_map, self.project.metre_map, score.accompaniment)
 
     @cached_property
     def lines(self) -> tuple[Line, ...]:
@@ -104,19 +103,10 @@ class Performance:
     def _line(self, player: Player, instrument: InstrumentMap) -> Line:
         part = self.project.part(player)
         corrections = self.project.corrections.get(player.id, ())
-        loudness = self._memo.step(f"loudness:{player.id}", lambda: note_loudness(part), part.notes, part.curves)
-        blown = self._memo.step(f"heard:{player.id}", lambda: heard(part), part.notes, part.curves)
-        return self._memo.step(
-            f"line:{player.id}",
-            lambda: Line(player.id, part.notes, instrument, player.parameters, corrections, loudness, blown),
-            player.id,
-            part.notes,
-            instrument,
-            player.parameters,
-            corrections,
-            loudness,
-            blown,
-        )
+        loudness = self._memo.step(f"loudness:{player.id}", note_loudness, part)
+        blown = self._memo.step(f"heard:{player.id}", heard, part)
+        said = (player.parameters, corrections, loudness, blown)
+        return self._memo.step(f"line:{player.id}", Line, player.id, part.notes, instrument, *said)
 
     @cached_property
     def time_frame(self) -> TimeFrame:
@@ -204,9 +194,7 @@ class Performance:
         if plan is not None and not lacking:
             return self._reaching(player, plan)
         told = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking)
-        return self._memo.step(
-            f"told:{player.id}", lambda: _with_problems(player, plan, frame, told), plan, frame, told
-        )
+        return self._memo.step(f"told:{player.id}", _with_problems, player.id, plan, frame, told)
 
     def _reaching(self, player: Player, plan: PlayerPlan) -> PlayerPlan:
         """The plan with what the player's body has not, and what its hands do not reach."""
@@ -227,12 +215,8 @@ class Performance:
         if not unreached and not lacking:
             return plan
         frame = self.time_frame
-
-        def told() -> PlayerPlan:
-            problems = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking)
-            return _with_problems(player, plan, frame, problems + unreached)
-
-        return self._memo.step(f"told:{player.id}", told, plan, unreached, frame, *lacking)
+        told = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking) + unreached
+        return self._memo.step(f"told:{player.id}", _with_problems, player.id, plan, frame, told)
 
     def _missed(self, player: Player, held: InstrumentMap) -> tuple[Message, ...]:
         """What to tell of touches that a hold does not meet, as soon as it is known; those of our own bodies all do."""
@@ -246,15 +230,9 @@ class Performance:
 
     def _unreached(self, player: Player, held: InstrumentMap, plan: PlayerPlan) -> tuple[Problem, ...]:
         """What the player's hands do not reach."""
-        name = f"reach:{player.id}"
-        return self._memo.step(
-            name,
-            lambda: reached(player, held, plan, self._memo.before(name)),
-            plan.fingerings,
-            held,
-            player.character_id,
-            character_revision(player.character_id),
-            player.parameters.posture,
+        revision = character_revision(player.character_id)
+        return self._memo.revised(
+            f"reach:{player.id}", reached, posed_body(player), held, revision, plan.fingerings
         ).problems
 
     @cached_property
@@ -267,10 +245,7 @@ class Performance:
     def expressions(self) -> dict[str, Expression]:
         """Every expression by name; the project's own win over the bundled ones."""
         with self._lock:
-            own = self.project.expressions
-            return self._memo.step(
-                "expressions", lambda: load_expressions() | {expression.name: expression for expression in own}, own
-            )
+            return self._memo.step("expressions", _all_expressions, self.project.expressions)
 
     @property
     def unplanned_notes(self) -> int:
@@ -393,8 +368,12 @@ def _work(line: Line, before: Line | None) -> int:
     return len(line.notes) // LIGHT
 
 
-def _with_problems(player: Player, plan: PlayerPlan | None, frame: TimeFrame, told: tuple[Problem, ...]) -> PlayerPlan:
+def _all_expressions(own: tuple[Expression, ...]) -> dict[str, Expression]:
+    return load_expressions() | {expression.name: expression for expression in own}
+
+
+def _with_problems(player_id: str, plan: PlayerPlan | None, frame: TimeFrame, told: tuple[Problem, ...]) -> PlayerPlan:
     if plan is None:
-        return PlayerPlan(player.id, frame, (), (), (), (), (), (), (), told)
+        return PlayerPlan(player_id, frame, (), (), (), (), (), (), (), told)
     problems = tuple(sorted(told + plan.problems, key=lambda problem: problem.start_s))
     return msgspec.structs.replace(plan, problems=problems)

@@ -15,9 +15,9 @@ import numpy as np
 from app.errors import Message
 from app.motion.perform import prepare
 from app.performance.bodies import body_of, character_of, hold_of
-from app.plan.model import FingeringEvent, PlayerParameters, PlayerPlan, Problem, TimeFrame
+from app.plan.model import FingeringEvent, PlayerParameters, PlayerPlan, Problem, TimeFrame, grips_of
+from app.project.casting import StagePosition
 from app.project.model import Player
-from app.rig.character_library import character_revision
 from app.rig.hold import hand_targets
 from app.rig.skeleton import forward
 from instrument_maps.model import InstrumentMap
@@ -54,36 +54,59 @@ def carried_controls(instrument: InstrumentMap) -> frozenset[str]:
     return frozenset(control.name for control in instrument.controls if control.finger.endswith(".hand"))
 
 
-def reached(player: Player, instrument: InstrumentMap, plan: PlayerPlan, before: Reached | None = None) -> Reached:
+def posed_body(player: Player) -> Player:
+    """The player as far as it matters to what the hands reach: whose body it is, and how it is held."""
+    posture = PlayerParameters(posture=player.parameters.posture)
+    return Player(player.id, "", "", player.instrument_id, player.character_id, posture, StagePosition(0.0, 0.0, 0.0))
+
+
+def reached(
+    before: Reached | None,
+    player: Player,
+    instrument: InstrumentMap,
+    revision: int,
+    fingerings: tuple[FingeringEvent, ...],
+) -> Reached:
     """How far the hands come, and what they do not reach.
 
     Looked at are only controls that a whole hand moves, in every place that the plan uses, as the player would hold
     them standing or sitting still. Where the places are those of ``before``, an edit ago, nobody is posed again.
+
+    Parameters
+    ----------
+    before : Reached or None
+    player : Player
+        See `posed_body`.
+    instrument : InstrumentMap
+        As the player's body plays it.
+    revision : int
+        Of the player's character, whose file may change.
+    fingerings : tuple of FingeringEvent
     """
     carried = carried_controls(instrument)
     if not carried:
         return Reached((), (), ())
     known: dict[int, Place] = {}
     places: list[Place] = []
-    for event in plan.grips:
+    grips = grips_of(fingerings)
+    for event in grips:
         # By identity: notes of one fingering share its table.
         place = known.get(id(event.controls))
         if place is None:
             place = known[id(event.controls)] = _place(event, carried)
         places.append(place)
     examples: dict[Place, FingeringEvent] = {}
-    for place, event in zip(places, plan.grips, strict=True):
+    for place, event in zip(places, grips, strict=True):
         examples.setdefault(place, event)
     held = tuple((place, event.controls, event.fingers) for place, event in examples.items())
-    body = (player.character_id, character_revision(player.character_id))
-    asked = (plan.player_id, instrument, body, player.parameters.posture, held)
+    asked = (player, instrument, revision, held)
     if before is not None and before.asked == asked:
         gaps_m = before.gaps_m
     else:
-        gaps_m = tuple(_gaps_m(player, instrument, plan, list(examples.values())))
+        gaps_m = tuple(_gaps_m(player, instrument, list(examples.values())))
     far = {place: gap_m for place, gap_m in zip(examples, gaps_m, strict=True) if gap_m > MOST_GAP_M}
     problems = []
-    for place, event in zip(places, plan.grips, strict=True):
+    for place, event in zip(places, grips, strict=True):
         if place in far:
             control = max(sorted(carried), key=lambda name: event.controls.get(name, 0.0))
             gap_mm = 5 * round(200.0 * far[place])
@@ -96,7 +119,7 @@ def _place(event: FingeringEvent, carried: frozenset[str]) -> Place:
     return tuple(sorted((name, value) for name, value in event.controls.items() if name in carried))
 
 
-def _gaps_m(player: Player, instrument: InstrumentMap, plan: PlayerPlan, examples: list[FingeringEvent]) -> list[float]:
+def _gaps_m(player: Player, instrument: InstrumentMap, examples: list[FingeringEvent]) -> list[float]:
     """How far a hand stays from where each fingering has its grip, metres."""
     held = tuple(
         msgspec.structs.replace(
@@ -111,7 +134,7 @@ def _gaps_m(player: Player, instrument: InstrumentMap, plan: PlayerPlan, example
         for index, event in enumerate(examples)
     )
     frame = TimeFrame(-_APART_S, _APART_S * len(held))
-    still = PlayerPlan(plan.player_id, frame, held, (), (), (), (), (), (), ())
+    still = PlayerPlan(player.id, frame, held, (), (), (), (), (), (), ())
     parameters = PlayerParameters(amplitude=0.0, posture=player.parameters.posture, sway=0.0, weight_shift=0.0)
     character, hold = character_of(player), hold_of(player, instrument)
     playing = prepare(still, parameters, instrument, character, hold, body_of(player), felt_beats=((0, 1),))

@@ -149,7 +149,7 @@ class _Breather(NamedTuple):
     parameters: PlayerParameters
     index_of: dict[str, int]
 
-    def index(self, event: BreathEvent) -> int:
+    def note_of(self, event: BreathEvent) -> int:
         """The note that a breath is before, or within."""
         return self.index_of[event.id.split(":", 1)[1]]
 
@@ -274,7 +274,7 @@ def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[
     times, lung_s, count = line.times, score.lung_s, len(line.notes)
     refill, spared_s = np.zeros(count), np.zeros(count)
     for event in (*given.kept, *given.by_hand):
-        index, share = line.index(event), max(0.0, drawn(_lasts_s(score, line, event)) * _full(event))
+        index, share = line.note_of(event), max(0.0, drawn(_lasts_s(score, line, event)) * _full(event))
         if _is_within(event):
             # Lungs are counted from note to note: such a note takes so much less.
             spared_s[index] += share * lung_s
@@ -300,7 +300,7 @@ def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[
 
 def _lasts_s(score: _Score, line: _Breather, event: BreathEvent) -> float:
     """How long a breath is, as the score would have it where a rest gives it."""
-    index, length_s = line.index(event), event.end_s - event.start_s
+    index, length_s = line.note_of(event), event.end_s - event.start_s
     if index == 0 or event.corrected or score.gaps is not None or _is_within(event):
         return length_s
     rest_s = float(score.written.onset_s[index] - score.written.played_end_s[index - 1])
@@ -314,9 +314,9 @@ def _spare(
     onset_tick, parameters = line.times.onset_tick, line.parameters
     optional = score.rests < parameters.breath_prepare_beats * line.piece.beat_ticks_at(onset_tick)
     optional[0] = False
-    optional[[line.index(event) for event in given.by_hand]] = False
+    optional[[line.note_of(event) for event in given.by_hand]] = False
     needed = needed_rests(steady_used, score.lung_s, refill, optional, parameters.breath_need)
-    in_rests = [(line.index(event), event) for event in given.kept if event.kind == "breath" and not _is_within(event)]
+    in_rests = [(line.note_of(event), event) for event in given.kept if event.kind == "breath" and not _is_within(event)]
     return {index: event for index, event in in_rests if not needed[index]}
 
 
@@ -371,7 +371,7 @@ def _cut_notes(line: _Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[i
     early_end_s: dict[int, float] = {}
     problems = []
     for event in events:
-        index = line.index(event)
+        index = line.note_of(event)
         before = index - 1
         if event.kind != "breath" or before < 0 or event.start_s >= times.played_end_s[before]:
             continue
@@ -383,11 +383,6 @@ def _cut_notes(line: _Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[i
             early_end_s[before] = max(event.start_s, float(times.onset_s[before]))
             before -= 1
     return early_end_s, problems
-
-
-def breath_inputs(notes: tuple[Note, ...], times: LineTimes) -> tuple[object, ...]:
-    """What `plan_breaths` looks at in a line: equal inputs give equal breaths."""
-    return tuple(note.id for note in notes), times.phrasing
 
 
 def _catch(line: _Breather, stock: _Stock, index: int) -> BreathEvent:

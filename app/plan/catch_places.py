@@ -10,8 +10,9 @@ import numpy.typing as npt
 from app.plan.catch_lengths import Room
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import EPSILON, FULL_BREATH_S, HASTY_SHARE
-from app.plan.model import FloatArray, Note
+from app.plan.model import FloatArray
 from app.plan.phrase_ends import place_costs
+from app.score.model import Note
 
 EARLY_COST = 1.0
 """Breathing in with lungs still full; with half a lungful a quarter of it."""

@@ -30,9 +30,9 @@ import msgspec
 import numpy as np
 
 from app.errors import Argument, Message
-from app.plan.corrections import BY_HAND, RemoveEvent, SetBreath, SetCue, removed_ids
+from app.plan.corrections import BY_HAND, SetCue, removed_ids
 from app.plan.dynamics import vigour_of
-from app.plan.line import IntArray, Line, LineTimes, Piece
+from app.plan.line import IntArray, Line, LineTimes, Piece, Rhythm
 from app.plan.model import CueEvent, FloatArray, TimeFrame
 from instrument_maps.vocabulary import vocabulary
 
@@ -97,7 +97,7 @@ class Entry(msgspec.Struct, frozen=True):
     players: tuple[tuple[int, int], ...]
 
 
-def entries(all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[Entry, ...]:
+def entries(all_times: tuple[Rhythm, ...], piece: Piece) -> tuple[Entry, ...]:
     """Every place that asks for a cue, in order: by the rhythm of the lines and the tempo alone."""
     sounding = [(line, times) for line, times in enumerate(all_times) if len(times.onset_tick)]
     if not sounding:
@@ -131,7 +131,7 @@ class _Spans(msgspec.Struct, frozen=True):
         return index >= 0 and bool(self.ends[index] > tick - ticks)
 
 
-def _stretches(times: LineTimes) -> tuple[IntArray, IntArray]:
+def _stretches(times: Rhythm) -> tuple[IntArray, IntArray]:
     """Where a line begins to sound and where it stops: a tenth of as many as there are notes."""
     stops = times.onset_tick[1:] > times.played_end_tick[:-1]
     return times.onset_tick[np.insert(stops, 0, True)], times.played_end_tick[np.append(stops, True)]
@@ -150,7 +150,7 @@ def _together(piece: Piece, tick: int) -> int:
     return following + beat if following <= bar / 2 else max(round(ON_BEAT * beat), 1)
 
 
-def _coming_in(sounding: list[tuple[int, LineTimes]], tick: int, ticks: int) -> tuple[tuple[int, int], ...]:
+def _coming_in(sounding: list[tuple[int, Rhythm]], tick: int, ticks: int) -> tuple[tuple[int, int], ...]:
     """Who begins a note within so many ticks from a tick on, and which."""
     found = []
     for line, times in sounding:
@@ -160,7 +160,7 @@ def _coming_in(sounding: list[tuple[int, LineTimes]], tick: int, ticks: int) -> 
     return tuple(found)
 
 
-def _common_entries(sounding: list[tuple[int, LineTimes]], lines: _Spans, piece: Piece) -> list[Entry]:
+def _common_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece) -> list[Entry]:
     """The first entry, and those after silences of everybody, on stage or not."""
     accompaniment = np.array(piece.accompaniment, np.int64).reshape(-1, 2)
     heard = _Spans.of([(lines.starts, lines.ends), (accompaniment[:, 0], accompaniment[:, 1])])
@@ -183,7 +183,7 @@ def _common_entries(sounding: list[tuple[int, LineTimes]], lines: _Spans, piece:
     return found
 
 
-def _silence(sounding: list[tuple[int, LineTimes]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
+def _silence(sounding: list[tuple[int, Rhythm]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
     """Why everybody needs a cue after a silence of all from ``end`` to ``tick``; None if nobody does."""
     bars, beats = (tick - end) / piece.metre_map.bar_ticks_at(end), (tick - end) / _beat(piece, tick)
     if beats >= LEAST_BEATS:
@@ -205,7 +205,7 @@ def _silence(sounding: list[tuple[int, LineTimes]], end: int, tick: int, rest_s:
     return "cue.after_fermata" if left else None
 
 
-def _tempo_entries(sounding: list[tuple[int, LineTimes]], lines: _Spans, piece: Piece) -> list[Entry]:
+def _tempo_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece) -> list[Entry]:
     """Where a new tempo begins and stays, or the old one goes on after a fermata."""
     beats = piece.metre_map.felt_between(int(lines.starts[0]), int(lines.ends[-1]))
     seconds = piece.clock.seconds(beats.astype(np.float64))
@@ -243,7 +243,7 @@ def _new_tempo(lasts_s: FloatArray, place: int) -> Literal["cue.tempo", "cue.aft
     return "cue.tempo"
 
 
-def _joining(sounding: list[tuple[int, LineTimes]], lines: _Spans, shared: list[Entry], piece: Piece) -> list[Entry]:
+def _joining(sounding: list[tuple[int, Rhythm]], lines: _Spans, shared: list[Entry], piece: Piece) -> list[Entry]:
     """Where players come in after long rests of their own while others play; those within a bar are one entry."""
     first = int(lines.starts[0])
     rows: list[tuple[int, float, int, int]] = []
@@ -305,20 +305,6 @@ def leader_of(
 def _section(line: Line) -> str:
     """Who sits together: the family of the instrument, or the instrument."""
     return vocabulary().family(line.instrument_map.plays) or line.instrument_map.id
-
-
-def cue_inputs(lines: tuple[Line, ...]) -> tuple[object, ...]:
-    """What `plan_cues` looks at in the lines, beside their times: equal inputs give equal cues."""
-    return tuple(
-        (
-            line.player_id,
-            line.notes,
-            line.instrument_map.id,
-            line.parameters.cue_leader,
-            tuple(item for item in line.corrections if isinstance(item, SetCue | RemoveEvent | SetBreath)),
-        )
-        for line in lines
-    )
 
 
 def plan_cues(

@@ -10,7 +10,7 @@ import msgspec
 
 from app.errors import Cancelled
 from app.plan.bar_phase import with_felt_bars
-from app.plan.breath import breath_inputs, plan_breaths
+from app.plan.breath import plan_breaths
 from app.plan.corrections import (
     AddExpression,
     AddGesture,
@@ -30,7 +30,7 @@ from app.plan.corrections import (
     orphans,
     sound_corrections,
 )
-from app.plan.cue import cue_inputs, entries, plan_cues
+from app.plan.cue import entries, plan_cues
 from app.plan.dynamics import dynamics_of
 from app.plan.embouchure import plan_embouchures, plan_tongues
 from app.plan.ending import Ending, ending_of
@@ -38,13 +38,14 @@ from app.plan.expression import SMILE_ID, plan_expressions
 from app.plan.fingering import plan_fingerings
 from app.plan.gesture import Pulse, plan_gestures, pulse
 from app.plan.heard import blown
-from app.plan.line import Line, LineTimes, Piece, Seeds, line_times
+from app.plan.line import Line, LineTimes, Piece, Seeds, note_times, without_sound
 from app.plan.memo import Memo
-from app.plan.model import CueEvent, PlayerPlan, Problem, TimeFrame
+from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerParameters, PlayerPlan, Problem, TimeFrame
 from app.plan.pose import plan_poses
 from app.plan.stagger import Breathed, Shared, SharedLine, breathed_of, shared_line, shared_with
 from app.plan.together import one_at_a_time
 from app.plan.traces import plan_traces
+from app.score.model import Note
 from app.score.tempo import TempoMap
 from metadata.load import load_expressions
 from metadata.model import Expression
@@ -164,25 +165,14 @@ def plan_ensemble(
         _go_on(stop_wanted)
         playable.append(_playable(line, piece.clock, tuple(faces), frame.first_frame_s, own[line.player_id]))
     lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
-    piece = shared.step("felt bars", lambda: with_felt_bars(piece, all_times), piece, all_times)
-    rhythms = tuple(times.rhythm for times in all_times)
-    found = shared.step("entries", lambda: entries(all_times, piece), rhythms, piece)
-    cues, cue_ids = shared.step(
-        "cues",
-        lambda: plan_cues(found, lines, all_times, piece, frame),
-        found,
-        cue_inputs(lines),
-        all_times,
-        piece,
-        frame,
-    )
+    piece = shared.step("felt bars", with_felt_bars, piece, all_times)
+    found = shared.step("entries", entries, tuple(times.rhythm for times in all_times), piece)
+    leading = tuple(_leading(line) for line in lines)
+    cues, cue_ids = shared.step("cues", plan_cues, found, leading, all_times, piece, frame)
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
-    beat = shared.step("pulse", lambda: pulse(piece, frame, first_s), piece, frame, first_s)
-    ending = shared.step("ending", lambda: ending_of(all_times, piece), all_times, piece)
-    together = [
-        own[line.player_id].step("shared line", lambda times=times: shared_line(times, piece), times, piece)  # type: ignore[misc]
-        for line, times, _ in playable
-    ]
+    beat = shared.step("pulse", pulse, piece, frame, first_s)
+    ending = shared.step("ending", ending_of, all_times, piece)
+    together = [own[line.player_id].step("shared line", shared_line, times, piece) for line, times, _ in playable]
     breathed: list[Breathed] = []
     plans = {}
     for done, (line, times, problems) in enumerate(playable):
@@ -191,11 +181,11 @@ def plan_ensemble(
         others = [*together[:done], *together[done + 1 :]]
         shared_breaths = shared_with(this, others, breathed)
         memo = own[line.player_id]
-        own_cues = memo.step("cues", lambda line=line: _cues_of(cues, line.player_id), cues)  # type: ignore[misc]
+        own_cues = memo.step("cues", _cues_of, cues, line.player_id)
         given = _Given(
             piece, line, times, frame, own_cues, cue_ids, this, shared_breaths, seed, beat, ending, problems, faces
         )
-        plan, breaths = memo.step("plan", lambda given=given, memo=memo: _plan_line(given, memo), *given)  # type: ignore[misc]
+        plan, breaths = memo.nested("plan", _plan_line, given)
         plans[line.player_id] = plan
         breathed.append(breaths)
         progress((done + 1) / len(playable))
@@ -217,22 +207,34 @@ def _playable(
     line: Line, clock: TempoMap, faces: tuple[str, ...], at_s: float, memo: Memo
 ) -> tuple[Line, LineTimes, tuple[Problem, ...]]:
     """A line as it can be played, with its times, and what to tell of the rest."""
-    sound, unsound = memo.step(
-        "sound", lambda: sound_corrections(line.corrections, faces, at_s), line.corrections, faces, at_s
-    )
+    sound, unsound = memo.step("sound", sound_corrections, line.corrections, faces, at_s)
     bare = Line(line.player_id, line.notes, line.instrument_map, loudness=line.loudness)
-    single, told = memo.step("single", lambda: one_at_a_time(bare, clock), line.notes, line.loudness, clock)
-    notes, loudness = single.notes, single.loudness
-    times = memo.step("times", lambda: line_times(single, clock), notes, loudness, clock)
-    line = memo.step(
-        "playable",
-        lambda: msgspec.structs.replace(line, notes=notes, loudness=loudness, corrections=sound),
-        line,
-        notes,
-        loudness,
-        sound,
-    )
+    single, told = memo.step("single", one_at_a_time, bare, clock)
+    times = memo.step("times", note_times, single.notes, single.loudness, clock)
+    line = memo.step("playable", _with_notes, line, single.notes, single.loudness, sound)
     return line, times, unsound + told
+
+
+def _with_notes(
+    line: Line, notes: tuple[Note, ...], loudness: tuple[float, ...], corrections: tuple[Correction, ...]
+) -> Line:
+    return msgspec.structs.replace(line, notes=notes, loudness=loudness, corrections=corrections)
+
+
+def _leading(line: Line) -> Line:
+    """The line as far as cues depend on it."""
+    corrections = _of(line.corrections, SetCue, RemoveEvent, SetBreath)
+    return Line(line.player_id, line.notes, line.instrument_map, _only(line.parameters, "cue_leader"), corrections)
+
+
+def _of(corrections: tuple[Correction, ...], *kinds: type[Correction]) -> tuple[Correction, ...]:
+    """The corrections of some kinds."""
+    return tuple(item for item in corrections if isinstance(item, kinds))
+
+
+def _only(parameters: PlayerParameters, *names: str) -> PlayerParameters:
+    """Some of the parameters; the others as if nobody had set them."""
+    return PlayerParameters(**{name: getattr(parameters, name) for name in names})
 
 
 class _Given(NamedTuple):
@@ -253,81 +255,57 @@ class _Given(NamedTuple):
     faces: Mapping[str, Expression]
 
 
-def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, Breathed]:
+def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     """One player's plan, and where the player breathes."""
     piece, line, times, frame = given.piece, given.line, given.times, given.frame
     notes, instrument, parameters = line.notes, line.instrument_map, line.parameters
     corrections, clock = line.corrections, piece.clock
     varied = tuple((item.start_tick, item.end_tick, item.seed) for item in corrections if isinstance(item, Vary))
     seeds = Seeds((given.seed, parameters.seed, line.player_id), varied)
-    sound = (notes, times)
-
-    def of(*kinds: type[Correction]) -> tuple[Correction, ...]:
-        return tuple(item for item in corrections if isinstance(item, kinds))
-
     pins = {item.note_id: item.label for item in corrections if isinstance(item, PinFingering)}
-    fingerings, fingering_problems = memo.step(
-        "fingerings", lambda: plan_fingerings(notes, times, instrument, pins), *sound, instrument, pins
-    )
+    fingerings, fingering_problems = memo.step("fingerings", plan_fingerings, notes, times, instrument, pins)
     steps = None if line.heard is None else line.heard.breath
-    heard = None if steps is None else memo.step("blown", lambda: blown(steps, clock), steps, clock)
-    shared = given.shared
+    heard = None if steps is None else memo.step("blown", blown, steps, clock)
     breaths = memo.step(
         "breaths",
-        lambda: plan_breaths(notes, times, piece, parameters, frame, corrections, shared, seeds, instrument.air, heard),
-        *breath_inputs(notes, times),
+        plan_breaths,
+        without_sound(notes),
+        times.contour,
         piece,
-        instrument.air,
-        tuple(getattr(parameters, name) for name in BREATH_PARAMETERS),
+        _only(parameters, *BREATH_PARAMETERS),
         frame,
-        of(SetBreath, RemoveEvent, SetCue),
-        shared,
+        _of(corrections, SetBreath, RemoveEvent, SetCue),
+        given.shared,
         seeds,
+        instrument.air,
         heard,
     )
-    events, early_end_s = breaths.events, breaths.early_end_s
-    embouchures = memo.step(
-        "embouchures",
-        lambda: correct_embouchures(
-            plan_embouchures(notes, times, instrument, parameters, early_end_s, steps is not None), corrections
-        ),
-        *sound,
+    events = breaths.events
+    lips, by_hand = _only(parameters, "embouchure_tension"), _of(corrections, SetEmbouchure)
+    made_lips = memo.step(
+        "made embouchures",
+        plan_embouchures,
+        notes,
+        times,
         instrument,
-        parameters.embouchure_tension,
-        early_end_s,
-        of(SetEmbouchure),
+        lips,
+        breaths.early_end_s,
         steps is not None,
     )
-    traces = memo.step(
-        "traces",
-        lambda: plan_traces(notes, times, clock, instrument, parameters, line.heard, heard, corrections),
-        *sound,
-        clock,
-        instrument,
-        parameters.embouchure_tension,
-        line.heard,
-        heard,
-        of(SetEmbouchure),
-    )
-    dynamics = memo.step("dynamics", lambda: dynamics_of(times, heard), times, heard)
+    embouchures = memo.step("embouchures", correct_embouchures, made_lips, by_hand)
+    traces = memo.step("traces", plan_traces, notes, times, clock, instrument, lips, line.heard, heard, by_hand)
+    dynamics = memo.step("dynamics", dynamics_of, times, heard)
     made_gestures = plan_gestures(notes, times, piece, frame, events, given.cues, seeds, given.pulse, dynamics, memo)
-    moved = of(ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
-    gestures = memo.step(
-        "corrected gestures",
-        lambda: correct_gestures(made_gestures, corrections, clock),
-        made_gestures,
-        moved,
-        clock,
-    )
+    moved = _of(corrections, ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
+    gestures = memo.step("corrected gestures", correct_gestures, made_gestures, moved, clock)
     # Who corrected the smile after the last note keeps it, whatever the ending is.
     named = any(item.event_id == SMILE_ID for item in corrections if isinstance(item, ChangeExpression | RemoveEvent))
     ending = msgspec.structs.replace(given.ending, bright=True) if named else given.ending
     made_expressions = memo.step(
         "expressions",
-        lambda: plan_expressions(
-            notes, times, clock, instrument, frame, embouchures, events, given.cues, gestures, ending, given.faces
-        ),
-        *sound,
+        plan_expressions,
+        notes,
+        times,
         clock,
         instrument,
         frame,
@@ -338,40 +316,17 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, Breathed]:
         ending,
         given.faces,
     )
-    faced = of(ChangeExpression, AddExpression, RemoveEvent, SetBreath, SetCue)
-    expressions = memo.step(
-        "corrected expressions",
-        lambda: correct_expressions(made_expressions, corrections, clock),
-        made_expressions,
-        faced,
-        clock,
-    )
-    tongues = memo.step(
-        "tongues", lambda: plan_tongues(notes, times, instrument, fingerings), *sound, instrument, fingerings
-    )
-    poses, pose_problems = memo.step(
-        "poses",
-        lambda: plan_poses(corrections, instrument, parameters, clock),
-        of(PoseCorrection),
-        instrument,
-        parameters.posture,
-        clock,
-    )
+    faced = _of(corrections, ChangeExpression, AddExpression, RemoveEvent, SetBreath, SetCue)
+    expressions = memo.step("corrected expressions", correct_expressions, made_expressions, faced, clock)
+    tongues = memo.step("tongues", plan_tongues, notes, times, instrument, fingerings)
+    posed = _of(corrections, PoseCorrection)
+    poses, pose_problems = memo.step("poses", plan_poses, posed, instrument, _only(parameters, "posture"), clock)
     lost = memo.step(
         "lost",
-        lambda: orphans(
-            corrections,
-            frozenset(note.id for note in notes),
-            breaths.generated_ids
-            | given.cue_ids
-            | {event.id for event in made_gestures}
-            | {event.id for event in made_expressions},
-            frame.first_frame_s,
-        ),
+        _lost,
         corrections,
         notes,
-        breaths.generated_ids,
-        given.cue_ids,
+        breaths.generated_ids | given.cue_ids,
         made_gestures,
         made_expressions,
         frame.first_frame_s,
@@ -392,3 +347,16 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, Breathed]:
         traces=traces,
     )
     return plan, breathed_of(given.shared_line, notes, breaths.catch_notes, events)
+
+
+def _lost(
+    corrections: tuple[Correction, ...],
+    notes: tuple[Note, ...],
+    ids: frozenset[str],
+    gestures: tuple[GestureEvent, ...],
+    expressions: tuple[ExpressionEvent, ...],
+    at_s: float,
+) -> tuple[Problem, ...]:
+    """A problem for every correction of what is not there; ``ids`` are those of breaths and cues."""
+    made = ids | {event.id for event in gestures} | {event.id for event in expressions}
+    return orphans(corrections, frozenset(note.id for note in notes), made, at_s)

@@ -28,7 +28,7 @@ from __future__ import annotations
 import itertools
 import math
 from bisect import bisect_right
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,7 +36,7 @@ import numpy.typing as npt
 
 from app.errors import Message
 from app.plan.dynamics import Dynamics, grown
-from app.plan.line import IntArray, LineTimes, Piece, Seeds
+from app.plan.line import IntArray, LineTimes, Piece, Rhythm, Seeds
 from app.plan.memo import Memo
 from app.plan.model import BreathEvent, CueEvent, FloatArray, GestureEvent, TimeFrame
 from app.score.model import Note
@@ -97,48 +97,18 @@ def plan_gestures(
     memo : Memo
         Each kind is a step of its own: a pitch that changes moves the bell, and no swing.
     """
-    kinds = (
-        memo.step(
-            "sways",
-            lambda: tuple(sways(times, pulse, frame, seeds, dynamics)),
-            times.rhythm,
-            pulse,
-            frame,
-            seeds,
-            dynamics,
-        ),
-        memo.step(
-            "weight shifts",
-            lambda: tuple(weight_shifts(times, pulse, frame, seeds, piece.clock, dynamics)),
-            times.rhythm,
-            pulse,
-            frame,
-            seeds,
-            dynamics,
-        ),
-        memo.step(
-            "bell heights",
-            lambda: tuple(bell_heights(notes, times, piece, dynamics)),
-            notes,
-            times,
-            piece,
-            dynamics,
-        ),
-        memo.step(
-            "lowered",
-            lambda: tuple(lowered_spans(notes, times, piece, frame, breaths, cues)),
-            notes,
-            times.rhythm,
-            piece,
-            frame,
-            breaths,
-            cues,
-        ),
+    rhythm, clock = times.rhythm, piece.clock
+    return memo.step(
+        "gestures",
+        _in_order,
+        memo.step("sways", sways, rhythm, pulse, frame, seeds, dynamics),
+        memo.step("weight shifts", weight_shifts, rhythm, pulse, frame, seeds, clock, dynamics),
+        memo.step("bell heights", bell_heights, notes, times, piece, dynamics),
+        memo.step("lowered", lowered_spans, notes, rhythm, piece, frame, breaths, cues),
     )
-    return memo.step("gestures", lambda: _in_order(*kinds), *kinds)
 
 
-def _in_order(*kinds: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
+def _in_order(*kinds: Sequence[GestureEvent]) -> tuple[GestureEvent, ...]:
     return tuple(sorted(itertools.chain(*kinds), key=lambda event: (event.start_s, event.id)))
 
 
@@ -182,7 +152,7 @@ def pulse(piece: Piece, frame: TimeFrame, swing_at_s: float) -> Pulse:
     return Pulse(swing_beats, beat_s, beats, in_s(beats.astype(np.float64)), bars, in_s(bars.astype(np.float64)))
 
 
-def sways(times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds, dynamics: Dynamics) -> list[GestureEvent]:
+def sways(times: Rhythm, pulse: Pulse, frame: TimeFrame, seeds: Seeds, dynamics: Dynamics) -> list[GestureEvent]:
     """Half swings from beat to beat, left and right in turn, each of its own size; small where the player rests."""
     beats, beat_s = pulse.swing_beats, pulse.beat_s
     if seeds.chance("swing") < 0.3 and beats * beat_s < 1.5 * SWING_S:
@@ -211,7 +181,7 @@ def sways(times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds, dynami
     ]
 
 
-def _sounding_share(times: LineTimes, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
+def _sounding_share(times: Rhythm, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
     """Part of each span in which the line sounds."""
     if len(times.onset_s) == 0:
         return np.zeros(len(starts_s))
@@ -223,7 +193,7 @@ def _sounding_share(times: LineTimes, starts_s: FloatArray, ends_s: FloatArray) 
     return share
 
 
-def _stirring(times: LineTimes, frame: TimeFrame, edges_s: FloatArray) -> IntArray:
+def _stirring(times: Rhythm, frame: TimeFrame, edges_s: FloatArray) -> IntArray:
     """Which spans between neighbouring edges lie near the begin or end of a note, or near the frame's ends; ascending.
 
     What it costs depends on how many these are, not on how many spans there are.
@@ -242,7 +212,7 @@ def _stirring(times: LineTimes, frame: TimeFrame, edges_s: FloatArray) -> IntArr
 
 
 def weight_shifts(
-    times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: TempoMap, dynamics: Dynamics
+    times: Rhythm, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: TempoMap, dynamics: Dynamics
 ) -> list[GestureEvent]:
     """Shifts of weight at arbitrary times (T7), about every `SHIFT_MEAN_S`: bar by bar a player shifts or not."""
     places = _stirring(times, frame, pulse.bars_s)
@@ -363,7 +333,7 @@ def _arches(
 
 def lowered_spans(
     notes: tuple[Note, ...],
-    times: LineTimes,
+    times: Rhythm,
     piece: Piece,
     frame: TimeFrame,
     breaths: tuple[BreathEvent, ...],

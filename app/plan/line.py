@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from functools import cached_property, lru_cache
 
 import msgspec
@@ -132,32 +132,46 @@ class Piece(msgspec.Struct, frozen=True):
 
 
 @dataclass(frozen=True, eq=False)
-class LineTimes:
-    """The notes of a line as arrays (N,), in ticks and seconds.
-
-    ``slurs_next`` is whether the next note is slurred to it; ``played_end`` is the note's end, at most the next onset;
-    ``silence_tick`` the silence before each note (none is 0; before the first it is very long, since the pre-roll is
-    silent); ``loudness`` 0..1.
-    """
+class Rhythm:
+    """When something is played, whatever it is: arrays (N,), in ticks and seconds. ``played_end`` is a note's end, at
+    most the next onset. Equal for players in unison of rhythm."""
 
     onset_tick: IntArray
     played_end_tick: IntArray
-    slurs_next: npt.NDArray[np.bool_]
-    silence_tick: IntArray
     onset_s: FloatArray
     played_end_s: FloatArray
-    pitch: IntArray
-    loudness: FloatArray
 
     @property
     def duration_s(self) -> FloatArray:
         """Sounding time of each note."""
         return self.played_end_s - self.onset_s
 
+    def __eq__(self, other: object) -> bool:
+        """Whether they are the same to the last bit, as inputs of steps are compared."""
+        if self.__class__ is not other.__class__:
+            return NotImplemented
+        return all(np.array_equal(getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+@dataclass(frozen=True, eq=False)
+class LineTimes(Rhythm):
+    """The notes of a line.
+
+    ``slurs_next`` is whether the next note is slurred to it; ``silence_tick`` the silence before each note (none is 0;
+    before the first it is very long, since the pre-roll is silent); ``loudness`` 0..1.
+    """
+
+    slurs_next: npt.NDArray[np.bool_]
+    silence_tick: IntArray
+    pitch: IntArray
+    loudness: FloatArray
+
     @cached_property
-    def rhythm(self) -> bytes:
-        """When something is played, whatever it is: equal for players in unison of rhythm."""
-        return _digest(self.onset_tick, self.played_end_tick)
+    def rhythm(self) -> Rhythm:
+        """When it plays."""
+        return Rhythm(self.onset_tick, self.played_end_tick, self.onset_s, self.played_end_s)
 
     @cached_property
     def leaps(self) -> npt.NDArray[np.bool_]:
@@ -165,17 +179,11 @@ class LineTimes:
         return np.asarray(np.abs(np.diff(self.pitch)) >= LEAP_SEMITONES)
 
     @cached_property
-    def phrasing(self) -> bytes:
-        """How it divides into phrases, as far as rhythm, loudness and leaps say."""
-        silences = (self.silence_tick, self.slurs_next)
-        return _digest(self.onset_tick, self.played_end_tick, *silences, self.loudness, self.leaps)
-
-
-def _digest(*columns: npt.NDArray[np.generic]) -> bytes:
-    digest = hashlib.blake2b(digest_size=16)
-    for column in columns:
-        digest.update(column.tobytes())
-    return digest.digest()
+    def contour(self) -> LineTimes:
+        """The line as it divides into phrases: of the pitches only which note is higher, and which a leap away."""
+        steps = np.sign(np.diff(self.pitch)) * np.where(self.leaps, LEAP_SEMITONES, 1)
+        pitch = np.concatenate((np.zeros(min(len(self.pitch), 1), np.int64), np.cumsum(steps)))
+        return replace(self, pitch=pitch)
 
 
 BEFORE_FIRST_TICK = 1 << 40
@@ -246,7 +254,11 @@ def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> np
 
 def line_times(line: Line, clock: TempoMap) -> LineTimes:
     """The times of a line's notes. A line without notes gives empty arrays."""
-    notes = line.notes
+    return note_times(line.notes, line.loudness, clock)
+
+
+def note_times(notes: tuple[Note, ...], loudness: tuple[float, ...], clock: TempoMap) -> LineTimes:
+    """The same of notes, with the loudness that is known of them (see `Line`)."""
     count = len(notes)
     onset = np.fromiter((note.onset_tick for note in notes), np.int64, count)
     duration = np.fromiter((note.duration_tick for note in notes), np.int64, count)
@@ -257,10 +269,7 @@ def line_times(line: Line, clock: TempoMap) -> LineTimes:
     played_end = np.maximum(np.minimum(end, following), onset)
     reach = np.maximum.accumulate(end) if count else end
     silence = np.maximum(onset - np.insert(reach[:-1], 0, -BEFORE_FIRST_TICK)[:count], 0)
-    if line.loudness:
-        loudness = np.clip(np.asarray(line.loudness, dtype=np.float64), 0.0, 1.0)
-    else:
-        loudness = velocity_loudness(velocity)
+    loud = np.clip(np.asarray(loudness, dtype=np.float64), 0.0, 1.0) if loudness else velocity_loudness(velocity)
     return LineTimes(
         onset_tick=onset,
         played_end_tick=played_end,
@@ -269,8 +278,13 @@ def line_times(line: Line, clock: TempoMap) -> LineTimes:
         onset_s=clock.seconds(onset.astype(np.float64)),
         played_end_s=clock.seconds(played_end.astype(np.float64)),
         pitch=pitch,
-        loudness=loudness,
+        loudness=loud,
     )
+
+
+def without_sound(notes: tuple[Note, ...]) -> tuple[Note, ...]:
+    """The notes as far as they are there: neither pitch nor velocity."""
+    return tuple(Note(note.id, note.onset_tick, note.duration_tick, 0, 0) for note in notes)
 
 
 class Seeds(msgspec.Struct, frozen=True):

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, TypeVar, TypeVarTuple
 
 T = TypeVar("T")
+Inputs = TypeVarTuple("Inputs")
 
 
 class Memo:
@@ -23,23 +24,39 @@ class Memo:
         self._before: dict[str, tuple[tuple[object, ...], Any]] = {} if before is None else before._steps
         self._steps: dict[str, tuple[tuple[object, ...], Any]] = {}
 
-    def step(self, name: str, make: Callable[[], T], *inputs: object) -> T:
-        """The result of a step: the one before where the inputs are equal, or where the new one equals it."""
+    def step(self, name: str, function: Callable[[*Inputs], T], *inputs: *Inputs) -> T:
+        """``function(*inputs)``: the result before where the inputs are equal, or where the new one equals it.
+
+        Parameters
+        ----------
+        function : callable
+            Of its arguments alone. One that closes over anything else is refused: the key would not know of it.
+        """
+        return self._step(name, function, inputs, ())
+
+    def nested(self, name: str, function: Callable[[Memo, *Inputs], T], *inputs: *Inputs) -> T:
+        """The same of a step that has steps of its own: it is given this memo too."""
+        return self._step(name, function, inputs, (self,))
+
+    def revised(self, name: str, function: Callable[[T | None, *Inputs], T], *inputs: *Inputs) -> T:
+        """The same of a step that can use its result in the run before, whatever the inputs were: to save work, since
+        the result must be the one it makes from None."""
+        known = self._before.get(name)
+        return self._step(name, function, inputs, (None if known is None else known[1],))
+
+    def _step(self, name: str, function: Callable[..., T], inputs: tuple[object, ...], given: tuple[object, ...]) -> T:
+        if getattr(function, "__closure__", None):
+            raise TypeError(f"step {name!r} reads more than its arguments")
         known = self._before.get(name)
         if known is not None and _equal(known[0], inputs):
             # The inputs of the run before: equal ones that are the same objects are told apart from others at once.
             self._steps[name] = known
             return known[1]  # type: ignore[no-any-return]
-        result = make()
+        result = function(*given, *inputs)
         if known is not None and known[1] == result:
             result = known[1]
         self._steps[name] = (inputs, result)
         return result
-
-    def before(self, name: str) -> Any:
-        """The result of a step in the run before, whatever its inputs were; None where there was none."""
-        known = self._before.get(name)
-        return None if known is None else known[1]
 
     def close(self) -> None:
         """Forget the run before."""

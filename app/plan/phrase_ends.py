@@ -8,8 +8,9 @@ import numpy.typing as npt
 from app.plan.catch_lengths import CATCH_MIN_S, CATCH_NOTE_SHARE, gaps_s
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import EPSILON
-from app.plan.model import FloatArray, Note
+from app.plan.model import FloatArray
 from app.plan.notation import PLACES, written_onsets
+from app.score.model import Note
 
 # How good a place for a catch breath is (added up; the cost of a place is PLACE_COST minus this).
 PLACE_COST = 7.0

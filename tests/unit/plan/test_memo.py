@@ -2,35 +2,74 @@
 
 from __future__ import annotations
 
+import pytest
+
 from app.plan.memo import Memo
+
+DONE: list[object] = []
+
+
+def pair(value: int, name: str) -> tuple[int, int]:
+    DONE.append((value, name))
+    return value, value
+
+
+def sign(value: int) -> tuple[bool, ...]:
+    return (value > 0, value < 0)
+
+
+def doubled(memo: Memo, value: int) -> tuple[int, int]:
+    return memo.step("inner", pair, value, "inner")
+
+
+def counted(before: tuple[int, ...] | None, value: int) -> tuple[int, ...]:
+    DONE.append(before)
+    return (value,)
+
+
+@pytest.fixture(autouse=True)
+def nothing_done() -> None:
+    DONE.clear()
 
 
 def test_a_step_with_equal_inputs_is_taken_over_to_the_object() -> None:
-    done: list[str] = []
-
-    def make(value: int) -> tuple[int, ...]:
-        done.append("made")
-        return (value, value)
-
     first = Memo()
-    made = first.step("pair", lambda: make(2), 2, "x")
+    made = first.step("pair", pair, 1000, "x")
     second = Memo(first)
-    assert second.step("pair", lambda: make(2), 2, "x") is made
-    assert done == ["made"]
+    assert second.step("pair", pair, 999 + 1, "x") is made
+    assert DONE == [(1000, "x")]
     third = Memo(second)
-    assert third.step("pair", lambda: make(3), 3, "x") == (3, 3)
-    assert done == ["made", "made"]
+    assert third.step("pair", pair, 3, "x") == (3, 3)
+    assert third.step("pair of another", pair, 1000, "x") == made
+    assert DONE == [(1000, "x"), (3, "x"), (1000, "x")]
 
 
 def test_a_result_that_turns_out_equal_stays_the_same_object() -> None:
     first = Memo()
-    made = first.step("sign", lambda: ("plus",), 2)
-    assert Memo(first).step("sign", lambda: ("plus",), 5) is made
+    made = first.step("sign", sign, 2)
+    assert Memo(first).step("sign", sign, 5) is made
+
+
+def test_a_step_may_have_steps_of_its_own_and_see_what_it_made_before() -> None:
+    first = Memo()
+    made = first.nested("outer", doubled, 4), first.revised("counted", counted, 4)
+    second = Memo(first)
+    assert (second.nested("outer", doubled, 4), second.revised("counted", counted, 4)) == made
+    assert DONE == [(4, "inner"), None]
+    second.revised("counted", counted, 5)
+    assert DONE == [(4, "inner"), None, (4,)]
+
+
+def test_a_function_that_reads_more_than_its_inputs_is_refused() -> None:
+    more = 3
+    with pytest.raises(TypeError, match="reads more"):
+        Memo().step("sum", lambda value: value + more, 2)
 
 
 def test_runs_do_not_hold_one_another() -> None:
     first = Memo()
-    first.step("a", lambda: 1)
+    first.step("a", sign, 1)
     second = Memo(first)
     second.close()
-    assert second.step("a", lambda: 2) == 2
+    assert second.step("a", sign, -1) == (False, True)
+    assert second._before == {}
