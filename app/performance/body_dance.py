@@ -10,6 +10,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TypeAlias
 
+from app.chance import performed_seed, seed_of
 from app.choreography.body_layer import FPS, body_layer
 from app.choreography.generate import Choreographer
 from app.choreography.rhythm import Rhythm
@@ -21,7 +22,7 @@ from app.performance.bodies import character_of
 from app.performance.dancers import Dancing, choreographer_of, heard_frame, rhythm_of
 from app.performance.ensemble import Performance
 from app.plan.model import TimeFrame
-from app.project.casting import StagePosition, chance
+from app.project.casting import StagePosition
 from app.project.model import Dancer, Player
 from app.project.storage import choreography_missing
 from app.rig.model import Character
@@ -71,8 +72,8 @@ def _keys(performance: Performance, player: Player) -> _Keys | None:
     parameters = player.parameters
     if not parameters.choreography or parameters.dance_amount == 0.0 or unfit_choreography(player) is not None:
         return None
-    variation = parameters.dance_variation or int(chance("dance", parameters.seed, player.id) * 2**31)
-    seed = (variation + performance.project.seed) % 2**63
+    variation = parameters.dance_variation or seed_of("dance", parameters.seed, player.id)
+    seed = performed_seed(variation, performance.project.seed)
     return (
         _dancer(parameters.choreography, player.character_id, seed),
         choreographer_of(parameters.choreography),

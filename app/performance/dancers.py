@@ -24,6 +24,7 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
+from app.chance import chance, performed_seed
 from app.choreography.dance import Dance, Manner, Step
 from app.choreography.derived_rhythm import heard_rhythm
 from app.choreography.generate import Choreographer
@@ -41,7 +42,7 @@ from app.motion.perform import frame_count
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.plan.model import Problem, TimeFrame
-from app.project.casting import StagePosition, chance
+from app.project.casting import StagePosition
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState, UseSegment
 from app.project.model import Dancer
 from app.project.storage import choreography_missing
@@ -203,7 +204,7 @@ def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
     choreographer, character = choreographer_of(dancer.choreography), character_named(dancer.character_id)
     project = performance.project
     # Another seed of the piece is another performance by everyone.
-    dancer = msgspec.structs.replace(dancer, seed=(dancer.seed + project.seed) % 2**63)
+    dancer = msgspec.structs.replace(dancer, seed=performed_seed(dancer.seed, project.seed))
     rhythm = delayed(rhythm_of(performance), dancer.delay_beats) if dancer.delay_beats else rhythm_of(performance)
     rhythm = _same_rhythm(rhythm)
     corrections = project.dance_corrections.get(dancer.id, ())

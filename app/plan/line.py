@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass, fields, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import msgspec
 import numpy as np
 import numpy.typing as npt
 
+from app.chance import begun, chance, share_of
 from app.plan.corrections import Correction
 from app.plan.model import FloatArray, PlayerParameters
 from app.score.metre_map import IntArray as IntArray
@@ -310,16 +310,16 @@ class Seeds(msgspec.Struct, frozen=True):
         for start_tick, end_tick, seed in reversed(self.varied):
             if start_tick <= tick < end_tick:
                 return chance(*self.names, "varied", seed, purpose, tick)
-        digest = _begun((*self.names, purpose)).copy()
+        digest = begun((*self.names, purpose)).copy()
         digest.update(b"%d" % tick)
-        return _share(digest.digest())
+        return share_of(digest.digest())
 
     def chances_at(self, purpose: str, ticks: IntArray, places: IntArray | None = None) -> FloatArray:
         """The same at many places, (N,) float64, drawn for ``places`` (N,) in their stead where these are given."""
-        begun = _begun((*self.names, purpose))
+        head = begun((*self.names, purpose))
         digests = []
         for place in (ticks if places is None else places).tolist():
-            digest = begun.copy()
+            digest = head.copy()
             digest.update(b"%d" % place)
             digests.append(digest.digest())
         shares: FloatArray = np.frombuffer(b"".join(digests), ">u8") / 2.0**64
@@ -327,19 +327,3 @@ class Seeds(msgspec.Struct, frozen=True):
             for place in np.flatnonzero((ticks >= start_tick) & (ticks < end_tick)).tolist():
                 shares[place] = self.chance_at(purpose, int(ticks[place]))
         return shares
-
-
-def chance(*parts: str | int) -> float:
-    """A number in [0, 1) that depends on nothing but its arguments: the same seed, player and score position give the
-    same number on every machine and in every run."""
-    return _share(hashlib.blake2b("\x1f".join(map(str, parts)).encode(), digest_size=8).digest())
-
-
-@lru_cache(maxsize=4096)
-def _begun(parts: tuple[str | int, ...]) -> hashlib.blake2b:
-    """The digest of what comes before the last part: thousands of places of a line have it in common."""
-    return hashlib.blake2b("\x1f".join([*map(str, parts), ""]).encode(), digest_size=8)
-
-
-def _share(digest: bytes) -> float:
-    return int.from_bytes(digest, "big") / 2.0**64

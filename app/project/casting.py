@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -10,6 +9,7 @@ from itertools import pairwise
 
 import msgspec
 
+from app.chance import chance, seed_of
 from instrument_maps.model import Posture
 
 SPACING_M = 1.3
@@ -124,12 +124,6 @@ def _row(count: int, step: float, radius: float) -> tuple[StagePosition, ...]:
     return tuple(StagePosition(radius * math.sin(angle), -radius * math.cos(angle), -angle / 2.0) for angle in angles)
 
 
-def chance(*parts: str | int) -> float:
-    """A number in [0, 1) that depends on its arguments alone, the same on every machine and in every run."""
-    digest = hashlib.blake2b("\x1f".join(map(str, parts)).encode(), digest_size=8).digest()
-    return int.from_bytes(digest, "big") / 2.0**64
-
-
 def amplitude(seed: int, player_id: str) -> float:
     """A player's own amount of motion, around the natural one."""
     return round(NATURAL_AMPLITUDE + AMPLITUDE_SPREAD * (2.0 * chance("amplitude", seed, player_id) - 1.0), 3)
@@ -137,7 +131,7 @@ def amplitude(seed: int, player_id: str) -> float:
 
 def player_seed(seed: int, player_id: str) -> int:
     """A player's own seed."""
-    return int(chance("player", seed, player_id) * 2**31)
+    return seed_of("player", seed, player_id)
 
 
 def choose_characters(travels_m: Sequence[float], arms_m: Mapping[str, float]) -> tuple[str, ...]:

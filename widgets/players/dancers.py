@@ -20,12 +20,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.chance import next_seed
 from app.choreography.library import bundled_choreographies, choreography_path
 from app.choreography.model_file import SUFFIX, read_model
 from app.encoding import shown
 from app.errors import AppError, Message
 from app.project import limits
-from app.project.casting import chance
 from app.project.document import Change
 from app.project.edit import dancers as edit
 from app.project.model import Dancer, Project
@@ -314,7 +314,7 @@ class DancersSection(QWidget):
     def _new_variation(self) -> None:
         dancer = self.dancer
         if dancer is not None:
-            self._change("seed", seed=int(chance("variation", dancer.seed, dancer.id) * (2**31 - 1)))
+            self._change("seed", seed=next_seed(dancer.id, dancer.seed))
 
     def _change(self, name: str, token: object | None = None, **fields: object) -> None:
         self._edit(name, lambda project, id: edit.change_dancers(project, (id,), **fields), token)

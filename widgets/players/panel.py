@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 from app.errors import Message
 from app.project.document import Change
 from app.project.edit import players as edit
+from app.project.edit.generation import vary_players
 from instrument_maps.library import all_maps
 from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
@@ -300,7 +301,7 @@ class PlayersPanel(QWidget):
 
     def _reseed(self) -> None:
         chosen = self._session.players
-        self._session.attempt(self._name("edit.parameter_seed"), lambda project: edit.reseed(project, chosen))
+        self._session.attempt(self._name("edit.parameter_seed"), lambda project: vary_players(project, chosen))
 
     def _set_spread(self, value: float, token: object) -> None:
         self._session.variety = value

@@ -7,14 +7,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection
-from typing import Final
 
-from app.project.casting import chance
+from app.chance import next_seed
 from app.project.edit.dancers import checked_choreography
 from app.project.edit.players import set_parameters
 from app.project.model import Project
-
-_LARGEST: Final = 2**31 - 2
 
 
 def set_body_dance(project: Project, player_ids: Collection[str], choreography: str | os.PathLike[str]) -> Project:
@@ -34,6 +31,7 @@ def vary_body_dances(project: Project, player_ids: Collection[str]) -> Project:
     """Give each of these players another dance to the same music, each a different one."""
     for player in project.players:
         if player.id in player_ids:
-            share = chance("variation", player.parameters.dance_variation, player.id)
-            project = set_parameters(project, (player.id,), dance_variation=1 + int(share * _LARGEST))
+            # 0 is a dance of the player's own.
+            variation = next_seed(player.id, player.parameters.dance_variation) or 1
+            project = set_parameters(project, (player.id,), dance_variation=variation)
     return project

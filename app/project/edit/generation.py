@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import msgspec
 
+from app.chance import next_seed
 from app.plan.corrections import Correction, Vary
-from app.plan.line import chance
 from app.project.edit.corrections import put, take_back
 from app.project.model import Player, Project
 
@@ -17,7 +17,7 @@ NAME = "varied-"
 
 def vary_everyone(project: Project) -> Project:
     """Another performance by all."""
-    return replace(project, seed=_next_seed("everyone", project.seed))
+    return replace(project, seed=next_seed("everyone", project.seed))
 
 
 def vary_players(project: Project, player_ids: Iterable[str]) -> Project:
@@ -25,7 +25,7 @@ def vary_players(project: Project, player_ids: Iterable[str]) -> Project:
     chosen = frozenset(player_ids)
 
     def varied(player: Player) -> Player:
-        seed = _next_seed(player.id, player.parameters.seed)
+        seed = next_seed(player.id, player.parameters.seed)
         return msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, seed=seed))
 
     return replace(
@@ -37,7 +37,7 @@ def vary_dancers(project: Project, dancer_ids: Iterable[str]) -> Project:
     """Another dance by some; who danced in unison still does."""
     chosen = frozenset(dancer_ids)
     dancers = tuple(
-        msgspec.structs.replace(dancer, seed=_next_seed("dancer", dancer.seed)) if dancer.id in chosen else dancer
+        msgspec.structs.replace(dancer, seed=next_seed("dancer", dancer.seed)) if dancer.id in chosen else dancer
         for dancer in project.dancers
     )
     return project if dancers == project.dancers else replace(project, dancers=dancers)
@@ -49,11 +49,11 @@ def vary_span(project: Project, player_ids: Iterable[str], start_tick: int, end_
         said = variations(project, player_id)
         same = [item for item in said if (item.start_tick, item.end_tick) == (start_tick, end_tick)]
         if same:
-            seed, name = _next_seed(player_id, same[-1].seed), same[-1].name
+            seed, name = next_seed(player_id, same[-1].seed), same[-1].name
         else:
             names = {item.name for item in said}
             name = next(name for number in range(1, len(names) + 2) if (name := f"{NAME}{number}") not in names)
-            seed = _next_seed(player_id, len(said))
+            seed = next_seed(player_id, len(said))
         project = put(project, player_id, [Vary(name, start_tick, end_tick, seed)])
     return project
 
@@ -88,7 +88,3 @@ def by_hand(project: Project, player_ids: Iterable[str]) -> tuple[Correction, ..
         for item in project.corrections.get(player_id, ())
         if not isinstance(item, Vary)
     )
-
-
-def _next_seed(name: str, seed: int) -> int:
-    return int(chance("another", name, seed) * 2**31)

@@ -15,6 +15,7 @@ from typing import Final
 
 import msgspec
 
+from app.chance import chance, next_seed
 from app.errors import AppError, MapError
 from app.plan.model import PlayerParameters
 from app.project import limits
@@ -24,7 +25,6 @@ from app.project.casting import (
     SPACING_M,
     StagePosition,
     amplitude,
-    chance,
     player_seed,
     stage_seats,
     usual_posture,
@@ -147,7 +147,7 @@ def randomise(project: Project, player_ids: Collection[str], spread: float) -> P
         for player, step in zip(chosen, steps, strict=True):
             values[player.id][name] = round(min(max(middle + spread * reach * (step - mean), low), high), 2)
     for player in chosen:
-        values[player.id]["seed"] = int(chance("seed", roll, player.id) * 2**31)
+        values[player.id]["seed"] = next_seed(player.id, roll)
         project = set_parameters(project, (player.id,), **values[player.id])
     return project
 
@@ -163,15 +163,6 @@ def place(project: Project, places: Mapping[str, StagePosition]) -> Project:
             for player in project.players
         ),
     )
-
-
-def reseed(project: Project, player_ids: Collection[str]) -> Project:
-    """Give each of these players another seed."""
-    for player in project.players:
-        if player.id in player_ids:
-            seed = int(chance("seed", player.parameters.seed, player.id) * 2**31)
-            project = set_parameters(project, (player.id,), seed=seed)
-    return project
 
 
 def arc_of(project: Project) -> tuple[StagePosition, ...]:

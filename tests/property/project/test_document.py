@@ -186,7 +186,7 @@ def edit_players(data: st.DataObject, project: Project) -> Project:
         case 10:
             return players.change(project, chosen, instrument_id=data.draw(st.sampled_from(sorted(MAPS))))
         case _:
-            return players.reseed(project, chosen)
+            return generation.vary_players(project, chosen)
 
 
 def edit_dancers(data: st.DataObject, project: Project) -> Project:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import msgspec
 import pytest
 
+from app.chance import chance
 from app.plan.corrections import ChangeExpression, RemoveEvent
 from app.plan.embouchure import TONGUE_S
 from app.plan.generate import Line, make_plans, time_frame
-from app.plan.line import MEZZOFORTE, chance, line_times
+from app.plan.line import MEZZOFORTE, line_times
 from app.plan.model import ExpressionEvent, PlayerParameters, PlayerPlan
 from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
