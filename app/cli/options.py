@@ -21,7 +21,7 @@ from app.project.names import unique_names
 from app.project.parameters import parameter_names, parse_settings, select_players
 from app.project.storage import is_project_file, load
 from app.rig.character_library import characters
-from app.score.choose import MapChoice, Stream
+from app.score.choose import MapChoice, Stream, require_map
 from app.score.model import Score
 from app.score.parts import PartWish, stream_name, usual_wishes
 from app.score.read import read_contents, wished_score
@@ -265,9 +265,7 @@ def _assigned(
         part, equals, map_id = (piece.strip() for piece in text.rpartition("="))
         if not (part and equals and map_id):
             raise UsageError("assign.malformed", assignment=text)
-        if map_id not in {choice.map_id for choice in maps}:
-            possible = ", ".join(choice.map_id for choice in maps)
-            raise UsageError("assign.instrument_unknown", instrument=map_id, possible=possible)
+        require_map(map_id, [choice.map_id for choice in maps])
         for index in select_players([part], names):
             assigned[index] = PartWish((index,), map_id)
     return [assigned[index] for index in sorted(assigned)]

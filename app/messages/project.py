@@ -34,7 +34,7 @@ TEMPLATES: Final[dict[str, str]] = {
         "'PLAYER.instrument=ID'"
     ),
     "assign.malformed": "--assign: {assignment!r} is not PART=INSTRUMENT, for instance 'Lead=trumpet_Bb'",
-    "assign.instrument_unknown": "--assign: there is no instrument {instrument!r}; there are: {possible}",
+    "assign.instrument_unknown": "there is no instrument {instrument!r}; there are: {possible}",
     "assign.needed": "{reason} with --assign '{part}=INSTRUMENT'",
     "project.encoding": "--encoding says how the texts of a MIDI file are read; {file} is a project and needs none",
     "autosave.elsewhere": (

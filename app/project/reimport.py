@@ -38,10 +38,9 @@ from app.errors import UsageError
 from app.plan.corrections import Correction, kind
 from app.project.alignment import Floats, Line, align
 from app.project.anchors import moved, note_of
-from app.project.casting import StagePosition
 from app.project.edit.corrections import put, take_back
 from app.project.edit.length import with_score
-from app.project.edit.players import cast_parameters, free_name, with_newcomers
+from app.project.edit.players import free_name, newcomer, with_newcomers
 from app.project.ids import (
     MADE_PART,
     READ_NOTE,
@@ -52,7 +51,7 @@ from app.project.ids import (
     is_made_here,
 )
 from app.project.limits import LAST_TICK
-from app.project.model import Player, Project, characters_for
+from app.project.model import Player, Project
 from app.score.model import Note, Part, Score
 from app.score.parts import transposed
 from instrument_maps.model import InstrumentMap
@@ -493,17 +492,7 @@ def _with_new_players(project: Project, parts: Sequence[Part], maps: Mapping[str
     for player_id, part in zip(fresh_player_ids(project, len(parts)), parts, strict=True):
         names.append(free_name(part.name, names))
         playing.append(maps[part.map_id])
-        newcomers.append(
-            Player(
-                id=player_id,
-                name=names[-1],
-                part_id=part.id,
-                instrument_id=part.map_id,
-                character_id=characters_for(playing)[-1],
-                parameters=cast_parameters(project, player_id, playing[-1]),
-                stage=StagePosition(0.0, 0.0, 0.0),
-            )
-        )
+        newcomers.append(newcomer(project, player_id, part, names[-1], playing))
     return with_newcomers(project, tuple(newcomers))
 
 

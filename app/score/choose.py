@@ -7,13 +7,13 @@ A, else to that of a clarinet; one for a recorder to the size its notes fit.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from enum import Enum
 from operator import sub
 
 import msgspec
 
-from app.errors import Argument, Message
+from app.errors import Argument, Message, UsageError
 from app.score.model import ControllerCurve, Note
 from instrument_maps.vocabulary import Instrument, vocabulary
 
@@ -191,6 +191,19 @@ class Candidates(msgspec.Struct, frozen=True):
             )
 
         return max(self.maps, key=rank)
+
+
+def require_map(map_id: str, known: Collection[str]) -> str:
+    """The id of an instrument map that a person assigns to a part or a player.
+
+    Raises
+    ------
+    UsageError
+        ``assign.instrument_unknown`` (instrument, possible): there is none of this id.
+    """
+    if map_id not in known:
+        raise UsageError("assign.instrument_unknown", instrument=map_id, possible=", ".join(known))
+    return map_id
 
 
 def recognised(stream: Stream) -> Instrument | None:

@@ -60,7 +60,18 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from app.errors import Argument, Cancelled, Message
-from app.score.choose import Candidates, How, MapChoice, Stream, candidates, players_named, plays, recognised, refusal
+from app.score.choose import (
+    Candidates,
+    How,
+    MapChoice,
+    Stream,
+    candidates,
+    players_named,
+    plays,
+    recognised,
+    refusal,
+    require_map,
+)
 from app.score.limits import MOST_PARTS
 from app.score.model import MOST_VOICES, Note, Part, Score, UnplayedPart, sounding_spans
 from app.score.switches import without_key_switches
@@ -287,13 +298,16 @@ def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence
 
 
 def _found(chosen: Sequence[Stream], map_id: str | None, maps: Sequence[MapChoice]) -> Candidates:
-    """The maps a wish may be given to: the one a person named, else what the tracks say and fit."""
-    named = tuple(choice for choice in maps if choice.map_id == map_id)
+    """The maps a wish may be given to: the one a person named, else what the tracks say and fit. Raises as
+    `require_map`."""
     found = candidates(chosen, maps)
-    if not named and not found.maps:
+    if map_id is not None:
+        by_id = {choice.map_id: choice for choice in maps}
+        return Candidates(How.SAID, found.instrument, (by_id[require_map(map_id, by_id)],))
+    if not found.maps:
         # A person wants it played though no map is for it, and must say what plays it.
         return Candidates(How.RANGE, None, tuple(maps), unknown=True)
-    return Candidates(How.SAID, found.instrument, named) if named else found
+    return found
 
 
 def stream_name(stream: Stream) -> str:

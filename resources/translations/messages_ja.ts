@@ -1192,8 +1192,8 @@
             <translation>--assign: {assignment!r} は「パート=楽器」の形ではありません（例: 'Lead=trumpet_Bb'）</translation>
         </message>
         <message>
-            <source>--assign: there is no instrument {instrument!r}; there are: {possible}</source>
-            <translation>--assign: 楽器 {instrument!r} はありません。使える楽器: {possible}</translation>
+            <source>there is no instrument {instrument!r}; there are: {possible}</source>
+            <translation>楽器 {instrument!r} はありません。使える楽器: {possible}</translation>
         </message>
         <message>
             <source>{reason} with --assign '{part}=INSTRUMENT'</source>

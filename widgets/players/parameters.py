@@ -128,8 +128,8 @@ class ParameterSections(QWidget):
             place = Qt.AlignmentFlag.AlignLeft if control is self._colour else Qt.AlignmentFlag(0)
             grid.addWidget(control, line, 1, place)
         self._sections["player"].body.addLayout(grid)
-        self._part.chosen.connect(lambda id: self._change("edit.player_part", part_id=id))
-        self._instrument.chosen.connect(lambda id: self._change("edit.player_instrument", instrument_id=id))
+        self._part.chosen.connect(lambda id: self._assign("edit.player_part", part_id=id))
+        self._instrument.chosen.connect(lambda id: self._assign("edit.player_instrument", instrument_id=id))
         self._character.chosen.connect(lambda id: self._change("edit.player_character", character_id=id))
         self._colour.chosen.connect(lambda colour: self._change("edit.player_colour", colour=colour))
         self._posture.chosen.connect(lambda posture: self._set("posture", posture))
@@ -231,6 +231,10 @@ class ParameterSections(QWidget):
     def _change(self, name: str, **fields: object) -> None:
         chosen = self._session.players
         self._apply(self._name(name), lambda project: edit.change(project, chosen, **fields))
+
+    def _assign(self, name: str, **ids: str) -> None:
+        chosen = self._session.players
+        self._apply(self._name(name), lambda project: edit.assign(project, chosen, **ids))
 
     def _set(self, parameter: str, value: str | float | int | bool | None, token: object | None = None) -> None:
         chosen = self._session.players

@@ -34,8 +34,9 @@ from app.project.ids import MADE_PART, fresh_note_ids, fresh_part_ids, fresh_pla
 from app.project.model import Player, Project, characters_for
 from app.project.names import clean_name
 from app.project.parameters import Value, bounds
+from app.score.choose import require_map
 from app.score.model import Part
-from instrument_maps.library import find_map
+from instrument_maps.library import all_maps, find_map
 from instrument_maps.model import InstrumentMap, Posture
 
 SPREADS: Final[Mapping[str, float]] = {
@@ -202,15 +203,7 @@ def add_player(
         notes=(),
     )
     playing = [maps[player.instrument_id] for player in project.players if player.instrument_id in maps]
-    player = Player(
-        id=player_id,
-        name=called,
-        part_id=part_id,
-        instrument_id=instrument.id,
-        character_id=characters_for([*playing, instrument])[-1],
-        parameters=cast_parameters(project, player_id, instrument),
-        stage=StagePosition(0.0, 0.0, 0.0),
-    )
+    player = newcomer(project, player_id, part, called, [*playing, instrument])
     score = msgspec.structs.replace(project.score, parts=(*parts, part))
     return with_newcomers(replace(project, score=score), (player,)), player_id
 
@@ -251,25 +244,42 @@ def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Proj
     return (arrange(result) if on_arc else result), new_ids
 
 
-def assign_part(project: Project, player_id: str, part_id: str) -> Project:
-    """Let a player play another part. Corrections stay; those about notes of the part before do nothing until the
-    player has it again. KeyError where there is no such player.
+def assign(
+    project: Project, player_ids: Collection[str], part_id: str | None = None, instrument_id: str | None = None
+) -> Project:
+    """Let players play another part, or what they play on another instrument. Corrections stay; those about notes of
+    the part before do nothing until the player has it again. An empty part that nobody plays any more goes.
 
     Raises
     ------
     AppError
-        ``player.no_part`` (part): there is no such part.
+        ``player.no_part`` (part): there is no such part; ``assign.instrument_unknown`` (instrument, possible).
     """
-    if part_id not in {part.id for part in project.score.parts}:
+    if part_id is not None and part_id not in {part.id for part in project.score.parts}:
         raise AppError("player.no_part", part=part_id)
-    player = project.player(player_id)
-    former = player.part_id
-    result = change(project, (player_id,), part_id=part_id)
-    is_left = former not in {one.part_id for one in result.players} and not project.part(player).notes
-    if not is_left:
+    if instrument_id is not None:
+        require_map(instrument_id, all_maps())
+    given = {"part_id": part_id, "instrument_id": instrument_id}
+    result = change(project, player_ids, **{name: id for name, id in given.items() if id is not None})
+    played = {player.part_id for player in result.players}
+    former = {player.part_id for player in project.players} - played
+    parts = tuple(part for part in result.score.parts if part.notes or part.id not in former)
+    if len(parts) == len(result.score.parts):
         return result
-    parts = tuple(part for part in result.score.parts if part.id != former)
     return replace(result, score=msgspec.structs.replace(result.score, parts=parts))
+
+
+def newcomer(project: Project, player_id: str, part: Part, name: str, playing: Sequence[InstrumentMap]) -> Player:
+    """A player for a part, cast as a new piece's are; ``playing`` are the maps of everyone, the player's own last."""
+    return Player(
+        id=player_id,
+        name=name,
+        part_id=part.id,
+        instrument_id=require_map(part.map_id, [instrument.id for instrument in playing]),
+        character_id=characters_for(playing)[-1],
+        parameters=cast_parameters(project, player_id, playing[-1]),
+        stage=StagePosition(0.0, 0.0, 0.0),
+    )
 
 
 def remove_players(project: Project, player_ids: Collection[str]) -> Project:

@@ -182,9 +182,9 @@ def edit_players(data: st.DataObject, project: Project) -> Project:
             return players.move_players(project, chosen, data.draw(st.integers(0, len(project.players))))
         case 9:
             part = data.draw(st.sampled_from(project.score.parts))
-            return players.assign_part(project, chosen[0], part.id)
+            return players.assign(project, chosen[:1], part_id=part.id)
         case 10:
-            return players.change(project, chosen, instrument_id=data.draw(st.sampled_from(sorted(MAPS))))
+            return players.assign(project, chosen, instrument_id=data.draw(st.sampled_from(sorted(MAPS))))
         case _:
             return generation.vary_players(project, chosen)
 

@@ -12,8 +12,10 @@ from app.plan.corrections import PinFingering
 from app.project.casting import StagePosition, stage_arc
 from app.project.edit import players as edit
 from app.project.edit.corrections import put
-from app.project.model import Project, project_from_score
+from app.project.model import Project, map_choices, project_from_score
+from app.score.choose import Stream
 from app.score.model import Note, Part, Score
+from app.score.parts import PartWish, wished_parts
 from app.score.tempo import TempoMap
 from instrument_maps.load import bundled_maps
 
@@ -120,15 +122,34 @@ def test_a_double_plays_the_same_part_as_somebody_else(trio: Project) -> None:
 
 def test_a_player_may_be_given_another_part(trio: Project) -> None:
     first, second, _ = trio.players
-    given = edit.assign_part(trio, first.id, second.part_id)
+    given = edit.assign(trio, [first.id], part_id=second.part_id)
     assert given.part(given.player(first.id)) is trio.part(second)
     assert len(given.score.parts) == 3
-    assert edit.assign_part(given, first.id, first.part_id) == trio
-    assert edit.assign_part(trio, first.id, first.part_id) is trio
+    assert edit.assign(given, [first.id], part_id=first.part_id) == trio
+    assert edit.assign(trio, [first.id], part_id=first.part_id) is trio
     more, new = edit.add_player(trio, MAPS[TRUMPET], MAPS, "New")
-    assert len(edit.assign_part(more, new, first.part_id).score.parts) == 3
+    assert len(edit.assign(more, [new], part_id=first.part_id).score.parts) == 3
     with pytest.raises(AppError, match=r"player\.no_part"):
-        edit.assign_part(trio, first.id, "nowhere")
+        edit.assign(trio, [first.id], part_id="nowhere")
+
+
+def test_an_instrument_that_is_not_there_is_assigned_to_nobody(trio: Project) -> None:
+    """The same words for a player in a project and for a track of a file."""
+    first = trio.players[0]
+    assert edit.assign(trio, [first.id], instrument_id="flute").player(first.id).instrument_id == "flute"
+    with pytest.raises(AppError, match=r"assign\.instrument_unknown") as caught:
+        edit.assign(trio, [first.id], instrument_id="flut")
+    stream = Stream(0, 0, "Lead", "", None, [0], [480], [70], [80], [1], ())
+    with pytest.raises(AppError) as read:
+        wished_parts([stream], [PartWish((0,), "flut")], map_choices(MAPS.values()), trio.score)
+    assert read.value.message == caught.value.message
+
+
+def test_the_empty_part_of_before_goes_with_several_players_too(trio: Project) -> None:
+    one, new = edit.add_player(trio, MAPS[TRUMPET], MAPS, "New")
+    two, other = edit.add_player(one, MAPS[TRUMPET], MAPS, "Newer")
+    given = edit.assign(two, [new, other], part_id=trio.players[0].part_id)
+    assert given.score.parts == trio.score.parts
 
 
 def test_who_leaves_takes_the_corrections_along_but_not_the_music(trio: Project) -> None:
