@@ -31,7 +31,7 @@ from app.shell.garbage import Garbage
 from app.shell.generator import Generator
 from app.shell.instruments import InstrumentWatch
 from app.shell.language import Language
-from app.shell.questions import Dialogs, Questions
+from app.shell.questions import Questions
 from app.shell.recording import Recorder
 from app.shell.settings import Settings, settings_path
 from app.shell.sound import Sound
@@ -128,7 +128,7 @@ class Program(QObject):
         settings.failed.connect(self._warn)
         for problem in settings.problems:
             QTimer.singleShot(0, self, partial(self._warn, problem))
-        asked: Questions = Dialogs() if questions is None else questions
+        asked = Questions() if questions is None else questions
         self.language = Language()
         self.language.set(settings.language)
         self.editor = Editor(self.session, settings, self.language, asked)

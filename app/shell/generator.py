@@ -292,7 +292,7 @@ class _Teller:
 
 
 class _Clock(Protocol):
-    """What the module `time` has of clocks."""
+    """What the module `time` has of clocks: a module is of no class that could be named."""
 
     def monotonic(self) -> float: ...
 

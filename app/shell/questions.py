@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Literal, Protocol
+from typing import Literal
 
 from PySide6.QtCore import QCoreApplication
 from PySide6.QtWidgets import QApplication, QDialog, QWidget
@@ -22,34 +22,15 @@ from widgets.common.tokens import Tokens
 Answer = Literal["save", "discard", "cancel"]
 
 
-class Questions(Protocol):
-    """How the person is asked; tests answer by themselves."""
+class Questions:
+    """How the person is asked: in dialogs. Tests answer by themselves."""
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
         """An existing file; None: the person thought better of it."""
-
-    def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
-        """A file to write, its name with one of the suffixes; whether one may be replaced was asked."""
-
-    def unsaved(self, name: str) -> Answer:
-        """What becomes of the changes that are in no file."""
-
-    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
-        """Who plays what in a MIDI file, and whether a dancer dances to it."""
-
-    def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
-        """Whether a character goes for good, which these players are."""
-
-
-class Dialogs:
-    """`Questions` asked in dialogs."""
-
-    def open_file(self, title: str, folder: str, filters: str) -> Path | None:
-        """See `Questions`."""
         return ask_for_file(_parent(), title, Path(folder), filters)
 
     def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
-        """See `Questions`."""
+        """A file to write, its name with one of the suffixes; whether one may be replaced was asked."""
         while True:
             chosen = ask_where_to_save(_parent(), title, Path(proposal), filters)
             if chosen is None:
@@ -61,7 +42,7 @@ class Dialogs:
             proposal = str(path)
 
     def unsaved(self, name: str) -> Answer:
-        """See `Questions`."""
+        """What becomes of the changes that are in no file."""
         translate = QCoreApplication.translate
         box = MessageBox(_parent())
         box.setObjectName("unsaved")
@@ -80,7 +61,7 @@ class Dialogs:
         return "save" if clicked is save else "discard" if clicked is discard else "cancel"
 
     def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
-        """See `Questions`."""
+        """Who plays what in a MIDI file, and whether a dancer dances to it."""
         from widgets.dialogs.import_midi import ImportDialog
 
         dialog = ImportDialog(contents, all_maps(), tokens, tasks, _parent())
@@ -90,7 +71,7 @@ class Dialogs:
             dialog.deleteLater()
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
-        """See `Questions`."""
+        """Whether a character goes for good, which these players are."""
         translate = QCoreApplication.translate
         box = MessageBox(_parent())
         box.setObjectName("remove_character")

@@ -30,7 +30,8 @@ IN_THE_MIDDLE = StagePosition(0.0, 0.0, 0.0)
 
 
 class Posed(Protocol):
-    """One frame of a player's motion, as `app.performance.chunks.Pose`."""
+    """One frame of a player's motion, as `app.performance.chunks.Pose`: described here because what is shown of a live
+    player is made by the viewport, which this room must not import."""
 
     @property
     def rotations(self) -> Floats:

@@ -24,7 +24,7 @@ from app.score.read import read_contents
 from app.score.write import write_midi
 from app.shell.app import Program
 from app.shell.commands.events import choose_expression
-from app.shell.questions import Dialogs, _may_replace
+from app.shell.questions import Questions, _may_replace
 from app.shell.recording import Recorder
 from app.shell.settings import Settings
 from instrument_maps.library import all_maps
@@ -217,7 +217,7 @@ def dialogs(program: Program, judge: Judge) -> None:
 
 def questions(program: Program, judge: Judge) -> None:
     """Boxes that wait for an answer."""
-    asked, name = Dialogs(), judge.canary.name
+    asked, name = Questions(), judge.canary.name
 
     def answer(state: str) -> None:
         judge.look(state, program.window)

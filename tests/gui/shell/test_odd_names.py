@@ -21,7 +21,7 @@ from app.project.names import file_stem
 from app.project.recovery import Recoverable
 from app.project.storage import load
 from app.shell.app import Program
-from app.shell.questions import Dialogs
+from app.shell.questions import Questions
 from app.shell.settings import Settings
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
@@ -152,8 +152,8 @@ def test_dialogs_give_the_bytes_and_begin_where_qt_can_be(
     for name in ("getOpenFileUrl", "getSaveFileUrl"):
         monkeypatch.setattr(QFileDialog, name, chosen)
     monkeypatch.setattr(QFileDialog, "getExistingDirectoryUrl", lambda *given, **more: chosen(*given, **more)[0])  # type: ignore[index]
-    assert Dialogs().open_file("Open", str(folder), "*") == odd(folder, ".suisou")
-    assert Dialogs().save_file("Save", str(odd(folder, ".suisou")), "*", (".suisou",)) == odd(folder, ".suisou")
+    assert Questions().open_file("Open", str(folder), "*") == odd(folder, ".suisou")
+    assert Questions().save_file("Save", str(odd(folder, ".suisou")), "*", (".suisou",)) == odd(folder, ".suisou")
     assert ask_for_folder(None, "Folder", folder) == odd(folder, ".suisou")
     assert ask_for_file(None, "Open", None, "*") == odd(folder, ".suisou")
     assert begun == [str(folder.parent), f"{folder.parent}/{NAME}.suisou", str(folder.parent), str(Path.home())]
