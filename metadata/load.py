@@ -15,8 +15,7 @@ from typing import TypeVar, get_args
 
 import msgspec
 
-from app.errors import AppError, MapError, Message
-from app.formats.files import files_in
+from app.errors import MapError
 from app.formats.toml import read_toml, shaped
 from metadata.model import (
     ARKIT_MORPHS,
@@ -132,28 +131,13 @@ def read_expression(path: Path) -> Expression:
     return expression
 
 
-def load_folder_expressions(
-    folder: Path, paths: Iterable[Path] | None = None
-) -> tuple[dict[str, Expression], tuple[Message, ...]]:
-    """The expressions in a further folder by the names in them, which need not be those of the files, and what is wrong
-    with files that hold none. A folder that is not there holds none."""
-    found: dict[str, Expression] = {}
-    problems = []
-    try:
-        listed = files_in(folder, ".toml") if paths is None else paths
-    except AppError as error:
-        return {}, (error.message,)
-    for path in listed:
-        try:
-            expression = _decode(path, Expression)
-            if not expression.name.strip() or not expression.name.isprintable():
-                raise _invalid(path, "name", "must be a name on one line")
-            _check_morphs(path, "weights", expression.weights)
-        except AppError as error:
-            problems.append(error.message)
-        else:
-            found[expression.name] = expression
-    return found, tuple(problems)
+def read_named_expression(path: Path) -> Expression:
+    """Read and check an expression whose name need not be that of its file. Raises MapError."""
+    expression = _decode(path, Expression)
+    if not expression.name.strip() or not expression.name.isprintable():
+        raise _invalid(path, "name", "must be a name on one line")
+    _check_morphs(path, "weights", expression.weights)
+    return expression
 
 
 def read_skeleton(path: Path) -> SkeletonProfile:

@@ -284,7 +284,7 @@ class Performance:
         if player.instrument_id not in self.library.maps:
             found.append(self._no_instrument(player))
         if player.character_id not in self.characters.sources:
-            problems = {path.stem: problem for path, problem in self.characters.problems.items()}
+            problems = {path.stem: told[0] for path, told in self.characters.problems.items()}
             missing = Message("project.character_missing", {"player": player.name, "id": player.character_id})
             found.append(problems.get(player.character_id, missing))
         return tuple(found)

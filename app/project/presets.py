@@ -11,7 +11,7 @@ preset.no_name, preset.none_of_name : name, table.invalid : file, place, detail;
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Generic, TypeVar
@@ -20,16 +20,17 @@ import msgspec
 import platformdirs
 
 from app.encoding import restored, stored
-from app.errors import AppError, FileError, MapError, Message, UsageError
+from app.errors import FileError, MapError, Message, UsageError
 from app.formats.atomic import atomic_write
 from app.formats.files import files_in
 from app.formats.toml import read_toml, toml
+from app.formats.user_folder import Named
 from app.plan.model import PlayerParameters
 from app.project import limits
 from app.project.check import expression_faults
 from app.project.names import clean_name, file_stem
 from app.project.parameters import is_possible, range_text
-from metadata.load import load_folder_expressions
+from metadata.load import read_named_expression
 from metadata.model import Expression
 
 T = TypeVar("T")
@@ -76,24 +77,23 @@ def preset_of(parameters: PlayerParameters, name: str, only: Iterable[str] | Non
 
 def presets(folder: Path) -> Found[Preset]:
     """Every preset in a folder, by name in alphabetical order."""
-    return _found(folder, _read_preset, lambda preset: preset.name)
+    return Found(*_PRESETS.found(folder))
 
 
 def save_preset(folder: Path, preset: Preset) -> None:
     """Write a preset; one of the same name is replaced. Raises FileError."""
     texts = {name: stored(value) if isinstance(value, str) else value for name, value in preset.parameters.items()}
-    _save(folder, preset.name, presets(folder).items, _path_of_preset, texts)
+    _save(folder, preset.name, presets(folder).items, _PRESETS, texts)
 
 
 def delete_preset(folder: Path, name: str) -> None:
     """Raises UsageError ``preset.none_of_name``, FileError."""
-    _delete(folder, name, _path_of_preset)
+    _delete(folder, name, _PRESETS)
 
 
 def expressions(folder: Path) -> Found[Expression]:
     """Every expression in a folder, by name in alphabetical order."""
-    items, problems = load_folder_expressions(folder)
-    return Found(dict(sorted(items.items())), problems)
+    return Found(*_EXPRESSIONS.found(folder))
 
 
 def save_expression(folder: Path, expression: Expression) -> None:
@@ -104,12 +104,12 @@ def save_expression(folder: Path, expression: Expression) -> None:
     for place, detail in expression_faults(expression, ""):
         raise UsageError("expression.invalid", name=cleaned, place=place.lstrip("."), detail=detail)
     table = {field: getattr(expression, field) for field in Expression.__struct_fields__ if field != _NAME}
-    _save(folder, cleaned, expressions(folder).items, _path_of_expression, table)
+    _save(folder, cleaned, expressions(folder).items, _EXPRESSIONS, table)
 
 
 def delete_expression(folder: Path, name: str) -> None:
     """Raises UsageError ``preset.none_of_name``, FileError."""
-    _delete(folder, name, _path_of_expression)
+    _delete(folder, name, _EXPRESSIONS)
 
 
 def _read_preset(path: Path) -> Preset:
@@ -128,54 +128,22 @@ def _read_preset(path: Path) -> Preset:
     return Preset(name, table)
 
 
-def _found(folder: Path, read: Callable[[Path], T], name_of: Callable[[T], str]) -> Found[T]:
-    items: dict[str, T] = {}
-    problems = []
-    try:
-        listed = files_in(folder, ".toml")
-    except FileError as error:
-        return Found({}, (error.message,))
-    for path in listed:
-        try:
-            item = read(path)
-        except AppError as error:
-            problems.append(error.message)
-        else:
-            items[name_of(item)] = item
-    return Found(dict(sorted(items.items())), tuple(problems))
-
-
-def _path_of_preset(folder: Path, name: str) -> Path | None:
-    """The file that holds a preset, whatever it is called."""
-    for path in files_in(folder, ".toml"):
-        try:
-            if _read_preset(path).name == name:
-                return path
-        except AppError:
-            continue
-    return None
-
-
-def _path_of_expression(folder: Path, name: str) -> Path | None:
-    for path in files_in(folder, ".toml"):
-        items, _ = load_folder_expressions(folder, [path])
-        if name in items:
-            return path
-    return None
+_PRESETS: Final = Named(_read_preset, lambda preset: preset.name)
+_EXPRESSIONS: Final = Named(read_named_expression, lambda expression: expression.name)
 
 
 def _save(
     folder: Path,
     name: str,
     known: Mapping[str, object],
-    path_of: Callable[[Path, str], Path | None],
+    tables: Named[Any],
     table: Mapping[str, Any],
 ) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise FileError("file.cannot_write", file=str(folder), reason=error.strerror or str(error)) from error
-    path = path_of(folder, name) if name in known else None
+    path = tables.path_of(folder, name) if name in known else None
     if path is None:
         stem = file_stem(name)
         taken = {existing.stem.casefold() for existing in files_in(folder, ".toml")}
@@ -186,8 +154,8 @@ def _save(
         stream.write(toml({_NAME: name, **table}).encode())
 
 
-def _delete(folder: Path, name: str, path_of: Callable[[Path, str], Path | None]) -> None:
-    path = path_of(folder, name)
+def _delete(folder: Path, name: str, tables: Named[Any]) -> None:
+    path = tables.path_of(folder, name)
     if path is None:
         raise UsageError("preset.none_of_name", name=name)
     try:

@@ -1,8 +1,7 @@
-"""The characters a person can cast: the bundled ones and those of their own folder, read again when its files change.
+"""The characters a person can cast: the bundled ones and those of their own folder (see `app.formats.user_folder`).
 
 A person's own character is a file (VRM, glTF or FBX) and beside it ``<id>.toml``, which names the file and says what
-was corrected by hand: which bone is which joint, which morphs make a face. What is wrong with a file is told and the
-last good version of it stays in use. Everybody asks `character_library`; `reload_characters` alone replaces it.
+was corrected by hand: which bone is which joint, which morphs make a face.
 
 Messages
 --------
@@ -23,36 +22,31 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
 from pathlib import Path
 from threading import RLock
 from types import MappingProxyType
-from typing import Final, TypeAlias
+from typing import Final
 
 import msgspec
-import platformdirs
 
 from app.encoding import shown
 from app.errors import AppError, FileError, MapError, Message, UsageError, shortened
 from app.formats.atomic import atomic_write
-from app.formats.files import files_in, open_file, read_file
+from app.formats.files import open_file, read_file
 from app.formats.gltf.read import MOST_BYTES
 from app.formats.toml import read_toml, shaped, toml
+from app.formats.user_folder import Read, Shelf, Stamp, UserFolder, stamp_of
 from app.rig.character import load_character
 from app.rig.model import Character
 from app.rig.read_figure import SUFFIXES
 
-FOLDER_VARIABLE: Final = "SUISOU_CHARACTERS"
-"""Environment variable that names another folder for a person's own characters."""
 MOST_ID: Final = 60
 MOST_TITLE: Final = 200
 RESERVED: Final = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
 """Names that are devices on Windows."""
-
-Stamp: TypeAlias = tuple[tuple[str, int, int], ...]
-"""Names, times and sizes of files; and why a folder could not be listed."""
 
 
 class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -86,48 +80,28 @@ class Source:
         The character's file.
     entry : CharacterEntry or None
         What a person's own folder says about it; None: bundled.
-    stamp : tuple
+    stamp : frozenset
         The files as they were when they were read.
     """
 
     path: Path
     entry: CharacterEntry | None = None
-    stamp: Stamp = ()
+    stamp: Stamp = frozenset()
 
 
 @dataclass(frozen=True)
-class CharacterLibrary:
-    """All characters, as they were when the folder was read.
+class CharacterLibrary(Shelf[Source]):
+    """All characters, as they were when the folder was read."""
 
-    Attributes
-    ----------
-    folder : Path
-        A person's own.
-    sources : mapping of str to Source
-        By id: first the bundled ones, then a person's own, each in the order of the ids.
-    problems : mapping of Path to Message
-        What is wrong with a person's files. Where an earlier version was good, ``sources`` has that.
-    revisions : mapping of str to int
-        How often the character of each id became another one; of those that never did, nothing.
-    stamp : tuple
-    """
-
-    folder: Path
-    sources: Mapping[str, Source]
-    problems: Mapping[Path, Message] = field(default_factory=dict)
-    revisions: Mapping[str, int] = field(default_factory=dict)
-    stamp: Stamp = ()
+    @property
+    def sources(self) -> Mapping[str, Source]:
+        """By id: first the bundled ones, then a person's own, each in the order of the ids."""
+        return self.items
 
     @property
     def own(self) -> Mapping[str, CharacterEntry]:
         """A person's own characters, by id."""
         return {id: source.entry for id, source in self.sources.items() if source.entry is not None}
-
-
-def own_folder() -> Path:
-    """Where a person's own characters are; need not exist."""
-    named = os.environ.get(FOLDER_VARIABLE)
-    return Path(named) if named else platformdirs.user_data_path("suisou", appauthor=False) / "characters"
 
 
 @cache
@@ -137,47 +111,12 @@ def bundled_characters() -> Mapping[str, Path]:
     return MappingProxyType({path.stem: path for path in sorted(folder.glob("*.glb"))})
 
 
-def read_characters(folder: Path, before: CharacterLibrary | None = None) -> CharacterLibrary:
-    """Read a person's folder anew.
-
-    Parameters
-    ----------
-    folder : Path
-        One that is not there holds no characters.
-    before : CharacterLibrary, optional
-        What was read before: the good versions of entries that are wrong now stay in use.
-    """
-    # Also the one that a program has called X.VRM.
-    problems: dict[Path, Message] = {}
-    try:
-        listed = files_in(folder, ".toml", *SUFFIXES)
-    except FileError as error:
-        problems[folder] = error.message
-        listed = []
-    stamp = (*_stamp(listed), *((problem.id, 0, 0) for problem in problems.values()))
-    if before is not None and before.folder == folder and before.stamp == stamp:
-        return before
-    bundled = {id: Source(path) for id, path in bundled_characters().items()}
-    own: dict[str, Source] = {}
-    for path in listed:
-        if path.suffix.lower() != ".toml":
-            continue
-        try:
-            own[path.stem] = _own_source(path)
-        except AppError as error:
-            problems[path] = error.message
-            if before is not None and path.stem in before.own:
-                own[path.stem] = before.sources[path.stem]
-    sources = {**bundled, **own}
-    revisions = dict(before.revisions) if before is not None else {}
-    known = before.sources if before is not None else sources
-    for id in {**sources, **known}:
-        if sources.get(id) != known.get(id):
-            revisions[id] = revisions.get(id, 0) + 1
-    return CharacterLibrary(folder, sources, problems, revisions, stamp)
+@cache
+def _bundled() -> Mapping[str, Source]:
+    return {id: Source(path) for id, path in bundled_characters().items()}
 
 
-def _own_source(path: Path) -> Source:
+def _own_source(path: Path) -> Read[Source]:
     """The source of an entry. Raises FileError."""
     if not path.stem.isprintable():  # Bytes that are no UTF-8 are not printable either.
         raise FileError("character.odd_name", file=str(path))
@@ -188,7 +127,7 @@ def _own_source(path: Path) -> Source:
     file = path.parent / entry.file
     if not os.path.isfile(file):
         raise FileError("character.file_missing", file=str(path), name=entry.file)
-    return Source(file, entry, _stamp([path, file]))
+    return Read(Source(file, entry, stamp_of([path, file])), (path, file))
 
 
 def read_entry(path: Path) -> CharacterEntry:
@@ -208,46 +147,14 @@ def _is_plain(name: str) -> bool:
     return plain and name.lower().endswith(SUFFIXES)
 
 
-def _stamp(paths: list[Path]) -> Stamp:
-    stamps = []
-    for path in paths:
-        try:
-            status = path.stat()
-        except OSError:
-            continue  # Gone between listing and looking: as if it were not listed.
-        stamps.append((path.name, status.st_mtime_ns, status.st_size))
-    return tuple(stamps)
-
-
-_lock = RLock()
+LIBRARY: Final = UserFolder("characters", SUFFIXES, CharacterLibrary, _bundled, _own_source)
+FOLDER_VARIABLE: Final = LIBRARY.variable
+own_folder, begin_characters = LIBRARY.folder, LIBRARY.begin
+character_library, reload_characters = LIBRARY.now, LIBRARY.reload
 _loading = RLock()
-"""Held while a character is loaded, which may take seconds; never waited for with `_lock`."""
-_library: CharacterLibrary | None = None
+"""Held while a character is loaded, which may take seconds; never waited for with the library's lock."""
 _good: dict[Path, Character] = {}
 """The last good version of each of a person's own files."""
-
-
-def begin_characters() -> CharacterLibrary:
-    """Have the bundled characters alone, unless the folder was read already: for a program that reads it beside its
-    window (`reload_characters`)."""
-    global _library
-    with _lock:
-        bundled = {id: Source(path) for id, path in bundled_characters().items()}
-        _library = _library or CharacterLibrary(own_folder(), bundled)
-        return _library
-
-
-def character_library() -> CharacterLibrary:
-    """Return the characters as they were last read; the first who asks reads them."""
-    return _library if _library is not None else reload_characters()
-
-
-def reload_characters() -> CharacterLibrary:
-    """Read the person's folder again if something in it changed, and return what everybody gets from now on."""
-    global _library
-    with _lock:
-        _library = read_characters(own_folder(), _library)
-        return _library
 
 
 def characters() -> Mapping[str, Path]:
@@ -299,7 +206,7 @@ def _loaded(id: str, path: Path, stamp: Stamp, entry: bytes) -> Character:
 
 def character_problems() -> Mapping[str, Message]:
     """What is wrong with a person's own characters, by id; those whose file has not been opened yet are opened."""
-    found = {path.stem: problem for path, problem in character_library().problems.items()}
+    found = {path.stem: problems[0] for path, problems in character_library().problems.items()}
     for id, source in character_library().sources.items():
         if source.entry is not None and id not in found:
             try:
@@ -342,7 +249,7 @@ def add_character(
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise FileError("file.cannot_write", file=str(folder), reason=error.strerror or str(error)) from error
-    with _lock:
+    with LIBRARY.lock:
         id = _free_id(title, folder)
         suffix = path.suffix.lower() if path.suffix.lower() in SUFFIXES else _suffix_of(path)
         content = read_file(path, MOST_BYTES)

@@ -23,14 +23,13 @@ from app.project.edit.piece import new_piece
 from app.project.presence import Presence, recovery_folder
 from app.rig.character_library import begin_characters
 from app.shell.actions import ActionTable, KeyboardButtons, rows
-from app.shell.character_watch import CharacterWatch
 from app.shell.editor import Editor
 from app.shell.faults import Faults, log_path
 from app.shell.files import Files
 from app.shell.garbage import Garbage
 from app.shell.generator import Generator
-from app.shell.instruments import InstrumentWatch
 from app.shell.language import Language
+from app.shell.library_watch import watch_characters, watch_instruments
 from app.shell.questions import Questions
 from app.shell.recording import Recorder
 from app.shell.settings import Settings, settings_path
@@ -138,8 +137,8 @@ class Program(QObject):
         self.generator = Generator(self.session, self.tasks)
         # Children of the session: they stay.
         Sound(self.session, playback, heard)
-        InstrumentWatch(self.session)
-        CharacterWatch(self.session)
+        watch_instruments(self.session)
+        watch_characters(self.session)
         self.recorder = (
             Recorder(self.session, self.editor.files, settings)
             if recorder is None

@@ -58,9 +58,9 @@ def own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> OwnFolders:
         folder.mkdir()
         monkeypatch.setenv(variable, str(folder))
     monkeypatch.setenv(CACHE_VARIABLE, str(tmp_path / "cache"))
-    monkeypatch.setattr(character_library, "_library", None)
+    monkeypatch.setattr(character_library.LIBRARY, "last", None)
     monkeypatch.setattr(character_library, "_good", {})
-    monkeypatch.setattr(instrument_library, "_library", None)
+    monkeypatch.setattr(instrument_library.LIBRARY, "last", None)
     return folders
 
 

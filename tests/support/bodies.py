@@ -197,7 +197,7 @@ def playing() -> Iterator[None]:
         return odd_body(id) if id in BODIES else one(id)
 
     with (
-        patch.object(characters, "_library", replace(library, sources=sources)),
+        patch.object(characters.LIBRARY, "last", replace(library, items=sources)),
         patch("app.performance.bodies.character_named", either),
     ):
         yield

@@ -170,7 +170,7 @@ def clip(path: Path, folder: Path) -> None:
 
 def instrument_map(path: Path, folder: Path) -> None:
     """A map in a user's folder is taken or set aside, and the others stay."""
-    from instrument_maps.library import read_library
+    from instrument_maps.library import LIBRARY
     from instrument_maps.load import bundled_maps, check_map
 
     own = folder / "own"
@@ -178,7 +178,7 @@ def instrument_map(path: Path, folder: Path) -> None:
     for name in ("trumpet_Bb", "recorder_soprano_C"):
         (own / f"{name}.toml").write_bytes(path.read_bytes())
     with accepted("read the folder"):
-        library = read_library(own)
+        library = LIBRARY.read(own)
     require(set(bundled_maps()) <= set(library.maps), "a bundled instrument is gone")
     check_map(own / "trumpet_Bb.toml")
 
@@ -227,7 +227,7 @@ def _one_of_folder(read: Callable[[Path], Any], path: Path, folder: Path, good: 
 
 def character_entry(path: Path, folder: Path) -> None:
     """A user's characters: a bad entry is told and the others stay."""
-    from app.rig.character_library import bundled_characters, read_characters
+    from app.rig.character_library import LIBRARY, bundled_characters
 
     own = folder / "own"
     own.mkdir(exist_ok=True)
@@ -235,7 +235,7 @@ def character_entry(path: Path, folder: Path) -> None:
     (own / "somebody.toml").write_bytes(path.read_bytes())
     (own / "other.toml").write_bytes(b'file = "figure.glb"\n')
     with accepted("read the folder"):
-        library = read_characters(own)
+        library = LIBRARY.read(own)
     require(set(bundled_characters()) | {"other"} <= set(library.sources), "a character is gone")
 
 

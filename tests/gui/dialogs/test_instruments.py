@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
 import instrument_maps.library as library
-from app.shell.instruments import InstrumentWatch
+from app.shell.library_watch import watch_instruments
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import delete_now
 from tests.support.pipe import add
@@ -80,7 +80,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     own = tmp_path / "own"
     own.mkdir()
     monkeypatch.setenv(library.FOLDER_VARIABLE, str(own))
-    monkeypatch.setattr(library, "_library", None)
+    monkeypatch.setattr(library.LIBRARY, "last", None)
     return own
 
 
@@ -88,7 +88,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def page(session: Session, qtbot: QtBot, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Page]:
     monkeypatch.setattr(InstrumentsDialog, "ask", lambda dialog, count: "discard")
     add(folder)
-    InstrumentWatch(session)
+    watch_instruments(session)
     made = Page(session, qtbot)
     yield made
     if isValid(made.dialog):

@@ -76,7 +76,7 @@ def walked(
     write_library(
         watched, tmp_path / "instruments", tmp_path / "characters", tmp_path / "config" / "suisou" / "presets"
     )
-    monkeypatch.setattr(instruments, "_library", None)
+    monkeypatch.setattr(instruments.LIBRARY, "last", None)
     character_library.reload_characters()
     settings.add_recent(tmp_path / watched.file_name("recent"))
     settings.midi_port, settings.stream_host = watched.name("port"), watched.name("host")

@@ -38,7 +38,7 @@ def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_told(
 ) -> None:
     folder = tmp_path / "mine" / "instruments"
     monkeypatch.setenv(FOLDER_VARIABLE, str(folder))
-    monkeypatch.setattr(module, "_library", None)
+    monkeypatch.setattr(module.LIBRARY, "last", None)
     program = start()
     session = program.session
     told: list[tuple[str, dict[str, object]]] = []
@@ -93,4 +93,4 @@ def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_told(
     # Gone: the bundled one again.
     (folder / "trumpet_Bb.toml").unlink()
     qtbot.waitUntil(lambda: session.performance.instrument(trumpet) is bundled_maps()["trumpet_Bb"])
-    monkeypatch.setattr(module, "_library", None)
+    monkeypatch.setattr(module.LIBRARY, "last", None)

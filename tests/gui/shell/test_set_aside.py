@@ -54,7 +54,7 @@ def homes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         monkeypatch.setenv(name, str(tmp_path / name.lower()))
     for module in (instrument_library, character_library):
         monkeypatch.setenv(module.FOLDER_VARIABLE, str(tmp_path / module.__name__))
-        monkeypatch.setattr(module, "_library", None)
+        monkeypatch.setattr(module.LIBRARY, "last", None)
     return tmp_path
 
 

@@ -30,7 +30,7 @@ def piece(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         shutil.copy(EXAMPLE / name, own)
     monkeypatch.setenv(library.FOLDER_VARIABLE, str(own))
     monkeypatch.setenv(CACHE_VARIABLE, str(tmp_path / "cache"))
-    monkeypatch.setattr(library, "_library", None)
+    monkeypatch.setattr(library.LIBRARY, "last", None)
     track = mido.MidiTrack([mido.MetaMessage("track_name", name="Tin Whistle")])
     for pitch in TUNE:
         track.append(mido.Message("note_on", note=pitch, velocity=80))

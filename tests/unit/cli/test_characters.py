@@ -18,7 +18,7 @@ DATA = Path(__file__).parents[2] / "data" / "characters"
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     own = tmp_path / "characters"
     monkeypatch.setenv(FOLDER_VARIABLE, str(own))
-    monkeypatch.setattr(character_library, "_library", None)
+    monkeypatch.setattr(character_library.LIBRARY, "last", None)
     return own
 
 

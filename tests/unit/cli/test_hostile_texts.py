@@ -51,8 +51,8 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder.mkdir()
     monkeypatch.setenv("SUISOU_INSTRUMENTS", str(folder))
     monkeypatch.setenv("SUISOU_CHARACTERS", str(folder))
-    monkeypatch.setattr(library, "_library", None)
-    monkeypatch.setattr(character_library, "_library", None)
+    monkeypatch.setattr(library.LIBRARY, "last", None)
+    monkeypatch.setattr(character_library.LIBRARY, "last", None)
     return folder
 
 

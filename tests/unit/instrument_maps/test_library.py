@@ -10,7 +10,7 @@ import pytest
 
 import instrument_maps.library as module
 from app.errors import MapError
-from instrument_maps.library import FOLDER_VARIABLE, all_maps, find_map, library, model_path, own_folder, read_library
+from instrument_maps.library import FOLDER_VARIABLE, LIBRARY, all_maps, find_map, library, model_path, own_folder
 from instrument_maps.load import MODELS, bundled_maps
 
 CHANGED = 'extends = "trumpet_Bb"\nid = "trumpet_Bb"\nshort_name = "Mine"\n'
@@ -22,7 +22,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     own = tmp_path / "own"
     own.mkdir()
     monkeypatch.setenv(FOLDER_VARIABLE, str(own))
-    monkeypatch.setattr(module, "_library", None)
+    monkeypatch.setattr(module.LIBRARY, "last", None)
     return own
 
 
@@ -34,7 +34,7 @@ def write(path: Path, text: str) -> None:
 
 
 def test_a_folder_that_is_not_there_holds_nothing(tmp_path: Path) -> None:
-    found = read_library(tmp_path / "none")
+    found = LIBRARY.read(tmp_path / "none")
     assert dict(found.maps) == dict(bundled_maps())
     assert (found.own, found.problems) == ({}, {})
 

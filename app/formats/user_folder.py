@@ -1,0 +1,225 @@
+"""What a person has of a kind: the bundled ones and those of their own folder, read again when its files change.
+
+Each is a ``.toml`` file and what lies beside it. A person's own one wins over the bundled one of its id; what is wrong
+with a file is told by file, and the last good version of it stays in use. Everybody asks for the same value;
+`UserFolder.reload` alone replaces it, by another one.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from threading import RLock
+from typing import Any, Generic, TypeAlias, TypeVar
+
+import platformdirs
+
+from app.errors import AppError, Message
+from app.formats.files import files_in
+
+V = TypeVar("V")
+S = TypeVar("S", bound="Shelf[Any]")
+Stamp: TypeAlias = frozenset[tuple[str, int, int]]
+"""Names, times and sizes of files; and why a folder could not be listed."""
+TABLE = ".toml"
+
+
+@dataclass(frozen=True)
+class Shelf(Generic[V]):
+    """All there are of a kind, as they were when the folder was read.
+
+    Attributes
+    ----------
+    folder : Path
+        A person's own.
+    items : mapping of str to V
+        By id: first the bundled ones, then a person's own. As long as one is what it was, it is the same object.
+    files : mapping of str to Path
+        Those that are a person's own, and their files.
+    problems : mapping of Path to tuple of Message
+        What is wrong with a person's files. Where an earlier version was good, ``items`` has that.
+    revisions : mapping of str to int
+        How often the one of each id became another; of those that never did, nothing.
+    stamp : frozenset
+        The files that were read.
+    made_of : mapping of str to Stamp
+        What a person's own ones are made of beside what their tables say.
+    """
+
+    folder: Path
+    items: Mapping[str, V]
+    files: Mapping[str, Path] = field(default_factory=dict)
+    problems: Mapping[Path, tuple[Message, ...]] = field(default_factory=dict)
+    revisions: Mapping[str, int] = field(default_factory=dict)
+    stamp: Stamp = frozenset()
+    made_of: Mapping[str, Stamp] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Read(Generic[V]):
+    """What a file of a person's holds: a value and the files it is made of, or what is wrong with it."""
+
+    value: V | None
+    files: tuple[Path, ...] = ()
+    problems: tuple[Message, ...] = ()
+
+
+class UserFolder(Generic[V, S]):
+    """A kind of which there are bundled ones and a person's own.
+
+    Parameters
+    ----------
+    name : str
+        Of the folder beside the program's other data. The environment variable ``SUISOU_`` and this name may name
+        another one.
+    suffixes : collection of str
+        Of the files that count, beside tables.
+    shelf : type of Shelf
+        What is handed out.
+    bundled : callable
+        The bundled ones by id, the same objects every time.
+    read : callable
+        A table of a person's, by its path; may raise AppError.
+    skipped : collection of str
+        Names of tables that hold something else.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        suffixes: Collection[str],
+        shelf: type[S],
+        bundled: Callable[[], Mapping[str, V]],
+        read: Callable[[Path], Read[V]],
+        skipped: Collection[str] = (),
+    ) -> None:
+        self.name, self.variable = name, f"SUISOU_{name.upper()}"
+        self.suffixes = (TABLE, *suffixes)
+        self.lock = RLock()
+        self.last: S | None = None
+        self._shelf, self._bundled, self._read, self._skipped = shelf, bundled, read, frozenset(skipped)
+
+    def folder(self) -> Path:
+        """Where a person's own are; need not exist."""
+        named = os.environ.get(self.variable)
+        return Path(named) if named else platformdirs.user_data_path("suisou", appauthor=False) / self.name
+
+    def begin(self) -> S:
+        """Have the bundled ones alone, unless the folder was read already: for a program that reads it beside its
+        window."""
+        with self.lock:
+            self.last = self.last or self._shelf(self.folder(), self._bundled())
+            return self.last
+
+    def now(self) -> S:
+        """Return all as they were last read; the first who asks reads them."""
+        return self.last if self.last is not None else self.reload()
+
+    def reload(self) -> S:
+        """Read the folder again if something in it changed, and return what everybody gets from now on."""
+        with self.lock:
+            self.last = self.read(self.folder(), self.last)
+            return self.last
+
+    def read(self, folder: Path, before: S | None = None) -> S:
+        """Read a person's folder; one that is not there holds nothing.
+
+        Parameters
+        ----------
+        folder : Path
+        before : Shelf, optional
+            What was read before: what did not change stays the same object, and good versions of what is wrong now
+            stay in use.
+        """
+        problems: dict[Path, tuple[Message, ...]] = {}
+        try:
+            listed = files_in(folder, *self.suffixes)
+        except AppError as error:
+            problems[folder], listed = (error.message,), []
+        stamp = stamp_of(listed) | {(problem.id, 0, 0) for told in problems.values() for problem in told}
+        if before is not None and before.folder == folder and before.stamp == stamp:
+            return before
+        own: dict[str, V] = {}
+        files: dict[str, Path] = {}
+        made_of: dict[str, Stamp] = {}
+        for path in listed:
+            if path.suffix.lower() != TABLE or path.name in self._skipped:
+                continue
+            id, found = path.stem, self._checked(path)
+            earlier: V | None = None if before is None or id not in before.files else before.items[id]
+            if found.problems:
+                problems[path] = found.problems
+            parts = stamp_of(found.files)
+            same = earlier is not None and found.value == earlier and before is not None and before.made_of[id] == parts
+            if (found.value is None or same) and earlier is not None and before is not None:
+                own[id], files[id], made_of[id] = earlier, path, before.made_of[id]
+            elif found.value is not None:
+                own[id], files[id], made_of[id] = found.value, path, parts
+        items = {**self._bundled(), **own}
+        known = items if before is None else before.items
+        revisions = {} if before is None else dict(before.revisions)
+        for id in {**items, **known}:
+            if items.get(id) is not known.get(id):
+                revisions[id] = revisions.get(id, 0) + 1
+        return self._shelf(folder, items, files, problems, revisions, stamp, made_of)
+
+    def _checked(self, path: Path) -> Read[V]:
+        try:
+            return self._read(path)
+        except AppError as error:
+            return Read(None, problems=(error.message,))
+
+
+class Named(Generic[V]):
+    """Tables in a folder that have their names in them, whatever their files are called.
+
+    Parameters
+    ----------
+    read : callable
+        A table by its path. Raises AppError.
+    name_of : callable
+    """
+
+    def __init__(self, read: Callable[[Path], V], name_of: Callable[[V], str]) -> None:
+        self._read, self._name_of = read, name_of
+
+    def found(self, folder: Path) -> tuple[dict[str, V], tuple[Message, ...]]:
+        """The sound ones by name, in the order of the names, and what is wrong with the others. A folder that is not
+        there holds none."""
+        items: dict[str, V] = {}
+        problems = []
+        try:
+            listed = files_in(folder, TABLE)
+        except AppError as error:
+            return {}, (error.message,)
+        for path in listed:
+            try:
+                item = self._read(path)
+            except AppError as error:
+                problems.append(error.message)
+            else:
+                items[self._name_of(item)] = item
+        return dict(sorted(items.items())), tuple(problems)
+
+    def path_of(self, folder: Path, name: str) -> Path | None:
+        """The file that holds the one of this name. Raises FileError where the folder cannot be listed."""
+        for path in files_in(folder, TABLE):
+            with contextlib.suppress(AppError):  # What is wrong with another file, `found` says.
+                if self._name_of(self._read(path)) == name:
+                    return path
+        return None
+
+
+def stamp_of(paths: Iterable[Path]) -> Stamp:
+    """Names, times and sizes of files."""
+    stamps = []
+    for path in paths:
+        try:
+            status = path.stat()
+        except OSError:
+            continue  # Gone between listing and looking: as if it were not listed.
+        stamps.append((path.name, status.st_mtime_ns, status.st_size))
+    return frozenset(stamps)

@@ -1,0 +1,86 @@
+"""What a person has of a kind in a folder of their own, read again as soon as its files change."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+from PySide6.QtCore import QObject, QTimer
+
+from app.errors import Message
+from app.formats.user_folder import Shelf, UserFolder
+from app.rig.character_library import LIBRARY as CHARACTERS
+from app.shell.folder_watch import FolderWatch
+from instrument_maps.library import LIBRARY as INSTRUMENTS
+from widgets.common.session import Session, Severity
+from widgets.common.tasks import Progress, StopWanted
+
+
+class LibraryWatch(QObject):
+    """Watches the folder of a kind for a session.
+
+    What became wrong is told with its place in the file, and its last good version stays in use; everybody hears the
+    session's signal ``{name}_changed``, and ``{name}_saved`` says that the program itself wrote into the folder.
+
+    Parameters
+    ----------
+    session : Session
+    library : UserFolder
+    read_again : str, optional
+        Id of the message (maps) that says what was read again.
+    """
+
+    def __init__(self, session: Session, library: UserFolder[Any, Any], read_again: str = "") -> None:
+        super().__init__(session)
+        self._session, self._library, self._read_again = session, library, read_again
+        self._changed = getattr(session, f"{library.name}_changed")
+        self._known: Shelf[Any] = library.begin()
+        self._watch = FolderWatch(self, library.folder, library.suffixes)
+        self._watch.changed.connect(self.read)
+        getattr(session, f"{library.name}_saved").connect(self._saved)
+        self._is_first = True
+        for problems in self._known.problems.values():
+            QTimer.singleShot(0, self, partial(session.notice, problems[0], Severity.ERROR))
+        QTimer.singleShot(0, self, self.read)
+
+    def read(self) -> None:
+        """Read the folder again now."""
+        self._watch.look()
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> Shelf[Any]:
+            now: Shelf[Any] = self._library.reload()
+            return now
+
+        name = self._library.name
+        self._session.tasks.run(Message(f"work.{name}"), work, self._took, key=name)
+
+    def _saved(self) -> None:
+        """What was written may have been read already: then it is there at once."""
+        self._take(self._library.now())
+        self.read()
+
+    def _took(self, now: Shelf[Any]) -> None:
+        self._take(now)
+        self._is_first = False
+
+    def _take(self, now: Shelf[Any]) -> None:
+        before, self._known = self._known, now
+        if now is before:
+            return
+        changed = [id for id in {**before.items, **now.items} if before.items.get(id) is not now.items.get(id)]
+        self._changed.emit()
+        wrong = [problems[0] for path, problems in now.problems.items() if before.problems.get(path) != problems]
+        for problem in wrong:
+            self._session.notice(problem, Severity.ERROR)
+        if self._read_again and changed and not wrong and not self._is_first:
+            self._session.notice(Message(self._read_again, {"maps": ", ".join(sorted(changed))}))
+
+
+def watch_instruments(session: Session) -> LibraryWatch:
+    """Watch a person's own instruments."""
+    return LibraryWatch(session, INSTRUMENTS, "instruments.read_again")
+
+
+def watch_characters(session: Session) -> LibraryWatch:
+    """Watch a person's own characters."""
+    return LibraryWatch(session, CHARACTERS)
