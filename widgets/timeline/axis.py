@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 
 from app.project.grid import Grid
 from app.score.model import Score
-from widgets.timeline.lines import LineCache, Lines
+from widgets.timeline.model.lines import LineCache, Lines
 
 Floats = npt.NDArray[np.float64]
 

@@ -30,7 +30,7 @@ from widgets.common.plain import Label
 from widgets.common.selection import Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.lines import Lines
+from widgets.timeline.model.lines import Lines
 from widgets.timeline.plot import Background, LaneItem, LaneMouse, Plot
 
 __all__ = ["FOLDED_PX", "GUTTER_PX", "PAN_A_STEP", "ZOOM_A_STEP", "Lane", "LaneItem", "LaneMouse"]

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from pyqtgraph.Qt.internals import PrimitiveArray
-from PySide6.QtCore import QEvent, QLineF, QPoint, QRectF, Qt
+from PySide6.QtCore import QEvent, QPoint, QRectF, Qt
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
@@ -20,6 +19,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy
 
+from widgets.timeline.drawing import draw_lines
 from widgets.timeline.pictured import Pictured
 
 if TYPE_CHECKING:
@@ -100,7 +100,6 @@ class Background(LaneItem):
 
     def __init__(self, lane: Lane) -> None:
         super().__init__(lane, -100.0)
-        self._array = PrimitiveArray(QLineF, 4)
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane = self.lane
@@ -122,13 +121,8 @@ class Background(LaneItem):
             x = axis.x_px(seconds)
             # Whole pixels and a half: a sharp line.
             x = np.floor(x[(x >= exposed.left() - 1) & (x <= exposed.right() + 1)]) + 0.5
-            if len(x):
-                self._array.resize(len(x))
-                memory = self._array.ndarray()
-                memory[:, 0] = memory[:, 2] = x
-                memory[:, 1], memory[:, 3] = exposed.top(), exposed.bottom()
-                painter.setPen(QPen(shade, 1.0))
-                painter.drawLines(*self._array.drawargs())
+            top, bottom = np.full(len(x), exposed.top()), np.full(len(x), exposed.bottom())
+            draw_lines(painter, x, top, x, bottom, QPen(shade, 1.0))
 
     def _shade(self, painter: QPainter, exposed: QRectF, start_s: float, end_s: float, colour: str) -> None:
         axis = self.lane.axis

@@ -26,8 +26,8 @@ from widgets.common.tokens import LEAST_TEXT_PT
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.keyboard import KEYBOARD_PX, Keyboard
 from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
-from widgets.timeline.lines import beat_of_tick
-from widgets.timeline.note_table import Behind, Flags, Floats, NoteTable, Sounding
+from widgets.timeline.model.lines import beat_of_tick
+from widgets.timeline.model.note_table import Behind, Flags, Floats, NoteTable, Sounding
 from widgets.timeline.roll_gestures import Copy, Draw, Erase, Gesture, LassoNotes, Move, Resize, Velocity
 from widgets.timeline.roll_items import Hint, Labels, Lasso, Notes, Rows
 

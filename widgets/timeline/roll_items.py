@@ -8,16 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
-from pyqtgraph.Qt.internals import PrimitiveArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
-from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QImage, QPainter, QPen, QPolygonF, QStaticText
+from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPen, QPolygonF, QStaticText
 
 from app.plan.model import FingeringEvent, PlayerPlan, Problem
 from widgets.common.fingering_text import short_label
 from widgets.common.pitch import BLACK
+from widgets.timeline.drawing import draw_groups, fill_rects
 from widgets.timeline.lane import LaneItem
-from widgets.timeline.lanes.drawing import draw_groups
-from widgets.timeline.note_table import Behind, NoteTable
+from widgets.timeline.model.note_table import Behind, NoteTable
 
 if TYPE_CHECKING:
     from widgets.timeline.roll import PianoRoll
@@ -79,7 +78,6 @@ class Notes(LaneItem):
 
     def __init__(self, lane: PianoRoll) -> None:
         super().__init__(lane, 0.0)
-        self._array = PrimitiveArray(QRectF, 4)
         self._behind: tuple[object, Behind, QImage] | None = None
         """The other players' notes as they were drawn last, and what that depends on: a selection, an edit in front or
         the playhead passing by leave them as they are."""
@@ -133,16 +131,7 @@ class Notes(LaneItem):
     def _draw(self, painter: QPainter, table: NoteTable, rows: Integers, shade: QColor) -> None:
         if not len(rows):
             return
-        left, top, width, height = self.lane.boxes(table, rows)  # type: ignore[attr-defined]
-        array = self._array
-        array.resize(len(rows))
-        memory = array.ndarray()
-        memory[:, 0] = left
-        memory[:, 1] = top
-        memory[:, 2] = width
-        memory[:, 3] = height
-        painter.setBrush(QBrush(shade))
-        painter.drawRects(*array.drawargs())
+        fill_rects(painter, *self.lane.boxes(table, rows), shade)  # type: ignore[attr-defined]
 
 
 def _shade(colour: str, alpha: int) -> QColor:

@@ -31,9 +31,9 @@ from widgets.common.selection import Selection
 from widgets.common.session import Session, Severity, TimeDisplay
 from widgets.common.tokens import LEAST_TEXT_PT
 from widgets.timeline.axis import Floats, TimeAxis
+from widgets.timeline.drawing import draw_lines
 from widgets.timeline.lane import GUTTER_PX, PAN_A_STEP, ZOOM_A_STEP
-from widgets.timeline.lanes.drawing import draw_lines
-from widgets.timeline.lines import Lines
+from widgets.timeline.model.lines import Lines
 from widgets.timeline.pictured import Pictured
 from widgets.timeline.ruler_labels import Labels, Mark, MarkEditor, bar_labels, clock_labels, frame_labels, lay_marks
 

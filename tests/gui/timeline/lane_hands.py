@@ -13,8 +13,8 @@ from app.project.document import Change
 from tests.support.windows import show
 from widgets.common.session import Session
 from widgets.timeline.lane import Lane
-from widgets.timeline.lanes.region import Region
 from widgets.timeline.lanes.regions import RegionLane
+from widgets.timeline.model.region import Region
 from widgets.timeline.panel import TimelinePanel
 
 LEFT = Qt.MouseButton.LeftButton

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from widgets.timeline.lanes.geometry import Spans, Steps, packed_rows, step_path
+from widgets.timeline.model.geometry import Spans, Steps, packed_rows, step_path
 
 spans = st.lists(st.tuples(st.integers(0, 60), st.integers(1, 30)), max_size=25).map(
     lambda rows: sorted((start, start + length) for start, length in rows)

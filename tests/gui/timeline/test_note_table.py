@@ -11,7 +11,7 @@ from app.score.tempo import TempoMap
 from tests.gui.timeline.conftest import TPQ, Stage
 from widgets.common.timeline_view import Ghosts
 from widgets.timeline import roll_items
-from widgets.timeline.note_table import Behind, NoteTable, Together
+from widgets.timeline.model.note_table import Behind, NoteTable, Together
 from widgets.timeline.roll_items import picture_behind
 
 

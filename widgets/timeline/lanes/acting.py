@@ -31,12 +31,12 @@ from widgets.common.plain import verbatim
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
+from widgets.timeline.drawing import draw_columns, draw_mark, draw_path, draw_rects, draw_text, polygon, shade
 from widgets.timeline.lane import LaneMouse
-from widgets.timeline.lanes.drawing import draw_columns, draw_mark, draw_path, draw_rects, draw_text, polygon, shade
-from widgets.timeline.lanes.geometry import Floats, packed_rows
-from widgets.timeline.lanes.region import Region
 from widgets.timeline.lanes.regions import HANDLE_PX, RegionLane
 from widgets.timeline.lanes.row_names import RowNames
+from widgets.timeline.model.geometry import Floats, packed_rows
+from widgets.timeline.model.region import Region
 
 GROUPS: tuple[tuple[str, ...], ...] = (
     ("cue",),

@@ -14,11 +14,11 @@ from widgets.common.event_names import kind_name
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
+from widgets.timeline.drawing import draw_mark, draw_text, shade
 from widgets.timeline.lane import LaneMouse
-from widgets.timeline.lanes.drawing import draw_mark, draw_text, shade
 from widgets.timeline.lanes.problems import ProblemMarks
-from widgets.timeline.lanes.region import Region
 from widgets.timeline.lanes.regions import RegionLane
+from widgets.timeline.model.region import Region
 
 PREPARATION_SHARE = 0.45
 """Height of a preparation, of the lane."""

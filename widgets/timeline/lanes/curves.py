@@ -21,10 +21,10 @@ from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
+from widgets.timeline.drawing import draw_lines, draw_mark, draw_path, draw_rects, draw_text, shade, small_font
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
-from widgets.timeline.lanes.drawing import draw_lines, draw_mark, draw_path, draw_rects, draw_text, shade, small_font
-from widgets.timeline.lanes.geometry import Floats, Spans, Steps, step_path
 from widgets.timeline.lanes.number_field import NumberField
+from widgets.timeline.model.geometry import Floats, Spans, Steps, step_path
 
 LIPS = ("tension", "effort", "air")
 CONTROLLERS = ("breath", "bite", "expression", "volume", "aftertouch", "pitch_bend")

@@ -10,8 +10,8 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from widgets.common.dance_figures import draw_figures, placed
+from widgets.timeline.drawing import draw_lines, draw_mark, draw_rects, draw_text, shade, small_font
 from widgets.timeline.lane import LaneItem
-from widgets.timeline.lanes.drawing import draw_lines, draw_mark, draw_rects, draw_text, shade, small_font
 
 if TYPE_CHECKING:
     from app.performance.dance_steps import DanceSteps

@@ -20,9 +20,7 @@ from widgets.common.selection import Selection
 from widgets.common.session import Session
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.lane import Lane, LaneItem, LaneMouse
-from widgets.timeline.lanes.alternates import Alternates
-from widgets.timeline.lanes.drawing import (
+from widgets.timeline.drawing import (
     draw_mark,
     draw_path,
     draw_rects,
@@ -30,9 +28,11 @@ from widgets.timeline.lanes.drawing import (
     shade,
     small_font,
 )
-from widgets.timeline.lanes.geometry import Spans
+from widgets.timeline.lane import Lane, LaneItem, LaneMouse
+from widgets.timeline.lanes.alternates import Alternates
 from widgets.timeline.lanes.problems import ProblemMarks
 from widgets.timeline.lanes.row_names import RowNames
+from widgets.timeline.model.geometry import Spans
 
 Floats = npt.NDArray[np.float64]
 

@@ -13,9 +13,9 @@ from widgets.common.selection import Selection
 from widgets.common.session import Session, Severity
 from widgets.common.text import sentence
 from widgets.timeline.axis import TimeAxis
+from widgets.timeline.drawing import shade
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
-from widgets.timeline.lanes.drawing import shade
-from widgets.timeline.lanes.geometry import Spans
+from widgets.timeline.model.geometry import Spans
 
 MARK_PX = 11.0
 REACH_PX = 8.0

@@ -16,7 +16,7 @@ from app.project.edit.events import Edited, corrections_of, move, resize, set_am
 from app.project.model import Project
 from widgets.common.selection import EventKey, Selection
 from widgets.timeline.lane import LaneMouse
-from widgets.timeline.lanes.region import Region
+from widgets.timeline.model.region import Region
 
 if TYPE_CHECKING:
     from widgets.timeline.lanes.regions import RegionLane

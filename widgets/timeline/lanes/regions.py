@@ -22,11 +22,11 @@ from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
+from widgets.timeline.drawing import MARK_PX, draw_mark, shade, small_font
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
-from widgets.timeline.lanes.drawing import MARK_PX, draw_mark, shade, small_font
 from widgets.timeline.lanes.number_field import NumberField
-from widgets.timeline.lanes.region import Region, place_of, spans_of
 from widgets.timeline.lanes.region_drag import RegionDrag
+from widgets.timeline.model.region import Region, place_of, spans_of
 
 EDGE_PX = 6.0
 HANDLE_PX = 5.0

@@ -9,10 +9,10 @@ from PySide6.QtCore import QLineF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from app.project.model import CompSpan
+from widgets.timeline.drawing import draw_lines, draw_rects, draw_text, shade, small_font
 from widgets.timeline.lane import LaneItem
-from widgets.timeline.lanes.drawing import draw_lines, draw_rects, draw_text, shade, small_font
-from widgets.timeline.lanes.geometry import Floats
-from widgets.timeline.lanes.take_rows import TakeRow, owners
+from widgets.timeline.model.geometry import Floats
+from widgets.timeline.model.take_rows import TakeRow, owners
 
 if TYPE_CHECKING:
     from widgets.timeline.lanes.takes import TakesLane

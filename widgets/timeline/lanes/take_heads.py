@@ -23,9 +23,9 @@ from PySide6.QtWidgets import QLineEdit, QToolTip, QWidget
 from app.project.edit.takes import BEFORE
 from widgets.common.icons import icon
 from widgets.common.take_times import clock_text, when_text
-from widgets.timeline.lanes.drawing import draw_text, shade, small_font
+from widgets.timeline.drawing import draw_text, shade, small_font
 from widgets.timeline.lanes.take_drawing import STRIP_PX
-from widgets.timeline.lanes.take_rows import TakeRow
+from widgets.timeline.model.take_rows import TakeRow
 
 if TYPE_CHECKING:
     from widgets.timeline.lanes.takes import TakesLane

@@ -24,7 +24,7 @@ from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import Lane, LaneMouse
 from widgets.timeline.lanes.take_drawing import STRIP_PX, TakesItem
 from widgets.timeline.lanes.take_heads import TakeHeads
-from widgets.timeline.lanes.take_rows import TakeRow, comp_of, edges, pitch_range, rows_of, span_at
+from widgets.timeline.model.take_rows import TakeRow, comp_of, edges, pitch_range, rows_of, span_at
 
 ROW_PX, LEAST_ROW_PX, MOST_ROW_PX = 38, 24, 72
 SHOWN_ROWS, LEAST_SHOWN_ROWS = 6, 3

@@ -17,8 +17,8 @@ from app.project.model import Project
 from widgets.common.numbers import number_text
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
+from widgets.timeline.drawing import Floats, draw_lines, draw_text, shade, small_font
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
-from widgets.timeline.lanes.drawing import Floats, draw_lines, draw_text, shade, small_font
 from widgets.timeline.lanes.number_field import NumberField
 
 DRAG_PX = 3.0

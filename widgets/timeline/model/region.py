@@ -9,7 +9,7 @@ import numpy as np
 
 from app.errors import Message
 from widgets.common.selection import EventKey
-from widgets.timeline.lanes.geometry import Spans
+from widgets.timeline.model.geometry import Spans
 
 
 class Region(msgspec.Struct):

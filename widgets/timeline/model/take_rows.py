@@ -17,7 +17,7 @@ from app.score.clean import Cleaned, Fault
 from app.score.model import ControllerCurve, Note
 from app.score.take import Take
 from app.score.tempo import TempoMap
-from widgets.timeline.lanes.geometry import Floats, Ints, Spans, Steps
+from widgets.timeline.model.geometry import Floats, Ints, Spans, Steps
 
 _KEPT: Final[IdentityCache[tuple[Spans, Ints, Ints]]] = IdentityCache(128)
 _LEFT_OUT: Final[IdentityCache[tuple[Spans, Ints, tuple[Fault, ...]]]] = IdentityCache(128)

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from pyqtgraph.Qt.internals import PrimitiveArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF
 from shiboken6 import wrapInstance
@@ -69,18 +68,28 @@ def draw_rects(painter: QPainter, left: Floats, top: Floats, width: Floats, heig
     """Many rectangles of one colour; arrays (N,) of pixels."""
     if len(left):
         painter.setPen(Qt.PenStyle.NoPen)
+        fill_rects(painter, left, top, width, height, colour)
+
+
+def fill_rects(painter: QPainter, left: Floats, top: Floats, width: Floats, height: Floats, colour: QColor) -> None:
+    """As `draw_rects`, outlined with the painter's pen."""
+    if len(left):
+        table = _side_by_side(left, top, width, height)
         painter.setBrush(colour)
-        painter.drawRects(*_rectangles((left, top, width, height)).drawargs())
+        painter.drawRects(_first(table, QRectF), len(table))
 
 
-def _rectangles(boxes: tuple[Floats, Floats, Floats, Floats]) -> Any:
-    """Rectangles for Qt, one behind the other in memory."""
-    array: Any = PrimitiveArray(QRectF, 4)
-    array.resize(len(boxes[0]))
-    table = array.ndarray()
-    for column, values in enumerate(boxes):
-        table[:, column] = values
-    return array
+def _side_by_side(*columns: Floats) -> Floats:
+    """Four numbers a row, as Qt has the members of a rectangle or a line in memory: ``qreal`` is a double."""
+    table: Floats = np.empty((len(columns[0]), len(columns)), np.float64)
+    for place, values in enumerate(columns):
+        table[:, place] = values
+    return table
+
+
+def _first(table: Floats, kind: type[QRectF] | type[QLineF], row: int = 0) -> Any:
+    """A row of a table as Qt's object, and with it all that follow: ``table`` is their memory and must outlive them."""
+    return wrapInstance(table.ctypes.data + row * table.strides[0], kind)
 
 
 def draw_groups(
@@ -102,27 +111,20 @@ def draw_groups(
     """
     if not len(group):
         return
-    # Kept until all are drawn: they are its memory.
-    array = _rectangles(boxes)
-    table = array.ndarray()
-    address, size = table.ctypes.data, table.strides[0]
+    table = _side_by_side(*boxes)
     starts = np.flatnonzero(np.diff(group, prepend=-1)).tolist()
     painter.setPen(Qt.PenStyle.NoPen)
     for start, end in pairwise([*starts, len(group)]):
         painter.setBrush(colours[int(group[start])])
-        first: Any = wrapInstance(address + start * size, QRectF)
-        painter.drawRects(first, end - start)
+        painter.drawRects(_first(table, QRectF, start), end - start)
 
 
 def draw_lines(painter: QPainter, x0: Floats, y0: Floats, x1: Floats, y1: Floats, pen: QPen) -> None:
     """Many lines with one pen; arrays (N,) of pixels."""
-    array: Any = PrimitiveArray(QLineF, 4)
-    array.resize(len(x0))
     if len(x0):
-        table = array.ndarray()
-        table[:, 0], table[:, 1], table[:, 2], table[:, 3] = x0, y0, x1, y1
+        table = _side_by_side(x0, y0, x1, y1)
         painter.setPen(pen)
-        painter.drawLines(*array.drawargs())
+        painter.drawLines(_first(table, QLineF), len(table))
 
 
 def draw_path(painter: QPainter, points: Floats, pen: QPen) -> None:
