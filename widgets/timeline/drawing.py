@@ -13,6 +13,7 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygon
 from shiboken6 import wrapInstance
 
 from widgets.common.tokens import LEAST_TEXT_PT, Tokens
+from widgets.timeline.model.hand import Box
 
 Floats = npt.NDArray[np.float64]
 
@@ -20,6 +21,11 @@ Floats = npt.NDArray[np.float64]
 _ONE_LINE = int(Qt.TextFlag.TextDontClip) | int(Qt.TextFlag.TextSingleLine)
 MARK_PX = 6.0
 """Side of the square that marks what a person made."""
+
+
+def rect(box: Box) -> QRectF:
+    """A box as Qt has it."""
+    return QRectF(box.left, box.top, box.width, box.height)
 
 
 def shade(colour: str, alpha: int = 255) -> QColor:

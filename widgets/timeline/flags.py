@@ -14,7 +14,7 @@ from app.score.model import Score
 from widgets.common.session import Session
 from widgets.common.tokens import LEAST_TEXT_PT
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.lane import GUTTER_PX, PAN_A_STEP, ZOOM_A_STEP
+from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.pictured import Pictured
 
 FLAGS_PX = 20
@@ -149,10 +149,8 @@ class Flags(Pictured):
     def wheelEvent(self, event: QWheelEvent) -> None:
         event.accept()
         notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
-        if event.modifiers() & Qt.KeyboardModifier.ControlModifier:
-            self.axis.zoom(ZOOM_A_STEP**notches, self.axis.seconds(event.position().x() - GUTTER_PX))
-        else:
-            self.axis.pan(-notches * PAN_A_STEP * self.axis.span_s)
+        zooms = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
+        self.axis.turn_wheel(notches, event.position().x() - GUTTER_PX, zooms)
 
     def tip(self, flag: Flag) -> str:
         """All of a flag's text, and its bar."""

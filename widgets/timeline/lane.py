@@ -30,10 +30,12 @@ from widgets.common.plain import Label
 from widgets.common.selection import Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
+from widgets.timeline.model.gestures import snapped
+from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.lines import Lines
-from widgets.timeline.plot import Background, LaneItem, LaneMouse, Plot
+from widgets.timeline.plot import Background, LaneItem, Plot
 
-__all__ = ["FOLDED_PX", "GUTTER_PX", "PAN_A_STEP", "ZOOM_A_STEP", "Lane", "LaneItem", "LaneMouse"]
+__all__ = ["FOLDED_PX", "GUTTER_PX", "Lane", "LaneItem", "LaneMouse"]
 
 GUTTER_PX = 144
 """Width of the header of every lane."""
@@ -41,8 +43,6 @@ FOLDED_PX = 26
 AUTOSCROLL_MS = 30
 AUTOSCROLL_SHARE = 0.02
 """Of the visible span, for each tick of the timer while a drag is held past the edge."""
-ZOOM_A_STEP = 1.2
-PAN_A_STEP = 0.12
 
 
 class Lane(QWidget):
@@ -293,22 +293,17 @@ class Lane(QWidget):
     # How it works
 
     def _mouse(self, event: QMouseEvent | QWheelEvent) -> LaneMouse:
-        place = event.position()
-        button = self._button
-        if event.type() in (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonDblClick):
-            assert isinstance(event, QMouseEvent)
-            button = event.button()
-        return self.mouse_at(place, event.modifiers(), button, event.globalPosition().toPoint())
+        return self.mouse_at(event.position(), event.modifiers(), event.globalPosition().toPoint())
 
     def mouse_at(
         self,
         place: QPointF,
         modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier,
-        button: Qt.MouseButton = Qt.MouseButton.NoButton,
         screen: QPoint | None = None,
     ) -> LaneMouse:
         """What a place of the plot means."""
         score = self.session.project.score
+        screen = screen or self.plot.mapToGlobal(place.toPoint())
         time_s = self.axis.seconds(place.x())
         tick = score.tempo_map.ticks(time_s)
         free = bool(modifiers & Qt.KeyboardModifier.AltModifier)
@@ -318,10 +313,11 @@ class Lane(QWidget):
             time_s=time_s,
             value=self.value_at(place.y()),
             tick=tick,
-            snapped_tick=round(tick) if free else self.session.grid.snap(score, tick),
-            modifiers=modifiers,
-            button=button,
-            screen=screen or self.plot.mapToGlobal(place.toPoint()),
+            snapped_tick=snapped(self.session.grid, score, tick, free),
+            shift=bool(modifiers & Qt.KeyboardModifier.ShiftModifier),
+            ctrl=bool(modifiers & Qt.KeyboardModifier.ControlModifier),
+            alt=free,
+            screen_px=(screen.x(), screen.y()),
         )
 
     def pressed(self, event: QMouseEvent) -> None:
@@ -341,7 +337,7 @@ class Lane(QWidget):
             menu = self.context_menu(mouse)
             if menu is not None:
                 menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-                menu.popup(mouse.screen)
+                menu.popup(QPoint(*mouse.screen_px))
 
     def moved(self, event: QMouseEvent) -> None:
         event.accept()
@@ -356,7 +352,7 @@ class Lane(QWidget):
         elif self._panned_px is not None:
             by_px = event.position() - self._panned_px
             self._panned_px = event.position()
-            self.axis.pan(-by_px.x() / self.axis.px_per_s)
+            self.axis.pan_px(by_px.x())
             self.pan_y(by_px.y())
         elif self._button == Qt.MouseButton.NoButton and event.buttons() == Qt.MouseButton.NoButton:
             self.hover(self._mouse(event))
@@ -391,9 +387,9 @@ class Lane(QWidget):
         modifiers = event.modifiers()
         sideways = not event.angleDelta().y() and not modifiers & Qt.KeyboardModifier.AltModifier
         if modifiers & Qt.KeyboardModifier.ControlModifier:
-            self.axis.zoom(ZOOM_A_STEP**notches, self.axis.seconds(event.position().x()))
+            self.axis.turn_wheel(notches, event.position().x(), zooms=True)
         elif sideways or modifiers & Qt.KeyboardModifier.ShiftModifier or not self.wheel(self._mouse(event), notches):
-            self.axis.pan(-notches * PAN_A_STEP * self.axis.span_s)
+            self.axis.turn_wheel(notches, event.position().x(), zooms=False)
 
     def key_pressed(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape and self.dragging:

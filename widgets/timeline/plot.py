@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtCore import QEvent, QPoint, QRectF, Qt
+from PySide6.QtCore import QEvent, QRectF, Qt
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
@@ -24,51 +23,6 @@ from widgets.timeline.pictured import Pictured
 
 if TYPE_CHECKING:
     from widgets.timeline.lane import Lane
-
-
-@dataclass(frozen=True)
-class LaneMouse:
-    """The mouse over a lane's plot.
-
-    Attributes
-    ----------
-    x_px, y_px : float
-        From the upper left corner of the plot.
-    time_s : float
-    value : float
-        On the lane's own vertical scale.
-    tick : float
-        Where ``time_s`` is in the score.
-    snapped_tick : int
-        The nearest line of the session's grid; the nearest tick while Alt is held.
-    modifiers : Qt.KeyboardModifier
-    button : Qt.MouseButton
-        What was pressed; `NoButton` while hovering.
-    screen : QPoint
-        For menus.
-    """
-
-    x_px: float
-    y_px: float
-    time_s: float
-    value: float
-    tick: float
-    snapped_tick: int
-    modifiers: Qt.KeyboardModifier
-    button: Qt.MouseButton
-    screen: QPoint
-
-    @property
-    def shift(self) -> bool:
-        return bool(self.modifiers & Qt.KeyboardModifier.ShiftModifier)
-
-    @property
-    def ctrl(self) -> bool:
-        return bool(self.modifiers & Qt.KeyboardModifier.ControlModifier)
-
-    @property
-    def alt(self) -> bool:
-        return bool(self.modifiers & Qt.KeyboardModifier.AltModifier)
 
 
 class LaneItem:

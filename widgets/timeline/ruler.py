@@ -30,10 +30,11 @@ from widgets.common.icons import icon
 from widgets.common.selection import Selection
 from widgets.common.session import Session, Severity, TimeDisplay
 from widgets.common.tokens import LEAST_TEXT_PT
-from widgets.timeline.axis import Floats, TimeAxis
+from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_lines
-from widgets.timeline.lane import GUTTER_PX, PAN_A_STEP, ZOOM_A_STEP
+from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.model.lines import Lines
+from widgets.timeline.model.view import Floats
 from widgets.timeline.pictured import Pictured
 from widgets.timeline.ruler_labels import Labels, Mark, MarkEditor, bar_labels, clock_labels, frame_labels, lay_marks
 
@@ -520,7 +521,7 @@ class Ruler(Pictured):
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         if self._panned_px is not None:
-            self.axis.pan((self._panned_px - event.position().x()) / self.axis.px_per_s)
+            self.axis.pan_px(event.position().x() - self._panned_px)
             self._panned_px = event.position().x()
         elif self._pressed is not None and self._held:
             far = abs(event.position().x() - self._pressed.position().x()) >= QApplication.startDragDistance() / 2
@@ -565,10 +566,8 @@ class Ruler(Pictured):
     def wheelEvent(self, event: QWheelEvent) -> None:
         event.accept()
         notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
-        if event.modifiers() & Qt.KeyboardModifier.ControlModifier:
-            self.axis.zoom(ZOOM_A_STEP**notches, self.axis.seconds(event.position().x() - GUTTER_PX))
-        else:
-            self.axis.pan(-notches * PAN_A_STEP * self.axis.span_s)
+        zooms = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
+        self.axis.turn_wheel(notches, event.position().x() - GUTTER_PX, zooms)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape and self._held:

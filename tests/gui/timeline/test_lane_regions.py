@@ -40,7 +40,7 @@ from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.timeline.lanes.acting import ActingLane
 from widgets.timeline.lanes.breath import BreathLane
-from widgets.timeline.lanes.regions import LEAST_REGION_PX
+from widgets.timeline.model.regions import LEAST_REGION_PX
 from widgets.timeline.panel import TimelinePanel
 
 

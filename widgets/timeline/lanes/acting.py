@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from operator import is_
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QMenu, QWidget
 
@@ -32,11 +32,12 @@ from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_columns, draw_mark, draw_path, draw_rects, draw_text, polygon, shade
-from widgets.timeline.lane import LaneMouse
-from widgets.timeline.lanes.regions import HANDLE_PX, RegionLane
+from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.model.geometry import Floats, packed_rows
+from widgets.timeline.model.hand import Box, LaneMouse
 from widgets.timeline.model.region import Region
+from widgets.timeline.model.regions import HANDLE_PX
 
 GROUPS: tuple[tuple[str, ...], ...] = (
     ("cue",),
@@ -217,11 +218,9 @@ class ActingLane(RegionLane):
             names.append((self.group_name(kind), top + height * count / 2))
         return names
 
-    def box(self, region: Region) -> QRectF:
-        box = super().box(region)
-        if region.event_id == BASE and not region.removed:
-            box.setTop(box.bottom() - BASE_PX)
-        return box
+    def place(self, region: Region) -> Box:
+        box = super().place(region)
+        return box._replace(top=box.bottom - BASE_PX) if region.event_id == BASE and not region.removed else box
 
     def is_calm(self, region: Region) -> bool:
         return region.kind in STRIPS and not region.by_hand
@@ -401,7 +400,7 @@ class ActingLane(RegionLane):
             menu = QMenu(self)
             menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
             self._expression_entries(menu, lambda name: self._add_expression(name, mouse))
-            menu.popup(mouse.screen)
+            menu.popup(QPoint(*mouse.screen_px))
         else:
             for gesture in GESTURE_KINDS:
                 if gesture == kind:

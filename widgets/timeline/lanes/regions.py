@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 
-import numpy as np
-import numpy.typing as npt
 from msgspec.structs import replace
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QAction, QColor, QKeyEvent, QPainter, QPen
@@ -22,33 +20,17 @@ from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.drawing import MARK_PX, draw_mark, shade, small_font
+from widgets.timeline.drawing import MARK_PX, draw_mark, rect, shade, small_font
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.number_field import NumberField
-from widgets.timeline.lanes.region_drag import RegionDrag
-from widgets.timeline.model.region import Region, place_of, spans_of
+from widgets.timeline.model.gestures import snapped
+from widgets.timeline.model.hand import Box
+from widgets.timeline.model.region import Region, place_of
+from widgets.timeline.model.region_drag import RegionDrag
+from widgets.timeline.model.regions import GLYPH_PX, RegionTable, fade_handles, most_scrolled, region_box, row_box
 
-EDGE_PX = 6.0
-HANDLE_PX = 5.0
-LEAST_REGION_PX = 3.0
 STEP, FINE_STEP = 0.05, 0.01
 """What Up and Down add to an amount."""
-GLYPH_PX = 12.0
-"""Width of the mark of a removed event, which has no length."""
-
-
-IntArray = npt.NDArray[np.intp]
-
-_TRAITS = np.dtype([
-    ("row", np.intp), ("start_s", float), ("length_s", float), ("strength", float), ("narrowable", bool)
-])  # fmt: skip
-
-
-def _traits(regions: Sequence[Region]) -> npt.NDArray[np.void]:
-    """What says which regions are drawn where they are crowded; what was done by hand always is."""
-    return np.array(
-        [(one.row, one.start_s, one.end_s - one.start_s, abs(one.amount), not one.by_hand) for one in regions], _TRAITS
-    )
 
 
 class _Regions(LaneItem):
@@ -98,12 +80,7 @@ class RegionLane(Lane):
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
-        self._shown: list[Region] = []
-        self._by_key: dict[EventKey, Region] = {}
-        self._spans = spans_of(())
-        self._single: list[Region] = []
-        self._single_spans = spans_of(())
-        self._single_traits = _traits(())
+        self._table = RegionTable()
         self._row_count = 1
         self._scrolled_px = 0.0
         self._made_for: tuple[object, ...] = ()
@@ -151,7 +128,7 @@ class RegionLane(Lane):
     @property
     def regions(self) -> list[Region]:
         """What is shown, by start."""
-        return self._shown
+        return self._table.regions
 
     @property
     def rows(self) -> int:
@@ -161,19 +138,16 @@ class RegionLane(Lane):
     @property
     def lasso(self) -> QRectF | None:
         """The rectangle being drawn to select."""
-        return self._drag.lasso if self._drag is not None else None
+        return rect(self._drag.lasso) if self._drag is not None and self._drag.lasso is not None else None
 
     def row_box(self, row: int) -> tuple[float, float]:
         """Top and height of a row, pixels: as high as there is room, at least `least_row_px`."""
-        room, count = self.plot_rect.height(), max(self._row_count, 1)
-        height = max(room / count, self.least_row_px)
-        most = max(count * height - room, 0.0)
-        return row * height - min(self._scrolled_px, most), height
+        return row_box(row, self._row_count, self.plot_rect.height(), self.least_row_px, self._scrolled_px)
 
     def wheel(self, mouse: LaneMouse, steps: float) -> bool:
         """With Alt the rows scroll, where they are more than fit."""
         height = self.row_box(0)[1]
-        most = max(self._row_count * height - self.plot_rect.height(), 0.0)
+        most = most_scrolled(self._row_count, height, self.plot_rect.height())
         if not mouse.alt or most <= 0.0:
             return False
         self._scrolled_px = min(max(min(self._scrolled_px, most) - steps * height, 0.0), most)
@@ -184,98 +158,26 @@ class RegionLane(Lane):
     def rows_scrolled(self) -> None:
         """The rows are in other places."""
 
+    def place(self, region: Region) -> Box:
+        """Where a region lies."""
+        return region_box(region, self.axis, self.row_box(region.row))
+
     def box(self, region: Region) -> QRectF:
         """Where a region lies, pixels."""
-        top, height = self.row_box(region.row)
-        left = self.axis.x_px(region.start_s)
-        width = GLYPH_PX if region.removed else max(self.axis.x_px(region.end_s) - left, LEAST_REGION_PX)
-        left = left - GLYPH_PX / 2 if region.removed else left
-        return QRectF(left, top + 1.0, width, max(height - 2.0, 1.0))
+        return rect(self.place(region))
 
     def visible(self, left_px: float, right_px: float) -> Iterable[Region]:
         """The regions to draw one by one, the selected last."""
-        axis, selected = self.axis, self.session.selection.events
-        margin_s = GLYPH_PX / axis.px_per_s
-        found = self._single_spans.between(axis.seconds(left_px) - margin_s, axis.seconds(right_px) + margin_s)
-        for index in self._distinct(found).tolist():
-            region = self._single[index]
-            key = region.key
-            if key not in selected and key not in self._preview and key not in self._hidden:
-                yield region
-        for key in selected:
-            region_ = self._by_key.get(key)
-            if region_ is not None and key not in self._preview and key not in self._hidden:
-                yield region_
-        yield from self._preview.values()
-
-    def _distinct(self, found: IntArray) -> IntArray:
-        """Of the regions to draw those that can be seen: of the narrow ones in a column the strongest.
-
-        From far away thousands share a column, and each takes as long to draw as a wide one.
-        """
-        scale, traits = self.axis.px_per_s, self._single_traits[found]
-        narrow = traits["narrowable"] & (traits["length_s"] * scale < LEAST_REGION_PX)
-        crowded = found[narrow]
-        # Columns are places in time, so that scrolling does not choose others.
-        columns = np.floor(traits["start_s"] * scale / LEAST_REGION_PX)[narrow]
-        order = np.lexsort((-traits["strength"][narrow], columns, traits["row"][narrow]))
-        places = np.stack((traits["row"][narrow], columns))[:, order]
-        first = np.ones(order.size, bool)
-        first[1:] = np.any(places[:, 1:] != places[:, :-1], axis=0)
-        return np.sort(np.concatenate((found[~narrow], crowded[order[first]])))
+        selected = self.session.selection.events
+        return self._table.visible(self.axis, left_px, right_px, selected, self._preview, self._hidden)
 
     def region_at(self, mouse: LaneMouse) -> tuple[Region | None, str]:
-        """The region at a place, and its zone: ``start``, ``end``, ``fade_in``, ``fade_out`` or ``body``."""
-        place = QPointF(mouse.x_px, mouse.y_px)
-        reach_s = (EDGE_PX + GLYPH_PX) / self.axis.px_per_s
-        best: tuple[tuple[bool, float], Region, str] | None = None
-        selected = self.session.selection.events
-        for index in self._spans.between(mouse.time_s - reach_s, mouse.time_s + reach_s).tolist():
-            region = self._shown[index]
-            box = self.box(region)
-            # Thin regions are caught from a little outside, wide ones at their edges only from inside.
-            slack = max(EDGE_PX - box.width() / 2, 0.0)
-            zone = self._fade_zone(region, box, place)
-            if not zone and not box.adjusted(-slack, 0.0, slack, 0.0).contains(place):
-                continue
-            # The selected one wins, then the shortest: what lies on top can always be reached.
-            rank = (region.key not in selected, box.width())
-            if best is None or rank < best[0]:
-                best = (rank, region, zone or self._zone(region, box, place))
-        return (best[1], best[2]) if best is not None else (None, "")
+        """The region at a place, and its zone, see `RegionTable.at`."""
+        return self._table.at(mouse, self.axis, self.place, self.session.selection.events)
 
-    def _fade_zone(self, region: Region, box: QRectF, place: QPointF) -> str:
-        """Only what is selected has its fades taken hold of: handles of all would be in the way."""
-        if region.fades and region.key in self.session.selection.events:
-            for zone, handle in self.fade_handles(region, box):
-                if abs(place.x() - handle.x()) <= EDGE_PX and abs(place.y() - handle.y()) <= EDGE_PX:
-                    return zone
-        return ""
-
-    def _zone(self, region: Region, box: QRectF, place: QPointF) -> str:
-        if region.removed or region.fixed:
-            return "body"
-        if box.width() >= 3 * EDGE_PX:
-            if place.x() <= box.left() + EDGE_PX:
-                return "start"
-            if place.x() >= box.right() - EDGE_PX:
-                return "end"
-        return "body"
-
-    def fade_handles(self, region: Region, box: QRectF) -> tuple[tuple[str, QPointF], tuple[str, QPointF]]:
+    def fade_handles(self, region: Region, box: QRectF) -> tuple[tuple[str, QPointF], ...]:
         """Where the fades are taken hold of."""
-        scale = self.axis.px_per_s
-        y = box.top() + HANDLE_PX
-        if region.fades_outside:
-            y = box.bottom() - HANDLE_PX
-            return (
-                ("fade_in", QPointF(box.left() - region.fade_in_s * scale, y)),
-                ("fade_out", QPointF(box.right() + region.fade_out_s * scale, y)),
-            )
-        return (
-            ("fade_in", QPointF(min(box.left() + region.fade_in_s * scale, box.right()), y)),
-            ("fade_out", QPointF(max(box.right() - region.fade_out_s * scale, box.left()), y)),
-        )
+        return tuple((zone, QPointF(*at)) for zone, at in fade_handles(region, Box(*box.getCoords()), self.axis))
 
     def refresh(self) -> None:
         """Make the regions anew if anything they show is another value."""
@@ -296,13 +198,7 @@ class RegionLane(Lane):
             return
         self._made_for = made_for
         regions, self._row_count = self.make_regions(plan) if plan is not None else ([], 1)
-        regions.sort(key=lambda region: (region.first_s, region.end_s, region.event_id))
-        self._shown = regions
-        self._by_key = {region.key: region for region in regions}
-        self._spans = spans_of(regions)
-        self._single = [region for region in regions if region.removed or not self.is_calm(region)]
-        self._single_spans = spans_of(self._single)
-        self._single_traits = _traits(self._single)
+        self._table = RegionTable(regions, self.is_calm)
         self._hovered = None
         self.regions_refreshed()
         self.update_items()
@@ -365,7 +261,7 @@ class RegionLane(Lane):
 
     def drag(self, mouse: LaneMouse) -> None:
         if self._drag is not None:
-            self._drag.move_to(mouse)
+            self._drag.drag(mouse)
             self._preview, self._hidden = self._drag.preview, self._drag.hidden
             self.update_items()
 
@@ -381,12 +277,7 @@ class RegionLane(Lane):
         drag, self._drag = self._drag, None
         if drag is None:
             return
-        if drag.edits:
-            self.session.document.end_gesture()
-        elif not drag.mode and not (mouse.ctrl or mouse.shift):
-            # A press without a drag: on one of several selected it selects that one, on nothing it selects nothing.
-            region = drag.region
-            self.session.select(Selection(events=frozenset({region.key}) if region is not None else frozenset()))
+        drag.release(mouse)
         if self.session.performance.project is self.session.project:
             self._end_preview()
         self.update_items()
@@ -417,7 +308,7 @@ class RegionLane(Lane):
         """Give all selected regions of the lane another amount."""
         wanted: dict[str, dict[str, float]] = defaultdict(dict)
         for key in self.session.selection.events:
-            region = self._by_key.get(key)
+            region = self._table.by_key.get(key)
             if region is not None and not region.removed and not region.steady:
                 wanted[key.player_id][key.event_id] = change(region)
         plans = self.session.performance.plans if self.session.performance.planned else {}
@@ -435,7 +326,7 @@ class RegionLane(Lane):
         """Up and Down change the amount (with Shift finely), Enter types it, Alt and an arrow go to a neighbour."""
         modifiers, key = event.modifiers(), event.key()
         alt = bool(modifiers & Qt.KeyboardModifier.AltModifier)
-        chosen = [self._by_key[item] for item in self.session.selection.events if item in self._by_key]
+        chosen = [self._table.by_key[item] for item in self.session.selection.events if item in self._table.by_key]
         if alt and key in (Qt.Key.Key_Left, Qt.Key.Key_Right):
             self._go_on(chosen, 1 if key == Qt.Key.Key_Right else -1)
             return True
@@ -456,15 +347,9 @@ class RegionLane(Lane):
 
     def _go_on(self, chosen: Sequence[Region], step: int) -> None:
         """Select the neighbour of what is selected, else what is nearest to the playhead."""
-        own = [region for region in self._shown if not region.guest]
-        if not own:
+        region = self._table.beside(chosen, step, self.session.playhead_s)
+        if region is None:
             return
-        if chosen:
-            index = own.index(max(chosen, key=lambda item: item.start_s * step)) + step
-        else:
-            at_s = self.session.playhead_s
-            index = min(range(len(own)), key=lambda place: abs(own[place].start_s - at_s))
-        region = own[min(max(index, 0), len(own) - 1)]
         self.session.select(Selection(events=frozenset({region.key})))
         self.axis.reveal(region.start_s, region.end_s)
 
@@ -509,4 +394,4 @@ class RegionLane(Lane):
 
     def snap(self, tick: float, mouse: LaneMouse) -> int:
         """The nearest line of the grid; the tick itself while Alt is held."""
-        return round(tick) if mouse.alt else self.session.grid.snap(self.session.project.score, tick)
+        return snapped(self.session.grid, self.session.project.score, tick, mouse.alt)

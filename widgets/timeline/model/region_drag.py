@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from msgspec.structs import replace
-from PySide6.QtCore import QPointF, QRectF
 
 from app.errors import Message
 from app.plan.corrections import SetBreath
@@ -15,14 +14,10 @@ from app.plan.model import PlayerPlan
 from app.project.edit.events import Edited, corrections_of, move, resize, set_amounts, set_fades
 from app.project.model import Project
 from widgets.common.selection import EventKey, Selection
-from widgets.timeline.lane import LaneMouse
+from widgets.timeline.model.gestures import DRAG_PX, Band, Editing, Gesture, Plane, Step, either, moved_edge
+from widgets.timeline.model.hand import Box, LaneMouse
 from widgets.timeline.model.region import Region
 
-if TYPE_CHECKING:
-    from widgets.timeline.lanes.regions import RegionLane
-
-DRAG_PX = 3.0
-"""The mouse moves this far before a press becomes a drag."""
 MOST_FADE_S = 30.0
 FINE = 0.2
 """With Shift an amount follows the mouse this slowly."""
@@ -30,12 +25,25 @@ FINE = 0.2
 Edit = Callable[[Project, PlayerPlan, Sequence[str]], Edited]
 
 
-class RegionDrag:
+class RegionPlane(Plane, Protocol):
+    """Where regions lie, and where they may go."""
+
+    @property
+    def session(self) -> Editing: ...
+    @property
+    def regions(self) -> Sequence[Region]: ...
+    def place(self, region: Region) -> Box: ...
+    def row_box(self, row: int) -> tuple[float, float]: ...
+    def snap(self, tick: float, mouse: LaneMouse) -> int: ...
+    def snapped_move(self, region: Region, ticks: float, mouse: LaneMouse) -> int: ...
+
+
+class RegionDrag(Gesture):
     """A press that may become a drag of all selected regions, or a lasso.
 
     Parameters
     ----------
-    lane : RegionLane
+    lane : RegionPlane
     region : Region or None
         What is under the mouse.
     zone : str
@@ -53,45 +61,47 @@ class RegionDrag:
         How the dragged regions will be, for as long as no plan shows it.
     hidden : frozenset of EventKey
         What the plan shows that the preview stands for.
-    lasso : QRectF or None
+    lasso : Box or None
     """
 
-    def __init__(self, lane: RegionLane, region: Region | None, zone: str, mouse: LaneMouse, before: Selection) -> None:
+    def __init__(
+        self, lane: RegionPlane, region: Region | None, zone: str, mouse: LaneMouse, before: Selection
+    ) -> None:
         session = lane.session
         selected = session.selection.events
+        super().__init__(mouse, either(DRAG_PX))
         self._lane = lane
         self.region = region
         self._zone = zone
-        self._at = mouse
         self._before = before
-        self._project = session.project
+        self._step = Step(session, lane)
+        self._band = Band(lane, mouse, either(DRAG_PX), self._select_inside)
         self._plans: Mapping[str, PlayerPlan] = session.performance.plans if session.performance.planned else {}
         self._shown = {item.key: item for item in lane.regions if item.key in selected and not item.removed}
         together = selected if region is not None and region.key in selected else ()
         # What is selected of a player who has gone, or is not planned yet, stays where it is.
         known = {player.id for player in session.project.players} & set(self._plans)
         self._keys = tuple(sorted(key for key in together if key.player_id in known))
-        self._token = object()
         self.mode = ""
         self.preview: dict[EventKey, Region] = {}
         self.hidden: frozenset[EventKey] = frozenset()
-        self.lasso: QRectF | None = None
+
+    @property
+    def lasso(self) -> Box | None:
+        """The box that selects."""
+        return self._band.box
 
     @property
     def edits(self) -> bool:
         """Whether it has changed the project."""
         return self.mode not in ("", "lasso", "none")
 
-    def move_to(self, mouse: LaneMouse) -> None:
-        """Follow the mouse."""
+    def follow(self, mouse: LaneMouse) -> None:
         if not self.mode:
-            across, along = abs(mouse.y_px - self._at.y_px), abs(mouse.x_px - self._at.x_px)
-            if max(across, along) < DRAG_PX:
-                return
-            self.mode = self._mode_for(across > along)
+            self.mode = self._mode_for(abs(mouse.y_px - self.at.y_px) > abs(mouse.x_px - self.at.x_px))
         region = self.region
         if self.mode == "lasso":
-            self._draw_lasso(mouse)
+            self._band.drag(mouse)
         elif region is not None and self._keys and self.edits:
             if self.mode == "amount":
                 self._change_amount(region, mouse)
@@ -100,14 +110,23 @@ class RegionDrag:
             else:
                 self._place(region, mouse)
 
+    def finish(self, mouse: LaneMouse) -> None:
+        if self.edits:
+            self._step.end()
+
+    def click(self, mouse: LaneMouse) -> None:
+        """On one of several selected it selects that one, on nothing it selects nothing."""
+        if not (mouse.ctrl or mouse.shift):
+            keys = frozenset({self.region.key}) if self.region is not None else frozenset[EventKey]()
+            self._lane.session.select(Selection(events=keys))
+
     def cancel(self) -> None:
         """Back to where it began: that is no step."""
         session = self._lane.session
         if self.mode == "lasso":
             session.select(self._before)
         elif self.edits:
-            session.apply(Message("edit.move_events", {"count": 0}), self._project, self._token, self._lane)
-            session.document.end_gesture()
+            self._step.take_back()
             session.select(Selection(events=frozenset(self._keys)))
 
     def _mode_for(self, across: bool) -> str:
@@ -122,27 +141,24 @@ class RegionDrag:
             return "none" if region.steady else "amount"
         return "move"
 
-    def _draw_lasso(self, mouse: LaneMouse) -> None:
+    def _select_inside(self, box: Box, _mouse: LaneMouse) -> None:
         lane = self._lane
-        lasso = QRectF(QPointF(self._at.x_px, self._at.y_px), QPointF(mouse.x_px, mouse.y_px)).normalized()
-        self.lasso = lasso
-        inside = {region.key for region in lane.regions if not region.guest and lane.box(region).intersects(lasso)}
-        if self._at.ctrl or self._at.shift:
+        inside = {region.key for region in lane.regions if not region.guest and lane.place(region).meets(box)}
+        if self.at.ctrl or self.at.shift:
             inside |= self._before.events
         lane.session.select(Selection(events=frozenset(inside)))
 
     def _place(self, region: Region, mouse: LaneMouse) -> None:
         """Move, or draw one end."""
-        lane, ticks = self._lane, mouse.tick - self._at.tick
+        lane, ticks = self._lane, mouse.tick - self.at.tick
         start = end = 0
         if self.mode == "move":
             start = end = lane.snapped_move(region, ticks, mouse)
-        elif self.mode == "start":
-            start = lane.snap(region.start_tick + ticks, mouse) - region.start_tick
-            start = min(start, region.end_tick - region.start_tick - 1)
         else:
-            end = lane.snap(region.end_tick + ticks, mouse) - region.end_tick
-            end = max(end, region.start_tick - region.end_tick + 1)
+            at_start = self.mode == "start"
+            tick = lane.snap((region.start_tick if at_start else region.end_tick) + ticks, mouse)
+            first, last = moved_edge(region.start_tick, region.end_tick, at_start, tick)
+            start, end = first - region.start_tick, last - region.end_tick
 
         def edit(project: Project, plan: PlayerPlan, ids: Sequence[str]) -> Edited:
             if self.mode == "move":
@@ -158,7 +174,7 @@ class RegionDrag:
     def _change_amount(self, region: Region, mouse: LaneMouse) -> None:
         """All selected change by the same."""
         height = max(self._lane.row_box(region.row)[1] - 2.0, 1.0)
-        change = (self._at.y_px - mouse.y_px) / height * (2.0 if region.signed else 1.0)
+        change = (self.at.y_px - mouse.y_px) / height * (2.0 if region.signed else 1.0)
         if mouse.shift:
             change *= FINE
         preview = {}
@@ -175,7 +191,7 @@ class RegionDrag:
         self._apply(Message("edit.set_event_amount", {"count": len(self._keys)}), edit, preview)
 
     def _change_fade(self, region: Region, mouse: LaneMouse) -> None:
-        by_s, most_s = mouse.time_s - self._at.time_s, region.end_s - region.start_s
+        by_s, most_s = mouse.time_s - self.at.time_s, region.end_s - region.start_s
         if region.fades_outside:
             by_s, most_s = -by_s, MOST_FADE_S
         into = min(max(region.fade_in_s + by_s, 0.0), most_s) if self.mode == "fade_in" else None
@@ -200,8 +216,7 @@ class RegionDrag:
             by_player[key.player_id].append(key.event_id)
         new_keys: dict[EventKey, EventKey] = {}
 
-        def whole(_: Project) -> Project:
-            project = self._project
+        def whole(project: Project) -> Project:
             for player_id, ids in by_player.items():
                 project, new_ids = edit(project, self._plans[player_id], ids)
                 for old, new in zip(ids, new_ids, strict=True):
@@ -211,7 +226,7 @@ class RegionDrag:
         # Set before the edit: what is told of it draws already.
         self.preview = dict(preview)
         self.hidden = frozenset(self._keys)
-        if not session.attempt(name, whole, self._token, self._lane):
+        if not self._step.attempt(name, whole):
             return
         self.preview = {
             new_keys[key]: self._as_corrected(replace(region, event_id=new_keys[key].event_id))
@@ -233,7 +248,7 @@ class RegionDrag:
         return region
 
     def _at_ticks(self, region: Region, start: int, end: int) -> Region:
-        seconds = self._project.score.tempo_map.seconds
+        seconds = self._step.base.score.tempo_map.seconds
         start_s = seconds(float(start))
         return replace(
             region,

@@ -1,0 +1,72 @@
+"""The mouse over a plot, and boxes in the plot's pixels, without Qt."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+
+class Box(NamedTuple):
+    """A rectangle, pixels from the upper left corner of a plot."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+    @property
+    def width(self) -> float:
+        return self.right - self.left
+
+    @property
+    def height(self) -> float:
+        return self.bottom - self.top
+
+    def contains(self, x_px: float, y_px: float, slack_px: float = 0.0) -> bool:
+        """Whether a place is inside or on the edge; ``slack_px`` to the left and right count as inside."""
+        return self.left - slack_px <= x_px <= self.right + slack_px and self.top <= y_px <= self.bottom
+
+    def meets(self, other: Box) -> bool:
+        """Whether both have room in common; what has no width or no height meets nothing."""
+        return (
+            max(self.left, other.left) < min(self.right, other.right)
+            and max(self.top, other.top) < min(self.bottom, other.bottom)
+        )  # fmt: skip
+
+
+def spanned(x0: float, y0: float, x1: float, y1: float) -> Box:
+    """The box with these two places as opposite corners."""
+    return Box(min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1))
+
+
+@dataclass(frozen=True)
+class LaneMouse:
+    """The mouse over a plot.
+
+    Attributes
+    ----------
+    x_px, y_px : float
+        From the upper left corner of the plot.
+    time_s : float
+    value : float
+        On the lane's own vertical scale.
+    tick : float
+        Where ``time_s`` is in the score.
+    snapped_tick : int
+        The nearest line of the session's grid; the nearest tick while Alt is held.
+    shift, ctrl, alt : bool
+        The keys that are held.
+    screen_px : (int, int)
+        On the screen, for menus.
+    """
+
+    x_px: float
+    y_px: float
+    time_s: float
+    value: float
+    tick: float
+    snapped_tick: int
+    shift: bool = False
+    ctrl: bool = False
+    alt: bool = False
+    screen_px: tuple[int, int] = (0, 0)

@@ -1,0 +1,106 @@
+"""Which seconds of the performance are visible, as a value, and where they lie in pixels."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol, overload
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
+
+LEAST_SPAN_S = 0.05
+"""The closest zoom shows this much: a few frames."""
+PADDING = 0.02
+"""What revealing leaves free at either side, of the visible width."""
+
+
+class Scale(Protocol):
+    """Where times lie in pixels."""
+
+    @property
+    def px_per_s(self) -> float: ...
+    @overload
+    def x_px(self, seconds: float) -> float: ...
+    @overload
+    def x_px(self, seconds: Floats) -> Floats: ...
+    def seconds(self, x_px: float) -> float: ...
+
+
+class TimeView(NamedTuple):
+    """The visible range; every change gives another one, as near to it as the limits allow.
+
+    Attributes
+    ----------
+    limits_s : (float, float)
+        What can be scrolled to.
+    start_s, end_s : float
+        Half-open.
+    width_px : int
+        Of the plot area, device-independent pixels.
+    """
+
+    limits_s: tuple[float, float]
+    start_s: float
+    end_s: float
+    width_px: int
+
+    @property
+    def span_s(self) -> float:
+        """How much is visible."""
+        return self.end_s - self.start_s
+
+    @property
+    def px_per_s(self) -> float:
+        """The zoom."""
+        return self.width_px / self.span_s
+
+    @overload
+    def x_px(self, seconds: float) -> float: ...
+    @overload
+    def x_px(self, seconds: Floats) -> Floats: ...
+    def x_px(self, seconds: float | Floats) -> float | Floats:
+        """Where times lie; numbers or arrays of any shape."""
+        return (seconds - self.start_s) * self.px_per_s
+
+    def seconds(self, x_px: float) -> float:
+        """The time at a place."""
+        return self.start_s + x_px / self.px_per_s
+
+    def within(self, start_s: float, end_s: float) -> TimeView:
+        """With other limits; the visible range moves only where it must."""
+        return self._replace(limits_s=(start_s, max(end_s, start_s + LEAST_SPAN_S))).showing(self.start_s, self.end_s)
+
+    def widened(self, width_px: int) -> TimeView:
+        """As wide; the zoom stays, so that more is visible in a wider window."""
+        width_px = max(width_px, 1)
+        if width_px == self.width_px:
+            return self
+        return self._replace(width_px=width_px).showing(self.start_s, self.start_s + width_px / self.px_per_s)
+
+    def showing(self, start_s: float, end_s: float) -> TimeView:
+        """With this range visible."""
+        low, high = self.limits_s
+        span = min(max(end_s - start_s, LEAST_SPAN_S), high - low)
+        start_s = min(max(start_s, low), high - span)
+        return self._replace(start_s=start_s, end_s=start_s + span)
+
+    def zoomed(self, factor: float, at_s: float) -> TimeView:
+        """With ``factor`` times less visible; the time ``at_s`` stays where it is."""
+        low, high = self.limits_s
+        span = min(max(self.span_s / factor, LEAST_SPAN_S), high - low)
+        start_s = at_s - (at_s - self.start_s) / self.span_s * span
+        return self.showing(start_s, start_s + span)
+
+    def panned(self, by_s: float) -> TimeView:
+        """Scrolled; later times come into view for a positive distance."""
+        return self.showing(self.start_s + by_s, self.end_s + by_s)
+
+    def revealing(self, time_s: float, end_s: float | None = None) -> TimeView:
+        """Scrolled only if a time (or a span from it on) is not comfortably in view."""
+        until_s = time_s if end_s is None else min(end_s, time_s + self.span_s * (1 - 2 * PADDING))
+        margin = self.span_s * PADDING
+        if self.start_s + margin <= time_s and until_s <= self.end_s - margin:
+            return self
+        start_s = (time_s + until_s - self.span_s) / 2
+        return self.showing(start_s, start_s + self.span_s)
