@@ -123,7 +123,7 @@ class Lane(QWidget):
         column.addLayout(self.controls)
         column.addStretch(1)
 
-        self.plot = Plot(self)
+        self.plot = Plot(self, self)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(0)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from PySide6.QtCore import QEvent, QRectF, Qt
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
+    QFont,
     QKeyEvent,
     QMouseEvent,
     QPainter,
@@ -16,13 +17,48 @@ from PySide6.QtGui import (
     QResizeEvent,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QSizePolicy
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from app.plan.model import PlayerPlan
+from app.project.model import Player
+from widgets.common.session import Session
+from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_lines
+from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lines import Lines
 from widgets.timeline.pictured import Pictured
 
-if TYPE_CHECKING:
-    from widgets.timeline.lane import Lane
+
+class LaneView(Protocol):
+    """What items draw of a lane."""
+
+    session: Session
+    axis: TimeAxis
+    plot: Plot
+
+    @property
+    def plot_rect(self) -> QRectF: ...
+    @property
+    def y_range(self) -> tuple[float, float]: ...
+    def y_px(self, value: float) -> float: ...
+    def lines(self) -> Lines: ...
+    def plan_of(self, player: Player) -> PlayerPlan | None: ...
+    def font(self) -> QFont: ...
+
+
+class PlotOwner(Protocol):
+    """What a plot passes its events to."""
+
+    session: Session
+
+    def plot_resized(self) -> None: ...
+    def pressed(self, event: QMouseEvent) -> None: ...
+    def moved(self, event: QMouseEvent) -> None: ...
+    def released(self, event: QMouseEvent) -> None: ...
+    def double_clicked(self, event: QMouseEvent) -> None: ...
+    def wheeled(self, event: QWheelEvent) -> None: ...
+    def key_pressed(self, event: QKeyEvent) -> None: ...
+    def hover(self, mouse: LaneMouse | None) -> None: ...
 
 
 class LaneItem:
@@ -30,12 +66,12 @@ class LaneItem:
 
     Parameters
     ----------
-    lane : Lane
+    lane : LaneView
     z : float
         What has more lies above.
     """
 
-    def __init__(self, lane: Lane, z: float = 0.0) -> None:
+    def __init__(self, lane: LaneView, z: float = 0.0) -> None:
         self.lane = lane
         self.z = z
         lane.plot.add(self)
@@ -52,7 +88,7 @@ class LaneItem:
 class Background(LaneItem):
     """Lines of bars, beats and the grid; the loop and the selected span as shades."""
 
-    def __init__(self, lane: Lane) -> None:
+    def __init__(self, lane: LaneView) -> None:
         super().__init__(lane, -100.0)
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
@@ -93,8 +129,8 @@ class Plot(Pictured):
     lanes again.
     """
 
-    def __init__(self, lane: Lane) -> None:
-        super().__init__(lane)
+    def __init__(self, lane: PlotOwner, parent: QWidget) -> None:
+        super().__init__(parent)
         self._lane = lane
         self._items: list[LaneItem] = []
         self.setMinimumSize(40, 0)

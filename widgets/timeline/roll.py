@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import sys
-from operator import is_
 
 import numpy as np
-import numpy.typing as npt
 from PySide6.QtCore import QEvent, QLineF, QRectF, Qt, Signal
 from PySide6.QtGui import QAction, QCursor, QFont, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QMenu, QToolTip, QWidget
+from PySide6.QtWidgets import QApplication, QMenu, QToolTip, QWidget
 
 from app.errors import AppError, Message
 from app.project.document import Change
 from app.project.edit import notes
-from app.project.model import Player, Project
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap
 from widgets.common.pitch import pitch_text
@@ -24,21 +21,24 @@ from widgets.common.text import sentence
 from widgets.common.timeline_view import Ghosts, Tool
 from widgets.common.tokens import LEAST_TEXT_PT
 from widgets.timeline.axis import TimeAxis
+from widgets.timeline.drawing import rect
 from widgets.timeline.keyboard import KEYBOARD_PX, Keyboard
 from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
+from widgets.timeline.model.gestures import Gesture
 from widgets.timeline.model.lines import beat_of_tick
-from widgets.timeline.model.note_table import Behind, Flags, Floats, NoteTable, Sounding
-from widgets.timeline.roll_gestures import Copy, Draw, Erase, Gesture, LassoNotes, Move, Resize, Velocity
+from widgets.timeline.model.note_table import Behind, Floats, Sounding
+from widgets.timeline.model.roll import (
+    Integers,
+    RollModel,
+    boxes,
+    fitted_pitches,
+    kept_pitches,
+    visible,
+    zoomed_pitches,
+)
+from widgets.timeline.model.roll_gestures import Copy, Draw, Erase, LassoNotes, Move, Resize, RollGesture, Velocity
 from widgets.timeline.roll_items import Hint, Labels, Lasso, Notes, Rows
 
-Integers = npt.NDArray[np.int64]
-
-EDGE_PX = 6.0
-"""So near to a note's end a press takes hold of the end."""
-SLACK_PX = 3.0
-LEAST_ROWS, MOST_ROWS = 10.0, 128.0
-USUAL_ROWS = 30.0
-USUAL_ROW_PX = 8.0
 ROWS_A_NOTCH = 3.0
 ZOOM_A_NOTCH = 1.18
 FIRST_VELOCITY = 80
@@ -57,8 +57,6 @@ MENU = (
     "notes.select_bar",
 )
 
-NOBODY = Behind((), ())
-
 
 class PianoRoll(Lane):
     """The piano roll."""
@@ -71,13 +69,9 @@ class PianoRoll(Lane):
     least_height_px = 112
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
-        self._tables: dict[str, NoteTable] = {}
-        self._flags: dict[str, tuple[NoteTable, Selection, Flags]] = {}
-        self._ghosts_of: tuple[tuple[object, ...], Behind] = ((None, None, None, None), NOBODY)
-        """The players behind, and what that was found from: it is asked with every repaint."""
+        self.model = RollModel(session, axis)
         self._gesture: Gesture | None = None
         self._tool = Tool.SELECT
-        self._ghosts = Ghosts.GHOSTS
         self._panned_y: float | None = None
         self._velocity = FIRST_VELOCITY
         super().__init__(session, axis, parent)
@@ -110,59 +104,25 @@ class PianoRoll(Lane):
     @property
     def ghosted(self) -> bool:
         """Whether the players behind are only seen, faintly."""
-        return self._ghosts is not Ghosts.ALL
+        return self.model.ghosts_mode is not Ghosts.ALL
 
     @property
     def ghosts_mode(self) -> Ghosts:
         """How the players behind are seen."""
-        return self._ghosts
+        return self.model.ghosts_mode
 
     def set_ghosts(self, ghosts: Ghosts) -> None:
         """See the players behind so."""
-        self._ghosts = ghosts
+        self.model.ghosts_mode = ghosts
         self.update_items()
-
-    def table(self, player: Player) -> NoteTable:
-        """A player's notes as arrays; kept until they are others."""
-        project = self.session.project
-        part, tempo = project.part(player), project.score.tempo_map
-        known = self._tables.get(part.id)
-        if known is None or known.part is not part or known.tempo is not tempo:
-            known = self._tables[part.id] = NoteTable(part, tempo)
-        return known
-
-    def front(self) -> tuple[NoteTable, str] | None:
-        """The notes of the player in front, and their colour."""
-        player = self.session.player
-        return (self.table(player), self.session.colour(player)) if player is not None else None
 
     def ghosts(self) -> Behind:
         """The notes of the players behind."""
-        if self._ghosts is Ghosts.ALONE:
-            return NOBODY
-        project, front = self.session.project, self.session.player
-        sources = (project.players, project.score, front, self.session.tokens)
-        if not all(map(is_, sources, self._ghosts_of[0])):
-            self._ghosts_of = (sources, self._find_ghosts(project, front))
-        return self._ghosts_of[1]
-
-    def _find_ghosts(self, project: Project, front: Player | None) -> Behind:
-        # Players of one part are seen once, in the colour of the first.
-        behind = {player.part_id: player for player in reversed(project.players)}
-        if front is not None:
-            behind.pop(front.part_id, None)
-        tables = [self.table(player) for player in behind.values()]
-        return Behind(tables, [self.session.colour(player) for player in behind.values()], self._ghosts_of[1])
-
-    def _touchable(self) -> list[NoteTable]:
-        """The notes that answer the mouse: of the player in front; where all are seen, then of the others."""
-        front = self.front()
-        tables = [] if front is None else [front[0]]
-        return tables + list(self.ghosts().tables) if self._ghosts is Ghosts.ALL else tables
+        return self.model.ghosts()
 
     def hint(self) -> str:
         """What to do where nothing is yet; empty where there are notes."""
-        front = self.front()
+        front = self.model.front()
         if front is None:
             return self.tr("Nobody plays yet: open a MIDI file, or add a player.")
         if len(front[0]):
@@ -193,47 +153,18 @@ class PianoRoll(Lane):
 
     def visible(self, table: Sounding, exposed: QRectF) -> Integers:
         """Places of the notes that may show in a part of the plot."""
-        start_s, end_s = self.axis.seconds(exposed.left()), self.axis.seconds(exposed.right())
-        found = table.visible(start_s, end_s)
-        bottom, top = self.y_range
-        pitch = table.pitch[found]
-        inside = (pitch > bottom - 1) & (pitch < top) & (table.end_s[found] > start_s)
-        rows: Integers = np.flatnonzero(inside) + found.start
-        return rows
+        times = self.axis.seconds(exposed.left()), self.axis.seconds(exposed.right())
+        return visible(table, *times, self.y_range)
 
     def boxes(self, table: Sounding, rows: Integers) -> tuple[Floats, Floats, Floats, Floats]:
         """Left, top, width and height of notes, in whole pixels so that edges are sharp."""
-        left = np.floor(self.axis.x_px(table.onset_s[rows]))
-        right = np.floor(self.axis.x_px(table.end_s[rows]))
-        row, bound = self.row_px, self.y_range[1]
-        pitch = table.pitch[rows]
-        top = np.floor((bound - pitch - 1) * row)
-        below = np.floor((bound - pitch) * row)
-        gap = 1.0 if row >= 4 else 0.0
-        return left, top, np.maximum(right - left - 1.0, 1.0), np.maximum(below - top - gap, 1.0)
-
-    def selected(self, table: NoteTable) -> Flags | None:
-        """Which notes of a table are selected; None: none."""
-        selection = self.session.selection
-        if not selection.notes:
-            return None
-        known = self._flags.get(table.part.id)
-        if known is None or known[0] is not table or known[1].notes is not selection.notes:
-            known = (table, selection, table.flags(selection.notes))
-            self._flags[table.part.id] = known
-        return known[2] if known[2].any() else None
-
-    @property
-    def selects_behind(self) -> bool:
-        """Whether notes are selected that the player in front does not play."""
-        notes, front = self.session.selection.notes, self.front()
-        return bool(notes) and (front is None or not front[0].index.keys() >= notes)
+        return boxes(table, rows, self.axis, self.y_range[1], self.row_px)
 
     # Pitch
 
     def fit_pitch(self) -> None:
         """Show the notes of the player in front, with some air."""
-        front = self.front()
+        front = self.model.front()
         pitches = front[0].pitch if front is not None else np.empty(0)
         if len(pitches):
             low, high = float(pitches.min()), float(pitches.max()) + 1.0
@@ -241,18 +172,15 @@ class PianoRoll(Lane):
             low, high = float(self.playable[0]), float(self.playable[1])
         else:
             low, high = 53.0, 77.0
-        rows = max(high - low + 4.0, min(USUAL_ROWS, self.plot_rect.height() / USUAL_ROW_PX))
-        self._show_pitches((low + high) / 2 - rows / 2, rows)
+        self._show_pitches(*fitted_pitches(low, high, self.plot_rect.height()))
 
     def scroll_pitch(self, notches: float) -> None:
         """Scroll up and down."""
         bottom, top = self.y_range
-        self._show_pitches(bottom + notches * ROWS_A_NOTCH, top - bottom)
+        self._show_pitches(*kept_pitches(bottom + notches * ROWS_A_NOTCH, top - bottom))
 
-    def _show_pitches(self, bottom: float, rows: float) -> None:
-        rows = min(max(rows, LEAST_ROWS), MOST_ROWS)
-        bottom = min(max(bottom, 0.0), 128.0 - rows)
-        self.set_y_range(bottom, bottom + rows)
+    def _show_pitches(self, bottom: float, top: float) -> None:
+        self.set_y_range(bottom, top)
         if hasattr(self, "keyboard"):
             self.keyboard.update()
 
@@ -267,49 +195,25 @@ class PianoRoll(Lane):
         """What the keyboard says about a key."""
         return self.tr("{pitch}: click to select all its notes").format(pitch=self.pitch_text(pitch))
 
-    # Notes under the mouse
-
-    def note_at(self, mouse: LaneMouse) -> Note | None:
-        """The note at a place: of the player in front; where all are seen, else of another."""
-        slack_s = SLACK_PX / self.axis.px_per_s
-        for table in self._touchable():
-            place = table.at(mouse.time_s, int(mouse.value // 1), slack_s)
-            if place is not None:
-                return table.part.notes[place]
-        return None
-
-    def notes_within(self, start_s: float, end_s: float, low: int, high: int) -> frozenset[str]:
-        """Ids of the notes that touch a rectangle."""
-        return frozenset(id for table in self._touchable() for id in table.within(start_s, end_s, low, high))
-
-    def cell(self, mouse: LaneMouse) -> tuple[int, int]:
-        """Beginning and length in ticks of the grid's cell under the mouse; with Alt the very tick."""
-        score, grid = self.session.project.score, self.session.grid
-        length = max(round(grid.quarters * score.ticks_per_quarter), 1)
-        tick = max(mouse.tick, 0.0)
-        if mouse.alt or not grid.enabled:
-            return round(tick), length
-        onset = grid.snap(score, tick)
-        if onset > tick:
-            onset = grid.snap(score, max(tick - length / 2, 0.0))
-        return onset, length
-
     def select_pitch(self, pitch: int, add: bool) -> None:
         """Select every note of a pitch in the part in front."""
-        front = self.front()
-        if front is None:
+        if self.session.player is None:
             return
-        table = front[0]
-        found = frozenset(table.part.notes[place].id for place in np.flatnonzero(table.pitch == pitch).tolist())
+        found = self.model.notes_of_pitch(pitch)
         self.session.select(Selection((self.session.selection.notes if add else frozenset()) | found))
 
     # The mouse
+
+    @property
+    def drag_px(self) -> float:
+        """The mouse moves this far before a press becomes a drag."""
+        return QApplication.startDragDistance() / 2
 
     def press(self, mouse: LaneMouse) -> None:
         self._gesture = self._begin(mouse)
 
     def _begin(self, mouse: LaneMouse) -> Gesture | None:
-        hit = self.note_at(mouse)
+        hit = self.model.note_at(mouse)
         player = self.session.player
         if self._tool is Tool.ERASE:
             return Erase(self, mouse)
@@ -324,7 +228,7 @@ class PianoRoll(Lane):
         return LassoNotes(self, mouse)
 
     def _take_hold(self, note: Note, mouse: LaneMouse) -> Gesture | None:
-        self._bring_forward(note)
+        self.model.bring_forward(note)
         selected = self.session.selection.notes
         if _copies(mouse):
             return Copy(self, mouse, note)
@@ -339,30 +243,10 @@ class PianoRoll(Lane):
         self._velocity = note.velocity
         if mouse.ctrl:
             return Velocity(self, mouse, note)
-        edge = self._edge(note, mouse)
+        edge = self.model.edge_at(note, mouse)
         if edge is not None:
             return Resize(self, mouse, note, at_start=edge)
         return Move(self, mouse, note, narrow)
-
-    def _edge(self, note: Note, mouse: LaneMouse) -> bool | None:
-        """Whether the mouse is at the note's beginning (True) or end (False)."""
-        tempo = self.session.project.score.tempo_map
-        left = self.axis.x_px(tempo.seconds(float(note.onset_tick)))
-        right = self.axis.x_px(tempo.seconds(float(note.end_tick)))
-        reach = min(EDGE_PX, max((right - left) / 4, 1.5))
-        if right - mouse.x_px <= reach:
-            return False
-        # Short notes are for moving, and long enough at their end: only the end takes hold there.
-        return True if mouse.x_px - left <= reach and right - left >= 4 * EDGE_PX else None
-
-    def _bring_forward(self, note: Note) -> None:
-        player = self.session.player
-        if player is not None and note.id in self.table(player).index:
-            return
-        for other in self.session.project.players:
-            if note.id in self.table(other).index:
-                self.session.set_players((other.id,))
-                return
 
     def _split(self, note: Note, mouse: LaneMouse) -> None:
         self.session.attempt(
@@ -373,7 +257,18 @@ class PianoRoll(Lane):
     def drag(self, mouse: LaneMouse) -> None:
         if self._gesture is not None:
             self._gesture.drag(mouse)
+            self._show_gesture(self._gesture)
         self.keyboard.show_pitch(int(mouse.value // 1))
+
+    def _show_gesture(self, gesture: Gesture) -> None:
+        """Draw what it encloses, or say what it has made of a note."""
+        if isinstance(gesture, LassoNotes):
+            self.lasso.show(rect(gesture.box) if gesture.box is not None else None)
+        elif isinstance(gesture, RollGesture) and gesture.began:
+            if gesture.copies:
+                self.plot.setCursor(Qt.CursorShape.DragCopyCursor)
+            self._tell_pitch(gesture.moved)
+            self._tell_velocity(gesture.sounded)
 
     def release(self, mouse: LaneMouse) -> None:
         gesture, self._gesture = self._gesture, None
@@ -392,7 +287,7 @@ class PianoRoll(Lane):
     def double_click(self, mouse: LaneMouse) -> None:
         """A new note on empty ground."""
         player = self.session.player
-        if self._tool is Tool.SELECT and player is not None and self.note_at(mouse) is None:
+        if self._tool is Tool.SELECT and player is not None and self.model.note_at(mouse) is None:
             Draw(self, mouse, player.part_id, self._velocity).release(mouse)
 
     def hover(self, mouse: LaneMouse | None) -> None:
@@ -401,14 +296,14 @@ class PianoRoll(Lane):
             self.lasso.show(None)
             self.told.emit("")
             return
-        hit = self.note_at(mouse)
+        hit = self.model.note_at(mouse)
         self._tell(mouse, hit)
         if self._tool is Tool.SPLIT:
             x = self.axis.x_px(self.session.project.score.tempo_map.seconds(float(mouse.snapped_tick)))
             top = self.y_px(int(mouse.value // 1) + 1)
             self.lasso.show(None, QLineF(x, top - 3, x, top + self.row_px + 3) if hit is not None else None)
         elif self._tool in (Tool.SELECT, Tool.DRAW):
-            edge = self._edge(hit, mouse) if hit is not None and not mouse.ctrl else None
+            edge = self.model.edge_at(hit, mouse) if hit is not None and not mouse.ctrl else None
             if edge is not None:
                 self.plot.setCursor(Qt.CursorShape.SizeHorCursor)
             else:
@@ -426,21 +321,18 @@ class PianoRoll(Lane):
         if not mouse.alt:
             self.scroll_pitch(steps)
             return True
-        bottom, top = self.y_range
-        rows = min(max((top - bottom) / ZOOM_A_NOTCH**steps, LEAST_ROWS), MOST_ROWS)
-        share = (mouse.value - bottom) / (top - bottom)
-        self._show_pitches(mouse.value - share * rows, rows)
+        self._show_pitches(*zoomed_pitches(self.y_range, ZOOM_A_NOTCH**steps, mouse.value))
         return True
 
     def pan_y(self, by_px: float) -> None:
         """The plot is dragged up or down with the middle button."""
         bottom, top = self.y_range
-        self._show_pitches(bottom + by_px / self.row_px, top - bottom)
+        self._show_pitches(*kept_pitches(bottom + by_px / self.row_px, top - bottom))
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
-        hit = self.note_at(mouse)
+        hit = self.model.note_at(mouse)
         if hit is not None and hit.id not in self.session.selection.notes:
-            self._bring_forward(hit)
+            self.model.bring_forward(hit)
             self.session.select(Selection(frozenset({hit.id})))
         menu = QMenu(self)
         for id in MENU:
@@ -449,23 +341,18 @@ class PianoRoll(Lane):
                 menu.addAction(action)
         return menu
 
-    def show_moved(self, note_id: str) -> None:
+    def _tell_pitch(self, note_id: str) -> None:
         """Say which pitch a dragged note has."""
-        note = self._note(note_id)
+        note = self.model.note(note_id)
         if note is not None:
             QToolTip.showText(QCursor.pos(), self.pitch_text(note.pitch), self.plot)
 
-    def show_velocity(self, note_id: str) -> None:
+    def _tell_velocity(self, note_id: str) -> None:
         """Say how loud a dragged note is."""
-        note = self._note(note_id)
+        note = self.model.note(note_id)
         if note is not None:
             self._velocity = note.velocity
             QToolTip.showText(QCursor.pos(), self.tr("Velocity {velocity}").format(velocity=note.velocity), self.plot)
-
-    def _note(self, note_id: str) -> Note | None:
-        front = self.front()
-        place = front[0].index.get(note_id) if front is not None else None
-        return front[0].part.notes[place] if front is not None and place is not None else None
 
     def _tell(self, mouse: LaneMouse, note: Note | None) -> None:
         """Say what is under the mouse: place and pitch, or the note; problems of a note as a tool tip."""
@@ -490,8 +377,7 @@ class PianoRoll(Lane):
 
     def project_changed(self, change: Change) -> None:
         if change.opened:
-            self._tables.clear()
-            self._flags.clear()
+            self.model.forget()
             self.fit_pitch()
         if change.before.score is not change.after.score or change.before.players is not change.after.players:
             self.update_items()
@@ -505,7 +391,7 @@ class PianoRoll(Lane):
             self._redraw(self.notes)
 
     def players_changed(self) -> None:
-        front = self.front()
+        front = self.model.front()
         if front is not None and len(front[0]):
             bottom, top = self.y_range
             if front[0].pitch.min() < bottom or front[0].pitch.max() + 1 > top:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import repeat
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -15,11 +15,10 @@ from app.plan.model import FingeringEvent, PlayerPlan, Problem
 from widgets.common.fingering_text import short_label
 from widgets.common.pitch import BLACK
 from widgets.timeline.drawing import draw_groups, fill_rects
-from widgets.timeline.lane import LaneItem
-from widgets.timeline.model.note_table import Behind, NoteTable
-
-if TYPE_CHECKING:
-    from widgets.timeline.roll import PianoRoll
+from widgets.timeline.model.note_table import Behind, NoteTable, Sounding
+from widgets.timeline.model.roll import Integers, RollModel
+from widgets.timeline.model.view import Floats
+from widgets.timeline.plot import LaneItem, LaneView
 
 LEVELS = 4
 """Shades of velocity."""
@@ -31,8 +30,29 @@ LABEL_GAP_PX = 5.0
 INSIDE_PX = 15.0
 """In rows at least so high a label stands inside its note."""
 
-Floats = npt.NDArray[np.float64]
-Integers = npt.NDArray[np.int64]
+
+class RollView(LaneView, Protocol):
+    """What the items of the roll draw."""
+
+    model: RollModel
+
+    @property
+    def ghosted(self) -> bool: ...
+    @property
+    def playable(self) -> tuple[int, int] | None: ...
+    @property
+    def row_px(self) -> float: ...
+    def visible(self, table: Sounding, exposed: QRectF) -> Integers: ...
+    def boxes(self, table: Sounding, rows: Integers) -> tuple[Floats, Floats, Floats, Floats]: ...
+    def hint(self) -> str: ...
+
+
+class RollItem(LaneItem):
+    """Something drawn over the roll."""
+
+    def __init__(self, roll: RollView, z: float = 0.0) -> None:
+        super().__init__(roll, z)
+        self.roll = roll
 
 
 def mixed(colour: str, other: str, share: float) -> QColor:
@@ -43,11 +63,11 @@ def mixed(colour: str, other: str, share: float) -> QColor:
     )
 
 
-class Rows(LaneItem):
+class Rows(RollItem):
     """Rows of black keys, lines at every C, and where the instrument in front cannot go."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        lane = self.roll
         tokens = lane.session.tokens
         bottom, top = lane.y_range
         height = lane.row_px
@@ -73,20 +93,20 @@ class Rows(LaneItem):
             painter.fillRect(QRectF(exposed.left(), below, exposed.width(), rest) & exposed, shade)
 
 
-class Notes(LaneItem):
+class Notes(RollItem):
     """All players' notes as rectangles."""
 
-    def __init__(self, lane: PianoRoll) -> None:
+    def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 0.0)
         self._behind: tuple[object, Behind, QImage] | None = None
         """The other players' notes as they were drawn last, and what that depends on: a selection, an edit in front or
         the playhead passing by leave them as they are."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        lane = self.roll
         painter.setPen(Qt.PenStyle.NoPen)
         self._show_behind(painter, exposed)
-        front = lane.front()
+        front = lane.model.front()
         if front is None:
             return
         table, colour = front
@@ -100,8 +120,8 @@ class Notes(LaneItem):
         self._draw_selected(painter, table, exposed, colour)
 
     def _show_behind(self, painter: QPainter, exposed: QRectF) -> None:
-        lane: PianoRoll = self.lane  # type: ignore[assignment]
-        behind = lane.ghosts()
+        lane = self.roll
+        behind = lane.model.ghosts()
         if not behind.tables:
             return
         alpha = GHOST_ALPHA if lane.ghosted else 255
@@ -110,13 +130,13 @@ class Notes(LaneItem):
         if self._behind is None or self._behind[0] != key or not self._behind[1].looks_like(behind):
             self._behind = (key, behind, picture_behind(lane, behind, alpha, ratio))
         painter.drawImage(QPointF(0.0, 0.0), self._behind[2])
-        if lane.selects_behind:
+        if lane.model.selects_behind:
             for table, colour in zip(behind.tables, behind.colours, strict=True):
                 self._draw_selected(painter, table, exposed, colour)
 
     def _draw_selected(self, painter: QPainter, table: NoteTable, exposed: QRectF, colour: str) -> None:
-        lane: PianoRoll = self.lane  # type: ignore[assignment]
-        flags = lane.selected(table)
+        lane = self.roll
+        flags = lane.model.selected(table)
         if flags is None:
             return
         rows = lane.visible(table, exposed)
@@ -131,7 +151,7 @@ class Notes(LaneItem):
     def _draw(self, painter: QPainter, table: NoteTable, rows: Integers, shade: QColor) -> None:
         if not len(rows):
             return
-        fill_rects(painter, *self.lane.boxes(table, rows), shade)  # type: ignore[attr-defined]
+        fill_rects(painter, *self.roll.boxes(table, rows), shade)
 
 
 def _shade(colour: str, alpha: int) -> QColor:
@@ -140,12 +160,12 @@ def _shade(colour: str, alpha: int) -> QColor:
     return shade
 
 
-def picture_behind(lane: PianoRoll, behind: Behind, alpha: int, ratio: float) -> QImage:
+def picture_behind(lane: RollView, behind: Behind, alpha: int, ratio: float) -> QImage:
     """The other players' notes: as rectangles, or where there are very many, the narrow ones as points.
 
     Parameters
     ----------
-    lane : PianoRoll
+    lane : RollView
     behind : Behind
         Later players lie over those before.
     alpha : int
@@ -180,7 +200,7 @@ def picture_behind(lane: PianoRoll, behind: Behind, alpha: int, ratio: float) ->
 
 def _draw_points(
     painter: QPainter,
-    lane: PianoRoll,
+    lane: RollView,
     left: Floats,
     pitch: Floats,
     width: Floats,
@@ -212,10 +232,10 @@ def _premultiplied(shade: QColor) -> int:
     return (alpha << 24) | (red << 16) | (green << 8) | blue
 
 
-class Labels(LaneItem):
+class Labels(RollItem):
     """Fingerings on the notes of the player in front, marks of what was pinned by hand, and of problems."""
 
-    def __init__(self, lane: PianoRoll) -> None:
+    def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 10.0)
         self._texts: dict[str, tuple[QStaticText, float]] = {}
         self._plan: PlayerPlan | None = None
@@ -257,8 +277,8 @@ class Labels(LaneItem):
         self._problems = frozenset(place for place in places if place is not None)
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane: PianoRoll = self.lane  # type: ignore[assignment]
-        front = lane.front()
+        lane = self.roll
+        front = lane.model.front()
         if front is None:
             return
         table, colour = front
@@ -271,7 +291,7 @@ class Labels(LaneItem):
         self._paint_fingerings(painter, table, wider, colour)
 
     def _paint_problems(self, painter: QPainter, table: NoteTable, rows: Integers) -> None:
-        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        lane = self.roll
         found = [place for place in rows.tolist() if place in self._problems] if self._problems else []
         if not found:
             return
@@ -285,7 +305,7 @@ class Labels(LaneItem):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
 
     def _paint_fingerings(self, painter: QPainter, table: NoteTable, exposed: QRectF, colour: str) -> None:
-        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        lane = self.roll
         visible = table.visible(lane.axis.seconds(exposed.left()), lane.axis.seconds(exposed.right()))
         first, last = np.searchsorted(self._fingered, (visible.start, visible.stop)).tolist()
         row_px = lane.row_px
@@ -304,7 +324,7 @@ class Labels(LaneItem):
         plain, pinned = QPen(on_note if inside else QColor(tokens.text_dim)), QPen(QColor(tokens.by_hand))
         veil = QColor(tokens.sunken)
         veil.setAlpha(190)
-        flags = lane.selected(table)
+        flags = lane.model.selected(table)
         events = [self._events[number] for number in self._said[first:last].tolist()]
         for place, event, x, y, free in zip(
             rows.tolist(), events, left.tolist(), top.tolist(), room.tolist(), strict=True
@@ -337,10 +357,10 @@ class Labels(LaneItem):
         return known
 
 
-class Lasso(LaneItem):
+class Lasso(RollItem):
     """The rectangle that is drawn over what shall be selected, and the line where a note would be cut."""
 
-    def __init__(self, lane: PianoRoll) -> None:
+    def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 20.0)
         self.rect: QRectF | None = None
         self.cut: QLineF | None = None
@@ -364,11 +384,11 @@ class Lasso(LaneItem):
             painter.drawLine(self.cut)
 
 
-class Hint(LaneItem):
+class Hint(RollItem):
     """What to do where nothing is yet."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        lane = self.roll
         text = lane.hint()
         if text:
             painter.setFont(lane.font())

@@ -177,7 +177,10 @@ class RegionLane(Lane):
 
     def fade_handles(self, region: Region, box: QRectF) -> tuple[tuple[str, QPointF], ...]:
         """Where the fades are taken hold of."""
-        return tuple((zone, QPointF(*at)) for zone, at in fade_handles(region, Box(*box.getCoords()), self.axis))
+        return tuple(
+            (zone, QPointF(*at))
+            for zone, at in fade_handles(region, Box(box.left(), box.top(), box.right(), box.bottom()), self.axis)
+        )
 
     def refresh(self) -> None:
         """Make the regions anew if anything they show is another value."""
