@@ -316,7 +316,8 @@ def _spare(
     optional[0] = False
     optional[[line.note_of(event) for event in given.by_hand]] = False
     needed = needed_rests(steady_used, score.lung_s, refill, optional, parameters.breath_need)
-    in_rests = [(line.note_of(event), event) for event in given.kept if event.kind == "breath" and not _is_within(event)]
+    kept = [event for event in given.kept if event.kind == "breath" and not _is_within(event)]
+    in_rests = [(line.note_of(event), event) for event in kept]
     return {index: event for index, event in in_rests if not needed[index]}
 
 

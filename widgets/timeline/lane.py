@@ -30,7 +30,7 @@ from widgets.common.plain import Label
 from widgets.common.selection import Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.model.gestures import snapped
+from widgets.timeline.hands import mouse_at
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.lines import Lines
 from widgets.timeline.plot import Background, LaneItem, Plot
@@ -302,23 +302,8 @@ class Lane(QWidget):
         screen: QPoint | None = None,
     ) -> LaneMouse:
         """What a place of the plot means."""
-        score = self.session.project.score
         screen = screen or self.plot.mapToGlobal(place.toPoint())
-        time_s = self.axis.seconds(place.x())
-        tick = score.tempo_map.ticks(time_s)
-        free = bool(modifiers & Qt.KeyboardModifier.AltModifier)
-        return LaneMouse(
-            x_px=place.x(),
-            y_px=place.y(),
-            time_s=time_s,
-            value=self.value_at(place.y()),
-            tick=tick,
-            snapped_tick=snapped(self.session.grid, score, tick, free),
-            shift=bool(modifiers & Qt.KeyboardModifier.ShiftModifier),
-            ctrl=bool(modifiers & Qt.KeyboardModifier.ControlModifier),
-            alt=free,
-            screen_px=(screen.x(), screen.y()),
-        )
+        return mouse_at(self.session, self.axis, place, self.value_at(place.y()), modifiers, screen)
 
     def pressed(self, event: QMouseEvent) -> None:
         event.accept()

@@ -32,6 +32,7 @@ from widgets.timeline.pictured import Pictured
 class LaneView(Protocol):
     """What items draw of a lane."""
 
+    id: str
     session: Session
     axis: TimeAxis
     plot: Plot

@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
-    QAction,
-    QActionGroup,
     QColor,
     QContextMenuEvent,
     QFocusEvent,
@@ -21,22 +19,25 @@ from PySide6.QtGui import (
     QResizeEvent,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QMenu, QWidget
 
 from app.errors import Message
-from app.project.edit import tempo as tempo_edit
-from app.project.model import Project
-from widgets.common.icons import icon
 from widgets.common.selection import Selection
 from widgets.common.session import Session, Severity, TimeDisplay
 from widgets.common.tokens import LEAST_TEXT_PT
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_lines
+from widgets.timeline.hands import mouse_at
 from widgets.timeline.lane import GUTTER_PX
+from widgets.timeline.model.gestures import Gesture, along, snapped
+from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.lines import Lines
+from widgets.timeline.model.ruler import Labels, bar_labels, clock_labels, frame_labels, mark_text, removal, typed
+from widgets.timeline.model.ruler_gestures import HoldEdge, HoldMark, HoldPlayhead, Seek
 from widgets.timeline.model.view import Floats
 from widgets.timeline.pictured import Pictured
-from widgets.timeline.ruler_labels import Labels, Mark, MarkEditor, bar_labels, clock_labels, frame_labels, lay_marks
+from widgets.timeline.ruler_labels import Mark, MarkEditor, lay_marks
+from widgets.timeline.ruler_unit import UnitButton
 
 MARKS_PX = 22
 SCALE_PX = 24
@@ -64,55 +65,28 @@ class Ruler(Pictured):
         self.session = session
         self.axis = axis
         self._marks: list[Mark] = []
-        self._held: str = ""
-        self._pressed: QMouseEvent | None = None
-        self._dragged = False
-        self._mark: Mark | None = None
+        self._gesture: Gesture | None = None
         self._chosen: tuple[str, int] | None = None
         """The mark that was clicked: Delete removes it."""
-        self._base: Project = session.project
-        self._token: object = object()
         self._panned_px: float | None = None
         self._span = session.selection.span
-        self._before: tuple[Selection, tuple[float, float] | None] = (session.selection, session.loop_s)
-        self._punch_before = session.recording.punch_ticks
         self._recorded: tuple[object, ...] = ()
-        self._editing: tuple[str, int] | None = None
         self.setMouseTracking(True)
         self.setFixedHeight(MARKS_PX + SCALE_PX)
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
 
-        self.unit_button = QToolButton(self)
-        self.unit_button.setObjectName("time_display")
-        self.unit_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        self.unit_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        self.unit_button.setAutoRaise(True)
-        self._units: dict[TimeDisplay, QAction] = {}
-        menu = QMenu(self.unit_button)
-        group = QActionGroup(menu)
-        displays: tuple[TimeDisplay, ...] = ("bars", "seconds", "frames")
-        for display in displays:
-            action = menu.addAction("")
-            action.setCheckable(True)
-            action.setData(display)
-            group.addAction(action)
-            self._units[display] = action
-        group.triggered.connect(self._choose_unit)
-        self.unit_button.setMenu(menu)
+        self.unit_button = UnitButton(session, self)
         self._editor = MarkEditor(self)
-        self._editor.setObjectName("mark_editor")
-        self._editor.hide()
-        self._editor.left.connect(self._leave_editor)
-        self._editor.editingFinished.connect(self._editing_finished)
+        self._editor.typed.connect(self._type)
 
         axis.changed.connect(self._axis_changed)
         session.changed.connect(self.redraw)
         session.performance_changed.connect(self.redraw)
         session.players_changed.connect(self.redraw)
-        session.theme_changed.connect(self._theme_set)
+        session.theme_changed.connect(self.redraw)
         session.selection_changed.connect(self._selection_set)
         session.loop_changed.connect(self.redraw)
-        session.time_display_changed.connect(self._unit_set)
+        session.time_display_changed.connect(self.redraw)
         session.recording.changed.connect(self._recording_set)
         session.playhead_changed.connect(self._playhead_set)
         self._head_x = 0.0
@@ -120,20 +94,11 @@ class Ruler(Pictured):
         if 0 < font.pointSizeF() < LEAST_TEXT_PT:
             font.setPointSizeF(LEAST_TEXT_PT)
             self.setFont(font)
-        self.retranslate()
-        self._theme_set()
+        self.redraw()
 
     def retranslate(self) -> None:
         """Set every text anew."""
-        texts: dict[TimeDisplay, str] = {
-            "bars": self.tr("Bars"),
-            "seconds": self.tr("Seconds"),
-            "frames": self.tr("Frames"),
-        }
-        for display, action in self._units.items():
-            action.setText(texts[display])
-        self.unit_button.setToolTip(self.tr("What the ruler counts"))
-        self._unit_set()
+        self.unit_button.retranslate()
         self.redraw()
 
     # Places
@@ -141,15 +106,21 @@ class Ruler(Pictured):
     def _x(self, seconds: float) -> float:
         return GUTTER_PX + self.axis.x_px(seconds)
 
-    def _tick_at(self, x: float, free: bool) -> int:
-        tick = self.session.project.score.tempo_map.ticks(self.axis.seconds(x - GUTTER_PX))
-        return max(round(tick) if free else self.session.grid.snap(self.session.project.score, tick), 0)
+    def _mouse(self, event: QMouseEvent) -> LaneMouse:
+        place = event.position() - QPointF(GUTTER_PX, 0.0)
+        return mouse_at(self.session, self.axis, place, 0.0, event.modifiers(), event.globalPosition().toPoint())
+
+    def _tick_at(self, mouse: LaneMouse, free: bool) -> int:
+        return max(snapped(self.session.grid, self.session.project.score, mouse.tick, free), 0)
 
     def _seconds_of(self, tick: int) -> float:
         return self.session.project.score.tempo_map.seconds(float(tick))
 
     def _mark_at(self, place: QPointF) -> Mark | None:
         return next((mark for mark in reversed(self._marks) if mark.rect.contains(place)), None)
+
+    def _place_of(self, tick: int) -> float:
+        return self._seconds_of(max(tick, 0))
 
     # Drawing
 
@@ -242,7 +213,7 @@ class Ruler(Pictured):
     # Answers to the session
 
     def _axis_changed(self) -> None:
-        self._leave_editor(False)
+        self._editor.leave(False)
         self._head_x = self._x(self.session.playhead_s)
         self.redraw()
 
@@ -266,76 +237,16 @@ class Ruler(Pictured):
         for x in (before, self._head_x):
             self.update(int(x - HEAD_PX) - 1, 0, int(2 * HEAD_PX) + 4, self.height())
 
-    def _unit_set(self) -> None:
-        display = self.session.time_display
-        self._units[display].setChecked(True)
-        self.unit_button.setText(self._units[display].text())
-        self.redraw()
-
-    def _choose_unit(self, action: QAction) -> None:
-        self.session.set_time_display(action.data())
-
-    def _theme_set(self) -> None:
-        self.unit_button.setIcon(icon("clock", self.session.tokens))
-        self.redraw()
-
     # Editing tempo and metre
 
     def edit_mark(self, kind: str, tick: int) -> None:
         """Type the tempo or the metre at a tick; where there is none, add one."""
-        score = self.session.project.score
-        x = self._x(self._seconds_of(tick))
         mark = next((mark for mark in self._marks if (mark.kind, mark.tick) == (kind, tick)), None)
-        if kind == "tempo":
-            bpm = next(bpm for at, bpm in reversed(score.tempo_map.bpm) if at <= tick)
-            text = f"{bpm:.6g}"
-        else:
-            metre = score.metre_map.metre_at(tick)
-            text = f"{metre.numerator}/{metre.denominator}"
-        self._editing = (kind, tick)
-        self._editor.setText(text)
-        self._editor.setToolTip(
-            self.tr("Tempo in quarters per minute; Enter takes it, Escape leaves it")
-            if kind == "tempo"
-            else self.tr("Metre, e.g. 6/8; Enter takes it, Escape leaves it")
-        )
-        left = mark.rect.left() if mark is not None else x
-        self._editor.setGeometry(int(min(left, self.width() - 84)), 0, 80, MARKS_PX + 2)
-        self._editor.show()
-        self._editor.raise_()
-        self._editor.selectAll()
-        self._editor.setFocus(Qt.FocusReason.OtherFocusReason)
-
-    def _editing_finished(self) -> None:
-        """The focus went elsewhere: what was typed is meant."""
-        if self._editor.isVisible() and not self._editor.hasFocus():
-            self._leave_editor(True)
-
-    def _leave_editor(self, meant: bool) -> None:
-        if self._editing is None:
-            return
-        (kind, tick), self._editing = self._editing, None
-        text = self._editor.text().strip()
-        self._editor.hide()
-        self.setFocus(Qt.FocusReason.OtherFocusReason)
-        if meant:
-            self._type(kind, tick, text)
+        left = mark.rect.left() if mark is not None else self._x(self._seconds_of(tick))
+        self._editor.open(kind, tick, mark_text(self.session.project.score, kind, tick), left, MARKS_PX + 2)
 
     def _type(self, kind: str, tick: int, text: str) -> None:
-        if kind == "tempo":
-            try:
-                bpm = float(text.replace(",", "."))
-            except ValueError:
-                bpm = 0.0
-            self.session.attempt(
-                Message("edit.set_tempo"), lambda project: tempo_edit.set_tempo(project, tick, bpm), origin=self
-            )
-            return
-        above, _, below = text.partition("/")
-        numbers = (int(above), int(below)) if above.strip().isdecimal() and below.strip().isdecimal() else (0, 0)
-        self.session.attempt(
-            Message("edit.set_metre"), lambda project: tempo_edit.set_metre(project, tick, *numbers), origin=self
-        )
+        self.session.attempt(*typed(kind, tick, text), origin=self)
 
     def context_menu(self, place: QPointF) -> QMenu:
         """The menu at a place."""
@@ -348,9 +259,9 @@ class Ruler(Pictured):
             remove.setEnabled(mark.tick > 0)
             remove.triggered.connect(lambda: self._remove(mark.kind, mark.tick))
             menu.addSeparator()
-        metre_map = self.session.project.score.metre_map
-        tick = self._tick_at(place.x(), False)
-        bar_tick = max(metre_map.tick_of_bar(metre_map.bar_of_tick(tick)), 0)
+        score = self.session.project.score
+        tick = max(self.session.grid.snap(score, score.tempo_map.ticks(self.axis.seconds(place.x() - GUTTER_PX))), 0)
+        bar_tick = max(score.metre_map.tick_of_bar(score.metre_map.bar_of_tick(tick)), 0)
         menu.addAction(self.tr("Add Tempo Here")).triggered.connect(lambda: self.edit_mark("tempo", tick))
         menu.addAction(self.tr("Add Metre at This Bar")).triggered.connect(lambda: self.edit_mark("metre", bar_tick))
         felt = [action for id, action in self.session.actions.items() if id.startswith("beat.")]
@@ -367,14 +278,7 @@ class Ruler(Pictured):
     def _remove(self, kind: str, tick: int) -> None:
         self._chosen = None
         self.redraw()
-        if kind == "tempo":
-            self.session.attempt(
-                Message("edit.remove_tempo"), lambda project: tempo_edit.remove_tempo(project, tick), origin=self
-            )
-        else:
-            self.session.attempt(
-                Message("edit.remove_metre"), lambda project: tempo_edit.remove_metre(project, tick), origin=self
-            )
+        self.session.attempt(*removal(kind, tick), origin=self)
 
     def _select_bar(self, tick: int) -> None:
         metre_map = self.session.project.score.metre_map
@@ -383,12 +287,11 @@ class Ruler(Pictured):
 
     # The mouse
 
-    def _take_hold(self, place: QPointF) -> str:
+    def _held_at(self, place: QPointF) -> str:
         """What a press takes hold of."""
         if place.x() < GUTTER_PX:
             return ""
-        self._mark = self._mark_at(place)
-        if self._mark is not None:
+        if self._mark_at(place) is not None:
             return "mark"
         if place.y() < MARKS_PX:
             return "seek"
@@ -403,64 +306,39 @@ class Ruler(Pictured):
                     return name
         return "seek"
 
-    def _drag(self, event: QMouseEvent) -> None:
-        assert self._pressed is not None
-        free = bool(event.modifiers() & Qt.KeyboardModifier.AltModifier)
-        x = event.position().x()
-        tick = self._tick_at(x, free)
-        if self._held == "playhead":
-            self.sought.emit(self.axis.seconds(x - GUTTER_PX))
-        elif self._held == "mark" and self._mark is not None:
-            self._drag_mark(self._mark, x, free)
-        elif self._held in ("loop_start", "loop_end") and self.session.loop_s is not None:
-            start_s, end_s = self.session.loop_s
-            moved_s = self._seconds_of(tick)
-            loop = (moved_s, end_s) if self._held == "loop_start" else (start_s, moved_s)
-            if loop[1] > loop[0]:
-                self.session.set_loop(loop)
-        elif self._held in ("punch_start", "punch_end") and self.session.recording.punch_ticks is not None:
-            start, end = self.session.recording.punch_ticks
-            punch = (tick, end) if self._held == "punch_start" else (start, tick)
-            if punch[1] > punch[0]:
-                self.session.recording.set(punch_ticks=punch)
-        elif self._held == "seek":
-            start, end = sorted((self._tick_at(self._pressed.position().x(), free), tick))
-            span = (start, end) if end > start else None
-            self.session.select(Selection(span=span))
-            self.axis.reveal(self.axis.seconds(x - GUTTER_PX))
+    def _take_hold(self, held: str, mouse: LaneMouse, mark: Mark | None) -> Gesture | None:
+        """The gesture that a press begins."""
+        session, far, at_start = self.session, along(QApplication.startDragDistance() / 2), held.endswith("_start")
+        if mark is not None:
+            return HoldMark(session, mouse, far, (mark.kind, mark.tick), self, self._refuse_first)
+        if held == "playhead":
+            return HoldPlayhead(session, mouse, far, self.sought.emit)
+        if held in ("loop_start", "loop_end"):
+            return HoldEdge(mouse, far, at_start, lambda: session.loop_s, session.set_loop, self._place_of)
+        if held in ("punch_start", "punch_end"):
+            recording = session.recording
+            return HoldEdge(
+                mouse, far, at_start,
+                lambda: recording.punch_ticks, lambda span: recording.set(punch_ticks=span), lambda tick: max(tick, 0),
+            )  # fmt: skip
+        return Seek(session, mouse, far, self._tick_at) if held else None
 
-    def _drag_mark(self, mark: Mark, x: float, free: bool) -> None:
-        """A tempo goes to the grid, a metre to the bars that there are without it; what began the piece stays."""
-        base, start = self._base, mark.tick
-        if start <= (base.score.pickup_ticks if mark.kind == "metre" else 0):
-            self.session.notice(Message("tempo.first_stays"), Severity.WARNING)
-            return
-        without = tempo_edit.remove_metre(base, start) if mark.kind == "metre" else base
-        # The place under the mouse is that of the piece before the drag: moved, a tempo would carry it along.
-        tick = without.score.tempo_map.ticks(self.axis.seconds(x - GUTTER_PX))
-        if mark.kind == "metre" and not free:
-            metre_map = without.score.metre_map
-            bar = metre_map.bar_of_tick(max(round(tick), 0))
-            to = min(metre_map.span_of_bar(bar), key=lambda place: abs(place - tick))
-        else:
-            to = round(tick) if free else self.session.grid.snap(base.score, tick)
-        move = tempo_edit.move_metre if mark.kind == "metre" else tempo_edit.move_tempo
-        to = max(to, 1 if mark.kind == "tempo" else base.score.pickup_ticks)
-        if mark.kind == "metre" and to <= base.score.pickup_ticks:
-            return
-        if self.session.attempt(_moving(mark), lambda _: move(base, start, to), self._token, self):
-            self._chosen = (mark.kind, to)
+    def _refuse_first(self) -> None:
+        self.session.notice(Message("tempo.first_stays"), Severity.WARNING)
+
+    def _drag(self, gesture: Gesture, mouse: LaneMouse) -> None:
+        gesture.drag(mouse)
+        if isinstance(gesture, HoldMark) and gesture.began:
+            self._chosen = gesture.chosen
+        elif isinstance(gesture, Seek) and gesture.began:
+            self.axis.reveal(mouse.time_s)
 
     def _cancel(self) -> None:
-        if self._held == "mark" and self._mark is not None:
-            self.session.apply(_moving(self._mark), self._base, self._token, self)
-            self.session.document.end_gesture()
-            self._chosen = (self._mark.kind, self._mark.tick)
-        elif self._held != "playhead":
-            self.session.select(self._before[0])
-            self.session.set_loop(self._before[1])
-            self.session.recording.set(punch_ticks=self._punch_before)
-        self._held, self._pressed, self._mark = "", None, None
+        gesture, self._gesture = self._gesture, None
+        if gesture is not None:
+            gesture.cancel()
+        if isinstance(gesture, HoldMark):
+            self._chosen = gesture.chosen
         self.redraw()
 
     # Qt overrides
@@ -509,13 +387,10 @@ class Ruler(Pictured):
         if event.button() == Qt.MouseButton.MiddleButton:
             self._panned_px = event.position().x()
         elif event.button() == Qt.MouseButton.LeftButton:
-            self._held = self._take_hold(event.position())
-            self._chosen = (self._mark.kind, self._mark.tick) if self._mark is not None else None
-            self._pressed, self._dragged = event.clone(), False
-            self._base, self._token = self.session.project, object()
-            self._before = (self.session.selection, self.session.loop_s)
-            self._punch_before = self.session.recording.punch_ticks
-            if self._held == "seek":
+            held, mark = self._held_at(event.position()), self._mark_at(event.position())
+            self._chosen = (mark.kind, mark.tick) if mark is not None else None
+            self._gesture = self._take_hold(held, self._mouse(event), mark)
+            if held == "seek":
                 self.sought.emit(self.axis.seconds(event.position().x() - GUTTER_PX))
             self.redraw()
 
@@ -523,15 +398,10 @@ class Ruler(Pictured):
         if self._panned_px is not None:
             self.axis.pan_px(event.position().x() - self._panned_px)
             self._panned_px = event.position().x()
-        elif self._pressed is not None and self._held:
-            far = abs(event.position().x() - self._pressed.position().x()) >= QApplication.startDragDistance() / 2
-            self._dragged = self._dragged or far
-            if self._dragged:
-                self._drag(event)
+        elif self._gesture is not None:
+            self._drag(self._gesture, self._mouse(event))
         elif not event.buttons():
-            mark = self._mark
-            held = self._take_hold(event.position())
-            self._mark = mark
+            held = self._held_at(event.position())
             edges = ("loop_start", "loop_end", "punch_start", "punch_end")
             shapes = dict.fromkeys(edges, Qt.CursorShape.SizeHorCursor)
             shapes |= {"playhead": Qt.CursorShape.SplitHCursor, "mark": Qt.CursorShape.PointingHandCursor}
@@ -540,12 +410,9 @@ class Ruler(Pictured):
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         if event.button() == Qt.MouseButton.MiddleButton:
             self._panned_px = None
-        elif event.button() == Qt.MouseButton.LeftButton and self._held:
-            if self._held == "mark":
-                self.session.document.end_gesture()
-            elif not self._dragged and self._held in ("seek", "playhead") and self.session.selection.span is not None:
-                self.session.select(Selection(self.session.selection.notes, self.session.selection.events))
-            self._held, self._pressed, self._mark = "", None, None
+        elif event.button() == Qt.MouseButton.LeftButton and self._gesture is not None:
+            gesture, self._gesture = self._gesture, None
+            gesture.release(self._mouse(event))
             self.redraw()
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
@@ -570,7 +437,7 @@ class Ruler(Pictured):
         self.axis.turn_wheel(notches, event.position().x() - GUTTER_PX, zooms)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() == Qt.Key.Key_Escape and self._held:
+        if event.key() == Qt.Key.Key_Escape and self._gesture is not None:
             self._cancel()
         elif event.key() == Qt.Key.Key_Escape and self._chosen is not None:
             self._chosen = None
@@ -592,14 +459,10 @@ class Ruler(Pictured):
         return super().event(event)
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
-        if event.reason() != Qt.FocusReason.PopupFocusReason and not self._held:
+        if event.reason() != Qt.FocusReason.PopupFocusReason and self._gesture is None:
             self._chosen = None
             self.redraw()
         super().focusOutEvent(event)
-
-
-def _moving(mark: Mark) -> Message:
-    return Message("edit.move_tempo") if mark.kind == "tempo" else Message("edit.move_metre")
 
 
 _REMOVING = (Qt.Key.Key_Delete, Qt.Key.Key_Backspace)

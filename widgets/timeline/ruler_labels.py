@@ -1,68 +1,24 @@
-"""What is written on the ruler: times in seconds and frames, numbers of bars, marks of tempo and metre."""
+"""The marks of the ruler as Qt has them: where they are drawn, and the field in which one is typed."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from fractions import Fraction
 
-import numpy as np
 from PySide6.QtCore import QRectF, Qt, Signal
 from PySide6.QtGui import QFontMetricsF, QKeyEvent
-from PySide6.QtWidgets import QLineEdit
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from app.score.model import Score
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.model.lines import Lines
+from widgets.timeline.drawing import rect
+from widgets.timeline.model import ruler as model
 
-LEAST_LABEL_PX = 64.0
-STEPS_S = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0)
-STEPS_FRAMES = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000, 100000)
-
-Labels = list[tuple[float, str]]
-"""Seconds and what is written there."""
-
-
-def bar_labels(score: Score, lines: Lines) -> Labels:
-    """Numbers of the bars. Bars before the piece have lines, but no numbers."""
-    first = 0 if score.pickup_ticks else 1
-    return [
-        (seconds, str(bar) if bar >= first else "")
-        for bar, seconds in zip(lines.bars, lines.bar_s.tolist(), strict=True)
-    ]
-
-
-def frame_labels(axis: TimeAxis, fps: Fraction) -> Labels:
-    """Round numbers of frames, no denser than can be read; frame 0 is at second 0."""
-    step = next(
-        (step for step in STEPS_FRAMES if step / float(fps) * axis.px_per_s >= LEAST_LABEL_PX), STEPS_FRAMES[-1]
-    )
-    first, last = int(axis.start_s * fps // step), int(axis.end_s * fps // step) + 1
-    return [(float(Fraction(number * step) / fps), str(number * step)) for number in range(first, last + 1)]
-
-
-def clock_labels(axis: TimeAxis) -> Labels:
-    """Round times, no denser than can be read."""
-    step_s = next((step for step in STEPS_S if step * axis.px_per_s >= LEAST_LABEL_PX), STEPS_S[-1])
-    first, last = int(axis.start_s // step_s), int(axis.end_s // step_s) + 1
-    decimals = 0 if step_s >= 1 else 1 if step_s >= 0.1 else 2
-    return [(number * step_s, clock(number * step_s, decimals)) for number in range(first, last + 1)]
-
-
-def clock(seconds: float, decimals: int) -> str:
-    """Minutes and seconds: ``-0:02.5``."""
-    scaled = round(abs(seconds) * 10**decimals)
-    whole, fraction = divmod(scaled, 10**decimals)
-    sign = "-" if seconds < 0 and scaled else ""
-    tail = f".{fraction:0{decimals}d}" if decimals else ""
-    hours, minutes = divmod(whole // 60, 60)
-    head = f"{hours}:{minutes:02d}" if hours else str(minutes)
-    return f"{sign}{head}:{whole % 60:02d}{tail}"
+FIELD_PX = 80
 
 
 @dataclass(frozen=True)
 class Mark:
-    """A tempo (``"tempo"``) or a metre (``"metre"``), where it is drawn."""
+    """See `widgets.timeline.model.ruler.Mark`."""
 
     kind: str
     tick: int
@@ -73,66 +29,66 @@ class Mark:
 def lay_marks(
     score: Score, axis: TimeAxis, metrics: QFontMetricsF, left_px: float, right_px: float, height_px: float
 ) -> list[Mark]:
-    """Where the marks stand: metres before tempi, none over another. What holds at the left edge stays in view.
-
-    Parameters
-    ----------
-    score : Score
-    axis : TimeAxis
-        Its pixels count from ``left_px``.
-    metrics : QFontMetricsF
-    left_px, right_px : float
-        Between these there is room.
-    height_px : float
-    """
-    metres, bpm = score.metres, score.tempo_map.bpm
-    texts: dict[str, Callable[[int], str]] = {
-        "metre": lambda index: f"{metres[index].numerator}/{metres[index].denominator}",
-        "tempo": lambda index: f"♩={bpm[index][1]:.4g}",
-    }
-    held: dict[str, tuple[int, str]] = {}
-    inside: list[tuple[int, int, float, str, int]] = []
-    # A file can have tens of thousands: of those out of sight only the last before the left edge is looked at.
-    ticks_of = {"metre": [metre.tick for metre in metres], "tempo": [tick for tick, _ in bpm]}
-    for order, (kind, ticks) in enumerate(ticks_of.items()):
-        x_px = left_px + axis.x_px(score.tempo_map.seconds(np.array(ticks, np.float64)))
-        first, end = int(x_px.searchsorted(left_px)), int(x_px.searchsorted(right_px, side="right"))
-        if first:
-            held[kind] = ticks[first - 1], texts[kind](first - 1)
-        shown = range(first, end)
-        inside += [
-            (ticks[index], order, x, kind, index) for index, x in zip(shown, x_px[first:end].tolist(), strict=True)
-        ]
-    inside.sort()
-    room_px = inside[0][2] if inside else right_px
-    marks: list[Mark] = []
-    free_px = left_px
-
-    def put(x: float, kind: str, tick: int, text: str) -> float:
-        width = metrics.horizontalAdvance(text) + 12.0
-        marks.append(Mark(kind, tick, text, QRectF(x, 1.0, width, height_px - 3.0)))
-        return x + width + 2.0
-
-    for kind in ("metre", "tempo"):
-        if kind in held and free_px + metrics.horizontalAdvance(held[kind][1]) + 12.0 <= room_px:
-            free_px = put(free_px, kind, *held[kind])
-    for tick, _, x, kind, index in inside:
-        beside = bool(marks) and marks[-1].tick == tick
-        if x >= free_px - 1 or beside:
-            free_px = put(max(x, free_px), kind, tick, texts[kind](index))
-    return marks
+    """See `widgets.timeline.model.ruler.lay_marks`."""
+    laid = model.lay_marks(score, axis, metrics, left_px, right_px, height_px)
+    return [Mark(mark.kind, mark.tick, mark.text, rect(mark.box)) for mark in laid]
 
 
 class MarkEditor(QLineEdit):
-    """A tempo or a metre typed in place."""
+    """A tempo or a metre typed in place.
 
-    left = Signal(bool)
-    """Done; whether what stands there is meant."""
+    Signals
+    -------
+    typed(str, int, str)
+        Kind, tick and text: what stands there is meant.
+    """
+
+    typed = Signal(str, int, str)
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._ruler = parent
+        self.setObjectName("mark_editor")
+        self._mark: tuple[str, int] | None = None
+        self.hide()
+        self.editingFinished.connect(self._editing_finished)
+
+    def open(self, kind: str, tick: int, text: str, left_px: float, height_px: int) -> None:
+        """Type the mark at a tick."""
+        self._mark = (kind, tick)
+        self.setText(text)
+        self.setToolTip(
+            self.tr("Tempo in quarters per minute; Enter takes it, Escape leaves it")
+            if kind == "tempo"
+            else self.tr("Metre, e.g. 6/8; Enter takes it, Escape leaves it")
+        )
+        self.setGeometry(int(min(left_px, self._ruler.width() - FIELD_PX - 4)), 0, FIELD_PX, height_px)
+        self.show()
+        self.raise_()
+        self.selectAll()
+        self.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def leave(self, meant: bool) -> None:
+        """Done; whether what stands there is meant."""
+        if self._mark is None:
+            return
+        (kind, tick), self._mark = self._mark, None
+        self.hide()
+        self._ruler.setFocus(Qt.FocusReason.OtherFocusReason)
+        if meant:
+            self.typed.emit(kind, tick, self.text().strip())
+
+    def _editing_finished(self) -> None:
+        """The focus went elsewhere: what was typed is meant."""
+        if self.isVisible() and not self.hasFocus():
+            self.leave(True)
+
+    # Qt overrides
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
-            self.left.emit(True)
+            self.leave(True)
         elif event.key() == Qt.Key.Key_Escape:
-            self.left.emit(False)
+            self.leave(False)
         else:
             super().keyPressEvent(event)

@@ -18,8 +18,9 @@ from tests.gui.timeline.hand import ALT, CTRL, Hand, Place
 from widgets.common.selection import Selection
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import GUTTER_PX
+from widgets.timeline.model.ruler import clock
 from widgets.timeline.ruler import MARKS_PX, Ruler
-from widgets.timeline.ruler_labels import clock, lay_marks
+from widgets.timeline.ruler_labels import lay_marks
 
 BAR = 4 * TPQ
 

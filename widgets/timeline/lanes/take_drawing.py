@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import Final, Protocol
 
 import numpy as np
 from PySide6.QtCore import QLineF, QRectF, Qt
@@ -10,12 +10,10 @@ from PySide6.QtGui import QColor, QPainter, QPen
 
 from app.project.model import CompSpan
 from widgets.timeline.drawing import draw_lines, draw_rects, draw_text, shade, small_font
-from widgets.timeline.lane import LaneItem
 from widgets.timeline.model.geometry import Floats
 from widgets.timeline.model.take_rows import TakeRow, owners
-
-if TYPE_CHECKING:
-    from widgets.timeline.lanes.takes import TakesLane
+from widgets.timeline.model.takes import TakesModel
+from widgets.timeline.plot import LaneItem, LaneView
 
 STRIP_PX: Final = 26.0
 """The comp, beside the lane's title."""
@@ -25,22 +23,33 @@ PALE: Final = 95
 """Opacity of what the part does not have."""
 
 
+class TakesView(LaneView, Protocol):
+    """What is drawn of a lane of takes."""
+
+    model: TakesModel
+
+    @property
+    def rows_rect(self) -> QRectF: ...
+    def row_rect(self, number: int) -> QRectF: ...
+    def empty_text(self) -> str: ...
+
+
 class TakesItem(LaneItem):
     """All rows, drawn by arrays."""
 
-    def __init__(self, lane: TakesLane) -> None:
+    def __init__(self, lane: TakesView) -> None:
         super().__init__(lane)
         self._lane = lane
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane = self._lane
         painter.setFont(small_font(lane.font()))
-        if not lane.rows:
+        if not lane.model.rows:
             self._paint_empty(painter)
             return
         painter.save()
         painter.setClipRect(exposed.intersected(lane.rows_rect))
-        for number, row in enumerate(lane.rows):
+        for number, row in enumerate(lane.model.rows):
             box = lane.row_rect(number)
             if box.intersects(exposed):
                 self._paint_row(painter, row, box, exposed)
@@ -74,9 +83,9 @@ class TakesItem(LaneItem):
         painter.fillRect(strip, QColor(tokens.surface))
         painter.setPen(QPen(QColor(tokens.line), 1.0))
         painter.drawLine(strip.bottomLeft(), strip.bottomRight())
-        names = {row.take_id: row.take.name for row in lane.rows if row.take is not None}
-        for span, box in self._boxes(lane.shown_comp(), 3.0, STRIP_PX - 6.0):
-            colour = lane.colour_of(span.take_id)
+        names = {row.take_id: row.take.name for row in lane.model.rows if row.take is not None}
+        for span, box in self._boxes(lane.model.shown_comp(), 3.0, STRIP_PX - 6.0):
+            colour = lane.model.colour_of(span.take_id)
             inner = box.adjusted(0.5, 0.0, -0.5, 0.0)
             painter.fillRect(inner, shade(colour, 70))
             painter.fillRect(QRectF(inner.left(), inner.bottom() - 2.0, inner.width(), 2.0), QColor(colour))
@@ -90,10 +99,10 @@ class TakesItem(LaneItem):
 
     def _paint_row(self, painter: QPainter, row: TakeRow, box: QRectF, exposed: QRectF) -> None:
         lane, tokens = self._lane, self._lane.session.tokens
-        colour = lane.colour_of(row.take_id)
+        colour = lane.model.colour_of(row.take_id)
         if lane.session.selection.take == row.take_id:
             painter.fillRect(QRectF(exposed.left(), box.top(), exposed.width(), box.height()), shade(tokens.accent, 22))
-        taken = lane.shown_spans(row.take_id)
+        taken = lane.model.shown_spans(row.take_id)
         painter.save()
         for _, span_box in self._boxes(taken, box.top(), box.height()):
             painter.fillRect(span_box, shade(colour, 46))
@@ -151,7 +160,7 @@ class TakesItem(LaneItem):
 
     def _pitch_px(self, pitches: Floats, box: QRectF) -> tuple[Floats, float]:
         """Tops of notes, and how high they are."""
-        low, high = self._lane.pitches
+        low, high = self._lane.model.pitches
         step = (box.height() - 2 * MARGIN_PX) / (high - low + 1)
         height = max(step, LEAST_NOTE_PX)
         tops: Floats = box.top() + MARGIN_PX + (high - pitches) * step + (step - height) / 2
@@ -160,8 +169,8 @@ class TakesItem(LaneItem):
     def _paint_selected(self, painter: QPainter) -> None:
         """The selected span, in the row that the part has it from; while somebody swipes, what is swiped over."""
         lane = self._lane
-        outlined = lane.outlined()
-        number = lane.number_of(outlined.take_id) if outlined is not None else None
+        outlined = lane.model.outlined()
+        number = lane.model.number_of(outlined.take_id) if outlined is not None else None
         if outlined is None or number is None:
             return
         box = lane.row_rect(number)

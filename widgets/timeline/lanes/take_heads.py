@@ -3,7 +3,7 @@ puts the lane elsewhere."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import Final, Protocol
 
 from PySide6.QtCore import QEvent, QLineF, QObject, QRectF, Qt
 from PySide6.QtGui import (
@@ -18,21 +18,34 @@ from PySide6.QtGui import (
     QPen,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QLineEdit, QToolTip, QWidget
+from PySide6.QtWidgets import QLineEdit, QMenu, QToolTip, QWidget
 
 from app.project.edit.takes import BEFORE
 from widgets.common.icons import icon
 from widgets.common.take_times import clock_text, when_text
 from widgets.timeline.drawing import draw_text, shade, small_font
-from widgets.timeline.lanes.take_drawing import STRIP_PX
+from widgets.timeline.lanes.take_drawing import STRIP_PX, TakesView
 from widgets.timeline.model.take_rows import TakeRow
-
-if TYPE_CHECKING:
-    from widgets.timeline.lanes.takes import TakesLane
 
 BAR_PX: Final = 5.0
 BUTTON_PX: Final = 24.0
 DRAG_PX: Final = 6.0
+
+
+class Headed(TakesView, Protocol):
+    """What the heads of takes stand beside, and what they do with it."""
+
+    header: QWidget
+
+    @property
+    def folded(self) -> bool: ...
+    @property
+    def row_px(self) -> float: ...
+    def row_at(self, y_px: float) -> TakeRow | None: ...
+    def choose(self, take_id: str) -> None: ...
+    def pan_y(self, by_px: float) -> None: ...
+    def menu(self) -> QMenu: ...
+    def wheeled(self, event: QWheelEvent) -> None: ...
 
 
 class TakeHeads(QWidget):
@@ -40,7 +53,7 @@ class TakeHeads(QWidget):
 
     Parameters
     ----------
-    lane : TakesLane
+    lane : Headed
 
     Attributes
     ----------
@@ -48,7 +61,7 @@ class TakeHeads(QWidget):
         While a head is dragged: the number of the row before which its lane would lie.
     """
 
-    def __init__(self, lane: TakesLane) -> None:
+    def __init__(self, lane: Headed) -> None:
         super().__init__(lane.header)
         self.setObjectName("take_heads")
         self._lane = lane
@@ -85,7 +98,7 @@ class TakeHeads(QWidget):
 
     def type_name(self, take_id: str) -> None:
         """Type a take's name where it stands."""
-        number, take = self._lane.number_of(take_id), self._lane.take_of(take_id)
+        number, take = self._lane.model.number_of(take_id), self._lane.model.take_of(take_id)
         if number is None or take is None:
             return
         self._end_typing(False)
@@ -112,9 +125,9 @@ class TakeHeads(QWidget):
         field.deleteLater()
         if held:
             self._lane.plot.setFocus(Qt.FocusReason.OtherFocusReason)
-        take = self._lane.take_of(self._typed_id)
+        take = self._lane.model.take_of(self._typed_id)
         if keep and take is not None and text != take.name:
-            self._lane.rename(self._typed_id, text)
+            self._lane.model.rename(self._typed_id, text)
 
     # Where
 
@@ -132,7 +145,7 @@ class TakeHeads(QWidget):
         return QRectF(self.width() - BUTTON_PX - 2.0, box.center().y() - BUTTON_PX / 2, BUTTON_PX, BUTTON_PX)
 
     def _over_button(self, row: TakeRow, event: QMouseEvent) -> bool:
-        number = self._lane.number_of(row.take_id)
+        number = self._lane.model.number_of(row.take_id)
         return number is not None and self._button(self._row_box(number)).contains(event.position())
 
     # Qt overrides
@@ -143,7 +156,7 @@ class TakeHeads(QWidget):
             return
         tokens, painter = lane.session.tokens, QPainter(self)
         heard = lane.session.listening.take
-        for number, row in enumerate(lane.rows):
+        for number, row in enumerate(lane.model.rows):
             box = self._row_box(number)
             box.setWidth(float(self.width()))
             if box.bottom() < 0.0 or box.top() > self.height():
@@ -153,7 +166,7 @@ class TakeHeads(QWidget):
             if chosen or hovered:
                 painter.fillRect(box, shade(tokens.accent, 56) if chosen else QColor(tokens.raised))
             painter.fillRect(
-                QRectF(0.0, box.top() + 1.0, BAR_PX, box.height() - 2.0), QColor(lane.colour_of(row.take_id))
+                QRectF(0.0, box.top() + 1.0, BAR_PX, box.height() - 2.0), QColor(lane.model.colour_of(row.take_id))
             )
             is_heard = heard is not None and heard.take_id == row.take_id
             shows_button = hovered or chosen or is_heard
@@ -247,7 +260,7 @@ class TakeHeads(QWidget):
         lane.pan_y(-(min(y, 0.0) + max(y - self.height(), 0.0)))
         nearest = round((y - self._row_box(0).top()) / lane.row_px)
         # What was there before the first take stays above.
-        before = min(max(nearest, 1), len(lane.rows))
+        before = min(max(nearest, 1), len(lane.model.rows))
         if before != self.dropped_before:
             self.dropped_before = before
             self.setCursor(Qt.CursorShape.ClosedHandCursor)
@@ -263,12 +276,12 @@ class TakeHeads(QWidget):
         pressed, before = self._pressed, self.dropped_before
         self.cancel_drag()
         if pressed is not None and before is not None:
-            self._lane.move_lane(pressed[0], before)
+            self._lane.model.move_lane(pressed[0], before)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         row = self._row_at(event.position().y())
         if row is not None and event.button() == Qt.MouseButton.LeftButton and not self._over_button(row, event):
-            self._lane.take_whole(row.take_id)
+            self._lane.model.take_whole(row.take_id)
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         row = self._row_at(float(event.pos().y()))

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QMenu, QWidget
 
-from app.errors import Message
 from app.project.document import Change
-from app.project.edit.takes import BEFORE, comp, comp_whole, comp_with, move_take, rename_take
-from app.project.model import CompSpan, PlayerTakes, Project
+from app.project.edit.takes import BEFORE
+from app.project.model import CompSpan
 from app.score.clean import Fault
-from app.score.metre_map import Metre
-from app.score.take import Take
-from app.score.tempo import TempoMap
 from instrument_maps.library import all_maps
 from widgets.common.pitch import pitch_text
 from widgets.common.selection import Selection
@@ -24,44 +18,13 @@ from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import Lane, LaneMouse
 from widgets.timeline.lanes.take_drawing import STRIP_PX, TakesItem
 from widgets.timeline.lanes.take_heads import TakeHeads
-from widgets.timeline.model.take_rows import TakeRow, comp_of, edges, pitch_range, rows_of, span_at
+from widgets.timeline.model.take_rows import TakeRow
+from widgets.timeline.model.takes import Swipe, TakesModel
 
 ROW_PX, LEAST_ROW_PX, MOST_ROW_PX = 38, 24, 72
 SHOWN_ROWS, LEAST_SHOWN_ROWS = 6, 3
 """As many rows as a lane wants to show, and as it shows at least; what does not fit is scrolled to."""
 EMPTY_PX = 62
-DRAG_PX = 3.0
-EDGE_PX = 4.0
-"""So near to where two takes meet the mouse has hold of it."""
-
-
-@dataclass
-class _Swipe:
-    """Over a row, or of an edge: then ``edge`` says what meets there, and the take is that on the side it leaves."""
-
-    at: LaneMouse
-    take_id: str
-    start_tick: int
-    end_tick: int
-    edge: tuple[CompSpan, CompSpan] | None = None
-    moved: bool = False
-
-    def span(self) -> CompSpan | None:
-        """What it would take if it ended here."""
-        start, end = sorted((self.start_tick, self.end_tick))
-        if not self.moved or start == end:
-            return None
-        if self.edge is None:
-            return CompSpan(start, end, self.take_id)
-        left, right = self.edge
-        return CompSpan(start, end, (left if self.end_tick > self.start_tick else right).take_id)
-
-    def move(self, tick: int) -> None:
-        """Go on to a place; an edge no further than the next one."""
-        self.moved = True
-        if self.edge is not None:
-            tick = min(max(tick, self.edge[0].start_tick), self.edge[1].end_tick)
-        self.end_tick = max(tick, 0)
 
 
 class TakesLane(Lane):
@@ -75,11 +38,7 @@ class TakesLane(Lane):
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
-        self.rows: tuple[TakeRow, ...] = ()
-        self.comp: tuple[CompSpan, ...] = ()
-        self.pitches = (60, 72)
-        self._sources: tuple[PlayerTakes | None, TempoMap, tuple[Metre, ...]] | None = None
-        self._swipe: _Swipe | None = None
+        self.model = TakesModel(session, axis)
         self._scrolled_px = 0.0
         self.heads = TakeHeads(self)
         self.item = TakesItem(self)
@@ -118,18 +77,10 @@ class TakesLane(Lane):
 
     def refresh(self) -> None:
         """Show what was recorded of the player in front, where it is other."""
-        player, project = self.session.player, self.session.project
-        recorded = project.takes.get(player.id) if player is not None else None
-        sources = (recorded, project.score.tempo_map, project.score.metres)
-        known = self._sources
-        if known is not None and all(one is other for one, other in zip(sources, known, strict=True)):
+        if not self.model.refresh():
             if not self.rows:
                 self.update_items()
             return
-        self._sources = sources
-        self.rows = rows_of(project, player.id) if player is not None else ()
-        self.comp = comp_of(project, player.id) if player is not None and self.rows else ()
-        self.pitches = pitch_range(self.rows)
         self._show_title()
         self._ask_room()
         self._scroll_to(self._scrolled_px)
@@ -167,55 +118,27 @@ class TakesLane(Lane):
     def theme_changed(self) -> None:
         self.heads.update()
 
-    def colour_of(self, take_id: str) -> str:
-        """A take's colour; without one the player's, and of what was there before none."""
-        player = self.session.player
-        take = self.take_of(take_id)
-        if take is None or player is None:
-            return self.session.tokens.text_dim
-        return take.colour or self.session.colour(player)
+    @property
+    def rows(self) -> tuple[TakeRow, ...]:
+        """What was there before, then the takes."""
+        return self.model.rows
 
-    def take_of(self, take_id: str) -> Take | None:
-        """A take of the player in front."""
-        return next((row.take for row in self.rows if row.take is not None and row.take.id == take_id), None)
-
-    def number_of(self, take_id: str) -> int | None:
-        """Which row a take has."""
-        return next((number for number, row in enumerate(self.rows) if row.take_id == take_id), None)
-
-    def _swiped(self) -> CompSpan | None:
-        """What the swipe would take if it ended here."""
-        return self._swipe.span() if self._swipe is not None else None
+    @property
+    def comp(self) -> tuple[CompSpan, ...]:
+        """Which take the part has where."""
+        return self.model.comp
 
     def shown_comp(self) -> tuple[CompSpan, ...]:
         """The comp as it would be if the swipe ended here."""
-        swiped = self._swiped()
-        if swiped is None:
-            return self.comp
-        return comp_with(self.comp, swiped.start_tick, swiped.end_tick, swiped.take_id)
-
-    def outlined(self) -> CompSpan | None:
-        """What is swiped over, else the selected span, with the take that the part has it from."""
-        selection = self.session.selection
-        if self._swipe is not None and self._swipe.moved:
-            return self._swiped()
-        if selection.span is None or selection.take is None:
-            return None
-        return CompSpan(*selection.span, selection.take)
+        return self.model.shown_comp()
 
     def shown_spans(self, take_id: str) -> tuple[CompSpan, ...]:
         """What the part has of a take; of what was there before, the gaps of the comp."""
-        spans = self.shown_comp()
-        if take_id != BEFORE:
-            return tuple(span for span in spans if span.take_id == take_id)
-        edges = [0, *(tick for span in spans for tick in (span.start_tick, span.end_tick)), self._end_tick()]
-        return tuple(
-            CompSpan(start, end, BEFORE) for start, end in zip(edges[::2], edges[1::2], strict=True) if start < end
-        )
+        return self.model.shown_spans(take_id)
 
-    def _end_tick(self) -> int:
-        """Where what can be seen ends."""
-        return max(round(self.session.project.score.tempo_map.ticks(self.axis.limits_s[1])), 1)
+    def number_of(self, take_id: str) -> int | None:
+        """Which row a take has."""
+        return self.model.number_of(take_id)
 
     # Where rows lie
 
@@ -275,91 +198,50 @@ class TakesLane(Lane):
         self.session.select(Selection(take=take_id))
         self.show_row(take_id)
 
-    def take_whole(self, take_id: str) -> None:
-        """Let the part have all of a take."""
-        player = self.session.player
-        if player is not None:
-            self.session.attempt(
-                self._named("edit.comp_whole", take_id), lambda project: comp_whole(project, player.id, take_id)
-            )
-
-    def rename(self, take_id: str, name: str) -> None:
-        """Call a take something else."""
-        player = self.session.player
-        if player is not None:
-            self.session.attempt(
-                Message("edit.rename_take", {"take": name}),
-                lambda project: rename_take(project, player.id, take_id, name),
-            )
-
-    def move_lane(self, take_id: str, before: int) -> None:
-        """Put a take's lane before the one that has a number now."""
-        player, take = self.session.player, self.take_of(take_id)
-        if player is not None and take is not None:
-            self.session.attempt(
-                Message("edit.move_take", {"take": take.name}),
-                lambda project: move_take(project, player.id, take_id, before - 1),
-            )
-
     def ask_name(self) -> None:
         """Type the selected take's name where it stands."""
         take_id = self.session.selection.take
-        if take_id and self.take_of(take_id) is not None:
+        if take_id and self.model.take_of(take_id) is not None:
             self.set_folded(False)
             self.show_row(take_id)
             self.heads.type_name(take_id)
 
     def take_span(self, take_id: str, start_tick: int, end_tick: int) -> None:
         """Let the part have a span of a take, and select it."""
-        player = self.session.player
-        if player is None:
-            return
-
-        def edit(project: Project) -> Project:
-            return comp(project, player.id, take_id, start_tick, end_tick)
-
-        if self.session.attempt(self._named("edit.comp", take_id), edit):
-            self.session.select(Selection(span=(start_tick, end_tick), take=take_id))
+        if self.model.take_span(take_id, start_tick, end_tick):
             self.show_row(take_id)
-
-    def _named(self, id: str, take_id: str) -> Message:
-        take = self.take_of(take_id)
-        return Message("edit.comp_before") if take is None else Message(id, {"take": take.name})
 
     # The mouse
 
     def press(self, mouse: LaneMouse) -> None:
-        self._swipe = None
+        self.model.swipe = None
         if not self.rows:
             return
         row = self.row_at(mouse.y_px)
         edge = self._edge_at(mouse)
         if edge is not None:
-            tick = edge[0].end_tick
-            self._swipe = _Swipe(mouse, row.take_id if row is not None else BEFORE, tick, tick, edge)
+            self.model.swipe = Swipe(mouse, row.take_id if row is not None else BEFORE, edge[0].end_tick, edge)
         elif row is not None:
-            tick = max(mouse.snapped_tick, 0)
-            self._swipe = _Swipe(mouse, row.take_id, tick, tick)
+            self.model.swipe = Swipe(mouse, row.take_id, max(mouse.snapped_tick, 0))
         elif mouse.y_px < STRIP_PX:
             self._select_span(mouse.tick)
         else:
             self.session.select(Selection())
 
     def drag(self, mouse: LaneMouse) -> None:
-        swipe = self._swipe
-        if swipe is None or (not swipe.moved and abs(mouse.x_px - swipe.at.x_px) < DRAG_PX):
-            return
-        before = swipe.end_tick
-        swipe.move(mouse.snapped_tick)
-        if swipe.end_tick != before:
-            self.update_items()
+        swipe = self.model.swipe
+        if swipe is not None:
+            before = swipe.end_tick
+            swipe.drag(mouse)
+            if swipe.end_tick != before:
+                self.update_items()
 
     def release(self, mouse: LaneMouse) -> None:
-        swiped = self._swiped()
-        swipe, self._swipe = self._swipe, None
+        swiped = self.model.swiped()
+        swipe, self.model.swipe = self.model.swipe, None
         if swipe is None:
             return
-        if not swipe.moved:
+        if not swipe.began:
             self._click(swipe)
         elif swiped is not None:
             self.take_span(swiped.take_id, swiped.start_tick, swiped.end_tick)
@@ -371,35 +253,28 @@ class TakesLane(Lane):
         self._cancel_swipe()
 
     def _cancel_swipe(self) -> None:
-        if self._swipe is not None:
-            self._swipe = None
+        if self.model.swipe is not None:
+            self.model.swipe = None
             self.update_items()
 
     def _edge_at(self, mouse: LaneMouse) -> tuple[CompSpan, CompSpan] | None:
-        """The edge of the comp that the mouse has hold of: in the strip, and in the rows of the two that meet."""
         row = self.row_at(mouse.y_px)
-        if row is None and mouse.y_px >= STRIP_PX:
-            return None
-        clock = self.session.project.score.tempo_map
-        near: dict[float, tuple[CompSpan, CompSpan]] = {}
-        for left, right in edges(self.comp, self._end_tick()):
-            far_px = abs(self.axis.x_px(clock.seconds(float(left.end_tick))) - mouse.x_px)
-            if far_px <= EDGE_PX and (row is None or row.take_id in (left.take_id, right.take_id)):
-                near[far_px] = left, right
-        return near[min(near)] if near else None
+        return self.model.edge_at(mouse, row) if row is not None or mouse.y_px < STRIP_PX else None
 
-    def _click(self, swipe: _Swipe) -> None:
+    def _click(self, swipe: Swipe) -> None:
         if swipe.at.y_px < STRIP_PX:
             self._select_span(swipe.at.tick)
             return
-        span = span_at(self.comp, swipe.at.tick, self._end_tick())
+        span = self.model.span_at(swipe.at.tick)
         if span.take_id == swipe.take_id and swipe.at.tick >= 0:
             self.session.select(Selection(span=(span.start_tick, span.end_tick), take=span.take_id))
         else:
             self.choose(swipe.take_id)
 
     def _select_span(self, tick: float) -> None:
-        span = span_at(self.comp, max(tick, 0.0), self._end_tick())
+        self._choose_span(self.model.span_at(tick))
+
+    def _choose_span(self, span: CompSpan) -> None:
         self.session.select(Selection(span=(span.start_tick, span.end_tick), take=span.take_id))
         self.show_row(span.take_id)
 
@@ -442,7 +317,7 @@ class TakesLane(Lane):
         row = self.row_at(mouse.y_px)
         if row is None:
             return None
-        span = span_at(self.comp, mouse.tick, self._end_tick())
+        span = self.model.span_at(mouse.tick)
         if self.session.selection.span is None or self.session.selection.take != row.take_id:
             if span.take_id == row.take_id and mouse.tick >= 0:
                 self.session.select(Selection(span=(span.start_tick, span.end_tick), take=row.take_id))
@@ -492,23 +367,13 @@ class TakesLane(Lane):
 
     def step(self, by: int) -> None:
         """Take the selected span from the take above (-1) or below (1); without a span, select that take."""
-        selection = self.session.selection
-        current = selection.take
-        if current is None and selection.span is not None:
-            current = span_at(self.comp, float(selection.span[0]), self._end_tick()).take_id
-        number = self.number_of(current) if current is not None else None
-        wanted = self.rows[min(max((number if number is not None else -by) + by, 0), len(self.rows) - 1)].take_id
+        selection, wanted = self.session.selection, self.model.beside(by)
         if selection.span is None:
             self.choose(wanted)
-        elif wanted != current:
+        elif wanted != self.model.current():
             self.take_span(wanted, *selection.span)
 
     def _step_span(self, by: int) -> None:
-        span = self.session.selection.span
-        end = self._end_tick()
-        if span is None:
-            self._select_span(self.session.project.score.tempo_map.ticks(self.session.playhead_s))
-        elif by > 0 and span[1] < end:
-            self._select_span(float(span[1]))
-        elif by < 0 and span[0] > 0:
-            self._select_span(float(span[0] - 1))
+        span = self.model.span_beside(by, self.session.playhead_s)
+        if span is not None:
+            self._choose_span(span)

@@ -27,6 +27,22 @@ class Scale(Protocol):
     def seconds(self, x_px: float) -> float: ...
 
 
+class Span(Scale, Protocol):
+    """A scale of what is visible."""
+
+    @property
+    def start_s(self) -> float: ...
+    @property
+    def end_s(self) -> float: ...
+
+
+class Limited(Scale, Protocol):
+    """A scale that can be scrolled so far."""
+
+    @property
+    def limits_s(self) -> tuple[float, float]: ...
+
+
 class TimeView(NamedTuple):
     """The visible range; every change gives another one, as near to it as the limits allow.
 

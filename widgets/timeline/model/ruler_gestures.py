@@ -1,0 +1,159 @@
+"""What a press on the ruler becomes: a span is selected, an edge of the loop or of the punch, the playhead or a mark is
+dragged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from app.errors import Message
+from app.project.edit import tempo as tempo_edit
+from widgets.common.selection import Selection
+from widgets.timeline.model.gestures import Editing, Far, Gesture, Step, snapped
+from widgets.timeline.model.hand import LaneMouse
+
+Place = TypeVar("Place", int, float)
+
+
+class Seek(Gesture):
+    """A span is selected from the press on; a press alone lets go of one."""
+
+    def __init__(self, session: Editing, at: LaneMouse, far: Far, tick_at: Callable[[LaneMouse, bool], int]) -> None:
+        super().__init__(at, far)
+        self._session, self._tick_at = session, tick_at
+        self._before = session.selection
+
+    def follow(self, mouse: LaneMouse) -> None:
+        start, end = sorted((self._tick_at(self.at, mouse.alt), self._tick_at(mouse, mouse.alt)))
+        self._session.select(Selection(span=(start, end) if end > start else None))
+
+    def click(self, mouse: LaneMouse) -> None:
+        drop_span(self._session)
+
+    def cancel(self) -> None:
+        self._session.select(self._before)
+
+
+class HoldPlayhead(Gesture):
+    """The playhead goes along; Escape leaves it where it is."""
+
+    def __init__(self, session: Editing, at: LaneMouse, far: Far, seek: Callable[[float], None]) -> None:
+        super().__init__(at, far)
+        self._session, self._seek = session, seek
+
+    def follow(self, mouse: LaneMouse) -> None:
+        self._seek(mouse.time_s)
+
+    def click(self, mouse: LaneMouse) -> None:
+        drop_span(self._session)
+
+
+class HoldEdge(Gesture):
+    """One edge of a span goes along, as far as the other one.
+
+    Parameters
+    ----------
+    at : LaneMouse
+    far : Far
+    at_start : bool
+    span : callable
+        What the span is now; None: none.
+    put : callable
+        Makes it another.
+    place : callable
+        Where an edge is at a tick, as the span counts.
+    """
+
+    def __init__(
+        self,
+        at: LaneMouse,
+        far: Far,
+        at_start: bool,
+        span: Callable[[], tuple[Place, Place] | None],
+        put: Callable[[tuple[Place, Place]], object],
+        place: Callable[[int], Place],
+    ) -> None:
+        super().__init__(at, far)
+        before = span()
+
+        def move(tick: int) -> None:
+            now = span()
+            if now is not None:
+                moved = (place(tick), now[1]) if at_start else (now[0], place(tick))
+                if moved[1] > moved[0]:
+                    put(moved)
+
+        self._move = move
+        self._restore: Callable[[], object] = lambda: put(before) if before is not None else None
+
+    def follow(self, mouse: LaneMouse) -> None:
+        self._move(mouse.snapped_tick)
+
+    def cancel(self) -> None:
+        self._restore()
+
+
+class HoldMark(Gesture):
+    """A tempo goes to the grid, a metre to the bars that there are without it; what began the piece stays.
+
+    Attributes
+    ----------
+    chosen : (str, int)
+        Kind and tick of the mark where it is now.
+    """
+
+    def __init__(
+        self,
+        session: Editing,
+        at: LaneMouse,
+        far: Far,
+        mark: tuple[str, int],
+        origin: object,
+        refuse: Callable[[], None],
+    ) -> None:
+        super().__init__(at, far)
+        self._session, self._mark, self._refuse = session, mark, refuse
+        self._step = Step(session, origin)
+        self.chosen = mark
+
+    def follow(self, mouse: LaneMouse) -> None:
+        base, (kind, start) = self._step.base, self._mark
+        if start <= (base.score.pickup_ticks if kind == "metre" else 0):
+            self._refuse()
+            return
+        to = self._target(mouse)
+        if kind == "metre" and to <= base.score.pickup_ticks:
+            return
+        move = tempo_edit.move_metre if kind == "metre" else tempo_edit.move_tempo
+        name = Message("edit.move_tempo") if kind == "tempo" else Message("edit.move_metre")
+        if self._step.attempt(name, lambda project: move(project, start, to)):
+            self.chosen = (kind, to)
+
+    def _target(self, mouse: LaneMouse) -> int:
+        """The place under the mouse is that of the piece before the drag: moved, a tempo would carry it along."""
+        base, (kind, start) = self._step.base, self._mark
+        if kind == "tempo":
+            tick = base.score.tempo_map.ticks(mouse.time_s)
+            return max(snapped(self._session.grid, base.score, tick, mouse.alt), 1)
+        score = tempo_edit.remove_metre(base, start).score
+        tick = score.tempo_map.ticks(mouse.time_s)
+        if mouse.alt:
+            return max(round(tick), base.score.pickup_ticks)
+        metre_map = score.metre_map
+        bar = metre_map.bar_of_tick(max(round(tick), 0))
+        bars = metre_map.span_of_bar(bar)
+        return max(min(bars, key=lambda place: abs(place - tick)), base.score.pickup_ticks)
+
+    def release(self, mouse: LaneMouse) -> None:
+        self._step.end()
+
+    def cancel(self) -> None:
+        self._step.take_back()
+        self.chosen = self._mark
+
+
+def drop_span(session: Editing) -> None:
+    """Let go of the selected span; what else is selected stays."""
+    if session.selection.span is not None:
+        session.select(Selection(session.selection.notes, session.selection.events))
