@@ -24,7 +24,8 @@ from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.inspector.correction_list import CorrectionList
 from widgets.inspector.generated import Generated
-from widgets.timeline.lanes.acting import VARIED, ActingLane
+from widgets.timeline.lanes.acting import ActingLane
+from widgets.timeline.model.acting import VARIED
 from widgets.timeline.panel import TimelinePanel
 
 SPAN = (3840, 7680)

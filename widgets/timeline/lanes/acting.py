@@ -11,10 +11,9 @@ from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.errors import Message
-from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.plan.model import GestureEvent, PlayerPlan
 from app.project.edit.events import (
     GESTURE_KINDS,
-    OWN,
     Edited,
     GestureKind,
     add_cue,
@@ -34,32 +33,35 @@ from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_columns, draw_mark, draw_path, draw_rects, draw_text, polygon, shade
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.lanes.row_names import RowNames
-from widgets.timeline.model.geometry import Floats, packed_rows
+from widgets.timeline.model.acting import (
+    BASE,
+    GROUPS,
+    STRIPS,
+    VARIED,
+    Names,
+    cue_region,
+    entry_near,
+    expression_region,
+    gesture_region,
+    in_guest,
+    packed_group,
+    pose_region,
+    strip,
+)
+from widgets.timeline.model.geometry import Floats
 from widgets.timeline.model.hand import Box, LaneMouse
 from widgets.timeline.model.region import Region
 from widgets.timeline.model.regions import HANDLE_PX
 
-GROUPS: tuple[tuple[str, ...], ...] = (
-    ("cue",),
-    ("expression",),
-    ("lower_instrument", "pose"),
-    ("bell_height",),
-    ("weight_shift",),
-    ("sway",),
-)
-"""Kinds that share rows, from the top."""
-VARIED = "vary"
-"""Bars performed anew: not an event, but a person chose it; its row is there only with them, above all others."""
-STRIPS = ("bell_height", "weight_shift", "sway")
-"""Kinds of which there are so many that what is generated is drawn as one calm strip."""
-BASE = "expression:neutral"
-"""The face beneath all others, as long as the piece: a thin line at the foot of its row."""
 BASE_PX = 5.0
 NEW_BEATS = 2
 LEAST_SHAPE_PX = 6.0
 """Something narrower is a bar: nobody sees its fades."""
 CUE_REACH_PX = 10.0
 """A cue that is dragged this close to an entry belongs to it."""
+
+
+NAMES = Names(expression_name, kind_name, pose_name)
 
 
 class ActingLane(RegionLane):
@@ -108,11 +110,11 @@ class ActingLane(RegionLane):
         by_kind: dict[str, list[Region]] = {}
         for region in (
             *varied,
-            *(_cue(event, project.player(plan.player_id).name, "{name} →") for event in plan.cues),
+            *(cue_region(event, project.player(plan.player_id).name, "{name} →") for event in plan.cues),
             *self._guests(plan),
-            *(_expression(plan.player_id, event) for event in plan.expressions),
+            *(expression_region(plan.player_id, event, NAMES) for event in plan.expressions),
             *self._gestures(plan),
-            *(_pose(plan.player_id, event) for event in plan.poses),
+            *(pose_region(plan.player_id, event, NAMES) for event in plan.poses),
         ):
             by_kind.setdefault(region.kind, []).append(region)
         result: list[Region] = []
@@ -135,7 +137,7 @@ class ActingLane(RegionLane):
         for event in plan.gestures:
             known = before.get(id(event))
             if known is None or known[0] is not event or known[1].player_id != plan.player_id:
-                known = (event, _gesture(plan.player_id, event))
+                known = (event, gesture_region(plan.player_id, event, NAMES))
             self._known[id(event)] = known
         return [region for _, region in self._known.values()]
 
@@ -149,21 +151,11 @@ class ActingLane(RegionLane):
             and all(map(is_, known[1], members))
         ):
             return known[2]
-        packed = sorted(
-            (*_extent(region, clock), region.event_id, place)
-            for place, region in enumerate(members)
-            if region.event_id != BASE
-        )
-        spans = np.array([item[:2] for item in packed], np.float64).reshape(-1, 2)
-        own = packed_rows(spans[:, 0], spans[:, 1])
-        count = int(own.max(initial=0)) + 1
-        rows = [count - 1] * len(members)
-        for item, place in zip(packed, own.tolist(), strict=True):
-            rows[item[3]] = place
+        rows, count = packed_group(members, clock)
         self._groups_known[kinds] = (clock, members, (rows, count))
         for kind in kinds:
             if kind in STRIPS:
-                self._strips[kind] = _strip(members, kind)
+                self._strips[kind] = strip(members, kind)
         return rows, count
 
     def shown_beside(self, plan: PlayerPlan | None) -> tuple[object, ...]:
@@ -197,7 +189,7 @@ class ActingLane(RegionLane):
         performance, project = self.session.performance, self.session.project
         known = {player.id: player.name for player in project.players}
         return [
-            _in_guest(_cue(event, known[other.player_id], "← {name}"))
+            in_guest(cue_region(event, known[other.player_id], "← {name}"))
             for other in performance.plans.values()
             if other.player_id != plan.player_id and other.player_id in known
             for event in other.cues
@@ -376,12 +368,12 @@ class ActingLane(RegionLane):
             return super().snapped_move(region, ticks, mouse)
         score, wanted = self.session.project.score, region.end_tick + ticks
         player = self.session.project.player(region.player_id)
-        onsets = np.array([note.onset_tick for note in self.session.project.part(player).notes])
-        if len(onsets) and not mouse.alt:
-            nearest = int(onsets[np.argmin(np.abs(onsets - wanted))])
-            away_s = score.tempo_map.seconds(float(nearest)) - score.tempo_map.seconds(wanted)
-            if abs(away_s) * self.axis.px_per_s <= CUE_REACH_PX:
-                return nearest - region.end_tick
+        notes = self.session.project.part(player).notes
+        if not mouse.alt:
+            onsets = np.array([note.onset_tick for note in notes], np.float64)
+            entry = entry_near(onsets, wanted, score.tempo_map, CUE_REACH_PX / self.axis.px_per_s)
+            if entry is not None:
+                return entry - region.end_tick
         return self.snap(wanted, mouse) - region.end_tick
 
     def group_at(self, y_px: float) -> str:
@@ -478,64 +470,3 @@ class ActingLane(RegionLane):
 
         if self.session.attempt(name, whole):
             self.session.select(Selection(events=frozenset(EventKey(plan.player_id, event_id) for event_id in ids)))
-
-
-def _extent(region: Region, clock: TempoMap) -> tuple[float, float]:
-    """The ticks that a region covers, with the fades beside it: ticks, because neighbours touch to the tick."""
-    start, end = float(region.start_tick), float(max(region.end_tick, region.start_tick + 1))
-    if region.fades_outside:
-        return min(start, clock.ticks(region.first_s)), max(end, clock.ticks(region.last_s))
-    return start, end
-
-
-def _in_guest(region: Region) -> Region:
-    region.guest = True
-    return region
-
-
-def _cue(event: CueEvent, name: str, pattern: str) -> Region:
-    return Region(
-        event.player_id, event.id, "cue", event.start_tick, event.end_tick, event.start_s, event.end_s,
-        label=pattern.format(name=name), reason=event.reason, by_hand=event.corrected, steady=True,
-        peak_s=event.peak_s,
-    )  # fmt: skip
-
-
-def _expression(player_id: str, event: ExpressionEvent) -> Region:
-    return Region(
-        player_id, event.id, "expression", event.start_tick, event.end_tick, event.start_s, event.end_s,
-        amount=event.strength, label=expression_name(event.expression), reason=event.reason,
-        by_hand=event.corrected, fade_in_s=event.fade_in_s, fade_out_s=event.fade_out_s,
-        fades=event.id != BASE,
-    )  # fmt: skip
-
-
-def _gesture(player_id: str, event: GestureEvent) -> Region:
-    lowered = event.kind == "lower_instrument"
-    return Region(
-        player_id, event.id, event.kind, event.start_tick, event.end_tick, event.start_s, event.end_s,
-        amount=event.amount, label=kind_name(event.kind), reason=event.reason, by_hand=event.corrected,
-        signed=not lowered,
-    )  # fmt: skip
-
-
-def _pose(player_id: str, event: PoseEvent) -> Region:
-    return Region(
-        player_id, event.id, "pose", event.start_tick, event.end_tick, event.start_s, event.end_s,
-        label=pose_name(event.target), reason=event.reason, by_hand=event.corrected, steady=True,
-        fade_in_s=event.fade_in_s, fade_out_s=event.fade_out_s, fades=True, fades_outside=True,
-    )  # fmt: skip
-
-
-def _strip(regions: Sequence[Region], kind: str) -> tuple[Floats, Floats, Floats]:
-    """Starts, ends and amounts of what is drawn as a strip; a sway's curve takes in changed swings, not added ones."""
-    chosen = [
-        region
-        for region in regions
-        if region.kind == kind and (not region.by_hand or (kind == "sway" and f":{OWN}" not in region.event_id))
-    ]
-    return (
-        np.array([region.start_s for region in chosen], np.float64),
-        np.array([region.end_s for region in chosen], np.float64),
-        np.array([region.amount for region in chosen], np.float64),
-    )

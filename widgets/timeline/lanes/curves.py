@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
 
 import numpy as np
 from PySide6.QtCore import QRectF, Qt
@@ -13,8 +12,6 @@ from PySide6.QtWidgets import QMenu, QWidget
 from app.errors import Message
 from app.plan.model import EmbouchureEvent, PlayerPlan
 from app.project.document import Change
-from app.project.edit.events import set_embouchure
-from app.project.model import Project
 from app.score.model import Part
 from widgets.common.plain import ComboBox, verbatim
 from widgets.common.selection import EventKey, Selection
@@ -24,69 +21,12 @@ from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_lines, draw_mark, draw_path, draw_rects, draw_text, shade, small_font
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.number_field import NumberField
-from widgets.timeline.model.geometry import Floats, Spans, Steps, step_path
+from widgets.timeline.model.curves import LIPS, DragCurve, Lips, controller_steps, lips, with_values
+from widgets.timeline.model.geometry import Floats, Steps, step_path
 
-LIPS = ("tension", "effort", "air")
 CONTROLLERS = ("breath", "bite", "expression", "volume", "aftertouch", "pitch_bend")
 MARGIN_PX = 4.0
-DRAG_PX = 3.0
 REACH_PX = 8.0
-
-
-@dataclass(frozen=True)
-class Lips:
-    """A plan's embouchures as arrays (N,), and what was recorded within the notes (``traces``)."""
-
-    events: tuple[EmbouchureEvent, ...]
-    spans: Spans
-    steps: Mapping[str, Steps]
-    traces: Mapping[str, Steps]
-
-
-def lips(plan: PlayerPlan) -> Lips:
-    """Embouchures for drawing: between notes the lips rest, which a curve shows as a gap."""
-    events = plan.embouchures
-    start_s = np.array([event.start_s for event in events], np.float64)
-    end_s = np.array([event.end_s for event in events], np.float64)
-    values = {name: np.array([getattr(event, name) for event in events], np.float64) for name in LIPS}
-    steps = {name: Steps(start_s, value) for name, value in values.items()}
-    return Lips(events, Spans(start_s, end_s), steps, _traces(plan, start_s, end_s))
-
-
-def _traces(plan: PlayerPlan, start_s: Floats, end_s: Floats) -> dict[str, Steps]:
-    """What was recorded, while notes sound; nothing in between."""
-    traces = plan.traces
-    if traces is None:
-        return {}
-    time_s: Floats = traces.start_s + traces.step_s * np.arange(len(traces.tension), dtype=np.float64)
-    note = np.searchsorted(start_s, time_s, side="right") - 1
-    sounds = (note >= 0) & (time_s < end_s[np.maximum(note, 0)])
-    recorded = {"tension": traces.tension, "effort": traces.effort, "air": traces.air}
-    return {
-        name: Steps(time_s, np.where(sounds, values, np.nan)) for name, values in recorded.items() if values is not None
-    }
-
-
-def controller_steps(part: Part, project: Project) -> dict[str, Steps]:
-    """The part's controllers over time, by kind; values are 0..1 (pitch bend: its middle is 0.5)."""
-    clock = project.score.tempo_map
-    result: dict[str, Steps] = {}
-    for curve in part.curves:
-        values = np.array(curve.values, np.float64)
-        if curve.kind == "pitch_bend":
-            values = (values + 1.0) / 2.0
-        result[curve.kind] = Steps(clock.seconds(np.array(curve.ticks, np.float64)), values)
-    return result
-
-
-@dataclass
-class _Drag:
-    at: LaneMouse
-    project: Project
-    starts: dict[str, float]
-    selection: Selection
-    token: object
-    moved: bool = False
 
 
 class _Curves(LaneItem):
@@ -181,8 +121,7 @@ class CurvesLane(Lane):
         self.curve = "tension"
         self._plan: PlayerPlan | None = None
         self._part: Part | None = None
-        self._drag: _Drag | None = None
-        self._preview: dict[str, float] = {}
+        self._drag: DragCurve | None = None
         self.choice = ComboBox(self.header)
         self.choice.setObjectName("curve_choice")
         self.choice.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
@@ -250,8 +189,6 @@ class CurvesLane(Lane):
         if plan is not self._plan or plan is None:
             self._plan = plan
             self.lips = lips(plan) if plan is not None else None
-            if self._drag is None:
-                self._preview = {}
             self.plot.setToolTip("")
         self.update_items()
 
@@ -304,33 +241,19 @@ class CurvesLane(Lane):
             return
         chosen = self.session.selection.notes
         starts = {item.note_id: self.value_of(item) for item in self.lips.events if item.note_id in chosen}
-        self._drag = _Drag(mouse, self.session.project, starts, before, object())
+        if self._plan is not None:
+            height_px = self.plot_rect.height() - 2 * MARGIN_PX
+            player_id = self._plan.player_id
+            self._drag = DragCurve(self.session, self, mouse, player_id, self.curve, starts, height_px)
 
     def drag(self, mouse: LaneMouse) -> None:
-        drag, plan = self._drag, self._plan
-        if drag is None or plan is None or (not drag.moved and abs(mouse.y_px - drag.at.y_px) < DRAG_PX):
-            return
-        drag.moved = True
-        change = (drag.at.y_px - mouse.y_px) / max(self.plot_rect.height() - 2 * MARGIN_PX, 1.0)
-        if mouse.shift:
-            change /= 5.0
-        player_id, curve = plan.player_id, self.curve
-
-        def edit(_: Project) -> Project:
-            project = drag.project
-            for note_id, start in drag.starts.items():
-                value = round(min(max(start + change, 0.0), 1.0), 3)
-                if value != round(start, 3):
-                    project = set_embouchure(project, player_id, (note_id,), **{curve: value})
-            return project
-
-        count = len(drag.starts)
-        self.session.attempt(Message("edit.set_embouchure", {"count": count}), edit, drag.token, self)
+        if self._drag is not None:
+            self._drag.drag(mouse)
 
     def release(self, mouse: LaneMouse) -> None:
         drag, self._drag = self._drag, None
-        if drag is not None and drag.moved:
-            self.session.document.end_gesture()
+        if drag is not None:
+            drag.release(mouse)
 
     def double_click(self, mouse: LaneMouse) -> None:
         self._drag = None
@@ -354,13 +277,11 @@ class CurvesLane(Lane):
         notes, player_id, curve = self.session.selection.notes, self._plan.player_id, self.curve
         values = {item.note_id: change(item) for item in self.lips.events if item.note_id in notes}
 
-        def edit(project: Project) -> Project:
-            for note_id, value in values.items():
-                project = set_embouchure(project, player_id, (note_id,), **{curve: value})
-            return project
-
         if values:
-            self.session.attempt(Message("edit.set_embouchure", {"count": len(values)}), edit)
+            self.session.attempt(
+                Message("edit.set_embouchure", {"count": len(values)}),
+                lambda project: with_values(project, player_id, curve, values),
+            )
 
     def key(self, event: QKeyEvent) -> bool:
         """Enter types the value of the selected notes."""
@@ -375,9 +296,8 @@ class CurvesLane(Lane):
 
     def cancel(self) -> None:
         drag, self._drag = self._drag, None
-        if drag is not None and drag.moved:
-            self.session.apply(Message("edit.set_embouchure", {"count": 0}), drag.project, drag.token, self)
-            self.session.document.end_gesture()
+        if drag is not None:
+            drag.cancel()
 
     def hover(self, mouse: LaneMouse | None) -> None:
         event = self.event_at(mouse.time_s) if mouse is not None else None

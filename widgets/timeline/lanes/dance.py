@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QRectF, Qt
@@ -25,6 +24,7 @@ from widgets.timeline.lane import Lane, LaneMouse
 from widgets.timeline.lanes.dance_drawing import DancesItem
 from widgets.timeline.lanes.dance_menu import DanceMenu
 from widgets.timeline.lanes.row_names import RowNames
+from widgets.timeline.model.dances import MoveStep, state_beside
 
 if TYPE_CHECKING:
     # The modules of dances are loaded only for pieces with dancers.
@@ -34,29 +34,6 @@ ROW_PX, LEAST_ROW_PX, MOST_ROW_PX = 46, 26, 90
 SHOWN_ROWS, LEAST_SHOWN_ROWS = 4, 2
 """As many rows as the lane prefers to show, and as it shows at least; the wheel scrolls to the others."""
 EMPTY_PX = 46
-DRAG_PX = 3.0
-"""The mouse moves this far before a press becomes a drag."""
-
-
-@dataclass(frozen=True)
-class Move:
-    """A step that is being dragged.
-
-    Attributes
-    ----------
-    dancer_id : str
-    number : int
-        Of the step.
-    from_x_px : float
-        Where the mouse was pressed.
-    tick : int or None
-        Place of its accent if it is released now; None before the mouse has moved far enough.
-    """
-
-    dancer_id: str
-    number: int
-    from_x_px: float
-    tick: int | None = None
 
 
 class DanceLane(Lane):
@@ -73,7 +50,7 @@ class DanceLane(Lane):
         self.dances: dict[str, DanceSteps] = {}
         """What is known, by dancer; the newest once the task is done."""
         self._selected_at: tuple[str, int] | None = None
-        self.moving: Move | None = None
+        self.moving: MoveStep | None = None
         self._scrolled_px = 0.0
         self._shown_of: Performance | None = None
         self._names = RowNames(self, self._row_names)
@@ -208,18 +185,13 @@ class DanceLane(Lane):
     def press(self, mouse: LaneMouse) -> None:
         step = self.step_at(mouse)
         self.select_step(step)
-        self.moving = None if step is None else Move(*step, mouse.x_px)
+        clock = self.session.project.score.tempo_map
+        self.moving = None if step is None else MoveStep(mouse, self.dances[step[0]], step[1], self.axis, clock)
 
     def drag(self, mouse: LaneMouse) -> None:
-        moving = self.moving
-        if moving is None or (moving.tick is None and abs(mouse.x_px - moving.from_x_px) < DRAG_PX):
-            return
-        dance = self.dances[moving.dancer_id]
-        # The accent goes as far as the mouse does.
-        accent_px = self.axis.x_px(dance.steps[moving.number].accent_s) + mouse.x_px - moving.from_x_px
-        tick = self.session.project.score.tempo_map.ticks(self.axis.seconds(accent_px))
-        self.moving = replace(moving, tick=min(dance.places, key=lambda place: abs(place - tick)))
-        self.update_items()
+        if self.moving is not None:
+            self.moving.drag(mouse)
+            self.update_items()
 
     def release(self, mouse: LaneMouse) -> None:
         moving, self.moving = self.moving, None
@@ -259,7 +231,7 @@ class DanceLane(Lane):
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
         step = self.step_at(mouse)
         self.select_step(step)
-        return None if step is None else DanceMenu(self, *step)
+        return None if step is None else DanceMenu(self, *step, self)
 
     # Edits
 
@@ -346,7 +318,7 @@ class DanceLane(Lane):
             self.select_step((dancer_id, min(max(number + by, 0), len(dance.steps) - 1)))
         elif key in (Qt.Key.Key_Up, Qt.Key.Key_Down):
             by = 1 if key == Qt.Key.Key_Down else -1
-            self.pin(dancer_id, number, self._state_beside(dance, dance.steps[number].state, by))
+            self.pin(dancer_id, number, state_beside(dance, dance.steps[number].state, by))
         elif key in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace):
             self.take_back(dancer_id, (*dance.pinned[number], *dance.barred(number)))
         elif key == Qt.Key.Key_Escape:
@@ -354,11 +326,6 @@ class DanceLane(Lane):
         else:
             return False
         return True
-
-    def _state_beside(self, dance: DanceSteps, state: int, by: int) -> int:
-        """The next basic motion that has segments."""
-        used = sorted({one.state for one in dance.model.segments})
-        return used[(used.index(state) + by) % len(used)]
 
 
 def _finder(performance: Performance) -> Callable[[Progress, StopWanted], dict[str, DanceSteps]]:

@@ -2,30 +2,46 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
+from app.project.model import Dancer
 from widgets.common.dance_figures import draw_figures, placed
 from widgets.timeline.drawing import draw_lines, draw_mark, draw_rects, draw_text, shade, small_font
-from widgets.timeline.lane import LaneItem
+from widgets.timeline.model.dances import MoveStep
+from widgets.timeline.plot import LaneItem, LaneView
 
 if TYPE_CHECKING:
     from app.performance.dance_steps import DanceSteps
-    from widgets.timeline.lanes.dance import DanceLane
 
 LEAST_NUMBER_PX, LEAST_FIGURE_PX = 12.0, 20.0
 """A narrower block has no number, and no figure."""
 _BAR_PX = 3.0
 
 
+class DancesView(LaneView, Protocol):
+    """What is drawn of a lane of dances."""
+
+    dances: dict[str, DanceSteps]
+    moving: MoveStep | None
+
+    @property
+    def dancers(self) -> tuple[Dancer, ...]: ...
+    @property
+    def selected_step(self) -> tuple[str, int] | None: ...
+    def row_rect(self, number: int) -> QRectF: ...
+    def empty_text(self) -> str: ...
+    def reason(self, dance: DanceSteps) -> str: ...
+
+
 class DancesItem(LaneItem):
     """The rows of a lane of dances."""
 
-    def __init__(self, lane: DanceLane) -> None:
+    def __init__(self, lane: DancesView) -> None:
         super().__init__(lane)
         self._dances = lane
 

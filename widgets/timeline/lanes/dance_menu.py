@@ -2,22 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from PySide6.QtGui import QAction, QColor, QIcon
-from PySide6.QtWidgets import QMenu
+from PySide6.QtWidgets import QMenu, QWidget
 
+from app.project.dance_corrections import DanceCorrection
 from widgets.common.dance_figures import ICON_PX, Floats, figure_icon
 from widgets.common.plain import verbatim
+from widgets.common.session import Session
 
 if TYPE_CHECKING:
-    from widgets.timeline.lanes.dance import DanceLane
+    from app.performance.dance_steps import DanceSteps
 
 MOST_SEGMENTS = 60
 """So many segments of a basic motion are offered: those with the figures nearest to the one that is danced."""
+
+
+class Dances(Protocol):
+    """What the menu asks for, and what it can do."""
+
+    session: Session
+    dances: dict[str, DanceSteps]
+
+    def pin(self, dancer_id: str, number: int, state: int) -> None: ...
+    def use(self, dancer_id: str, number: int, segment: int) -> None: ...
+    def forbid(self, dancer_id: str, number: int, everywhere: bool = False) -> None: ...
+    def take_back(self, dancer_id: str, corrections: Sequence[DanceCorrection]) -> None: ...
+    def clear(self, dancer_id: str) -> None: ...
 
 
 class DanceMenu(QMenu):
@@ -25,14 +40,15 @@ class DanceMenu(QMenu):
 
     Parameters
     ----------
-    lane : DanceLane
+    lane : Dances
+    parent : QWidget
     dancer_id : str
     number : int
         Of the step.
     """
 
-    def __init__(self, lane: DanceLane, dancer_id: str, number: int) -> None:
-        super().__init__(lane)
+    def __init__(self, lane: Dances, dancer_id: str, number: int, parent: QWidget) -> None:
+        super().__init__(parent)
         from app.performance.dance_steps import figures
 
         self.setObjectName("dance_menu")

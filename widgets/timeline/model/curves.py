@@ -1,0 +1,121 @@
+"""The curves of lips and controllers, and what a drag of the lips does."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.errors import Message
+from app.plan.model import EmbouchureEvent, PlayerPlan
+from app.project.edit.events import set_embouchure
+from app.project.model import Project
+from app.score.model import Part
+from widgets.timeline.model.geometry import Floats, Spans, Steps
+from widgets.timeline.model.gestures import DRAG_PX, Editing, Gesture, Step, across
+from widgets.timeline.model.hand import LaneMouse
+
+LIPS = ("tension", "effort", "air")
+FINE = 0.2
+"""With Shift a value follows the mouse this slowly."""
+
+
+@dataclass(frozen=True)
+class Lips:
+    """A plan's embouchures as arrays (N,), and what was recorded within the notes (``traces``)."""
+
+    events: tuple[EmbouchureEvent, ...]
+    spans: Spans
+    steps: Mapping[str, Steps]
+    traces: Mapping[str, Steps]
+
+
+def lips(plan: PlayerPlan) -> Lips:
+    """Embouchures for drawing: between notes the lips rest, which a curve shows as a gap."""
+    events = plan.embouchures
+    start_s = np.array([event.start_s for event in events], np.float64)
+    end_s = np.array([event.end_s for event in events], np.float64)
+    values = {name: np.array([getattr(event, name) for event in events], np.float64) for name in LIPS}
+    steps = {name: Steps(start_s, value) for name, value in values.items()}
+    return Lips(events, Spans(start_s, end_s), steps, _traces(plan, start_s, end_s))
+
+
+def _traces(plan: PlayerPlan, start_s: Floats, end_s: Floats) -> dict[str, Steps]:
+    """What was recorded, while notes sound; nothing in between."""
+    traces = plan.traces
+    if traces is None:
+        return {}
+    time_s: Floats = traces.start_s + traces.step_s * np.arange(len(traces.tension), dtype=np.float64)
+    note = np.searchsorted(start_s, time_s, side="right") - 1
+    sounds = (note >= 0) & (time_s < end_s[np.maximum(note, 0)])
+    recorded = {"tension": traces.tension, "effort": traces.effort, "air": traces.air}
+    return {
+        name: Steps(time_s, np.where(sounds, values, np.nan)) for name, values in recorded.items() if values is not None
+    }
+
+
+def controller_steps(part: Part, project: Project) -> dict[str, Steps]:
+    """The part's controllers over time, by kind; values are 0..1 (pitch bend: its middle is 0.5)."""
+    clock = project.score.tempo_map
+    result: dict[str, Steps] = {}
+    for curve in part.curves:
+        values = np.array(curve.values, np.float64)
+        if curve.kind == "pitch_bend":
+            values = (values + 1.0) / 2.0
+        result[curve.kind] = Steps(clock.seconds(np.array(curve.ticks, np.float64)), values)
+    return result
+
+
+def with_values(project: Project, player_id: str, curve: str, values: Mapping[str, float]) -> Project:
+    """The project with a curve of the lips at other values, by note."""
+    for note_id, value in values.items():
+        project = set_embouchure(project, player_id, (note_id,), **{curve: value})
+    return project
+
+
+class DragCurve(Gesture):
+    """A curve of the lips goes up and down at all chosen notes together.
+
+    Parameters
+    ----------
+    session : Editing
+    origin : object
+    at : LaneMouse
+    player_id, curve : str
+    starts : mapping of str to float
+        The values at the press, by note.
+    height_px : float
+        Of the range 0..1.
+    """
+
+    def __init__(
+        self,
+        session: Editing,
+        origin: object,
+        at: LaneMouse,
+        player_id: str,
+        curve: str,
+        starts: Mapping[str, float],
+        height_px: float,
+    ) -> None:
+        super().__init__(at, across(DRAG_PX))
+        self._step = Step(session, origin)
+        self._player_id, self._curve, self._starts = player_id, curve, starts
+        self._height_px = max(height_px, 1.0)
+
+    def follow(self, mouse: LaneMouse) -> None:
+        change = (self.at.y_px - mouse.y_px) / self._height_px * (FINE if mouse.shift else 1.0)
+        values = {note_id: round(min(max(start + change, 0.0), 1.0), 3) for note_id, start in self._starts.items()}
+        others = {note_id: value for note_id, value in values.items() if value != round(self._starts[note_id], 3)}
+        self._step.attempt(
+            Message("edit.set_embouchure", {"count": len(self._starts)}),
+            lambda project: with_values(project, self._player_id, self._curve, others),
+        )
+
+    def finish(self, mouse: LaneMouse) -> None:
+        self._step.end()
+
+    def cancel(self) -> None:
+        if self.began:
+            self._step.take_back()
