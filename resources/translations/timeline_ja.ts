@@ -241,6 +241,17 @@
     </message>
 </context>
 <context>
+    <name>MarkEditor</name>
+    <message>
+        <source>Tempo in quarters per minute; Enter takes it, Escape leaves it</source>
+        <translation>テンポ（1 分あたりの四分音符の数）。Enter で確定、Esc で取り消し</translation>
+    </message>
+    <message>
+        <source>Metre, e.g. 6/8; Enter takes it, Escape leaves it</source>
+        <translation>拍子（例：6/8）。Enter で確定、Esc で取り消し</translation>
+    </message>
+</context>
+<context>
     <name>PianoRoll</name>
     <message>
         <source>Nobody plays yet: open a MIDI file, or add a player.</source>
@@ -322,30 +333,6 @@
 </context>
 <context>
     <name>Ruler</name>
-    <message>
-        <source>Bars</source>
-        <translation>小節</translation>
-    </message>
-    <message>
-        <source>Seconds</source>
-        <translation>秒</translation>
-    </message>
-    <message>
-        <source>Frames</source>
-        <translation>フレーム</translation>
-    </message>
-    <message>
-        <source>What the ruler counts</source>
-        <translation>ルーラーの単位</translation>
-    </message>
-    <message>
-        <source>Tempo in quarters per minute; Enter takes it, Escape leaves it</source>
-        <translation>テンポ（1 分あたりの四分音符の数）。Enter で確定、Esc で取り消し</translation>
-    </message>
-    <message>
-        <source>Metre, e.g. 6/8; Enter takes it, Escape leaves it</source>
-        <translation>拍子（例：6/8）。Enter で確定、Esc で取り消し</translation>
-    </message>
     <message>
         <source>Change Tempo</source>
         <translation>テンポを変更</translation>
@@ -549,6 +536,25 @@
     <message>
         <source>Selected notes: {count}</source>
         <translation>選択中の音符：{count}</translation>
+    </message>
+</context>
+<context>
+    <name>UnitButton</name>
+    <message>
+        <source>Bars</source>
+        <translation>小節</translation>
+    </message>
+    <message>
+        <source>Seconds</source>
+        <translation>秒</translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation>フレーム</translation>
+    </message>
+    <message>
+        <source>What the ruler counts</source>
+        <translation>ルーラーの単位</translation>
     </message>
 </context>
 <context>
