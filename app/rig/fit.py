@@ -90,6 +90,9 @@ def fit_hold(
         character, model = sized_character(character, 1.0 / size), sized_model(model, 1.0 / size)
         instrument_map = scaled(instrument_map, 1.0 / size)
         stand = Upright(stand.joints_m / size, stand.instrument_m / size, stand.instrument_rotation)
+    # Only a library that is loaded is limited, and SciPy brings its own; heavy, and holds are fitted seldom.
+    import scipy.optimize  # noqa: F401
+
     # The matrices are small: more threads make it no faster, far slower on a busy machine, and change the last bits.
     with threadpool_limits(limits=1, user_api="blas"):
         fitted = []

@@ -1,5 +1,8 @@
 """How the bundled bodies hold the bundled instruments, measured again through the whole character's skin."""
 
+import os
+import subprocess
+import sys
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -219,6 +222,29 @@ def test_how_far_the_arm_must_be_helped_grows_with_the_slide(held: Held) -> None
             assert reach.control == hand.motion.control
             assert reach.shortfall_m[0] < 0.0 < reach.shortfall_m[-1]
             assert 0.4 < reach.max_value < 1.0
+
+
+def test_the_first_fit_of_a_process_has_one_thread() -> None:
+    """SciPy brings a BLAS of its own, which can be limited only once it is loaded."""
+    program = """
+import sys
+from threadpoolctl import threadpool_info
+from app.rig.character_library import character_named
+from app.rig.fit import fit_hold
+from app.rig.instrument import bundled_instrument
+from instrument_maps.load import bundled_maps
+from metadata.load import load_body
+
+def told(share):
+    if "scipy.optimize" in sys.modules:
+        raise SystemExit(",".join(str(one["num_threads"]) for one in threadpool_info() if one["user_api"] == "blas"))
+
+trumpet = bundled_maps()["trumpet_Bb"]
+fit_hold(character_named("man_adult"), bundled_instrument(trumpet), trumpet, load_body(), told)
+"""
+    two = {**os.environ, **dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"), "2")}
+    done = subprocess.run([sys.executable, "-c", program], env=two, capture_output=True, text=True, check=False)
+    assert set(done.stderr.strip().split(",")) == {"1"}, done.stderr
 
 
 def test_a_second_fit_is_the_same_to_the_bit() -> None:
