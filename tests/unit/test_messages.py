@@ -6,6 +6,7 @@ import ast
 import re
 import string
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -19,12 +20,19 @@ SOURCES = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*
 ID = re.compile(r"[a-z][a-z0-9_]*(\.[a-z][a-z0-9_]*)+")
 
 
+@cache
+def nodes(path: Path) -> tuple[ast.Call | ast.Constant, ...]:
+    """What is called and what is written out, of a file that is parsed once."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    return tuple(node for node in ast.walk(tree) if isinstance(node, ast.Call | ast.Constant))
+
+
 def calls(path: Path) -> Iterator[tuple[ast.Call, str, set[str] | None]]:
     """Every call that makes a message or an error of our family with a literal id: call, id, names of its arguments.
 
     The names are None where the arguments are not all written out at the call.
     """
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in nodes(path):
         if not isinstance(node, ast.Call) or not node.args:
             continue
         function = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
@@ -47,7 +55,10 @@ def message_arguments(node: ast.Call) -> set[str] | None:
     return {str(key.value) for key in arguments.keys if isinstance(key, ast.Constant)}
 
 
-FOUND = [(path.relative_to(ROOT).as_posix(), *call) for path in SOURCES for call in calls(path)]
+@cache
+def found() -> list[tuple[str, ast.Call, str, set[str] | None]]:
+    """Those of every file."""
+    return [(path.relative_to(ROOT).as_posix(), *call) for path in SOURCES for call in calls(path)]
 
 
 def strings(*folders: str) -> set[str]:
@@ -56,30 +67,25 @@ def strings(*folders: str) -> set[str]:
         node.value
         for path in SOURCES
         if path.parent.name != "messages" and path.relative_to(ROOT).parts[0] in folders
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for node in nodes(path)
         if isinstance(node, ast.Constant) and isinstance(node.value, str)
     }
 
 
 def action_ids() -> set[str]:
     """What a row of the table of actions begins with: an id of its own kind, no message."""
-    found = set()
+    ids = set()
     for path in (ROOT / "app" / "shell" / "commands").glob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in nodes(path):
             if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Name) or not node.args:
                 continue
             if node.func.id not in ("Message", "AppError"):
                 first = node.args[0]
                 parts = first.values if isinstance(first, ast.JoinedStr) else [first]
-                found |= {
-                    part.value for part in parts if isinstance(part, ast.Constant) and isinstance(part.value, str)
-                }
-    return found
+                ids |= {part.value for part in parts if isinstance(part, ast.Constant) and isinstance(part.value, str)}
+    return ids
 
 
-STRINGS = strings("app", "widgets", "instrument_maps", "metadata")
-PROGRAM_STRINGS = strings("app", "widgets")
-ACTION_IDS = action_ids()
 ROOMS = {id.split(".")[0] for id in TEMPLATES}
 
 
@@ -88,33 +94,28 @@ def fields(template: str) -> set[str]:
 
 
 def test_messages_are_found_at_all() -> None:
-    assert len({id for _, _, id, _ in FOUND}) > 40
+    assert len({id for _, _, id, _ in found()}) > 40
 
 
-# An id may also be handed to whoever makes the message: every string that looks like one of ours counts.
-@pytest.mark.parametrize(
-    "id",
-    sorted(
-        {id for _, _, id, _ in FOUND}
-        | {
-            string
-            for string in PROGRAM_STRINGS - ACTION_IDS
-            if ID.fullmatch(string) and string.split(".")[0] in ROOMS and not string.endswith("_")
-        }
-    ),
-)
-def test_every_id_has_a_template(id: str) -> None:
-    assert id in TEMPLATES
+def test_every_id_has_a_template() -> None:
+    """An id may also be handed to whoever makes the message: every string that looks like one of ours counts."""
+    handed_on = {
+        string
+        for string in strings("app", "widgets") - action_ids()
+        if ID.fullmatch(string) and string.split(".")[0] in ROOMS and not string.endswith("_")
+    }
+    assert sorted(({id for _, _, id, _ in found()} | handed_on) - TEMPLATES.keys()) == []
 
 
 def test_no_template_is_left_over() -> None:
     # A reader of bytes puts its room before the word, f"fbx.{word}"; an edit of many names begins them all alike,
     # f"edit.parameter_{name}".
-    begun = tuple(string for string in PROGRAM_STRINGS if ID.fullmatch(string) and string.endswith("_"))
+    begun = tuple(string for string in strings("app", "widgets") if ID.fullmatch(string) and string.endswith("_"))
+    written = strings(*FOLDERS)
     left_over = [
         id
         for id in TEMPLATES
-        if id not in STRINGS and id.split(".", 1)[1] not in STRINGS and not (begun and id.startswith(begun))
+        if id not in written and id.split(".", 1)[1] not in written and not (begun and id.startswith(begun))
     ]
     assert left_over == []
 
@@ -122,7 +123,7 @@ def test_no_template_is_left_over() -> None:
 def test_the_arguments_fill_the_templates() -> None:
     missing = [
         f"{path}:{call.lineno} {id}: {sorted(fields(TEMPLATES[id]) - names)}"
-        for path, call, id, names in FOUND
+        for path, call, id, names in found()
         if names is not None and id in TEMPLATES and not fields(TEMPLATES[id]) <= names
     ]
     assert missing == []
