@@ -36,7 +36,7 @@ interpreters) and in */bin/python beside this script; node packages in $CHECK_AN
 Exit status: 0 every reader that ran agrees, 1 a reader failed or disagrees or a required one is missing, 2 usage.
 Each reader runs in its own process, so a crash or a hang of one is just 'failed'.
 """
-import argparse, base64, gc, glob, json, math, os, re, shutil, signal, stat, struct, subprocess, sys, tempfile, zlib
+import argparse, base64, functools, gc, glob, json, math, os, pathlib, re, shutil, signal, stat, struct, subprocess, sys, tempfile, zlib
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 KTIME = 46186158000
@@ -190,7 +190,7 @@ def fbx_ids(stamp):
 
 
 def fbx_structure(path):
-    data = open(path, 'rb').read()
+    data = pathlib.Path(path).read_bytes()
     ver, top, p = fbx_records(data)
     warn = []
     tail = data[p:]
@@ -288,7 +288,7 @@ def fbx_structure(path):
 
 # ------------------------------------------------------------------ glTF evaluator (used for FBX2glTF output and .glb)
 def load_glb(path):
-    d = open(path, 'rb').read()
+    d = pathlib.Path(path).read_bytes()
     if d[:4] != b'glTF':
         js = json.loads(d)
         bufs = []
@@ -667,7 +667,7 @@ def r_three(a):
         open(d + '/r.mjs', 'w').write(THREE_JS)
         cfg = {k: a[k] for k in ('file', 'ext', 'times', 't0')}
         cfg['file'] = os.path.abspath(cfg['file']); cfg['out'] = d + '/o.json'
-        json.dump(cfg, open(d + '/c.json', 'w'))
+        pathlib.Path(d + '/c.json').write_text(json.dumps(cfg))
         pr = subprocess.run(['node', d + '/r.mjs', d3, d + '/c.json'], capture_output=True, text=True, errors='replace')
         if pr.returncode or not os.path.exists(d + '/o.json'):
             er = [x for x in pr.stderr.splitlines() if 'rror' in x]
@@ -844,6 +844,7 @@ def interpreters():
     return out
 
 
+@functools.cache
 def python_for(module):
     if module is None:
         return sys.executable
@@ -865,7 +866,7 @@ def run_reader(name, cfg, timeout):
         return {'status': 'not installed', 'note': 'python module ' + READERS[name][2]}
     with tempfile.TemporaryDirectory() as d:
         cfg = dict(cfg, result=d + '/r.json')
-        json.dump(cfg, open(d + '/c.json', 'w'))
+        pathlib.Path(d + '/c.json').write_text(json.dumps(cfg))
         p = subprocess.Popen([py, os.path.abspath(__file__), '--worker', name, d + '/c.json'], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                              start_new_session=True, stdin=subprocess.DEVNULL)
         try:
@@ -874,18 +875,18 @@ def run_reader(name, cfg, timeout):
             os.killpg(p.pid, signal.SIGKILL); p.communicate()
             return {'status': 'failed', 'note': 'no answer in %d s' % timeout}
         if os.path.exists(d + '/r.json') and os.path.getsize(d + '/r.json'):
-            return json.load(open(d + '/r.json'))
+            return json.loads(pathlib.Path(d + '/r.json').read_text())
         return {'status': 'failed', 'note': 'reader died (%s) %s' % (('signal %d' % -p.returncode) if p.returncode < 0 else 'exit %d' % p.returncode, out[-200:].strip())}
 
 
-def main():
-    if len(sys.argv) > 3 and sys.argv[1] == '--worker':
-        return worker(sys.argv[2], sys.argv[3])
+def main(argv):
+    if len(argv) > 2 and argv[0] == '--worker':
+        return worker(argv[1], argv[2])
     ap = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     ap.add_argument('file'); ap.add_argument('--expected'); ap.add_argument('--tol', type=float, default=0.05); ap.add_argument('--wtol', type=float, default=0.005)
     ap.add_argument('--frames'); ap.add_argument('--fps', type=float); ap.add_argument('--readers'); ap.add_argument('--require', default='')
     ap.add_argument('--json'); ap.add_argument('--timeout', type=float, default=120); ap.add_argument('-v', '--verbose', action='store_true')
-    o = ap.parse_args()
+    o = ap.parse_args(argv)
     if not os.path.isfile(o.file):
         print('no such file: ' + o.file); return 2
     ext = os.path.splitext(o.file)[1].lower()
@@ -893,7 +894,7 @@ def main():
     bad = [n for n in names + [x for x in o.require.split(',') if x] if n not in READERS or ext not in READERS[n][1]]
     if bad or not names:
         print('no reader for %s: %s' % (ext, ', '.join(bad) or '-')); return 2
-    exp = json.load(open(o.expected)) if o.expected else None
+    exp = json.loads(pathlib.Path(o.expected).read_text()) if o.expected else None
     fps, dur, t0, unit, axes = o.fps, None, 0.0, 1.0, None
     if ext == '.fbx':
         try:
@@ -905,7 +906,7 @@ def main():
         except Exception:
             pass
     elif ext == '.bvh':
-        m = re.search(r'Frames:\s*(\d+)\s+Frame Time:\s*([\d.eE+-]+)', open(o.file, errors='replace').read())
+        m = re.search(r'Frames:\s*(\d+)\s+Frame Time:\s*([\d.eE+-]+)', pathlib.Path(o.file).read_text(errors='replace'))
         if m and float(m.group(2)) > 0:
             fps, dur = fps or 1 / float(m.group(2)), (int(m.group(1)) - 1) * float(m.group(2))
     fps = fps or (exp or {}).get('fps') or 60.0
@@ -985,10 +986,10 @@ def main():
     for n in [x for x in o.require.split(',') if x and x not in res]:
         print('%-10s required but not run' % n); failed = True
     if o.json:
-        json.dump({'file': o.file, 'fps': fps, 'frames': frames, 'readers': res, 'agree': not failed}, open(o.json, 'w'))
+        pathlib.Path(o.json).write_text(json.dumps({'file': o.file, 'fps': fps, 'frames': frames, 'readers': res, 'agree': not failed}))
     print('RESULT: ' + ('DISAGREE OR FAILED' if failed else 'all readers that ran agree'))
     return 1 if failed else 0
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

@@ -7,13 +7,14 @@ asked in every run; the slow ones in tests marked ``readers``.
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import importlib.util
+import io
 import json
 import os
 import shutil
 import subprocess
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -22,7 +23,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-TOOL = Path(__file__).with_name("check_animation_file.py")
+from tests.support import check_animation_file
 
 QUICK_FBX = ("structure", "ufbx")
 SLOW_FBX = ("fbxsdk", "blender", "assimp", "three", "pufbx")
@@ -111,11 +112,13 @@ def judge(
         )
     )
     names = ",".join(readers)
-    command = [sys.executable, str(TOOL), str(path), "--expected", str(request), "--json", str(answer)]
-    command += ["--readers", names, "--require", names, "--tol", str(tolerance_cm), "--wtol", str(weight_tolerance)]
-    run = subprocess.run(command, capture_output=True, text=True, check=False)
-    report = run.stdout + run.stderr
-    assert run.returncode == 0, report
+    arguments = [str(path), "--expected", str(request), "--json", str(answer), "--readers", names, "--require", names]
+    arguments += ["--tol", str(tolerance_cm), "--wtol", str(weight_tolerance)]
+    # The tool itself runs here, so that it finds the interpreters once; each reader has a process of its own.
+    with contextlib.redirect_stdout(io.StringIO()) as said:
+        status = check_animation_file.main(arguments)
+    report = said.getvalue()
+    assert status == 0, report
     results = json.loads(answer.read_text())["readers"]
     for reader in readers:
         problems = _differences(reader, results[reader], expected)
