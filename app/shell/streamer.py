@@ -151,6 +151,7 @@ class Streamer(QObject):
         self._state.set(state="sending", trouble=None)
         self._thread = _Thread(self._poses, _Teller(self))
         self._ending = weakref.finalize(self, self._thread.close)
+        self._thread.begin()
         self._wish()
 
     def close(self) -> None:
@@ -282,9 +283,11 @@ class _Thread:
         self._frames: deque[float] = deque()
         self._told_s = self._began_s
         self._thread = threading.Thread(target=self._run, name="streamer", daemon=True)
-        self._thread.start()
 
     # Called by the window
+
+    def begin(self) -> None:
+        self._thread.start()
 
     def wish(self, wish: _Wish) -> None:
         with self._changed:
@@ -302,7 +305,7 @@ class _Thread:
         with self._changed:
             self._closed = True
             self._changed.notify()
-        if self._thread is not threading.current_thread():
+        if self._thread.is_alive() and self._thread is not threading.current_thread():
             self._thread.join(2.0)
 
     # The thread

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import sys
 import tempfile
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
     QAbstractButton,
     QApplication,
@@ -166,9 +166,7 @@ class Look:
 
     def settle(self, seconds: float = 0.08) -> None:
         """Let the editor lay itself out."""
-        end_s = time.monotonic() + seconds
-        while time.monotonic() < end_s:
-            self.application.processEvents()
+        QTest.qWait(round(1000 * seconds))
 
     def at(self, state: str) -> None:
         """Judge a state."""

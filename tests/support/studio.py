@@ -42,7 +42,10 @@ class Studio:
 
     def blow(self, pitch: int, at_s: float, length_s: float = 0.1) -> None:
         """Play a note when the performance is there."""
-        self.wait(lambda: self.session.playhead_s >= at_s)
+        playback = self.session.playback
+        assert playback is not None
+        # Not by the playhead, which follows when the machine has time for it: after a loop's turn it may be an old one.
+        self.wait(lambda: playback.position_s() >= at_s)
         self.link.play(bytes((0xB0, 2, 100)))
         self.link.play(bytes((0x90, pitch, 90)))
         # The playhead moves in steps: one that has passed the end at once would give a note without length.

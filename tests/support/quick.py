@@ -1,0 +1,32 @@
+"""What `./test --quick` changes: nothing of Qt is loaded, so that no package of the system is needed.
+
+The plug-ins for Qt and the display are left out (``-p no:pytest-qt -p no:xvfb``); their options are known all
+the same. A test that loads one of Qt's modules fails here, wherever Qt is installed.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from importlib.machinery import ModuleSpec
+from types import ModuleType
+
+import pytest
+
+NEEDS_A_SYSTEM = ("PySide6.QtGui", "PySide6.QtWidgets", "PySide6.QtOpenGL", "rtmidi", "bpy")
+
+
+class _Refused:
+    """Finds nothing that takes libraries from the system."""
+
+    def find_spec(self, name: str, path: Sequence[str] | None, target: ModuleType | None = None) -> ModuleSpec | None:
+        if name in NEEDS_A_SYSTEM:
+            raise ImportError(f"{name} is not for quick tests")
+        return None
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Know the options of the plug-ins that are left out."""
+    for name in ("qt_log_level_fail", "xvfb_width", "xvfb_height", "xvfb_colordepth"):
+        parser.addini(name, "of a plug-in that is left out")
+    sys.meta_path.insert(0, _Refused())
