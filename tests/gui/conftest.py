@@ -21,9 +21,6 @@ from widgets.common.tokens import DARK
 
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
 
-_kept = False
-"""Whether what the libraries made when they were imported was set aside."""
-
 # A worker that triggers the collection would destroy widgets in its own thread: here it happens between tests alone.
 gc.disable()
 # Before the application is made: the viewport's context survives docking and floating.
@@ -80,14 +77,13 @@ def session(qt_app: QApplication, tasks: ImmediateTasks) -> Iterator[Session]:
 @pytest.fixture(autouse=True)
 def _widgets_die_here(qapp: QApplication) -> Iterator[None]:
     """What a test leaves behind is deleted before the next one begins, so that a fault shows where it is made."""
+    # What is there by now is there to stay, as the characters that the test before loaded: it is searched for garbage
+    # this once, and not again after each of the others.
+    gc.collect()
+    gc.freeze()
     yield
     for widget in QApplication.topLevelWidgets():
         widget.close()
         widget.deleteLater()
     delete_now()
     gc.collect()
-    global _kept
-    if not _kept:
-        # What is there after the first test is there to stay: it is not searched again after each of the others.
-        _kept = True
-        gc.freeze()
