@@ -8,6 +8,7 @@ is given are read by our own reader, so that what comes of an import is what the
 from __future__ import annotations
 
 import ast
+import hashlib
 import itertools
 import types
 from collections.abc import Callable, Iterator
@@ -19,9 +20,40 @@ from typing import Any
 
 import soundfile
 
-from app.formats.fbx.read import read_scene
+from app.formats.fbx.read import decode_scene
 
 STUB = Path(__file__).with_name("unreal_api") / "unreal" / "__init__.pyi"
+
+
+@dataclass(frozen=True)
+class FbxContents:
+    """What an import takes from a file; no frames where nothing moves."""
+
+    bones: tuple[str, ...]
+    morphs: frozenset[str]
+    materials: frozenset[str]
+    frames: int | None
+    curves: frozenset[str]
+
+
+_READ: dict[bytes, FbxContents] = {}
+"""By the digest of the bytes: most tests import the same files."""
+
+
+def fbx_contents(path: Path) -> FbxContents:
+    """What is in a file."""
+    data = path.read_bytes()
+    digest = hashlib.sha256(data).digest()
+    if digest not in _READ:
+        scene = decode_scene(data, str(path))
+        _READ[digest] = FbxContents(
+            bones=tuple(bone.name for bone in scene.bones),
+            morphs=frozenset(morph.name for one in scene.meshes for morph in one.morphs),
+            materials=frozenset(material.name for one in scene.meshes for material in one.materials),
+            frames=None if scene.clip is None else scene.clip.frames,
+            curves=frozenset() if scene.clip is None else frozenset(scene.clip.morph_weights),
+        )
+    return _READ[digest]
 
 
 @cache
@@ -378,25 +410,24 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
             return sound
         assert isinstance(asked["factory"], FbxFactory), "newer engines take Interchange"
         ui = options._properties
-        scene = read_scene(asked["filename"])
-        bones = tuple(bone.name for bone in scene.bones)
+        file = fbx_contents(Path(asked["filename"]))
         skeleton = ui.get("skeleton")
-        if skeleton is not None and skeleton._bones != bones:
+        if skeleton is not None and skeleton._bones != file.bones:
             return None
         if ui["mesh_type_to_import"] is FBXImportType.FBXIT_SKELETAL_MESH:
             mesh = make(path, SkeletalMesh)
-            mesh._morphs = frozenset(morph.name for one in scene.meshes for morph in one.morphs)
+            mesh._morphs = file.morphs
             mesh._skeleton = skeleton or make(f"{path}_Skeleton", Skeleton)
-            mesh._skeleton._bones = bones
-            for material in {material.name for one in scene.meshes for material in one.materials}:
+            mesh._skeleton._bones = file.bones
+            for material in file.materials:
                 make(f"{asked['destination_path']}/{material}", Material)
             return mesh
         assert ui["mesh_type_to_import"] is FBXImportType.FBXIT_ANIMATION
-        if skeleton is None or scene.clip is None:
+        if skeleton is None or file.frames is None:
             return None
         animation = make(path, AnimSequence)
-        animation._skeleton, animation._frames = skeleton, scene.clip.frames - studio.lost_keys
-        animation._curves = frozenset(scene.clip.morph_weights)
+        animation._skeleton, animation._frames = skeleton, file.frames - studio.lost_keys
+        animation._curves = file.curves
         return animation
 
     class AssetTools:

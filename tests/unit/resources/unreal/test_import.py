@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -239,10 +240,18 @@ def test_an_update_of_the_same_changes_nothing(editor: Editor) -> None:
     assert editor.studio.deleted == []
 
 
+@pytest.fixture(scope="module")
+def two_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two players, one bar."""
+    folder = tmp_path_factory.mktemp("exported") / "Game"
+    exported(folder, quartet())
+    return folder
+
+
 @pytest.fixture
-def two(plugin: None, tmp_path: Path) -> Editor:
+def two(plugin: None, two_folder: Path, tmp_path: Path) -> Editor:
     """Two players, imported."""
-    exported(tmp_path / "Game", quartet())
+    shutil.copytree(two_folder, tmp_path / "Game")
     editor = Editor(tmp_path / "Game")
     editor.import_performance()
     return editor
