@@ -11,7 +11,14 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Final
 
-from app.cli.options import Commands, add_source_options, frame_rate, open_project, whole_number
+from app.cli.options import (
+    Commands,
+    add_rate_option,
+    add_source_options,
+    add_title_option,
+    open_project,
+    whole_number,
+)
 from app.cli.progress import Progress, find_holds
 from app.cli.status import tell_left_out
 from app.cli.summary import project_summary, summary
@@ -42,6 +49,7 @@ def add_command(commands: Commands) -> None:
         "the exit status is 4 then.",
     )
     add_source_options(command)
+    add_title_option(command)
     place = command.add_mutually_exclusive_group(required=True)
     place.add_argument("--to", type=Path, metavar="DIR", help="folder for the files; made if needed")
     place.add_argument(
@@ -59,12 +67,7 @@ def add_command(commands: Commands) -> None:
         metavar="FORMAT",
         help=f"{', '.join(FILE_FORMATS)}; repeatable, or several with commas (default: {','.join(USUAL_FORMATS)})",
     )
-    command.add_argument(
-        "--fps",
-        type=frame_rate,
-        metavar="RATE",
-        help="frames per second: 24, 25, 29.97, 30, 60 or a fraction such as 30000/1001 (default: the project's, 60)",
-    )
+    add_rate_option(command)
     command.add_argument(
         "--player",
         dest="players",
@@ -212,7 +215,7 @@ def _span(performance: Performance, arguments: argparse.Namespace) -> FrameSpan:
     from app.performance.span import bars_span, whole_span
 
     bars = _bars(performance, arguments)
-    fps = arguments.fps or performance.project.fps
+    fps = performance.project.fps
     if bars is None:
         return whole_span(performance.time_frame, fps)
     return bars_span(performance, fps, bars, performance.project.preroll_beats)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from app.cli.options import Commands, add_source_options, open_project
+from app.cli.options import Commands, add_rate_option, add_source_options, add_title_option, open_project
 from app.cli.progress import find_holds
 from app.cli.status import tell_left_out
 from app.cli.summary import columns
@@ -49,6 +49,8 @@ def add_command(commands: Commands) -> None:
         description="Reads a MIDI file and prints its players with fingerings, breaths, cues and gestures.",
     )
     add_source_options(command)
+    add_title_option(command)
+    add_rate_option(command)
     command.add_argument("--json", action="store_true", help="print one JSON object instead of tables")
     command.set_defaults(run=inspect)
 
@@ -81,6 +83,12 @@ def inspection(performance: Performance) -> Table:
     playable = attempt(project.players, performance.instrument)
     absent = {one.player.id for one in playable.left_out}
     return {
+        "title": score.title,
+        "fps": float(project.fps),
+        "fps_exact": str(project.fps),
+        "preroll_beats": project.preroll_beats,
+        "felt_beat_quarters": project.felt_beat_quarters,
+        "seed": project.seed,
         "duration_s": score.tempo_map.seconds(float(score.sounding_end_tick)),
         "ticks_per_beat": score.ticks_per_quarter,
         "tempo": [{"tick": tick, "bpm": bpm} for tick, bpm in score.tempo_map.bpm],

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from app.cli.options import Commands, add_file_options, open_project
+from app.cli.options import Commands, add_file_options, add_title_option, open_project
 from app.cli.terminal import say, warn
 from app.errors import FileError
 from app.messages import filled, text
@@ -20,8 +20,9 @@ def add_command(commands: Commands) -> None:
         "drawn and recorded: notes, breath, bite and other controllers, tempo, metres and pickup.",
     )
     add_file_options(command)
+    add_title_option(command)
     command.add_argument("--to", type=Path, required=True, metavar="FILE", help="the MIDI file; one there is replaced")
-    command.set_defaults(run=write, settings=[], seed=None, preroll=None, felt_beat=None)
+    command.set_defaults(run=write, settings=[])
 
 
 def write(arguments: argparse.Namespace) -> None:

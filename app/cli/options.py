@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Final, TypeAlias, TypeVar
@@ -16,6 +15,9 @@ from app.errors import UsageError
 from app.messages import text as worded
 from app.plan.generate import PREROLL_BEATS, PREROLL_LEAST_S
 from app.project import limits
+from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings
+from app.project.frame_rate import exact_number
+from app.project.frame_rate import frame_rate as typed_rate
 from app.project.model import Project, map_choices, project_from_score, with_settings
 from app.project.names import unique_names
 from app.project.parameters import parameter_names, parse_settings, select_players
@@ -31,8 +33,6 @@ from instrument_maps.model import InstrumentMap
 Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 """Where a sub-command declares itself."""
 
-_PULLED_DOWN = (24, 30, 48, 60, 120)
-"""Nominal rates that television slows by 1000/1001; 29.97 means 30000/1001 and not 2997/100."""
 _MOST_SHOWN = 40
 """Characters of a wrong number that its error repeats."""
 
@@ -49,7 +49,7 @@ def within(least: N, most: N, what: str, parse: Callable[[str], N]) -> Callable[
     what : str
         What the number is, for the error: "a number of seconds".
     parse : callable
-        `int`, `float` or `fraction`; raises ValueError for what is no number.
+        `int`, `float` or `exact_number`; raises ValueError for what is no number.
 
     Returns
     -------
@@ -72,49 +72,30 @@ def within(least: N, most: N, what: str, parse: Callable[[str], N]) -> Callable[
     return parsed
 
 
-def fraction(text: str) -> Fraction:
-    """An exact number from ``1.5`` or ``3/2``. Raises ValueError, ZeroDivisionError."""
-    if "e" in text.casefold():
-        raise ValueError(text)  # 1e999999999 would take hours
-    return Fraction(text.strip())
-
-
 def _plain(number: float | Fraction) -> str:
     """A bound in a message: every digit of a whole number, a fraction as one."""
     return f"{number:g}" if isinstance(number, float) else str(number)
 
 
-def pulled_down(rate: Fraction) -> Fraction:
-    """The exact rate that a decimal short form means: 23.98, 23.976, 29.97 or 59.94."""
-    for nominal in _PULLED_DOWN:
-        exact = Fraction(nominal * 1000, 1001)
-        # The usual short forms keep two or three decimals.
-        if abs(rate - exact) < Fraction(1, 200):
-            return exact
-    return rate
-
-
-def _rate(text: str) -> Fraction:
-    rate = fraction(text)
-    return rate if "/" in text else pulled_down(rate)
-
-
 LONGEST_S: Final = 24 * 3600.0
 """A day: no piece and no recording is longer."""
 
-frame_rate = within(*limits.FPS, "a number of frames per second such as 24, 29.97 or 30000/1001", _rate)
+frame_rate = within(*limits.FPS, "a number of frames per second such as 24, 29.97 or 30000/1001", typed_rate)
 whole_number = within(0, 2**63 - 1, "a whole number", int)
 beats = within(*limits.PREROLL_BEATS, "a number of beats", float)
-felt_beat = within(
-    *limits.FELT_BEAT_QUARTERS, "a length in quarters such as 1, 1.5 or 1/2", lambda text: float(fraction(text))
+_felt_quarters = within(
+    *limits.FELT_BEAT_QUARTERS,
+    "auto or a length in quarters such as 1, 1.5 or 1/2",
+    lambda text: float(exact_number(text)),
 )
+AUTOMATIC: Final = "auto"
 seconds = within(-LONGEST_S, LONGEST_S, "a number of seconds", float)
 """Of the performance; before the first beat it is negative."""
 
 
-def frame_rate_text(rate: Fraction) -> str:
-    """``60`` or ``30000/1001``."""
-    return str(rate.numerator) if rate.denominator == 1 else f"{rate.numerator}/{rate.denominator}"
+def felt_beat(text: str) -> float | str:
+    """A beat in quarters; `AUTOMATIC`: metre and tempo say."""
+    return AUTOMATIC if text.strip().casefold() == AUTOMATIC else _felt_quarters(text)
 
 
 def text_encoding(text: str) -> str:
@@ -178,8 +159,25 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         "--felt-beat",
         type=felt_beat,
         metavar="QUARTERS",
-        help="length of the beat that the players feel: 1.5 for a fast 6/8, 2 for alla breve (default: the project's, "
-        "or what metre and tempo say); breaths, cues, sway and the pre-roll count in it",
+        help="length of the beat that the players feel: 1.5 for a fast 6/8, 2 for alla breve, auto for what metre and "
+        "tempo say (default: the project's, auto); breaths, cues, sway and the pre-roll count in it",
+    )
+
+
+def add_title_option(command: argparse.ArgumentParser) -> None:
+    """Declare the title, for commands whose result has one."""
+    command.add_argument(
+        "--title", metavar="TEXT", help=f"of the piece, at most {limits.MOST_NAME} characters (default: the file's)"
+    )
+
+
+def add_rate_option(command: argparse.ArgumentParser) -> None:
+    """Declare the frame rate of the picture."""
+    command.add_argument(
+        "--fps",
+        type=frame_rate,
+        metavar="RATE",
+        help="frames per second: 24, 25, 29.97, 30, 60 or a fraction such as 30000/1001 (default: the project's, 60)",
     )
 
 
@@ -201,7 +199,22 @@ def open_project(arguments: argparse.Namespace) -> Project:
     settings = parse_settings(
         arguments.settings, [player.name for player in project.players], maps, tuple(characters())
     )
-    return with_settings(project, settings, maps)
+    return with_settings(set_piece_settings(project, _piece(arguments, project)), settings, maps)
+
+
+def _piece(arguments: argparse.Namespace, project: Project) -> PieceSettings:
+    """The settings of the piece, with those that are typed; a command declares those that mean something to it."""
+    asked = {
+        "title": getattr(arguments, "title", None),
+        "fps": getattr(arguments, "fps", None),
+        "preroll_beats": getattr(arguments, "preroll", None),
+        "felt_beat_quarters": getattr(arguments, "felt_beat", None),
+        "seed": getattr(arguments, "seed", None),
+    }
+    given = {field: value for field, value in asked.items() if value is not None}
+    if given.get("felt_beat_quarters") == AUTOMATIC:
+        given["felt_beat_quarters"] = None
+    return msgspec.structs.replace(piece_settings(project), **given)
 
 
 def _saved_project(arguments: argparse.Namespace) -> Project:
@@ -211,22 +224,14 @@ def _saved_project(arguments: argparse.Namespace) -> Project:
         raise UsageError("project.written", file=str(arguments.file))
     if arguments.assign:
         raise UsageError("project.assign", file=str(arguments.file))
-    project = load(arguments.file)
-    asked = {
-        "seed": arguments.seed,
-        "preroll_beats": arguments.preroll,
-        "felt_beat_quarters": arguments.felt_beat,
-    }
-    return replace(project, **{field: value for field, value in asked.items() if value is not None})
+    return load(arguments.file)
 
 
 def _cast_project(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) -> Project:
     return project_from_score(
         _read_score(arguments, map_choices(maps.values())),
         maps,
-        seed=arguments.seed or 0,
-        preroll_beats=PREROLL_BEATS if arguments.preroll is None else arguments.preroll,
-        felt_beat_quarters=arguments.felt_beat,
+        seed=getattr(arguments, "seed", None) or 0,
     )
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Final
 
 TEMPLATES: Final[dict[str, str]] = {
+    # The piece
+    "edit.piece_settings": "settings of the piece",
     # The recording
     "edit.estimate_offset": "estimated offset of the recording",
     "edit.fit_tempo": "offset and tempo fitted to the recording",

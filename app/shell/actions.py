@@ -76,7 +76,10 @@ MENUS: Final = {
 """Names of menus and of those within them; a path such as ``Edit/Notes`` is made of the keys."""
 
 BEFORE_LINE: Final = frozenset(
-    ("file.save", "file.import_midi", "file.close", "file.quit", "application.preferences", "application.about")
+    (
+        *("file.save", "file.import_midi", "file.piece_settings", "file.close", "file.quit"),
+        *("application.preferences", "application.about"),
+    )
 )
 """Rows that a line goes before; another line stands wherever the subject of the rows changes."""
 
@@ -93,6 +96,7 @@ FILE_ORDER: Final = (
     "file.add_audio",
     "file.add_character",
     "file.export_midi",
+    "file.piece_settings",
     "file.close",
     "file.quit",
 )

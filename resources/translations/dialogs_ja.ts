@@ -1550,6 +1550,125 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     </message>
 </context>
 <context>
+    <name>PieceSettingsDialog</name>
+    <message>
+        <source>Frame rate: type a number from {low} to {high}, such as 24, 29.97 or 30000/1001.</source>
+        <translation>フレームレート：{low} から {high} までの数を入力してください（例：24、29.97、30000/1001）。</translation>
+    </message>
+    <message>
+        <source>Seed: type a whole number from {low} to {high}.</source>
+        <translation>シード：{low} から {high} までの整数を入力してください。</translation>
+    </message>
+    <message>
+        <source>Automatic, by metre and tempo</source>
+        <translation>自動（拍子とテンポから）</translation>
+    </message>
+    <message>
+        <source>Sixteenth</source>
+        <translation>16分音符</translation>
+    </message>
+    <message>
+        <source>Eighth</source>
+        <translation>8分音符</translation>
+    </message>
+    <message>
+        <source>Dotted eighth</source>
+        <translation>付点8分音符</translation>
+    </message>
+    <message>
+        <source>Quarter</source>
+        <translation>4分音符</translation>
+    </message>
+    <message>
+        <source>Dotted quarter</source>
+        <translation>付点4分音符</translation>
+    </message>
+    <message>
+        <source>Half</source>
+        <translation>2分音符</translation>
+    </message>
+    <message>
+        <source>Dotted half</source>
+        <translation>付点2分音符</translation>
+    </message>
+    <message>
+        <source>Whole</source>
+        <translation>全音符</translation>
+    </message>
+    <message>
+        <source>{count} quarters</source>
+        <translation>4分音符 × {count}</translation>
+    </message>
+    <message>
+        <source>Piece Settings</source>
+        <translation>曲の設定</translation>
+    </message>
+    <message>
+        <source>Title</source>
+        <translation>タイトル</translation>
+    </message>
+    <message>
+        <source>Names the piece in a MIDI file and in Unreal</source>
+        <translation>MIDIファイルとUnrealで使われる曲名</translation>
+    </message>
+    <message>
+        <source>Frame rate</source>
+        <translation>フレームレート</translation>
+    </message>
+    <message>
+        <source>Of the ruler and of steps by a frame; exports start from it</source>
+        <translation>ルーラーとコマ送りに使われ、書き出しの初期値になります</translation>
+    </message>
+    <message>
+        <source>Pre-roll</source>
+        <translation>プリロール</translation>
+    </message>
+    <message>
+        <source>Felt beats before the first note, at least one second</source>
+        <translation>最初の音符までの拍数（少なくとも1秒）</translation>
+    </message>
+    <message>
+        <source>Felt beat</source>
+        <translation>拍の単位</translation>
+    </message>
+    <message>
+        <source>Breaths, cues, sway and the pre-roll count in it</source>
+        <translation>ブレス、合図、体の揺れ、プリロールの単位</translation>
+    </message>
+    <message>
+        <source>Seed</source>
+        <translation>シード</translation>
+    </message>
+    <message>
+        <source>Another seed is another performance: other sways and glances</source>
+        <translation>シードを変えると、体の揺れや視線の違う演奏になります</translation>
+    </message>
+    <message>
+        <source> beats</source>
+        <translation> 拍</translation>
+    </message>
+    <message>
+        <source>Randomise</source>
+        <translation>ランダム</translation>
+    </message>
+    <message>
+        <source>OK</source>
+        <translation>OK</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>Reset to Defaults</source>
+        <translation>初期値に戻す</translation>
+    </message>
+    <message>
+        <source>All but the title as in a new piece</source>
+        <translation>タイトル以外を新しい曲の初期値に戻します</translation>
+    </message>
+</context>
+<context>
     <name>PlaceChooser</name>
     <message>
         <source>Choose the .uproject file of your Unreal project.</source>

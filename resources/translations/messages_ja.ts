@@ -228,6 +228,10 @@
             <translation>{rate} フレーム/秒（ファイルの値は {said}）</translation>
         </message>
         <message>
+            <source>settings of the piece</source>
+            <translation>曲の設定</translation>
+        </message>
+        <message>
             <source>estimated offset of the recording</source>
             <translation>録音のオフセットの推定</translation>
         </message>

@@ -191,6 +191,10 @@
         <translation>録音を追加...</translation>
     </message>
     <message>
+        <source>Piece Settings...</source>
+        <translation>曲の設定...</translation>
+    </message>
+    <message>
         <source>Close Project</source>
         <translation>プロジェクトを閉じる</translation>
     </message>

@@ -270,6 +270,7 @@ class Look:
             "about": lambda: self.do("application.about"),
             "preferences": lambda: self.do("application.preferences"),
             "shortcuts": lambda: self.do("application.shortcuts"),
+            "piece_settings": lambda: self.do("file.piece_settings"),
             "instruments": lambda: self.do("application.instruments"),
             "export": lambda: self.do("export.files"),
             "learn": lambda: self.do("dancers.learn"),

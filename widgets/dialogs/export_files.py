@@ -29,6 +29,7 @@ from app.errors import AppError, Message
 from app.export.request import Request
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
+from app.project.frame_rate import USUAL_RATES, frame_rate_text
 from app.project.model import Player
 from metadata.load import load_bone_names
 from widgets.common.paths import show_folder
@@ -43,7 +44,6 @@ from widgets.dialogs.export_place import PlaceChooser
 from widgets.dialogs.export_range import TEXT_MARGIN_PX, RangeChooser
 from widgets.dialogs.export_skeleton import SkeletonChooser
 
-RATES = tuple(map(Fraction, ("24", "25", "30000/1001", "30", "48", "50", "60000/1001", "60", "120")))
 SHOW_MS = 50
 """Progress is shown this often."""
 OUTCOME_PX = 84
@@ -130,8 +130,8 @@ class ExportDialog(QDialog):
         self._preroll.setValue(self._project.preroll_beats)
         self._rate = ComboBox()
         self._rate.setObjectName("export_rate")
-        for rate in sorted({*RATES, self._project.fps}):
-            self._rate.addItem(f"{float(rate):.6g}", str(rate))
+        for rate in sorted({*USUAL_RATES, self._project.fps}):
+            self._rate.addItem(frame_rate_text(rate), str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(self._project.fps)))
         self._skeleton = SkeletonChooser(session, self._chosen_players)
         self._files = Label()

@@ -30,6 +30,7 @@ from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
 from app.export.video import video_into
 from app.performance.span import FrameSpan, cut_span, whole_span
+from app.project.frame_rate import USUAL_RATES, frame_rate_text
 from widgets.common.paths import PathEdit, ask_where_to_save, show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
@@ -89,8 +90,8 @@ class PlayblastDialog(QDialog):
             self._size.addItem(f"{width} × {height}", (width, height))
         self._rate = ComboBox()
         self._rate.setObjectName("playblast_rate")
-        for rate in sorted({*map(Fraction, ("24", "25", "30000/1001", "30", "60")), session.project.fps}):
-            self._rate.addItem(f"{float(rate):.6g}", str(rate))
+        for rate in sorted({*USUAL_RATES, session.project.fps}):
+            self._rate.addItem(frame_rate_text(rate), str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(min(session.project.fps, Fraction(30)))))
         self._range = ComboBox()
         self._range.setObjectName("playblast_range")

@@ -46,7 +46,7 @@ def new_piece(
 def set_title(project: Project, title: str) -> Project:
     """Call the piece something else; may be empty."""
     cleaned = clean_name(title)[: limits.MOST_NAME]
-    if cleaned == project.score.title:
+    if project.score.title in (title, cleaned):
         return project
     return replace(project, score=msgspec.structs.replace(project.score, title=cleaned))
 
@@ -75,6 +75,40 @@ def set_seed(project: Project, seed: int) -> Project:
     """Another seed is another performance of the same plan; the players' own seeds stay."""
     _check("seed", seed, limits.SEED)
     return _with(project, seed=int(seed))
+
+
+class PieceSettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What holds for the piece as a whole; fields as in `Project`, and the title of its score."""
+
+    title: str
+    fps: Fraction
+    preroll_beats: float
+    felt_beat_quarters: float | None
+    seed: int
+
+
+def piece_settings(project: Project) -> PieceSettings:
+    """The settings of a piece as they are."""
+    values = {field: getattr(project, field) for field in PieceSettings.__struct_fields__ if field != "title"}
+    return PieceSettings(title=project.score.title, **values)
+
+
+def usual_settings(title: str) -> PieceSettings:
+    """What a new piece of this title begins with."""
+    return piece_settings(new_piece(title))
+
+
+def set_piece_settings(project: Project, settings: PieceSettings) -> Project:
+    """Set all at once; the very same project where all are as they were.
+
+    Raises
+    ------
+    UsageError
+        ``piece.value_outside`` of the first that is impossible.
+    """
+    project = set_fps(set_title(project, settings.title), settings.fps)
+    project = set_felt_beat(set_preroll(project, settings.preroll_beats), settings.felt_beat_quarters)
+    return set_seed(project, settings.seed)
 
 
 def set_audio(project: Project, path: str | os.PathLike[str] | None) -> Project:

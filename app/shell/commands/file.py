@@ -71,6 +71,13 @@ def save_as(session: Session) -> None:
     editor_of(session).files.save_as()
 
 
+def piece_settings(session: Session) -> None:
+    """Show title, frame rate, pre-roll, felt beat and seed of the piece."""
+    from widgets.dialogs.piece_settings import PieceSettingsDialog
+
+    PieceSettingsDialog(session, editor_of(session).window).open()
+
+
 def close(session: Session) -> None:
     """Close the project."""
     editor_of(session).files.close()
@@ -129,6 +136,15 @@ ACTIONS: tuple[Action, ...] = (
         "File",
         enabled=_is_open,
         icon="waveform",
+    ),
+    Action(
+        "file.piece_settings",
+        QT_TRANSLATE_NOOP("Action", "Piece Settings..."),
+        piece_settings,
+        "File",
+        "Alt+Return",
+        enabled=_is_open,
+        icon="piece",
     ),
     Action("file.close", QT_TRANSLATE_NOOP("Action", "Close Project"), close, "File", "Ctrl+W", enabled=_is_open),
     Action("file.quit", QT_TRANSLATE_NOOP("Action", "Quit"), leave, "File", "Ctrl+Q"),

@@ -49,6 +49,7 @@ def one_player_two_bars(dialog: ExportDialog) -> None:
     rate = dialog.findChild(QComboBox, "export_rate")
     assert rate is not None
     QTest.keyClick(rate, Qt.Key.Key_Home)
+    QTest.keyClick(rate, Qt.Key.Key_Down)
     assert rate.currentData() == "24"
 
 

@@ -51,6 +51,7 @@ def show_choreography(program: Program) -> None:
 OPENED: dict[str, Open] = {
     "AboutDialog": command("application.about"),
     "LicencesDialog": lambda program: LicencesDialog(program.window).open(),
+    "PieceSettingsDialog": command("file.piece_settings"),
     "PreferencesDialog": command("application.preferences"),
     "InstrumentsDialog": command("application.instruments"),
     "CharactersDialog": command("application.characters"),

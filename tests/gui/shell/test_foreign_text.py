@@ -53,7 +53,7 @@ SHOWN = {
 DIALOGS = (
     *("application.about", "application.preferences", "application.shortcuts", "application.instruments"),
     *("application.characters", "export.files", "export.playblast", "file.reimport", "record.devices"),
-    *("record.latency", "stream.settings", "dancers.learn"),
+    *("record.latency", "stream.settings", "dancers.learn", "file.piece_settings"),
 )
 
 

@@ -500,6 +500,7 @@ CASES: dict[str, Case] = {
         lambda d: setattr(d.answers, "path", d.folder / "piece"),
     ),
     "file.close": Case(lambda d: not d.program.editor.files.is_open and d.program.window.start_page.isVisible()),
+    "file.piece_settings": Case(lambda d: d.dialog("piece_settings")),
     "export.files": Case(lambda d: d.dialog("export_files")),
     "export.playblast": Case(lambda d: d.dialog("playblast")),
     # Notes

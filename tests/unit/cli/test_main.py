@@ -150,7 +150,7 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
     found = json.loads(out)
     assert set(found) == {
         "duration_s", "ticks_per_beat", "tempo", "markers", "percussion_hits", "first_frame_s", "warnings", "unplayed",
-        "left_out", "players", "dancers",
+        "left_out", "players", "dancers", "title", "fps", "fps_exact", "preroll_beats", "felt_beat_quarters", "seed",
     }  # fmt: skip
     assert set(found["tempo"][0]) == {"tick", "bpm"}
     for player in found["players"]:

@@ -35,6 +35,12 @@ def test_the_file_holds_what_was_read(quartet: Path, tmp_path: Path, capsys: pyt
     assert capsys.readouterr().out == f"{target}: 4 tracks, 530 notes\n"
 
 
+def test_the_file_is_called_by_another_title(quartet: Path, tmp_path: Path) -> None:
+    target = tmp_path / "out.mid"
+    assert main(["midi", str(quartet), "--title", "吹奏", "--to", str(target)]) == DONE
+    assert read_midi(target, maps=map_choices(bundled_maps().values())).title == "吹奏"
+
+
 def test_a_file_is_not_written_over_itself(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "piece.mid"
     path.write_bytes(header() + chunk(b"MTrk", meta(3, b"Trumpet") + note(60) + END))

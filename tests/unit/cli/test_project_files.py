@@ -17,7 +17,7 @@ from app.plan.corrections import PinFingering
 from app.project.casting import StagePosition
 from app.project.edit.corrections import put
 from app.project.edit.dancers import add_dancer, place_dancers
-from app.project.storage import save
+from app.project.storage import load, save
 from tests.unit.project.pieces import small_project
 
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
@@ -73,6 +73,39 @@ def test_options_come_on_top_of_a_project(run: Run, project: Path) -> None:
     table = json.loads(out)
     assert [player["instrument"] for player in table["players"]] == ["trumpet_Bb", "trumpet_Bb"]
     assert table["first_frame_s"] == -8.0
+
+
+SETTINGS = ("title", "fps_exact", "preroll_beats", "felt_beat_quarters", "seed")
+
+
+def test_settings_of_the_piece_come_on_top_of_a_project_or_a_midi_file(run: Run, project: Path) -> None:
+    def settings(file: Path, *options: str) -> tuple[object, ...]:
+        status, out, _ = run("inspect", file, "--json", *options)
+        assert status == 0
+        found = json.loads(out)
+        assert found["fps"] == float(Fraction(found["fps_exact"]))
+        return tuple(found[name] for name in SETTINGS)
+
+    typed = (
+        "--title",
+        " Fanfare  für\nalle ",
+        "--fps",
+        "29.97",
+        "--preroll",
+        "2.5",
+        "--felt-beat",
+        "3/2",
+        "--seed",
+        "7",
+    )
+    for file in (project, QUARTET):
+        assert settings(file, *typed, "--seed", "7") == ("Fanfare für alle", "30000/1001", 2.5, 1.5, 7)
+    held = load(project)
+    beaten = project.with_name("beaten.suisou")
+    save(replace(held, felt_beat_quarters=3.0), beaten)
+    as_held = (held.score.title, str(held.fps), held.preroll_beats, 3.0, held.seed)
+    assert settings(beaten) == as_held
+    assert settings(beaten, "--felt-beat", "auto") == (*as_held[:3], None, as_held[4])
 
 
 def test_an_export_has_the_projects_frame_rate(run: Run, project: Path, tmp_path: Path) -> None:

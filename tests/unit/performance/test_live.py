@@ -18,10 +18,14 @@ from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion, PlayerFault
 from app.performance.span import whole_span
 from app.plan.corrections import AddExpression
+from app.plan.model import PlayerPlan
 from app.project.edit.corrections import put
+from app.project.edit.piece import piece_settings, set_piece_settings
 from app.rig.character_library import character_named
 from tests.property.performance.edits import piece
 from tests.support.performed import player_motion
+
+EVENTS = set(PlayerPlan.__struct_fields__) - {"time_frame"}
 
 
 @pytest.fixture(scope="module")
@@ -50,6 +54,39 @@ def test_what_is_looked_at_is_made_first(performance: Performance) -> None:
     assert live.pose(third, 8.5) is not None
     assert live.pose(second, 0.0) is None
     assert 0.0 < live.ready_share < 1.0
+
+
+@pytest.mark.parametrize(
+    ("settings", "replanned", "moves_anew"),
+    [
+        ({"title": "Another"}, set(), False),
+        ({"fps": Fraction(24)}, set(), True),
+        ({"seed": 5}, {"gestures", "problems"}, True),
+        ({"preroll_beats": 6.0}, {"breaths", "gestures", "expressions", "problems"}, True),
+    ],
+)
+def test_a_setting_of_the_piece_costs_what_it_changes(
+    performance: Performance, settings: dict[str, Any], replanned: set[str], moves_anew: bool
+) -> None:
+    live = LiveMotion(performance)
+    made = all_made(live)
+    assert made
+    wanted = msgspec.structs.replace(piece_settings(performance.project), **settings)
+    changed = Performance(set_piece_settings(performance.project, wanted), performance)
+    for player in changed.project.players:
+        before, after = performance.plan(player), changed.plan(player)
+        others = {field for field in EVENTS if getattr(before, field) is not getattr(after, field)}
+        assert others <= replanned
+    live.show(changed)
+    again = all_made(live)
+    assert bool(again) == moves_anew
+    fresh = LiveMotion(changed)
+    all_made(fresh)
+    for player in changed.project.players:
+        one, other = live.pose(player.id, 8.1), fresh.pose(player.id, 8.1)
+        assert one is not None
+        assert other is not None
+        assert np.array_equal(one.rotations, other.rotations)
 
 
 def test_everybody_is_right_at_the_playhead_before_anything_else_is_made(performance: Performance) -> None:

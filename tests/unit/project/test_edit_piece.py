@@ -172,6 +172,25 @@ def test_settings_of_the_piece(project: Project) -> None:
             wrong()
 
 
+def test_settings_at_once_are_those_one_by_one(project: Project) -> None:
+    usual = edit.piece_settings(project)
+    assert edit.set_piece_settings(project, usual) is project
+    assert edit.piece_settings(edit.new_piece(usual.title)) == edit.usual_settings(usual.title)
+    others = edit.PieceSettings(title="x", fps=Fraction(25), preroll_beats=2.0, felt_beat_quarters=1.5, seed=7)
+    one_by_one = edit.set_seed(edit.set_felt_beat(edit.set_preroll(project, 2.0), 1.5), 7)
+    one_by_one = edit.set_fps(edit.set_title(one_by_one, "x"), Fraction(25))
+    assert edit.set_piece_settings(project, others) == one_by_one
+    assert edit.piece_settings(one_by_one) == others
+    odd = edit.set_piece_settings(project, msgspec.structs.replace(usual, title="  two \n words "))
+    assert odd.score.title == "two words"
+    # What a file was called is not cleaned behind the user's back.
+    read = replace(project, score=msgspec.structs.replace(project.score, title=" as read "))
+    assert edit.set_piece_settings(read, edit.piece_settings(read)) is read
+    for wrong in ({"fps": Fraction(0)}, {"preroll_beats": math.nan}, {"felt_beat_quarters": 0.0}, {"seed": 2**63}):
+        with pytest.raises(UsageError):
+            edit.set_piece_settings(project, msgspec.structs.replace(others, **wrong))
+
+
 def test_recordings_and_their_offset(project: Project, tmp_path: Path) -> None:
     heard = edit.set_audio(project, tmp_path / "sub" / ".." / "take.wav")
     assert heard.audio is not None

@@ -1,0 +1,59 @@
+"""Frame rates as they are typed and shown: ``24``, ``29.97``, ``30000/1001``."""
+
+from __future__ import annotations
+
+import unicodedata
+from fractions import Fraction
+from typing import Final
+
+PULLED_DOWN: Final = (24, 30, 48, 60, 120)
+"""Nominal rates that television slows by 1000/1001; 29.97 means 30000/1001 and not 2997/100."""
+
+USUAL_RATES: Final = (
+    Fraction(24000, 1001),
+    Fraction(24),
+    Fraction(25),
+    Fraction(30000, 1001),
+    Fraction(30),
+    Fraction(48),
+    Fraction(50),
+    Fraction(60000, 1001),
+    Fraction(60),
+    Fraction(120),
+)
+"""Of film, television and games, in ascending order (SMPTE ST 12-1 and ST 12-3; 120 is what capture and games have)."""
+
+
+def exact_number(text: str) -> Fraction:
+    """An exact number from ``1.5`` or ``3/2``. Raises ValueError, ZeroDivisionError."""
+    plain = _plain(text)
+    if "e" in plain.casefold():
+        raise ValueError(text)  # 1e999999999 would take hours
+    return Fraction(plain)
+
+
+def frame_rate(text: str) -> Fraction:
+    """The exact rate that a text means, whatever its size. Raises ValueError, ZeroDivisionError."""
+    rate = exact_number(text)
+    return rate if "/" in _plain(text) else pulled_down(rate)
+
+
+def pulled_down(rate: Fraction) -> Fraction:
+    """The exact rate that a decimal short form means: 23.98, 23.976, 29.97 or 59.94."""
+    for nominal in PULLED_DOWN:
+        exact = Fraction(nominal * 1000, 1001)
+        # The usual short forms keep two or three decimals.
+        if abs(rate - exact) < Fraction(1, 200):
+            return exact
+    return rate
+
+
+def frame_rate_text(rate: Fraction) -> str:
+    """The rate as `frame_rate` reads it back exactly: ``60``, ``29.97``, or ``1000/7`` where decimals do not say it."""
+    short = f"{float(rate):.3f}".rstrip("0").rstrip(".")
+    return short if frame_rate(short) == rate else str(rate)
+
+
+def _plain(text: str) -> str:
+    """Full-width digits and signs, as Japanese input methods type them, are digits and signs."""
+    return unicodedata.normalize("NFKC", text).strip()

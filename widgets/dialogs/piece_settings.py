@@ -1,0 +1,269 @@
+"""What holds for the piece as a whole: title, frame rate, pre-roll, felt beat and seed."""
+
+from __future__ import annotations
+
+import unicodedata
+from fractions import Fraction
+from functools import partial
+from typing import Any, TypeVar, cast
+
+from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QDoubleSpinBox,
+    QFormLayout,
+    QHBoxLayout,
+    QLineEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.errors import Message
+from app.project import limits
+from app.project.edit.generation import vary_everyone
+from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_seed, usual_settings
+from app.project.frame_rate import USUAL_RATES, frame_rate, frame_rate_text
+from widgets.common.icons import icon
+from widgets.common.plain import ComboBox, Label
+from widgets.common.session import Session
+from widgets.dialogs.automatic_number import TEXT_MARGIN_PX
+
+PROBLEM_PX = 40
+"""Room for two lines, so that nothing moves when there is something to say."""
+
+
+Value = TypeVar("Value", str, float)
+
+
+class PieceSettingsDialog(QDialog):
+    """Changes the settings of the piece in one step, or none.
+
+    Parameters
+    ----------
+    session : Session
+    parent : QWidget, optional
+    """
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("piece_settings")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._session = session
+        self._before = piece_settings(session.project)
+        self._shown: dict[str, tuple[Any, Any]] = {}
+        """Of each field what it shows of a value, and the value: a field may show less than there is."""
+        self._title = QLineEdit()
+        self._title.setMaxLength(limits.MOST_NAME)
+        self._rate = ComboBox()
+        self._rate.setEditable(True)
+        self._rate.setInsertPolicy(ComboBox.InsertPolicy.NoInsert)
+        # It would make 120 of 12.
+        self._rate.setCompleter(None)  # type: ignore[arg-type]
+        self._rate.addItems([frame_rate_text(rate) for rate in USUAL_RATES])
+        self._preroll = _Beats()
+        self._preroll.setRange(*limits.PREROLL_BEATS)
+        self._preroll.setDecimals(3)
+        self._preroll.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
+        self._felt = ComboBox()
+        self._seed = QLineEdit()
+        self._randomise = QPushButton()
+        self._problem = Label()
+        self._problem.setWordWrap(True)
+        self._problem.setMinimumHeight(PROBLEM_PX)
+        self._problem.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
+        self._problem.setStyleSheet(f"color: {session.tokens.error};")
+        self._buttons = QDialogButtonBox()
+        self._ok = self._buttons.addButton("", QDialogButtonBox.ButtonRole.AcceptRole)
+        self._ok.setDefault(True)
+        self._cancel = self._buttons.addButton("", QDialogButtonBox.ButtonRole.RejectRole)
+        self._reset = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ResetRole)
+        for button in (self._randomise, self._cancel, self._reset):
+            button.setAutoDefault(False)
+        fields: dict[str, QWidget] = {
+            "title": self._title,
+            "rate": self._rate,
+            "preroll": self._preroll,
+            "felt_beat": self._felt,
+            "seed": self._seed,
+        }
+        others = {"randomise": self._randomise, "problem": self._problem}
+        others |= {"ok": self._ok, "cancel": self._cancel, "reset": self._reset}
+        for name, widget in {**fields, **others}.items():
+            widget.setObjectName(f"piece_{name}")
+        self._labels = {name: Label() for name in fields}
+        for name, field in fields.items():
+            self._labels[name].setBuddy(field)
+        self._lay_out(fields)
+        self._fill_beats()
+        self._show(self._before)
+        self._ok.clicked.connect(self._apply)
+        self._cancel.clicked.connect(self.reject)
+        self._reset.clicked.connect(self._reset_all)
+        self._randomise.clicked.connect(self._another_seed)
+        for signal in (self._rate.editTextChanged, self._seed.textChanged):
+            signal.connect(self._judge)
+        self.retranslate()
+        self._title.setFocus()
+
+    def _lay_out(self, fields: dict[str, QWidget]) -> None:
+        seed = QHBoxLayout()
+        seed.addWidget(self._seed, 1)
+        seed.addWidget(self._randomise)
+        form = QFormLayout()
+        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        for name, field in fields.items():
+            form.addRow(self._labels[name], seed if field is self._seed else field)
+        layout = QVBoxLayout(self)
+        layout.addLayout(form)
+        layout.addWidget(self._problem)
+        layout.addStretch(1)
+        layout.addWidget(self._buttons)
+
+    # What is chosen
+
+    @property
+    def settings(self) -> PieceSettings | None:
+        """What the fields say; None where one of them says nothing possible."""
+        rate, seed = self._typed_rate(), self._typed_seed()
+        if rate is None or seed is None:
+            return None
+        return PieceSettings(
+            title=self._kept("title", self._title.text()),
+            fps=rate,
+            preroll_beats=self._kept("preroll", self._preroll.value()),
+            felt_beat_quarters=self._felt.currentData(),
+            seed=seed,
+        )
+
+    def _kept(self, name: str, value: Value) -> Value:
+        """A value that the user left alone is what it was, to the last digit and sign."""
+        shown, held = self._shown[name]
+        return cast(Value, held) if value == shown else value
+
+    def _typed_rate(self) -> Fraction | None:
+        try:
+            rate = frame_rate(self._rate.currentText())
+        except (ValueError, ZeroDivisionError):
+            return None
+        return rate if limits.FPS[0] <= rate <= limits.FPS[1] else None
+
+    def _typed_seed(self) -> int | None:
+        text = unicodedata.normalize("NFKC", self._seed.text()).strip()
+        if not text.isdecimal() or len(text) > len(str(limits.SEED[1])):
+            return None
+        return seed if (seed := int(text)) <= limits.SEED[1] else None
+
+    def _show(self, settings: PieceSettings) -> None:
+        self._title.setText(settings.title)
+        self._title.setCursorPosition(0)
+        rate = frame_rate_text(settings.fps)
+        # Keys and wheel go on from here, which the text alone would not say.
+        self._rate.setCurrentIndex(self._rate.findText(rate))
+        self._rate.setEditText(rate)
+        self._preroll.setValue(settings.preroll_beats)
+        self._felt.setCurrentIndex(self._felt.findData(settings.felt_beat_quarters))
+        self._seed.setText(str(settings.seed))
+        self._shown = {
+            "title": (self._title.text(), settings.title),
+            "preroll": (self._preroll.value(), settings.preroll_beats),
+        }
+
+    def _reset_all(self) -> None:
+        """As in a new piece; only the title is nobody's default."""
+        title = self._kept("title", self._title.text())
+        self._show(usual_settings(title))
+
+    def _another_seed(self) -> None:
+        project, seed = self._session.project, self._typed_seed()
+        self._seed.setText(str(vary_everyone(project if seed is None else set_seed(project, seed)).seed))
+
+    def _judge(self) -> None:
+        rate, seed = self._typed_rate(), self._typed_seed()
+        problems = []
+        if rate is None:
+            text = self.tr("Frame rate: type a number from {low} to {high}, such as 24, 29.97 or 30000/1001.")
+            problems.append(text.format(low=limits.FPS[0], high=limits.FPS[1]))
+        if seed is None:
+            text = self.tr("Seed: type a whole number from {low} to {high}.")
+            problems.append(text.format(low=limits.SEED[0], high=limits.SEED[1]))
+        self._problem.setText("\n".join(problems))
+        self._ok.setEnabled(not problems)
+
+    def _apply(self) -> None:
+        settings = self.settings
+        if settings is None:
+            return
+        edit = partial(set_piece_settings, settings=settings)
+        if self._session.attempt(Message("edit.piece_settings"), edit):
+            self.accept()
+
+    # Texts
+
+    def _beat_names(self) -> dict[float | None, str]:
+        names: dict[float | None, str] = {
+            None: self.tr("Automatic, by metre and tempo"),
+            0.25: self.tr("Sixteenth"),
+            0.5: self.tr("Eighth"),
+            0.75: self.tr("Dotted eighth"),
+            1.0: self.tr("Quarter"),
+            1.5: self.tr("Dotted quarter"),
+            2.0: self.tr("Half"),
+            3.0: self.tr("Dotted half"),
+            4.0: self.tr("Whole"),
+        }
+        beat = self._before.felt_beat_quarters
+        if beat not in names:
+            names[beat] = self.tr("{count} quarters").format(count=f"{beat:.6g}")
+        return names
+
+    def _fill_beats(self) -> None:
+        for quarters in self._beat_names():
+            self._felt.addItem("", quarters)
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        self.setWindowTitle(self.tr("Piece Settings"))
+        rows = {
+            "title": (self.tr("Title"), self.tr("Names the piece in a MIDI file and in Unreal")),
+            "rate": (
+                self.tr("Frame rate"),
+                self.tr("Of the ruler and of steps by a frame; exports start from it"),
+            ),
+            "preroll": (self.tr("Pre-roll"), self.tr("Felt beats before the first note, at least one second")),
+            "felt_beat": (self.tr("Felt beat"), self.tr("Breaths, cues, sway and the pre-roll count in it")),
+            "seed": (
+                self.tr("Seed"),
+                self.tr("Another seed is another performance: other sways and glances"),
+            ),
+        }
+        for name, (text, tip) in rows.items():
+            self._labels[name].setText(text)
+            for widget in (self._labels[name], self._labels[name].buddy()):
+                widget.setToolTip(tip)
+        self._preroll.setSuffix(self.tr(" beats"))
+        for index, text in enumerate(self._beat_names().values()):
+            self._felt.setItemText(index, text)
+        self._randomise.setText(self.tr("Randomise"))
+        self._randomise.setIcon(icon("dice", self._session.tokens))
+        self._ok.setText(self.tr("OK"))
+        self._cancel.setText(self.tr("Cancel"))
+        self._reset.setText(self.tr("Reset to Defaults"))
+        self._reset.setToolTip(self.tr("All but the title as in a new piece"))
+        self._judge()
+
+    def sizeHint(self) -> QSize:
+        return QSize(580, 290)
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+
+class _Beats(QDoubleSpinBox):
+    """A number without zeros behind it."""
+
+    def textFromValue(self, value: float) -> str:
+        return self.locale().toString(value, "g", 6)
