@@ -64,8 +64,6 @@ _PRIORITY: Final = -10
 
 Heard: TypeAlias = tuple[int, bytes]
 """A moment of `time.perf_counter_ns` and a message."""
-Mark: TypeAlias = tuple[str, int]
-"""A word of the journal and its moment."""
 
 
 class Recorder:

@@ -114,7 +114,6 @@ TEMPLATES: Final[dict[str, str]] = {
     "preset.saved": "the preset {name} is saved",
     "player.too_many": "a project can have {most} players",
     "player.no_name": "a name must have at least one sign that can be seen",
-    "player.no_part": "there is no part {part}",
     "dancer.too_many": "a project can have {most} dancers",
     "dancer.no_choreography": (
         "{file} is neither a choreography file (.choreography) nor a choreography that comes with the program; choose "

@@ -270,8 +270,6 @@ def project_from_score(
     maps: Mapping[str, InstrumentMap],
     *,
     seed: int = 0,
-    preroll_beats: float = PREROLL_BEATS,
-    felt_beat_quarters: float | None = None,
 ) -> Project:
     """Cast a score: a player for every part, with a name, a character, a place and a size of motion of their own.
 
@@ -281,8 +279,6 @@ def project_from_score(
     maps : mapping of str to InstrumentMap
         By id; every part names one of them.
     seed : int
-    preroll_beats : float
-    felt_beat_quarters : float or None
     """
     parts = score.parts
     instruments = [maps[part.map_id] for part in parts]
@@ -309,8 +305,6 @@ def project_from_score(
         score,
         players,
         seed=seed,
-        preroll_beats=preroll_beats,
-        felt_beat_quarters=felt_beat_quarters,
         read_notes={part.id: {note.id: note for note in part.notes} for part in parts},
     )
 

@@ -28,7 +28,6 @@ from app.rig.placements import world_placements
 from metadata.load import load_bone_names, load_skeleton
 from metadata.model import REQUIRED_JOINTS, bone_key
 
-SPINE: Final = ("spine", "chest", "upperChest")
 ENDS: Final = re.compile(r"(Toes|Eye|Metacarpal|Proximal|Intermediate|Distal)$")
 """Joints that names may add to what a file says of itself."""
 CLEARLY: Final = 0.5

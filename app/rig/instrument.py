@@ -18,7 +18,6 @@ from app.rig import quaternion
 from app.rig.mesh import Mesh
 from app.rig.model import InstrumentModel
 from app.rig.source import build_mesh, invalid, moved_mesh, read_source
-from instrument_maps.load import model_path
 from instrument_maps.model import ROOT, InstrumentMap, MovingPart
 from instrument_maps.model import Motion as MotionOfPart
 
@@ -68,11 +67,6 @@ def load_instrument(path: Path, instrument_map: InstrumentMap) -> InstrumentMode
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise invalid(path, f"damaged: {error!r}") from error
     return InstrumentModel(path.stem, tuple(names), positions, tuple(meshes))
-
-
-def bundled_instrument(instrument_map: InstrumentMap) -> InstrumentModel:
-    """Load the bundled model of a map. Raises MapError or FileError."""
-    return load_instrument(model_path(instrument_map), instrument_map)
 
 
 def part_values(part: MovingPart, controls: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:

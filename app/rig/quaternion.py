@@ -206,14 +206,6 @@ def twist_angle(q: ArrayLike, axis: ArrayLike) -> FloatArray:
     return angle
 
 
-def nlerp(a: ArrayLike, b: ArrayLike, share: ArrayLike) -> FloatArray:
-    """Mix quaternions (..., 4) linearly and normalise, by the shorter way; ``share`` (...) is 0 at a, 1 at b."""
-    a, b = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
-    share = np.asarray(share, dtype=np.float64)[..., None]
-    sign = np.where(np.einsum("...i,...i->...", a, b) < 0.0, -1.0, 1.0)[..., None]
-    return normalize(a * (1.0 - share) + b * (sign * share))
-
-
 def slerp(a: ArrayLike, b: ArrayLike, share: ArrayLike) -> FloatArray:
     """Interpolate quaternions (..., 4) at constant angular speed, by the shorter way; ``share`` (...) is 0 at a."""
     turn = to_rotation_vector(multiply(conjugate(a), b))

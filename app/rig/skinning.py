@@ -76,35 +76,6 @@ def patch(character: Character, mesh: Mesh, vertices: npt.NDArray[np.integer]) -
     )
 
 
-def deform(
-    part: Patch, transforms: JointTransforms, morphs: Mapping[str, npt.NDArray[np.floating]] | None = None
-) -> FloatArray:
-    """Deform the vertices of a patch.
-
-    Parameters
-    ----------
-    part : Patch
-    transforms : JointTransforms
-        Must hold every joint of the patch.
-    morphs : dict of str to (F,), optional
-        Weight curves by morph name.
-
-    Returns
-    -------
-    (F, V, 3) float64
-        World positions, metres.
-    """
-    matrices = skin_matrices(part.joints, part.joint_from_mesh, transforms)
-    positions = part.positions_m[None]
-    for name, deltas in part.morphs.items():
-        if morphs is not None and name in morphs:
-            positions = positions + np.multiply.outer(np.asarray(morphs[name], dtype=np.float64), deltas)
-    blended = np.tensordot(matrices, part.weights, axes=([1], [1]))  # (F, 3, 4, V)
-    result: FloatArray = (blended[:, :, :3] * positions.transpose(0, 2, 1)[:, None]).sum(axis=2)
-    result += blended[:, :, 3]
-    return np.ascontiguousarray(result.transpose(0, 2, 1))
-
-
 def skin_matrices(joints: IntArray, joint_from_mesh: FloatArray, transforms: JointTransforms) -> FloatArray:
     """Return ``world_from_mesh`` of some joints, (F, J, 3, 4), for their inverse bind matrices (J, 3, 4)."""
     places = np.searchsorted(np.asarray(transforms.joints), joints)
@@ -127,7 +98,6 @@ class LandmarkSet:
     joints : (J,) int
     joint_from_mesh : (J, 3, 4) float64
     points : (J, 4, L) float64
-    normals : (J, 3, L) float64
     morphs : dict of str to (J, 3, L) float64
     """
 
@@ -135,7 +105,6 @@ class LandmarkSet:
     joints: IntArray
     joint_from_mesh: FloatArray
     points: FloatArray
-    normals: FloatArray
     morphs: Mapping[str, FloatArray]
 
 
@@ -143,7 +112,7 @@ class LandmarkSet:
 def landmark_set(character: Character, names: tuple[str, ...]) -> LandmarkSet:
     """Prepare landmarks of a character; KeyError where one is missing. Cached by the character's identity."""
     count = len(character.skeleton.names)
-    points, normals = np.zeros((count, 4, len(names))), np.zeros((count, 3, len(names)))
+    points = np.zeros((count, 4, len(names)))
     morphs: dict[str, FloatArray] = {}
     for column, name in enumerate(names):
         landmark = character.landmarks[name]
@@ -151,7 +120,6 @@ def landmark_set(character: Character, names: tuple[str, ...]) -> LandmarkSet:
         share = part.weights.T / len(landmark.vertices)
         points[part.joints, :3, column] = share @ part.positions_m
         points[part.joints, 3, column] = share.sum(axis=1)
-        normals[part.joints, :, column] = share @ part.normals
         for morph, deltas in part.morphs.items():
             morphs.setdefault(morph, np.zeros((count, 3, len(names))))[part.joints, :, column] = share @ deltas
     joints = np.flatnonzero(np.any(points[:, 3] > 0.0, axis=1))
@@ -160,7 +128,6 @@ def landmark_set(character: Character, names: tuple[str, ...]) -> LandmarkSet:
         joints=joints,
         joint_from_mesh=character.joint_from_mesh[joints, :3, :],
         points=points[joints],
-        normals=normals[joints],
         morphs={name: deltas[joints] for name, deltas in morphs.items()},
     )
 
@@ -196,15 +163,6 @@ def landmark_positions(
             moved = np.tensordot(matrices[..., :3], deltas, axes=([1, 3], [0, 1]))
             result += np.asarray(morphs[name], dtype=np.float64)[:, None, None] * moved
     return np.ascontiguousarray(result.transpose(0, 2, 1))
-
-
-def landmark_normals(character: Character, names: Sequence[str], transforms: JointTransforms) -> FloatArray:
-    """Mean outward unit normals (F, L, 3) of landmarks, without morphs."""
-    marks = landmark_set(character, tuple(names))
-    matrices = skin_matrices(marks.joints, marks.joint_from_mesh, transforms)
-    result = np.tensordot(matrices[..., :3], marks.normals, axes=([1, 3], [0, 1])).transpose(0, 2, 1)
-    unit: FloatArray = result / np.linalg.norm(result, axis=-1, keepdims=True)
-    return unit
 
 
 def landmark_joints(character: Character, names: Sequence[str]) -> tuple[int, ...]:

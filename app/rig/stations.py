@@ -23,8 +23,8 @@ HOVER_POWER = 2.0
 """A finger drops to its key ahead of the key's way down: what is left of its height goes with this power."""
 HALF_ASIDE_M = 0.0025
 """A finger on half a hole lies this much aside."""
-LEAST_HOVER, MOST_HOVER_M = 0.3, 0.020
-"""A finger that is up waits between this share of the map's height and this height."""
+MOST_HOVER_M = 0.020
+"""A finger that is up waits no higher."""
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,6 @@ from typing import Any, TypeVar
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
 from app.rig.hold import Side
 from app.rig.landmarks import eye_distance
@@ -20,7 +19,6 @@ from app.rig.model import Character, InstrumentModel, Skeleton
 from app.rig.skeleton import rest_positions
 from metadata.model import Body
 
-FloatArray = npt.NDArray[np.float64]
 Range = tuple[float, float]
 
 # Of grown-ups, metres: from the wrist to the last joint of the middle finger, across the knuckles, upper and lower arm,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Final
 
@@ -399,11 +399,6 @@ class Menus(QObject):
         """Set the names of all menus."""
         for path, menu in self.menus.items():
             menu.setTitle(menu_text(path.rpartition("/")[2]))
-
-
-def unnamed_menus(table: Iterable[Action]) -> set[str]:
-    """Parts of menu paths that have no name."""
-    return {key for row in table for key in row.menu.split("/") if key} - set(MENUS)
 
 
 class KeyboardButtons(QObject):

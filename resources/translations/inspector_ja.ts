@@ -210,6 +210,10 @@
         <translation>付属の表情です。複製すると編集できます。</translation>
     </message>
     <message>
+        <source>Delete it from your folder</source>
+        <translation>自分のフォルダーから削除します</translation>
+    </message>
+    <message>
         <source>Brows</source>
         <translation>眉</translation>
     </message>

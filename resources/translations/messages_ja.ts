@@ -628,10 +628,6 @@
             <translation>名前には、目に見える文字が 1 つ以上必要です</translation>
         </message>
         <message>
-            <source>there is no part {part}</source>
-            <translation>パート {part} はありません</translation>
-        </message>
-        <message>
             <source>a project can have {most} dancers</source>
             <translation>1 つのプロジェクトに置けるダンサーは {most} 人までです</translation>
         </message>

@@ -21,7 +21,8 @@ from app.rig import quaternion
 from app.rig.mesh import Mesh
 from app.rig.model import Character
 from app.rig.skeleton import forward
-from app.rig.skinning import deform, patch
+from app.rig.skinning import patch
+from tests.support.deformed import deform
 
 VRM0_THUMBS = {"ThumbMetacarpal": "ThumbProximal", "ThumbProximal": "ThumbIntermediate"}
 

@@ -73,7 +73,7 @@ class PreferencesDialog(QDialog):
         super().__init__(parent)
         self.setObjectName("preferences")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self._session, self._language = session, language
+        self._session = session
         self._labels: dict[str, Label] = {}
         self._radios: dict[str, QRadioButton] = {}
         self._groups: list[QButtonGroup] = []

@@ -192,21 +192,24 @@ class ExpressionMaker(QWidget):
         options += [Option(name, expression_name(name)) for name in bundled]
         options += [Option(name, self.tr("{name} (kept)").format(name=name)) for name in kept]
         self._choice.set_options(options)
-        expression, editable = self.expression, self.editable
+        expression, editable, from_folder = self.expression, self.editable, self._name in kept
         self._choice.show_option(self._name if expression is not None else None)
         self._hint.setText(
             ""
             if editable
             else self.tr("Comes from your folder: use it in this project to change it.")
-            if self._name in kept
+            if from_folder
             else self.tr("Comes with the program: duplicate it to make your own.")
         )
         self._hint.setVisible(not editable)
         self._title.setVisible(editable)
         for widget in (self._playing, *self._fades.values(), *self._sliders.values()):
             widget.setEnabled(editable)
-        for name in ("remove", "keep"):
-            self._tools[name].setEnabled(editable)
+        self._tools["keep"].setEnabled(editable)
+        self._tools["remove"].setEnabled(editable or from_folder)
+        self._tools["remove"].setToolTip(
+            self.tr("Delete it from your folder") if from_folder else self.tr("Remove it from the project")
+        )
         if expression is not None:
             if not self._title.hasFocus():
                 self._title.setText(expression.name)
@@ -299,6 +302,19 @@ class ExpressionMaker(QWidget):
         name = self._name
         if name is not None and self.editable:
             self._attempt("edit.remove_expression", lambda project: edit.remove_expression(project, name))
+        elif name in self._kept:
+            self._forget(name)
+
+    def _forget(self, name: str) -> None:
+        """Delete it from the user's folder; projects that have it keep it."""
+        try:
+            presets.delete_expression(presets.expression_folder(), name)
+        except AppError as error:
+            self._session.notice(error.message, Severity.ERROR)
+            return
+        self._kept = dict(presets.expressions(presets.expression_folder()).items)
+        self._name = next(iter(load_expressions()))
+        self.show_expression()
 
     def _keep(self) -> None:
         """Write it to the person's folder, for other projects."""
@@ -341,7 +357,6 @@ class ExpressionMaker(QWidget):
         self._section.header.set_texts(self.tr("Expressions"))
         tips = {
             "duplicate": self.tr("Make one of your own from it"),
-            "remove": self.tr("Remove it from the project"),
             "keep": self.tr("Keep it for other projects"),
             "both": self.tr("Move both sides of the face together"),
             "preview": self.tr("Show it on the player in front"),

@@ -17,7 +17,6 @@ from app.rig.model import InstrumentModel
 from instrument_maps.model import InstrumentMap, MovingPart
 
 Floats = npt.NDArray[np.float64]
-Ints = npt.NDArray[np.intp]
 
 NOWHERE_M = (0.0, 0.0, 0.0)
 

@@ -98,7 +98,6 @@ class GltfMaterial:
     base_color_rgba: tuple[float, float, float, float]
     metallic: float
     roughness: float
-    emissive_rgb: tuple[float, float, float]
     alpha_mode: str
     double_sided: bool
     color_image: int | None = None

@@ -248,7 +248,6 @@ class _Reader(Accessors):
     def material(self, material: object) -> GltfMaterial:
         surface = field(material, "pbrMetallicRoughness")
         red, green, blue, alpha = self.floats(surface, "baseColorFactor", (1.0, 1.0, 1.0, 1.0))
-        emissive = self.floats(material, "emissiveFactor", (0.0, 0.0, 0.0))
         metallic, roughness = (
             1.0 if field(surface, name) is None else self.finite([field(surface, name)], 1, name)[0]
             for name in ("metallicFactor", "roughnessFactor")
@@ -258,7 +257,6 @@ class _Reader(Accessors):
             base_color_rgba=(red, green, blue, alpha),
             metallic=metallic,
             roughness=roughness,
-            emissive_rgb=(emissive[0], emissive[1], emissive[2]),
             alpha_mode=self.text(material, "alphaMode", "OPAQUE"),
             double_sided=field(material, "doubleSided") is True,
             color_image=self._color_image(field(surface, "baseColorTexture")),

@@ -27,19 +27,6 @@ def forbid_state(project: Project, dancer_id: str, start_tick: int, end_tick: in
     return _put(project, dancer_id, ForbidState(start, end, state)) if start < end else project
 
 
-def unpin(project: Project, dancer_id: str, start_tick: int, end_tick: int) -> Project:
-    """Forget the basic motions and segments that are pinned from one tick to another (half-open)."""
-    return _without(
-        project,
-        dancer_id,
-        (
-            item
-            for item in project.dance_corrections.get(dancer_id, ())
-            if isinstance(item, PinState | UseSegment) and start_tick <= item.tick < end_tick
-        ),
-    )
-
-
 def take_back(project: Project, dancer_id: str, corrections: Iterable[DanceCorrection]) -> Project:
     """Remove these corrections."""
     return _without(project, dancer_id, corrections)

@@ -33,16 +33,6 @@ def vary_players(project: Project, player_ids: Iterable[str]) -> Project:
     )
 
 
-def vary_dancers(project: Project, dancer_ids: Iterable[str]) -> Project:
-    """Another dance by some; who danced in unison still does."""
-    chosen = frozenset(dancer_ids)
-    dancers = tuple(
-        msgspec.structs.replace(dancer, seed=next_seed("dancer", dancer.seed)) if dancer.id in chosen else dancer
-        for dancer in project.dancers
-    )
-    return project if dancers == project.dancers else replace(project, dancers=dancers)
-
-
 def vary_span(project: Project, player_ids: Iterable[str], start_tick: int, end_tick: int) -> Project:
     """Another performance by some from one tick to another; again the same span, again another one."""
     for player_id in player_ids:

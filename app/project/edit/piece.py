@@ -175,15 +175,6 @@ def remove_expression(project: Project, name: str) -> Project:
     return replace(project, expressions=kept)
 
 
-def is_shown(project: Project, name: str) -> bool:
-    """Whether a correction shows an expression: removing it would leave that without effect."""
-    return any(
-        getattr(correction, "expression", None) == name
-        for items in project.corrections.values()
-        for correction in items
-    )
-
-
 def _expression_name(name: str) -> str:
     cleaned = clean_name(name)[: limits.MOST_NAME]
     if not cleaned:

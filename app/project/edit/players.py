@@ -3,7 +3,6 @@
 Messages
 --------
 player.no_name(): a name must have at least one sign that can be seen.
-player.no_part(part): there is no part of this id.
 player.too_many(most): a project has no room for more players.
 """
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from PySide6.QtCore import QCoreApplication
 
 from app.project.storage import SUFFIX
@@ -86,11 +84,6 @@ def close(session: Session) -> None:
 def leave(session: Session) -> None:
     """End the editor."""
     editor_of(session).window.close()
-
-
-def open_recent(session: Session, path: str) -> None:
-    """Open a file of the recent list."""
-    editor_of(session).files.open(Path(path))
 
 
 def _is_open(session: Session) -> bool:

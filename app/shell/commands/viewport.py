@@ -34,10 +34,6 @@ def pose(session: Session, posing: bool) -> None:
     session.viewport.set_posing(posing)
 
 
-def _is_view(view: View, session: Session) -> bool:
-    return session.viewport.view == view
-
-
 def _shows(what: Shown, session: Session) -> bool:
     return session.viewport.shows(what)
 

@@ -28,7 +28,7 @@ FILES = sorted(path.name for path in ENSEMBLE.glob("*.mid"))
 def performance(name: str) -> Performance:
     maps = bundled_maps()
     score = read_midi(ENSEMBLE / name, maps=map_choices(maps.values()))
-    project = project_from_score(score, maps, felt_beat_quarters=1.0)
+    project = replace(project_from_score(score, maps), felt_beat_quarters=1.0)
     to_the_letter = tuple(
         msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, breath_need=0.0))
         for player in project.players

@@ -76,6 +76,7 @@ def one_player_one_bar(dialog: ExportDialog) -> None:
     rate = dialog.findChild(QComboBox, "export_rate")
     assert rate is not None
     QTest.keyClick(rate, Qt.Key.Key_Home)
+    QTest.keyClick(rate, Qt.Key.Key_Down)
 
 
 def test_it_exports_into_a_project_and_again(dialog: ExportDialog, game: Path) -> None:

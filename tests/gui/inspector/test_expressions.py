@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QComboBox, QLineEdit, QWidget
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLineEdit, QToolButton, QWidget
 
 from app.project import presets
 from metadata.load import load_expression
@@ -107,3 +107,20 @@ def test_kept_for_other_projects_and_removed_here(panel: InspectorPanel, planned
     click(panel, "expression_duplicate")
     assert [item.name for item in planned.project.expressions] == [name]
     assert planned.project.expressions[0].weights == pytest.approx(load_expression("puffed").weights)
+
+
+def test_what_was_kept_is_deleted_from_the_folder_alone(panel: InspectorPanel, planned: Session) -> None:
+    unfold(panel)
+    choose(panel, "puffed")
+    click(panel, "expression_duplicate")
+    name = planned.project.expressions[0].name
+    click(panel, "expression_keep")
+    click(panel, "expression_remove")
+    choose(panel, name)
+    before, steps = planned.project, planned.document.done
+    click(panel, "expression_remove")
+    assert presets.expressions(presets.expression_folder()).items == {}
+    assert (planned.project, planned.document.done) == (before, steps)
+    remove = panel.findChild(QToolButton, "expression_remove")
+    assert remove is not None
+    assert not remove.isEnabled(), "what comes with the program stays"

@@ -161,7 +161,7 @@ def edit_notes(data: st.DataObject, project: Project) -> Project:
 
 def edit_players(data: st.DataObject, project: Project) -> Project:
     chosen = [a_player(data, project).id]
-    match data.draw(st.integers(0, 11)):
+    match data.draw(st.integers(0, 10)):
         case 0:
             return players.rename(project, chosen[0], data.draw(st.sampled_from(["Anna", "anna", "", "../x"])))
         case 1:
@@ -193,7 +193,7 @@ def edit_dancers(data: st.DataObject, project: Project) -> Project:
     if not project.dancers:
         return dancers.add_dancer(project, "salsa", data.draw(st.sampled_from(["Anna", "trumpet", ""])))[0]
     chosen = [data.draw(st.sampled_from(project.dancers)).id]
-    match data.draw(st.integers(0, 8)):
+    match data.draw(st.integers(0, 7)):
         case 0 if len(project.dancers) < 4:
             return dancers.add_dancer(project, "/dances/a.choreography", "Anna")[0]
         case 1 if len(project.dancers) < 4:
@@ -207,10 +207,8 @@ def edit_dancers(data: st.DataObject, project: Project) -> Project:
             return dancers.move_dancers(project, chosen, data.draw(st.integers(0, len(project.dancers))))
         case 5:
             return dancers.place_dancers(project, {chosen[0]: StagePosition(data.draw(st.floats(-9.0, 9.0)), 3.0, 0.5)})
-        case 6:
-            return dancers.set_choreography(project, chosen, data.draw(st.sampled_from(["waltz", "no such thing"])))
         case _:
-            return generation.vary_dancers(project, chosen)
+            return dancers.set_choreography(project, chosen, data.draw(st.sampled_from(["waltz", "no such thing"])))
 
 
 def correct_dances(data: st.DataObject, project: Project) -> Project:
@@ -219,7 +217,7 @@ def correct_dances(data: st.DataObject, project: Project) -> Project:
     chosen = data.draw(st.sampled_from(project.dancers)).id
     first, length = data.draw(spans)
     index = data.draw(st.integers(0, 3))
-    match data.draw(st.integers(0, 5)):
+    match data.draw(st.integers(0, 4)):
         case 0:
             return dance_corrections.pin_state(project, chosen, first, index)
         case 1:
@@ -227,8 +225,6 @@ def correct_dances(data: st.DataObject, project: Project) -> Project:
         case 2:
             return dance_corrections.forbid_state(project, chosen, first, first + length, index)
         case 3:
-            return dance_corrections.unpin(project, chosen, first, first + length)
-        case 4:
             return dance_corrections.clear(project, chosen)
         case _:
             return dancers.remove_dancers(project, [chosen])

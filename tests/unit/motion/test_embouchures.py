@@ -18,15 +18,16 @@ from app.plan.model import PlayerParameters, PlayerPlan
 from app.rig import quaternion
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.hold_file import hold_for
-from app.rig.instrument import bundled_instrument
 from app.rig.lips import fit_lips, lip_places
 from app.rig.model import Character, Landmark
 from app.rig.skeleton import forward
-from app.rig.skinning import deform, mesh_named, patch
+from app.rig.skinning import mesh_named, patch
 from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Carriage, Embouchure, InstrumentMap
 from metadata.load import load_body
+from tests.support.deformed import deform
+from tests.support.models import bundled_instrument
 from tests.support.plan import PlainClock, line_of, piece_of
 
 FloatArray = npt.NDArray[np.float64]

@@ -16,10 +16,10 @@ from app.plan.model import PlayerParameters
 from app.rig import quaternion
 from app.rig.character_library import character_named
 from app.rig.hold_file import hold_for
-from app.rig.instrument import bundled_instrument
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Carriage, Endpin
 from metadata.load import load_body
+from tests.support.models import bundled_instrument
 from tests.unit.motion.events import fingerings, plan_of
 
 PIN = Endpin(node="pin", axis=(0.0, -1.0, 0.0), tip_m=(0.0, -1.0, 0.3), most_m=0.3)

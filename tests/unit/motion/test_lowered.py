@@ -20,12 +20,13 @@ from app.rig import quaternion, skinning
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.hold import Hold, hand_targets
 from app.rig.hold_file import hold_for
-from app.rig.instrument import bundled_instrument
 from app.rig.model import Character
 from app.rig.skeleton import JointTransforms, forward
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap, Posture
 from metadata.load import load_body, load_skeleton
+from tests.support.deformed import deform
+from tests.support.models import bundled_instrument
 
 CASES = [
     (instrument.id, posture, character)
@@ -195,7 +196,7 @@ Skin = list[tuple[np.ndarray, np.ndarray, np.ndarray]]
 def _skins(character: Character, joints: JointTransforms) -> Iterator[Skin]:
     """The body in every frame."""
     shells = _shells(character)
-    placed = [skinning.deform(shell.skin, joints) for shell in shells]
+    placed = [deform(shell.skin, joints) for shell in shells]
     for frame in range(len(joints.positions_m)):
         skin: Skin = []
         for shell, frames in zip(shells, placed, strict=True):

@@ -24,9 +24,10 @@ from app.project.model import Player, Project, map_choices, project_from_score
 from app.rig import quaternion
 from app.rig.hold import StationTable
 from app.rig.skeleton import forward
-from app.rig.skinning import deform, mesh_named, patch
+from app.rig.skinning import mesh_named, patch
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
+from tests.support.deformed import deform
 from tests.support.performed import in_seventh, player_motion, playing_of
 
 ENSEMBLES = Path(__file__).parents[2] / "data" / "midi" / "ensemble"

@@ -218,8 +218,6 @@ def test_own_expressions_reach_the_performance(project: Project) -> None:
     assert [event.corrected for event in events] == [True]
     assert performance.expressions["angry"] is ANGRY or performance.expressions["angry"] == ANGRY
     assert edit.put_expression(known, ANGRY) is known
-    assert edit.is_shown(known, "angry")
-    assert not edit.is_shown(project, "angry")
 
 
 def test_an_own_expression_may_take_the_place_of_a_bundled_one(project: Project) -> None:

@@ -12,9 +12,10 @@ from app.errors import FileError, UsageError
 from app.rig.character import load_character
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.skeleton import forward, rest_positions
-from app.rig.skinning import deform, patch
+from app.rig.skinning import patch
 from metadata.load import load_skeleton
 from metadata.model import REQUIRED_JOINTS
+from tests.support.deformed import deform
 
 STILL = np.array([0.0, 0.0, 0.0, 1.0])
 

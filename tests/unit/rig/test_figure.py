@@ -25,10 +25,11 @@ from app.rig.landmarks import found_landmarks
 from app.rig.model import Character
 from app.rig.read_figure import read_figure
 from app.rig.skeleton import forward, rest_positions
-from app.rig.skinning import deform, patch
+from app.rig.skinning import patch
 from app.rig.t_pose import turned_figure
 from metadata.load import load_skeleton
 from metadata.model import REQUIRED_JOINTS
+from tests.support.deformed import deform
 from tests.support.estranged import Foreign, foreign, still, write_fbx, write_glb
 
 CLOSE_M = 1e-4

@@ -15,13 +15,15 @@ from app.rig.character_library import bundled_characters, character_named
 from app.rig.finger_poses import finger_rotations
 from app.rig.hold import FingerTable, HandHold, Hold, Placed, giving_for, hand_targets, wrist_given
 from app.rig.hold_file import hold_for
-from app.rig.instrument import bundled_instrument, node_transforms
+from app.rig.instrument import node_transforms
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import JointTransforms, forward
 from app.rig.stations import aside_m, asked_together, only_at, stations, stations_of_notes, worked_by
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Contact, InstrumentMap
 from metadata.load import load_body
+from tests.support.deformed import deform
+from tests.support.models import bundled_instrument
 
 WAITS_MM, WAY_MM = 3.0, 4.0
 """A finger that waits keeps out of the instrument as all of the hand does; on its way it goes by in some hundredths
@@ -140,7 +142,7 @@ def test_a_hand_that_gives_way_for_two_fingers_stays_outside(fingered: Fingered)
         mark = fingered.character.landmarks[f"{hand.side}.hand"]
         mesh = skinning.mesh_named(fingered.character, mark.mesh)
         part = skinning.patch(fingered.character, mesh, mark.vertices)
-        skin = fingered.on_instrument(hand, joints, skinning.deform(part, joints))
+        skin = fingered.on_instrument(hand, joints, deform(part, joints))
         for lean in hand.leans:
             at = np.all([fingered.working[finger] == place for finger, place in lean.places], axis=0)
             for frame in np.flatnonzero(at if lean.beside else at & False):
@@ -203,7 +205,7 @@ def _depths_mm(fingered: Fingered, hand: HandHold, table: FingerTable, raised: f
     mesh = skinning.mesh_named(fingered.character, mark.mesh)
     carried = np.isin(mesh.joints[mark.vertices], table.joints) * mesh.weights[mark.vertices]
     part = skinning.patch(fingered.character, mesh, mark.vertices[carried.sum(axis=1) > 0.5])
-    skin = fingered.on_instrument(hand, joints, skinning.deform(part, joints))
+    skin = fingered.on_instrument(hand, joints, deform(part, joints))
     bodies = proxy.bodies(fingered.instrument.proxy, fingered.model.node_names)
     nodes, turns = node_transforms(fingered.model, fingered.instrument, fingered.controls, len(fingered))
     placed = proxy.Nodes(nodes[0], quaternion.to_matrix(turns[0]))

@@ -14,7 +14,7 @@ from app.rig.finger_poses import finger_rotations
 from app.rig.fit import fit_hold
 from app.rig.hold import HandHold, Hold, Placed, hand_targets
 from app.rig.hold_file import hold_for
-from app.rig.instrument import bundled_instrument, node_transforms, part_transform
+from app.rig.instrument import node_transforms, part_transform
 from app.rig.lips import fit_lips, lip_places
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import JointTransforms, forward
@@ -22,6 +22,8 @@ from app.rig.stations import Station, stations
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Contact, InstrumentMap
 from metadata.load import load_body, load_skeleton
+from tests.support.deformed import deform
+from tests.support.models import bundled_instrument
 
 GRID = np.linspace(0.0, 1.0, 41)
 PAIRS = [(character, instrument) for character in bundled_characters() for instrument in bundled_maps()]
@@ -158,7 +160,7 @@ def test_no_hand_is_inside_the_instrument(held: Held) -> None:
         for hand in held.hold.hands:
             mark = held.character.landmarks[f"{hand.side}.hand"]
             part = skinning.patch(held.character, skinning.mesh_named(held.character, mark.mesh), mark.vertices)
-            skin = _on_instrument(held, hand, transforms, skinning.deform(part, transforms), place)
+            skin = _on_instrument(held, hand, transforms, deform(part, transforms), place)
             for frame in range(0, len(GRID), 4 if place == 0 else 20):
                 placed = proxy.Nodes(nodes[frame], bases[frame])
                 depth, _ = proxy.inside(bodies, placed, skin[frame], np.zeros(len(skin[frame])))

@@ -12,11 +12,11 @@ from app.rig.grip_beside import leans_beside
 from app.rig.grip_lean import whole_hand
 from app.rig.hold import HandHold
 from app.rig.hold_file import hold_for
-from app.rig.instrument import bundled_instrument
 from app.rig.stations import asked_together
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_body
+from tests.support.models import bundled_instrument
 
 
 @pytest.fixture(scope="module")

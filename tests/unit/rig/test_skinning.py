@@ -7,6 +7,7 @@ from app.rig import skinning
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.model import Character
 from app.rig.skeleton import JointTransforms, forward
+from tests.support.deformed import deform
 
 MORPHS = ("jawOpen", "mouthPucker")
 
@@ -47,7 +48,7 @@ def test_vertices_and_morphs_are_where_the_loop_puts_them(posed: tuple) -> None:
     body = skinning.mesh_named(character, "body")
     moved = next(morph for morph in body.morphs if morph.name == "jawOpen")
     vertices = np.unique(np.concatenate([np.arange(0, len(body.positions_m), 401), moved.vertices[::97]]))
-    found = skinning.deform(skinning.patch(character, body, vertices), transforms, morphs)
+    found = deform(skinning.patch(character, body, vertices), transforms, morphs)
     for frame in range(2):
         expected = [_slow(character, "body", int(v), transforms, morphs, frame) for v in vertices]
         np.testing.assert_allclose(found[frame], expected, atol=1e-6)
@@ -60,7 +61,7 @@ def test_a_landmark_is_the_mean_of_its_vertices(posed: tuple) -> None:
     for place, name in enumerate(names):
         mark = character.landmarks[name]
         part = skinning.patch(character, skinning.mesh_named(character, mark.mesh), mark.vertices)
-        mean = skinning.deform(part, transforms, morphs).mean(axis=1)
+        mean = deform(part, transforms, morphs).mean(axis=1)
         np.testing.assert_allclose(found[:, place], mean, atol=1e-9)
 
 

@@ -9,7 +9,6 @@ import pytest
 
 from app.motion.reach import forwards_axis
 from app.rig.character_library import character_named, characters
-from app.rig.instrument import bundled_instrument
 from app.rig.landmarks import found_landmarks
 from app.rig.model import Character
 from app.rig.skeleton import forward
@@ -20,6 +19,7 @@ from instrument_maps.load import bundled_maps
 from instrument_maps.size import scaled
 from metadata.load import load_body
 from tests.support.bodies import BODIES, odd_body
+from tests.support.models import bundled_instrument
 
 MAPS = bundled_maps()
 

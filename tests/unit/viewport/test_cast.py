@@ -12,7 +12,8 @@ from app.performance.bodies import model_of
 from app.rig.instrument import node_transforms
 from app.rig.quaternion import rotate
 from app.rig.skeleton import forward
-from app.rig.skinning import deform, patch
+from app.rig.skinning import patch
+from tests.support.deformed import deform
 from tests.unit.viewport.poses import pose, posed_stage, quartet
 from widgets.viewport.cast import Stage, kit_of, member_of, placed
 from widgets.viewport.contacts import touches

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from app.rig.character_library import bundled_characters, character_named
-from app.rig.instrument import bundled_instrument
 from instrument_maps.load import bundled_maps
+from tests.support.models import bundled_instrument
 from widgets.viewport.geometry import (
     Geometry,
     character_levels,

@@ -26,7 +26,6 @@ from widgets.timeline.model.geometry import Floats, Steps, step_path
 
 CONTROLLERS = ("breath", "bite", "expression", "volume", "aftertouch", "pitch_bend")
 MARGIN_PX = 4.0
-REACH_PX = 8.0
 
 
 class _Curves(LaneItem):

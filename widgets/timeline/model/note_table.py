@@ -13,7 +13,6 @@ from app.score.model import Part
 from app.score.tempo import TempoMap
 
 Floats = npt.NDArray[np.float64]
-Integers = npt.NDArray[np.int64]
 Flags = npt.NDArray[np.bool_]
 
 
