@@ -31,22 +31,20 @@ breath.heard(gap_s): "Heard in the breath: {gap_s} s without blowing."
     Within a note too, which is blown on afterwards.
 breath.heard_preparation(gap_s): "Heard in the breath: {gap_s} s without blowing; getting ready to breathe."
 breath.heard_short(gap_s): "Heard in the breath: {gap_s} s without blowing, where air was needed."
-breath.too_long(note, phrase_s, air_s, lung_s): "From note {note} on, {phrase_s} s must be played on one breath; it
-    takes {air_s} s of air, and there are {lung_s}."
 """
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from typing import NamedTuple
 
 import msgspec
 import numpy as np
 
 from app.errors import Argument, Message
+from app.plan.breath_depths import is_within, too_long, with_depths
 from app.plan.catch_lengths import CATCH_MIN_S, Room, catch_lengths_s, drop_lengths_s
 from app.plan.catch_places import catch_places
-from app.plan.corrections import BY_HAND, WITHIN, Correction, SetBreath, removed_ids, without_removed
+from app.plan.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
 from app.plan.heard import Blown, Silences, gaps_within, silences
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import (
@@ -68,7 +66,6 @@ from app.plan.stagger import ALONE, Shared, within_held
 from app.score.model import Note
 from instrument_maps.model import Air
 
-LEAST_DEPTH = 0.3
 NOBODY = Seeds()
 
 
@@ -132,8 +129,8 @@ def plan_breaths(
     events = tuple(sorted([*kept, *caught], key=lambda event: (event.start_s, event.end_s)))
     early_end_s, cut = _cut_notes(line, events)
     return BreathPlan(
-        events=_with_depths(events, stock.used, score.lung_s, refill, line.index_of),
-        problems=(*cut, *_too_long(notes, times, stock.used, score.lung_s, refill)),
+        events=with_depths(events, stock.used, score.lung_s, refill, line.index_of),
+        problems=(*cut, *too_long(notes, times, stock.used, score.lung_s, refill)),
         generated_ids=frozenset(event.id for event in (*given.generated, *caught)),
         early_end_s=early_end_s,
         catch_notes=frozenset(notes[index].id for index in catches),
@@ -149,7 +146,7 @@ class _Breather(NamedTuple):
     parameters: PlayerParameters
     index_of: dict[str, int]
 
-    def note_of(self, event: BreathEvent) -> int:
+    def number_of(self, event: BreathEvent) -> int:
         """The note that a breath is before, or within."""
         return self.index_of[event.id.split(":", 1)[1]]
 
@@ -274,8 +271,11 @@ def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[
     times, lung_s, count = line.times, score.lung_s, len(line.notes)
     refill, spared_s = np.zeros(count), np.zeros(count)
     for event in (*given.kept, *given.by_hand):
-        index, share = line.note_of(event), max(0.0, drawn(_lasts_s(score, line, event)) * _full(event))
-        if _is_within(event):
+        index, share = (
+            line.number_of(event),
+            max(0.0, drawn(_lasts_s(score, line, event)) * (event.depth if event.corrected else 1.0)),
+        )
+        if is_within(event):
             # Lungs are counted from note to note: such a note takes so much less.
             spared_s[index] += share * lung_s
         elif event.kind == "breath":
@@ -300,8 +300,8 @@ def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[
 
 def _lasts_s(score: _Score, line: _Breather, event: BreathEvent) -> float:
     """How long a breath is, as the score would have it where a rest gives it."""
-    index, length_s = line.note_of(event), event.end_s - event.start_s
-    if index == 0 or event.corrected or score.gaps is not None or _is_within(event):
+    index, length_s = line.number_of(event), event.end_s - event.start_s
+    if index == 0 or event.corrected or score.gaps is not None or is_within(event):
         return length_s
     rest_s = float(score.written.onset_s[index] - score.written.played_end_s[index - 1])
     return min(length_s, rest_s) if rest_s > 0.0 else length_s
@@ -314,10 +314,10 @@ def _spare(
     onset_tick, parameters = line.times.onset_tick, line.parameters
     optional = score.rests < parameters.breath_prepare_beats * line.piece.beat_ticks_at(onset_tick)
     optional[0] = False
-    optional[[line.note_of(event) for event in given.by_hand]] = False
+    optional[[line.number_of(event) for event in given.by_hand]] = False
     needed = needed_rests(steady_used, score.lung_s, refill, optional, parameters.breath_need)
-    kept = [event for event in given.kept if event.kind == "breath" and not _is_within(event)]
-    in_rests = [(line.note_of(event), event) for event in kept]
+    kept = [event for event in given.kept if event.kind == "breath" and not is_within(event)]
+    in_rests = [(line.number_of(event), event) for event in kept]
     return {index: event for index, event in in_rests if not needed[index]}
 
 
@@ -372,7 +372,7 @@ def _cut_notes(line: _Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[i
     early_end_s: dict[int, float] = {}
     problems = []
     for event in events:
-        index = line.note_of(event)
+        index = line.number_of(event)
         before = index - 1
         if event.kind != "breath" or before < 0 or event.start_s >= times.played_end_s[before]:
             continue
@@ -422,61 +422,9 @@ def _catch(line: _Breather, stock: _Stock, index: int) -> BreathEvent:
     )
 
 
-def _is_within(event: BreathEvent) -> bool:
-    return event.id.startswith(f"{WITHIN}:")
-
-
 def _less(used: FloatArray, spared_s: FloatArray) -> FloatArray:
     """(N + 1,): air used by notes that take so much less, at least none."""
     return np.concatenate(([0.0], np.cumsum(np.maximum(np.diff(used) - spared_s, 0.0))))
-
-
-def _full(event: BreathEvent) -> float:
-    return event.depth if event.corrected else 1.0
-
-
-def _with_depths(
-    events: tuple[BreathEvent, ...],
-    used: FloatArray,
-    lung_s: float,
-    refill: FloatArray,
-    index_of: dict[str, int],
-) -> tuple[BreathEvent, ...]:
-    """Depths by what the phrase to come needs, within what the time allows. Those set by hand stay."""
-    breaths, used_s = [*np.flatnonzero(refill > 0.0).tolist(), len(refill)], used.tolist()
-    result = []
-    for event in events:
-        if not event.corrected:
-            index = index_of[event.id.split(":", 1)[1]]
-            until = breaths[bisect_right(breaths, index)]
-            # Within a note nobody knows what the rest of it needs: there the time says it.
-            need = 1.0 if _is_within(event) else (used_s[until] - used_s[index]) / lung_s
-            most = 1.0 if event.kind == "preparation" else drawn(event.end_s - event.start_s)
-            depth = min(max(LEAST_DEPTH + (1.0 - LEAST_DEPTH) * need, LEAST_DEPTH), max(most, LEAST_DEPTH), 1.0)
-            event = msgspec.structs.replace(event, depth=round(depth, 4))
-        result.append(event)
-    return tuple(result)
-
-
-def _too_long(
-    notes: tuple[Note, ...], times: LineTimes, used: FloatArray, lung_s: float, refill: FloatArray
-) -> list[Problem]:
-    level = levels(used, lung_s, refill)
-    starts: IntArray = np.unique(np.concatenate(([0], np.flatnonzero(refill > 0.0))))
-    ends = np.append(starts[1:], len(notes))
-    problems = []
-    for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
-        air_s = float(used[end] - used[start])
-        if air_s > level[start] * lung_s + EPSILON:
-            start_s, end_s = float(times.onset_s[start]), float(times.played_end_s[end - 1])
-            arguments = {
-                "note": notes[start].id,
-                "phrase_s": round(end_s - start_s, 2),
-                "air_s": round(air_s, 2),
-                "lung_s": round(float(level[start]) * lung_s, 2),
-            }
-            problems.append(Problem(Message("breath.too_long", arguments), notes[start].id, start_s, end_s))
-    return problems
 
 
 def _by_hand(item: SetBreath, times: LineTimes, index: int, piece: Piece) -> BreathEvent:
