@@ -11,7 +11,7 @@ from app.plan.catch_lengths import Room
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import EPSILON, FULL_BREATH_S, HASTY_SHARE
 from app.plan.model import FloatArray
-from app.plan.phrase_ends import place_costs
+from app.plan.phrase_ends import place_costs, slur_costs
 from app.score.model import Note
 
 EARLY_COST = 1.0
@@ -91,7 +91,8 @@ def catch_places(
         if not is_enough and len(also):
             # As good as a breath before the notes that are left out, but for these.
             dropped = room.dropped[also]
-            cost[also] = place_costs(notes, times, piece, rests, also - dropped, taken, seeds) + DROPPED_COST * dropped
+            cost[also] = place_costs(notes, times, piece, rests, also - dropped, taken, seeds)
+            cost[also] += DROPPED_COST * dropped + slur_costs(times, rests, also)
             found, _ = chain(start, end, (open_ | dropping) & may)
         result += found
     return result

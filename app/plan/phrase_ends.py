@@ -95,7 +95,7 @@ def place_costs(
     good += SHORTER * np.clip(np.log2(np.maximum(before, EPSILON) / np.maximum(duration[at], EPSILON)), 0.0, 2.0)
     good += LEAP * times.leaps[at - 1]
     good += SILENCE * (times.silence_tick[at] > 0)
-    good += SLURRED * (1.0 - _legato(times, rests)) * times.slurs_next[at - 1]
+    good -= slur_costs(times, rests, at)
     good += BEFORE_REST * (~rest & _rest_follows(rests, onsets, at, beat))
     taken_share = (CATCH_MIN_S - gaps_s(times)[at]) / np.maximum(before, EPSILON)
     good += CLIPPED * np.clip(taken_share / CATCH_NOTE_SHARE - 1.0, 0.0, 1.0)
@@ -103,6 +103,11 @@ def place_costs(
     good += JITTER * seeds.chances_at("catch", onset, (2 * PLACES * onset + quarter) // (2 * quarter))
     good -= TAKEN_COST * np.array([notes[index].id in taken for index in at.tolist()])
     return np.asarray(np.maximum(PLACE_COST - good, LEAST_COST), dtype=np.float64)
+
+
+def slur_costs(times: LineTimes, rests: IntArray, at: IntArray) -> FloatArray:
+    """(K,): what a breath before each of the notes ``at`` costs for the slur that leads to it."""
+    return np.asarray(-SLURRED * (1.0 - _legato(times, rests)) * times.slurs_next[at - 1], dtype=np.float64)
 
 
 def _legato(times: LineTimes, rests: IntArray) -> float:

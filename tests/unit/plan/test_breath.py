@@ -246,6 +246,21 @@ def test_in_endless_quick_notes_weak_notes_are_left_out(bpm: float, left_out: in
     assert played.end_s > played.start_s
 
 
+def test_no_note_is_left_out_of_a_slur() -> None:
+    # Four slurred sixteenths, four tongued ones, and so on: breaths come among the tongued.
+    notes = line_of(
+        *(
+            (index * Q // 4, Q // 4 + (10 if index % 8 < 3 else -10 if index % 8 > 3 else -8), 60 + index % 5)
+            for index in range(320)
+        )
+    )
+    made = plan(notes, PlainClock(((0, 108.0),)))
+    caught = [event for event in made.breaths if event.reason.id.startswith("breath.catch_dropped")]
+    assert caught
+    number = {note.id: index for index, note in enumerate(notes)}
+    assert all(number[event.id.removeprefix("breath:")] % 8 not in {1, 2, 3, 4} for event in caught)
+
+
 @pytest.mark.parametrize("bpm", [66.0, 96.0, 120.0, 144.0, 180.0])
 def test_no_breath_is_a_gasp_while_another_place_or_a_note_left_out_gives_air(bpm: float) -> None:
     # Two bars of running notes, and one with a short rest; and again.
