@@ -19,7 +19,7 @@ from widgets.common.instrument_name import instrument_name
 from widgets.common.pitch import pitch_text
 from widgets.common.session import Session
 
-NOTES = frozenset({"note", "other", "after_note", "anchor"})
+NOTES = frozenset({"note", "other", "first_note", "after_note", "anchor"})
 """Arguments that name a note by its id; an anchor may also be an event or a name."""
 
 

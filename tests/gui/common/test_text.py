@@ -69,6 +69,13 @@ def test_a_note_of_another_player_is_found(session: Session) -> None:
     assert message_text(message, session, other.id) == told
 
 
+def test_both_notes_that_are_left_out_for_a_breath_are_told_by_place(session: Session, note: Note) -> None:
+    left_out = {"first_note": note.id, "after_note": note.id, "phrase_s": 20.0, "lung_s": 9.0}
+    told = message_text(Message("breath.catch_dropped_two", left_out), session)
+    assert told.count("(bar 2, beat 2)") == 2
+    assert note.id not in told
+
+
 def test_an_edited_part_is_read_anew(session: Session, note: Note) -> None:
     assert session.player is not None
     message = Message("breath.inside_note", {"note": note.id})
