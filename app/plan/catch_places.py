@@ -124,16 +124,21 @@ def _cheapest_chain(
     origin = np.zeros(last + 1, dtype=np.int64)
     # No lungful reaches further back than this; where it does not even reach the place before, that one has to do.
     reach = np.minimum(np.searchsorted(used, used - lung_s - EPSILON), np.arange(last + 1) - 1)
-    for node in range(1, last + 1):
-        back = int(reach[node])
+    # From here on so little is used up since that the breath is hasty.
+    hasty_s = HASTY_SHARE * lung_s
+    hasty = np.searchsorted(used, used - hasty_s, side="right").tolist()
+    for node, back in enumerate(reach.tolist()[1:], 1):
         needed = used[node] - used[back:node]
         left_s = air_s[back:node] - needed
-        ways = total[back:node] + np.where(left_s < -EPSILON, TOO_LONG_COST * (1.0 - left_s), 0.0)
-        left_s = np.maximum(left_s, 0.0)
-        ways += HASTY_COST * np.maximum(1.0 - needed / (HASTY_SHARE * lung_s), 0.0)
+        ways = total[back:node].copy()
+        late = max(hasty[node], back)
+        ways[late - back :] += HASTY_COST * np.maximum(1.0 - needed[late - back :] / hasty_s, 0.0)
+        if left_s.min() < 0.0:
+            ways += np.where(left_s < -EPSILON, TOO_LONG_COST * (1.0 - left_s), 0.0)
+            np.maximum(left_s, 0.0, out=left_s)
         if node < last:
-            ways += cost[node - 1] + EARLY_COST * np.square(left_s / lung_s)
-        best = int(np.argmin(ways))
+            ways += cost[node - 1] + (EARLY_COST / lung_s**2) * left_s * left_s
+        best = int(ways.argmin())
         origin[node], total[node] = back + best, ways[best]
         if node < last:
             air_s[node] = min(left_s[best] + drawn_s[node - 1], lung_s)
