@@ -18,8 +18,9 @@ class Keyed(Protocol):
     """What has rows of pitches beside the keyboard."""
 
     session: Session
-    header: QWidget
 
+    @property
+    def header(self) -> QWidget: ...
     @property
     def row_px(self) -> float: ...
     @property

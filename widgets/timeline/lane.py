@@ -6,39 +6,32 @@ the hooks.
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
-    QColor,
     QKeyEvent,
     QMouseEvent,
-    QPalette,
     QWheelEvent,
 )
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QMenu,
-    QSizePolicy,
-    QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
 from app.plan.model import PlayerPlan
 from app.project.document import Change
 from app.project.model import Player
-from widgets.common.plain import Label
 from widgets.common.selection import Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.hands import mouse_at
+from widgets.timeline.lane_header import GUTTER_PX, LaneHeader
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.lines import Lines
 from widgets.timeline.plot import Background, LaneItem, Plot
 
 __all__ = ["FOLDED_PX", "GUTTER_PX", "Lane", "LaneItem", "LaneMouse"]
 
-GUTTER_PX = 144
-"""Width of the header of every lane."""
 FOLDED_PX = 26
 AUTOSCROLL_MS = 30
 AUTOSCROLL_SHARE = 0.02
@@ -94,34 +87,10 @@ class Lane(QWidget):
         self._last: QMouseEvent | None = None
         self._selected = session.selection
 
-        self.header = QWidget(self)
-        self.header.setFixedWidth(GUTTER_PX)
-        self.header.setAutoFillBackground(True)
-        self.fold_button = QToolButton(self.header)
-        self.fold_button.setObjectName("fold")
-        self.fold_button.setAutoRaise(True)
-        self.fold_button.setFixedSize(QSize(24, 24))
-        self.fold_button.setArrowType(Qt.ArrowType.DownArrow)
+        self.header = LaneHeader(self)
+        self.fold_button, self.title = self.header.fold_button, self.header.title
+        self.title_row, self.controls = self.header.title_row, self.header.controls
         self.fold_button.clicked.connect(self._toggle_fold)
-        self._name_fold()
-        self.title = Label(parent=self.header)
-        self.title.setObjectName("lane_title")
-        self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self.title_row = QHBoxLayout()
-        self.title_row.setContentsMargins(0, 0, 0, 0)
-        self.title_row.setSpacing(2)
-        self.title_row.addWidget(self.fold_button)
-        self.title_row.addWidget(self.title, 1)
-        self.controls = QVBoxLayout()
-        """Below the title: a lane's own small controls go here."""
-        self.controls.setContentsMargins(4, 0, 4, 2)
-        self.controls.setSpacing(2)
-        column = QVBoxLayout(self.header)
-        column.setContentsMargins(2, 1, 4, 0)
-        column.setSpacing(0)
-        column.addLayout(self.title_row)
-        column.addLayout(self.controls)
-        column.addStretch(1)
 
         self.plot = Plot(self, self)
         row = QHBoxLayout(self)
@@ -257,23 +226,11 @@ class Lane(QWidget):
             return
         self._folded = folded
         self.plot.setVisible(not folded)
-        for index in range(self.controls.count()):
-            item = self.controls.itemAt(index)
-            widget = item.widget() if item else None
-            if widget is not None:
-                widget.setVisible(not folded)
-        self.fold_button.setArrowType(Qt.ArrowType.RightArrow if folded else Qt.ArrowType.DownArrow)
+        self.header.show_folded(folded)
         self.setMinimumHeight(FOLDED_PX if folded else self.least_height_px)
         self.setMaximumHeight(FOLDED_PX if folded else 16777215)
-        self._name_fold()
+        self.header.name_fold(folded)
         self.fold_changed.emit()
-
-    def _name_fold(self) -> None:
-        text = (
-            QCoreApplication.translate("Lane", "Unfold") if self._folded else QCoreApplication.translate("Lane", "Fold")
-        )
-        self.fold_button.setToolTip(text)
-        self.fold_button.setAccessibleName(text)
 
     def ask_height(self, preferred_px: int, least_px: int) -> None:
         """Ask for another height; one that a person set stays."""
@@ -421,19 +378,15 @@ class Lane(QWidget):
         self.update_items()
 
     def _paint_surfaces(self) -> None:
-        tokens = self.session.tokens
         self.plot.redraw()
-        palette = self.header.palette()
-        palette.setColor(QPalette.ColorRole.Window, QColor(tokens.surface))
-        palette.setColor(QPalette.ColorRole.WindowText, QColor(tokens.text))
-        self.header.setPalette(palette)
+        self.header.paint_surface(self.session.tokens)
 
     # Qt overrides
 
     def changeEvent(self, event: QEvent) -> None:
         if event.type() == QEvent.Type.LanguageChange:
             self.retranslate()
-            self._name_fold()
+            self.header.name_fold(self._folded)
         elif event.type() == QEvent.Type.FontChange:
             # The plot's own font may be another, and stay.
             self.update_items()

@@ -7,7 +7,7 @@ from operator import is_
 
 import numpy as np
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.errors import Message
@@ -30,7 +30,8 @@ from widgets.common.plain import verbatim
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.drawing import draw_columns, draw_mark, draw_path, draw_rects, draw_text, polygon, shade
+from widgets.timeline.drawing import draw_columns, draw_mark, draw_rects, shade
+from widgets.timeline.lanes.acting_drawing import ActingPainter
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.model.acting import (
@@ -51,12 +52,9 @@ from widgets.timeline.model.acting import (
 from widgets.timeline.model.geometry import Floats
 from widgets.timeline.model.hand import Box, LaneMouse
 from widgets.timeline.model.region import Region
-from widgets.timeline.model.regions import HANDLE_PX
 
 BASE_PX = 5.0
 NEW_BEATS = 2
-LEAST_SHAPE_PX = 6.0
-"""Something narrower is a bar: nobody sees its fades."""
 CUE_REACH_PX = 10.0
 """A cue that is dragged this close to an entry belongs to it."""
 
@@ -80,6 +78,7 @@ class ActingLane(RegionLane):
         """Regions of gestures, by the identity of the event."""
         self._groups_known: dict[tuple[str, ...], tuple[TempoMap, list[Region], tuple[list[int], int]]] = {}
         """What stood in a group's rows, and in which."""
+        self._painter = ActingPainter(self)
         super().__init__(session, axis, parent)
         self._names = RowNames(self, self.row_names)
         self.retranslate()
@@ -249,117 +248,28 @@ class ActingLane(RegionLane):
             painter.setPen(QPen(shade(tokens.line_strong, 120), 1.0))
             painter.drawLine(QPointF(exposed.left(), middle), QPointF(exposed.right(), middle))
             if kind == "sway":
-                self._paint_sway(painter, x0, x1, middle - y, shade(colour, 170))
+                self._painter.paint_sway(painter, x0, x1, middle - y, shade(colour, 170))
             elif len(x0) > exposed.width():
                 draw_columns(painter, exposed, x0, x1, middle - y, middle, shade(colour, 90))
             else:
                 draw_rects(painter, x0, np.minimum(middle, middle - y), np.maximum(x1 - x0 - 1.0, 1.0),
                            np.maximum(np.abs(y), 1.0), shade(colour, 90))  # fmt: skip
 
-    def _paint_sway(self, painter: QPainter, x0: Floats, x1: Floats, y: Floats, colour: QColor) -> None:
-        """From side to side, at rest where it turns."""
-        if not len(x0):
-            return
-        if len(x0) > self.plot_rect.width() / 3:
-            draw_columns(painter, self.plot_rect, x0, x1, y, None, colour)
-            return
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
-        before = np.concatenate((y[:1], y[:-1]))
-        steps = 1 if np.median(x1 - x0) < 6.0 else 10
-        share = np.arange(1, steps + 1) / steps
-        eased = 0.5 - 0.5 * np.cos(np.pi * share) if steps > 1 else share
-        x = (x0[:, None] + (x1 - x0)[:, None] * share).ravel()
-        points = np.stack((x, (before[:, None] + (y - before)[:, None] * eased).ravel()), axis=1)
-        draw_path(painter, points, QPen(colour, 1.2))
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-
     def paint_region(self, painter: QPainter, region: Region, box: QRectF, selected: bool) -> None:
         tokens, project = self.session.tokens, self.session.project
         colour = tokens.accent if selected else self.session.colour(project.player(region.player_id))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
         if region.kind == "cue":
-            self._paint_cue(painter, region, box, colour)
+            self._painter.paint_cue(painter, region, box, colour)
         elif region.kind == VARIED:
-            self._paint_varied(painter, region, box, colour, selected)
+            self._painter.paint_varied(painter, region, box, colour, selected)
         elif region.kind in STRIPS:
-            self._paint_bar(painter, region, box, colour, selected)
+            self._painter.paint_bar(painter, region, box, colour, selected)
         else:
-            self._paint_span(painter, region, box, colour, selected)
+            self._painter.paint_span(painter, region, box, colour, selected)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
         if region.by_hand:
             draw_mark(painter, tokens, box.left() + 1.0, box.top() + 1.0)
-
-    def _paint_cue(self, painter: QPainter, region: Region, box: QRectF, colour: str) -> None:
-        tokens = self.session.tokens
-        peak = min(max(self.axis.x_px(region.peak_s), box.left()), box.right())
-        outline = [(box.left(), box.bottom()), (peak, box.top() + 2.0), (box.right(), box.bottom())]
-        painter.setPen(QPen(QColor(colour), 1.4, Qt.PenStyle.DotLine if region.guest else Qt.PenStyle.SolidLine))
-        painter.setBrush(Qt.BrushStyle.NoBrush if region.guest else QColor(shade(colour, 90)))
-        painter.drawPolygon(QPolygonF([QPointF(x, y) for x, y in outline]))
-        painter.drawLine(QPointF(box.right(), box.top()), QPointF(box.right(), box.bottom()))
-        if box.width() < LEAST_SHAPE_PX:
-            return
-        painter.setPen(QColor(tokens.text_dim if region.guest else tokens.text))
-        draw_text(painter, QRectF(box.right() + 4.0, box.top(), 130.0, box.height()), region.label)
-
-    def _paint_varied(self, painter: QPainter, region: Region, box: QRectF, colour: str, selected: bool) -> None:
-        painter.setPen(QPen(QColor(colour), 1.6 if selected else 1.0))
-        painter.setBrush(shade(colour, 110 if selected else 60))
-        painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 2.0, 2.0)
-        painter.setPen(QColor(self.session.tokens.text))
-        inside = QRectF(QPointF(max(box.left(), 0.0), box.top()), box.bottomRight())
-        draw_text(painter, inside.adjusted(10.0, 0.0, -4.0, 0.0), region.label)
-
-    def _paint_bar(self, painter: QPainter, region: Region, box: QRectF, colour: str, selected: bool) -> None:
-        middle = box.center().y()
-        end = middle - region.amount * (box.height() / 2 - 1.0)
-        bar = QRectF(QPointF(box.left(), min(middle, end)), QPointF(box.right() - 1.0, max(middle, end)))
-        painter.setPen(QPen(QColor(colour), 1.0))
-        painter.setBrush(shade(colour, 60 if region.kind == "sway" else 120))
-        painter.drawRect(bar)
-        if selected:
-            painter.setPen(QPen(QColor(colour), 1.0, Qt.PenStyle.DotLine))
-            painter.setBrush(shade(colour, 26))
-            painter.drawRect(box.adjusted(0.5, 0.5, -0.5, -0.5))
-        if box.width() > 46.0:
-            painter.setPen(QColor(self.session.tokens.text))
-            draw_text(painter, box.adjusted(10.0, 0.0, -2.0, 0.0), f"{region.amount:+.2f}".replace("-", "−"))
-
-    def _paint_span(self, painter: QPainter, region: Region, box: QRectF, colour: str, selected: bool) -> None:
-        """A trapezoid as high as it is strong, with its fades as slopes."""
-        tokens, scale = self.session.tokens, self.axis.px_per_s
-        if box.width() < LEAST_SHAPE_PX:
-            top = box.bottom() - max(box.height() * region.amount, 3.0)
-            painter.fillRect(QRectF(QPointF(box.left(), top), box.bottomRight()), shade(colour, 140))
-            return
-        if region.event_id == BASE:
-            painter.fillRect(box.adjusted(0.0, 1.0, 0.0, 0.0), shade(colour, 190 if selected else 60))
-            return
-        left, right = box.left(), box.right()
-        if region.fades_outside:
-            left, right = left - region.fade_in_s * scale, right + region.fade_out_s * scale
-        fade_in = min(region.fade_in_s * scale, right - left)
-        fade_out = min(region.fade_out_s * scale, right - left - fade_in)
-        top = box.bottom() - max(box.height() * region.amount, 3.0)
-        corners = np.array(
-            [(left, box.bottom()), (left + fade_in, top), (right - fade_out, top), (right, box.bottom())]
-        )
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(shade(colour, 34))
-        painter.drawRoundedRect(box, 3.0, 3.0)
-        painter.setPen(QPen(QColor(colour), 1.6 if selected else 1.0))
-        painter.setBrush(shade(colour, 130 if selected or region.by_hand else 85))
-        painter.drawPolygon(polygon(corners))
-        if selected and region.fades:
-            painter.setBrush(QColor(tokens.surface))
-            for _, handle in self.fade_handles(region, box):
-                painter.drawEllipse(handle, HANDLE_PX - 1.0, HANDLE_PX - 1.0)
-        painter.setPen(QColor(tokens.text))
-        number = "" if region.steady or region.amount >= 1.0 else f" {region.amount:.2f}"
-        indent = 10.0 if region.by_hand else 5.0
-        # The name of what begins before the left edge stays in sight.
-        inside = QRectF(QPointF(max(box.left(), 0.0), box.top()), box.bottomRight())
-        draw_text(painter, inside.adjusted(indent, 0.0, -4.0, 0.0), region.label + number)
 
     # Hands on it
 

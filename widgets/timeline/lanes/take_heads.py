@@ -35,8 +35,8 @@ DRAG_PX: Final = 6.0
 class Headed(TakesView, Protocol):
     """What the heads of takes stand beside, and what they do with it."""
 
-    header: QWidget
-
+    @property
+    def header(self) -> QWidget: ...
     @property
     def folded(self) -> bool: ...
     @property

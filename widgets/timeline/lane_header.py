@@ -1,0 +1,68 @@
+"""The header of a lane: its title, the button that folds it, and its own small controls."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QCoreApplication, QSize, Qt
+from PySide6.QtGui import QColor, QPalette
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+
+from widgets.common.plain import Label
+from widgets.common.tokens import Tokens
+
+GUTTER_PX = 144
+"""Width of the header of every lane."""
+
+
+class LaneHeader(QWidget):
+    """At the left of a lane."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setFixedWidth(GUTTER_PX)
+        self.setAutoFillBackground(True)
+        self.fold_button = QToolButton(self)
+        self.fold_button.setObjectName("fold")
+        self.fold_button.setAutoRaise(True)
+        self.fold_button.setFixedSize(QSize(24, 24))
+        self.fold_button.setArrowType(Qt.ArrowType.DownArrow)
+        self.name_fold(False)
+        self.title = Label(parent=self)
+        self.title.setObjectName("lane_title")
+        self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.title_row = QHBoxLayout()
+        self.title_row.setContentsMargins(0, 0, 0, 0)
+        self.title_row.setSpacing(2)
+        self.title_row.addWidget(self.fold_button)
+        self.title_row.addWidget(self.title, 1)
+        self.controls = QVBoxLayout()
+        """Below the title: a lane's own small controls go here."""
+        self.controls.setContentsMargins(4, 0, 4, 2)
+        self.controls.setSpacing(2)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(2, 1, 4, 0)
+        column.setSpacing(0)
+        column.addLayout(self.title_row)
+        column.addLayout(self.controls)
+        column.addStretch(1)
+
+    def name_fold(self, folded: bool) -> None:
+        """Say what the button does."""
+        text = QCoreApplication.translate("Lane", "Unfold") if folded else QCoreApplication.translate("Lane", "Fold")
+        self.fold_button.setToolTip(text)
+        self.fold_button.setAccessibleName(text)
+
+    def show_folded(self, folded: bool) -> None:
+        """Show the controls only where there is room."""
+        for index in range(self.controls.count()):
+            item = self.controls.itemAt(index)
+            widget = item.widget() if item else None
+            if widget is not None:
+                widget.setVisible(not folded)
+        self.fold_button.setArrowType(Qt.ArrowType.RightArrow if folded else Qt.ArrowType.DownArrow)
+
+    def paint_surface(self, tokens: Tokens) -> None:
+        """Take the theme's colours."""
+        palette = self.palette()
+        palette.setColor(QPalette.ColorRole.Window, QColor(tokens.surface))
+        palette.setColor(QPalette.ColorRole.WindowText, QColor(tokens.text))
+        self.setPalette(palette)
