@@ -1,0 +1,148 @@
+"""Makes the generated files again that are committed, in the order in which one is made from another.
+
+    python -m resources.build.build_all [STEP ...] [--characters-python PYTHON] [--soundfont FluidR3_GM.sf2]
+
+Run from the repository, in the environment of the tests. Without steps: all of them. A step that lacks what it needs
+is left out and said to be: the characters want a Python with anny, the soundfont its source (`README.md` tells how to
+get both), the pictures a display or ``xvfb-run``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+SCREEN = ("xvfb-run", "-a", "-s", "-screen 0 3840x2160x24")
+
+
+@dataclass(frozen=True)
+class Step:
+    """Something that is made.
+
+    Attributes
+    ----------
+    name : str
+    files : tuple of str
+        What it writes, as patterns from the repository's root; what else lies in these folders is written by people.
+    commands : callable
+        From the arguments to the commands that make it, without the Python; an empty answer: something is missing.
+    needs : str
+        What to say then.
+    python : callable
+        From the arguments to the Python that runs them.
+    seen : bool
+        Whether it needs a display.
+    """
+
+    name: str
+    files: tuple[str, ...]
+    commands: Callable[[argparse.Namespace], tuple[tuple[str, ...], ...]]
+    needs: str = ""
+    python: Callable[[argparse.Namespace], str] = lambda arguments: sys.executable
+    seen: bool = False
+
+
+def _modules(*names: str) -> Callable[[argparse.Namespace], tuple[tuple[str, ...], ...]]:
+    return lambda arguments: tuple(("-m", *name.split()) for name in names)
+
+
+STEPS = (
+    Step(
+        "characters",
+        ("resources/characters/*.glb",),
+        lambda arguments: (
+            (("resources/build/build_characters.py",),) if arguments.characters_python is not None else ()
+        ),
+        "--characters-python: a Python with anny",
+        lambda arguments: str(arguments.characters_python),
+    ),
+    Step(
+        "instruments",
+        ("resources/instruments/*.glb", "instrument_maps/*.toml"),
+        _modules("resources.build.build_instruments"),
+    ),
+    Step("holds", ("resources/holds/*.json",), _modules("resources.build.build_holds")),
+    Step(
+        "examples",
+        ("resources/examples/*.mid",),
+        _modules("resources.build.arrange_example", "resources.build.compose_dance_example"),
+    ),
+    Step(
+        "soundfont",
+        ("resources/soundfont/winds.sf2",),
+        lambda arguments: (
+            (("-m", "resources.build.build_soundfont", str(arguments.soundfont)),)
+            if arguments.soundfont is not None
+            else ()
+        ),
+        "--soundfont: FluidR3_GM.sf2",
+    ),
+    Step("icons", ("resources/icons/*.svg",), _modules("resources.build.build_icons")),
+    Step(
+        "translations",
+        ("resources/translations/*.ts", "resources/translations/*.qm"),
+        _modules("resources.build.build_translations"),
+    ),
+    Step("licences", ("docs/licences.md",), _modules("resources.build.build_licences")),
+    Step(
+        "pictures",
+        ("docs/*.png", "docs/pictures/*.png"),
+        _modules(
+            "resources.build.build_pictures",
+            "tests.support.character_pictures docs/pictures",
+            "tests.support.recording_pictures",
+            "tests.support.unreal_pictures",
+        ),
+        "a display, or xvfb-run",
+        seen=True,
+    ),
+)
+
+
+def main(texts: list[str] | None = None) -> int:
+    """Make what is named; 1 where a step failed, and none after it."""
+    parser = argparse.ArgumentParser(description="Makes the generated files again that are committed.")
+    parser.add_argument("steps", nargs="*", metavar="STEP", help=", ".join(step.name for step in STEPS))
+    parser.add_argument(
+        "--characters-python", type=Path, help="of the environment that resources/build/README.md sets up"
+    )
+    parser.add_argument("--soundfont", type=Path, help="FluidR3_GM.sf2")
+    arguments = parser.parse_args(texts)
+    unknown = set(arguments.steps) - {step.name for step in STEPS}
+    if unknown:
+        parser.error(f"there is no step {', '.join(sorted(unknown))}")
+    left_out = []
+    for step in STEPS:
+        if arguments.steps and step.name not in arguments.steps:
+            continue
+        before = _display() if step.seen else ()
+        commands = step.commands(arguments)
+        if not commands or before is None:
+            left_out.append(f"{step.name}: needs {step.needs}")
+            continue
+        for command in commands:
+            print(f"{step.name}: {' '.join(command)}", flush=True)
+            done = subprocess.run((*before, step.python(arguments), *command), cwd=ROOT, check=False)
+            if done.returncode:
+                print(f"{step.name}: failed")
+                return 1
+    print(*(f"left out: {text}" for text in left_out), sep="\n")
+    return 0
+
+
+def _display() -> tuple[str, ...] | None:
+    """What goes before a command that draws; None: there is no screen to draw on."""
+    if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or sys.platform != "linux":
+        return ()
+    return SCREEN if shutil.which(SCREEN[0]) else None
+
+
+if __name__ == "__main__":
+    sys.exit(main())
