@@ -90,11 +90,6 @@ class RecorderLink:
         """The port that is listened to, or as soon as it is there."""
         return self._open.port if self._open is not None else None
 
-    @property
-    def is_recording(self) -> bool:
-        """Whether a journal runs, or is not yet finished."""
-        return self._take is not None
-
     def open(self, port: str | None) -> None:
         """Listen to a port, and again whenever it comes back: `Opened`, `Refused`, `Lost`, `Back`."""
         with self._lock:

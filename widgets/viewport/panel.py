@@ -150,11 +150,6 @@ class ViewportPanel(QWidget):
         stage, row = self.scene.stage, self._pointer.hovered if self._pointer is not None else None
         return None if stage is None or row is None else stage.members[row].player_id
 
-    def player_at(self, x_px: float, y_px: float) -> str | None:
-        """Id of the player or dancer under a point of the picture."""
-        row = self._pointer.row_at(QPointF(x_px, y_px)) if self._pointer is not None else None
-        return None if row is None or self.scene.stage is None else self.scene.stage.members[row].player_id
-
     def canvas_widget(self) -> QWidget | None:
         """The widget that is drawn in; None without GL."""
         native: QWidget | None = self._canvas.native if self._canvas is not None else None

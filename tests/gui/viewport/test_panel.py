@@ -410,9 +410,8 @@ def test_who_is_under_the_pointer_is_known(viewport: ViewportPanel, session: Ses
     assert canvas(viewport).cursor().shape() == Qt.CursorShape.PointingHandCursor
     send(canvas(viewport), QEvent.Type.MouseMove, QPointF(3, 3), Qt.MouseButton.NoButton)
     assert viewport.hovered is None
-    assert viewport.player_at(3.0, 3.0) is None
-    place = place_of(viewport, 0)
-    assert viewport.player_at(place.x(), place.y()) == session.project.players[0].id
+    send(canvas(viewport), QEvent.Type.MouseMove, place_of(viewport, 0), Qt.MouseButton.NoButton)
+    assert viewport.hovered == session.project.players[0].id
 
 
 @pytest.fixture
