@@ -60,8 +60,9 @@ from app.plan.lungs import (
     where_short,
     with_circular_breathing,
 )
-from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, Problem, TimeFrame
+from app.plan.model import BreathEvent, FloatArray, Note, Problem, TimeFrame
 from app.plan.notation import at_score_tempo, notated
+from app.plan.parameters import PlayerParameters
 from app.plan.rests import rest_ticks
 from app.plan.stagger import ALONE, Shared, within_held
 from instrument_maps.model import Air

@@ -34,6 +34,7 @@ from app.plan.corrections import BY_HAND, RemoveEvent, SetBreath, SetCue, remove
 from app.plan.dynamics import vigour_of
 from app.plan.line import IntArray, Line, LineTimes, Piece
 from app.plan.model import CueEvent, FloatArray, TimeFrame
+from app.plan.parameters import deciding
 from instrument_maps.vocabulary import vocabulary
 
 COMMON_REST_BARS = 2
@@ -314,7 +315,7 @@ def cue_inputs(lines: tuple[Line, ...]) -> tuple[object, ...]:
             line.player_id,
             line.notes,
             line.instrument_map.id,
-            line.parameters.cue_leader,
+            deciding(line.parameters, "cues"),
             tuple(item for item in line.corrections if isinstance(item, SetCue | RemoveEvent | SetBreath)),
         )
         for line in lines

@@ -14,7 +14,8 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.line import MEZZOFORTE, LineTimes
-from app.plan.model import EmbouchureEvent, FingeringEvent, FloatArray, Note, PlayerParameters, TongueEvent
+from app.plan.model import EmbouchureEvent, FingeringEvent, FloatArray, Note, TongueEvent
+from app.plan.parameters import PlayerParameters
 from instrument_maps.model import InstrumentMap
 
 TONGUE_S = 0.0345

@@ -41,6 +41,7 @@ from app.plan.heard import blown
 from app.plan.line import Line, LineTimes, Piece, Seeds, line_times
 from app.plan.memo import Memo
 from app.plan.model import Clock, CueEvent, PlayerPlan, Problem, TimeFrame
+from app.plan.parameters import deciding
 from app.plan.pose import plan_poses
 from app.plan.stagger import Breathed, Shared, SharedLine, breathed_of, shared_line, shared_with
 from app.plan.together import one_at_a_time
@@ -49,16 +50,6 @@ from metadata.load import load_expressions
 from metadata.model import Expression
 
 __all__ = ["EnsemblePlan", "Line", "Piece", "make_plans", "plan_ensemble", "time_frame"]
-
-BREATH_PARAMETERS = (
-    "breath_min_beats",
-    "breath_last_beat_beats",
-    "breath_prepare_beats",
-    "breath_need",
-    "lung_s",
-    "circular_breathing",
-)
-"""Parameters that the breaths look at."""
 
 PREROLL_BEATS = 4.0
 PREROLL_LEAST_S = 2.0
@@ -277,7 +268,7 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, Breathed]:
         *breath_inputs(notes, times),
         piece,
         instrument.air,
-        tuple(getattr(parameters, name) for name in BREATH_PARAMETERS),
+        deciding(parameters, "breaths"),
         frame,
         of(SetBreath, RemoveEvent, SetCue),
         shared,
@@ -292,7 +283,7 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, Breathed]:
         ),
         *sound,
         instrument,
-        parameters.embouchure_tension,
+        deciding(parameters, "lips"),
         early_end_s,
         of(SetEmbouchure),
         steps is not None,
@@ -303,7 +294,7 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, Breathed]:
         *sound,
         clock,
         instrument,
-        parameters.embouchure_tension,
+        deciding(parameters, "lips"),
         line.heard,
         heard,
         of(SetEmbouchure),
@@ -353,7 +344,7 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, Breathed]:
         lambda: plan_poses(corrections, instrument, parameters, clock),
         of(PoseCorrection),
         instrument,
-        parameters.posture,
+        deciding(parameters, "poses"),
         clock,
     )
     lost = memo.step(

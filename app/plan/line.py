@@ -12,7 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.plan.corrections import Correction
-from app.plan.model import Clock, FloatArray, Metre, Note, PlayerParameters
+from app.plan.model import Clock, FloatArray, Metre, Note
+from app.plan.parameters import PlayerParameters
 from instrument_maps.model import InstrumentMap
 
 IntArray = npt.NDArray[np.int64]

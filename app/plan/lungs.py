@@ -10,8 +10,9 @@ import numpy.typing as npt
 from app.plan.dynamics import mean_around
 from app.plan.heard import STOPS_AT, Blown, step_means
 from app.plan.line import MEZZOFORTE, IntArray, LineTimes, Piece, Seeds, marked
-from app.plan.model import FloatArray, Note, PlayerParameters
+from app.plan.model import FloatArray, Note
 from app.plan.notation import PLACES, written_onsets
+from app.plan.parameters import PlayerParameters
 from instrument_maps.model import Air
 
 FULL_BREATH_S = 0.5

@@ -14,7 +14,7 @@ import numpy as np
 from app.plan.felt_beat import felt_beats
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.line import line_times
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, PlainMetre, PlainNote
 

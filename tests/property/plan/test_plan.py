@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.lungs import CATCH_MAX_S, CATCH_MIN_S, CATCH_MOST_SHARE
-from app.plan.model import PlayerParameters, PlayerPlan
+from app.plan.model import PlayerPlan
+from app.plan.parameters import PlayerParameters
 from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, PlainMetre, PlainNote, valves
 

@@ -11,7 +11,8 @@ import pytest
 from app.plan.corrections import RemoveEvent, SetBreath
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.lungs import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE
-from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
+from app.plan.model import BreathEvent, PlayerPlan
+from app.plan.parameters import PlayerParameters
 from instrument_maps.model import Air
 from tests.support.plan import PlainClock, PlainMetre, PlainNote, even, line_of, valves
 

@@ -7,7 +7,7 @@ import random
 import pytest
 
 from app.plan.generate import Line, Piece, make_plans, time_frame
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from tests.support.engraved_breaths import marked_lines, share_at_phrase_ends
 from tests.support.plan import PlainClock, PlainMetre, PlainNote, line_of, valves
 

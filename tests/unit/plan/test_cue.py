@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from app.plan.generate import Line, Piece, make_plans, time_frame
-from app.plan.model import CueEvent, PlayerParameters
+from app.plan.model import CueEvent
+from app.plan.parameters import PlayerParameters
 from tests.support.plan import PlainClock, PlainMetre, line_of, slide, valves
 
 Q = 480

@@ -9,7 +9,8 @@ from app.plan.corrections import ChangeExpression, RemoveEvent
 from app.plan.embouchure import TONGUE_S
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.line import MEZZOFORTE, chance, line_times
-from app.plan.model import ExpressionEvent, PlayerParameters, PlayerPlan
+from app.plan.model import ExpressionEvent, PlayerPlan
+from app.plan.parameters import PlayerParameters
 from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, PlainMetre, PlainNote, even, line_of, slide, valves
 

@@ -7,7 +7,7 @@ import pytest
 from app.plan.felt_beat import felt_beat_ticks
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.line import line_times
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.plan.rests import rest_ticks
 from tests.support.plan import PlainClock, PlainMetre, PlainNote, line_of, valves
 
