@@ -162,141 +162,88 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """What the animator may set for one player; every field is a `--set` parameter by its name."""
 
     # fmt: off
-    amplitude: Annotated[
-        float,
-        Parameter(
-            "Amplitude", "How much the player moves: 0 still, 0.5 natural, 1 a lot",
-            bounds=_SHARE, section="motion", spread=0.5,
-        ),
-    ] = 0.5
-    breath_min_beats: Annotated[
-        float,
-        Parameter(
-            "Breathes in rests from", "In a shorter rest the player does not breathe", "beats",
-            bounds=_BEATS, usual=4.0, step=0.25, section="breath", decides=_BREATHS,
-        ),
-    ] = 0.5
-    breath_last_beat_beats: Annotated[
-        float,
-        Parameter(
-            "On the last beat from",
-            "In a rest from this length on, the breath takes its last beat; in a shorter one all of it", "beats",
-            bounds=_BEATS, usual=8.0, step=0.25, section="breath", decides=_BREATHS,
-        ),
-    ] = 1.0
-    breath_prepare_beats: Annotated[
-        float,
-        Parameter(
-            "Prepared from",
-            "In a rest from this length on, the player gets ready, then breathes on the last beat", "beats",
-            bounds=_BEATS, usual=8.0, step=0.25, section="breath", decides=_BREATHS,
-        ),
-    ] = 2.0
-    lung_s: Annotated[
-        float,
-        Parameter(
-            "A full lung lasts",
-            "On a usual instrument; longer or shorter on one that takes less or more air. "
-            "Longer phrases get a catch breath", "s",
-            bounds=(1.0, 60.0), usual=20.0, step=0.5, decimals=1,
-            section="breath", row=1, decides=_BREATHS, spread=4.0,
-        ),
-    ] = 9.0
-    embouchure_tension: Annotated[
-        float,
-        Parameter(
-            "Embouchure tension", "How tight the lips look, times the natural amount", "×",
-            bounds=_NATURAL, section="face", decides=frozenset({"lips", "motion"}), spread=0.5,
-        ),
-    ] = 1.0
-    sway: Annotated[
-        float,
-        Parameter(
-            "Sway", "Swaying with the beat, times the natural amount", "×",
-            bounds=_NATURAL, section="motion", spread=1.0,
-        ),
-    ] = 1.0
-    weight_shift: Annotated[
-        float,
-        Parameter(
-            "Weight shift", "From foot to foot, times the natural amount", "×",
-            bounds=_NATURAL, section="motion", spread=1.0,
-        ),
-    ] = 1.0
-    bell_height: Annotated[
-        float,
-        Parameter(
-            "Bell height", "The bell follows the melody, times the natural amount", "×",
-            bounds=_NATURAL, section="motion", spread=1.0,
-        ),
-    ] = 1.0
-    posture: Annotated[
-        Literal["standing", "seated"],
-        Parameter(
-            "Posture", choices=(("standing", "Standing"), ("seated", "Seated")),
-            section="player", decides=frozenset({"poses", "motion"}),
-        ),
-    ] = "standing"
-    cue_leader: Annotated[
-        bool | None,
-        Parameter(
-            "Gives cues", choices=((None, "Automatic"), (True, "Yes"), (False, "Never")),
-            section="player", decides=frozenset({"cues"}), is_own=True,
-        ),
-    ] = None
+    amplitude: Annotated[float, Parameter(
+        "Amplitude", "How much the player moves: 0 still, 0.5 natural, 1 a lot",
+        bounds=_SHARE, section="motion", spread=0.5,
+    )] = 0.5
+    breath_min_beats: Annotated[float, Parameter(
+        "Breathes in rests from", "In a shorter rest the player does not breathe", "beats",
+        bounds=_BEATS, usual=4.0, step=0.25, section="breath", decides=_BREATHS,
+    )] = 0.5
+    breath_last_beat_beats: Annotated[float, Parameter(
+        "On the last beat from",
+        "In a rest from this length on, the breath takes its last beat; in a shorter one all of it", "beats",
+        bounds=_BEATS, usual=8.0, step=0.25, section="breath", decides=_BREATHS,
+    )] = 1.0
+    breath_prepare_beats: Annotated[float, Parameter(
+        "Prepared from",
+        "In a rest from this length on, the player gets ready, then breathes on the last beat", "beats",
+        bounds=_BEATS, usual=8.0, step=0.25, section="breath", decides=_BREATHS,
+    )] = 2.0
+    lung_s: Annotated[float, Parameter(
+        "A full lung lasts",
+        "On a usual instrument; longer or shorter on one that takes less or more air. "
+        "Longer phrases get a catch breath", "s",
+        bounds=(1.0, 60.0), usual=20.0, step=0.5, decimals=1,
+        section="breath", row=1, decides=_BREATHS, spread=4.0,
+    )] = 9.0
+    embouchure_tension: Annotated[float, Parameter(
+        "Embouchure tension", "How tight the lips look, times the natural amount", "×",
+        bounds=_NATURAL, section="face", decides=frozenset({"lips", "motion"}), spread=0.5,
+    )] = 1.0
+    sway: Annotated[float, Parameter(
+        "Sway", "Swaying with the beat, times the natural amount", "×",
+        bounds=_NATURAL, section="motion", spread=1.0,
+    )] = 1.0
+    weight_shift: Annotated[float, Parameter(
+        "Weight shift", "From foot to foot, times the natural amount", "×",
+        bounds=_NATURAL, section="motion", spread=1.0,
+    )] = 1.0
+    bell_height: Annotated[float, Parameter(
+        "Bell height", "The bell follows the melody, times the natural amount", "×",
+        bounds=_NATURAL, section="motion", spread=1.0,
+    )] = 1.0
+    posture: Annotated[Literal["standing", "seated"], Parameter(
+        "Posture", choices=(("standing", "Standing"), ("seated", "Seated")),
+        section="player", decides=frozenset({"poses", "motion"}),
+    )] = "standing"
+    cue_leader: Annotated[bool | None, Parameter(
+        "Gives cues", choices=((None, "Automatic"), (True, "Yes"), (False, "Never")),
+        section="player", decides=frozenset({"cues"}), is_own=True,
+    )] = None
     """None: the piece decides (the highest part that plays first leads)."""
-    seed: Annotated[
-        int,
-        Parameter(
-            "Seed", "Another seed is another performance of the same plan",
-            bounds=SEED, section="motion", row=2, decides=frozenset({"breaths", "motion"}), is_own=True,
-        ),
-    ] = 0
-    breath_need: Annotated[
-        float,
-        Parameter(
-            "Air spent first",
-            "Part of the lungs that is used up before the player breathes in a rest too short to prepare in: "
-            "0 every such rest, 1 only with empty lungs",
-            bounds=_SHARE, section="breath", decides=_BREATHS, since=6, before=0.0,
-        ),
-    ] = 0.35
+    seed: Annotated[int, Parameter(
+        "Seed", "Another seed is another performance of the same plan",
+        bounds=SEED, section="motion", row=2, decides=frozenset({"breaths", "motion"}), is_own=True,
+    )] = 0
+    breath_need: Annotated[float, Parameter(
+        "Air spent first",
+        "Part of the lungs that is used up before the player breathes in a rest too short to prepare in: "
+        "0 every such rest, 1 only with empty lungs",
+        bounds=_SHARE, section="breath", decides=_BREATHS, since=6, before=0.0,
+    )] = 0.35
     """Share of the lungs used up before a rest too short for a preparation is breathed in; 0: in every rest (T6)."""
-    circular_breathing: Annotated[
-        bool,
-        Parameter(
-            "Circular breathing",
-            "Breathes in through the nose while playing, and never stops the line for a catch breath",
-            choices=((False, "No"), (True, "Yes")), section="breath", row=2, decides=_BREATHS,
-        ),
-    ] = False
-    """Breathing in through the nose while playing: no catch breaths."""
-    choreography: Annotated[
-        str,
-        Parameter(
-            "Body motion", "How hips, trunk and head move while playing; hands, lips and feet keep their places",
-            section="motion", row=1, since=8,
-        ),
-    ] = ""
+    circular_breathing: Annotated[bool, Parameter(
+        "Circular breathing",
+        "Breathes in through the nose while playing, and never stops the line for a catch breath",
+        choices=((False, "No"), (True, "Yes")), section="breath", row=2, decides=_BREATHS,
+    )] = False
+    choreography: Annotated[str, Parameter(
+        "Body motion", "How hips, trunk and head move while playing; hands, lips and feet keep their places",
+        section="motion", row=1, since=8,
+    )] = ""
     """What hips, trunk and head dance while playing: the name of a bundled choreography or the absolute path of a
     ``.choreography`` file; empty: they move as is generated."""
-    dance_amount: Annotated[
-        float,
-        Parameter(
-            "Dance amount",
-            "How much of the dance: 0 none, 1 as much as a player can do; it takes the place of the sway",
-            bounds=_SHARE, section="dance", since=8,
-        ),
-    ] = 0.5
-    """0: nothing of the dance, 1: as much of it as a player can do."""
-    dance_variation: Annotated[
-        int,
-        Parameter(
-            "Variation",
-            "0: a dance of the player's own; who has the same other number moves in unison, dancers too",
-            bounds=SEED, section="dance", is_own=True, since=8,
-        ),
-    ] = 0
+    dance_amount: Annotated[float, Parameter(
+        "Dance amount",
+        "How much of the dance: 0 none, 1 as much as a player can do; it takes the place of the sway",
+        bounds=_SHARE, section="dance", since=8,
+    )] = 0.5
+    dance_variation: Annotated[int, Parameter(
+        "Variation",
+        "0: a dance of the player's own; who has the same other number moves in unison, dancers too",
+        bounds=SEED, section="dance", is_own=True, since=8,
+    )] = 0
     """Another one is another dance to the same music, the same for everyone who has it; 0: a dance of the player's own,
     by ``seed``."""
     # fmt: on
