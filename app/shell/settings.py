@@ -28,7 +28,6 @@ from app import encoding
 from app.errors import AppError, FileError, MapError, Message
 from app.formats.atomic import atomic_write
 from app.formats.toml import read_toml, shaped, toml
-from app.shell.action import QT_TRANSLATE_NOOP
 from app.shell.language import LANGUAGES
 from app.stream.sender import LEAST_PORT, MOST_PORT
 from widgets.common.listening import Source
@@ -78,6 +77,19 @@ def _fold(session: Session, folded: dict[str, bool]) -> None:
         session.set_folded(name, is_folded)
 
 
+_FOLDED: Final = Held(lambda session: dict(session.folded), _fold, lambda session: session.folded_changed)
+_THEME: Final = Held(
+    lambda session: session.tokens.name,
+    lambda session, name: session.set_tokens(THEMES[name]),
+    lambda session: session.theme_changed,
+)
+_TIME: Final = Held(
+    lambda session: session.time_display,
+    lambda session, display: session.set_time_display(display),
+    lambda session: session.time_display_changed,
+)
+
+
 class Setting(Generic[T]):
     """One setting, an attribute of `Settings`: declared here once, restored, remembered and shown by what it says.
 
@@ -114,6 +126,11 @@ class Setting(Generic[T]):
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """Its label and the words of its options."""
+        return (self.label, *(word for _, word in self.options))
 
     @overload
     def __get__(self, settings: None, owner: type) -> Setting[T]: ...
@@ -183,68 +200,39 @@ class Settings(QObject):
 
     failed = Signal(object)
 
-    language = Setting(
-        "interface/language",
-        "",
-        label=QT_TRANSLATE_NOOP("Setting", "Language"),
-        options=(("", QT_TRANSLATE_NOOP("Setting", "The system's")), *LANGUAGES.items()),
-    )
+    language = Setting("interface/language", "", label="Language", options=(("", "The system's"), *LANGUAGES.items()))
     theme = Setting(
-        "interface/theme",
-        "dark",
-        held=Held(
-            lambda session: session.tokens.name,
-            lambda session, name: session.set_tokens(THEMES[name]),
-            lambda session: session.theme_changed,
-        ),
-        label=QT_TRANSLATE_NOOP("Setting", "Theme"),
-        options=(("dark", QT_TRANSLATE_NOOP("Setting", "Dark")), ("light", QT_TRANSLATE_NOOP("Setting", "Light"))),
+        "interface/theme", "dark", held=_THEME, label="Theme", options=(("dark", "Dark"), ("light", "Light"))
     )
     written_pitch = Setting(
         "pitch/written",
         False,
         held=_in_pitches("written"),
-        label=QT_TRANSLATE_NOOP("Setting", "Pitches"),
-        options=(
-            (False, QT_TRANSLATE_NOOP("Setting", "As they sound (concert)")),
-            (True, QT_TRANSLATE_NOOP("Setting", "As written for the instrument")),
-        ),
+        label="Pitches",
+        options=((False, "As they sound (concert)"), (True, "As written for the instrument")),
     )
     middle_c_octave = Setting(
         "pitch/middle_c_octave",
         4,
         held=_in_pitches("middle_c_octave"),
-        label=QT_TRANSLATE_NOOP("Setting", "Middle C"),
+        label="Middle C",
         options=((4, "C4"), (3, "C3")),
     )
     syllables = Setting(
         "pitch/syllables",
         False,
         held=_in_pitches("syllables"),
-        label=QT_TRANSLATE_NOOP("Setting", "Names of notes"),
-        options=((False, "C D E"), (True, QT_TRANSLATE_NOOP("Setting", "Do Re Mi"))),
+        label="Names of notes",
+        options=((False, "C D E"), (True, "Do Re Mi")),
     )
     time_display = Setting(
         "interface/time_display",
         "bars",
-        held=Held(
-            lambda session: session.time_display,
-            lambda session, display: session.set_time_display(display),
-            lambda session: session.time_display_changed,
-        ),
-        label=QT_TRANSLATE_NOOP("Setting", "Time"),
-        options=(
-            ("bars", QT_TRANSLATE_NOOP("Setting", "Bars and beats")),
-            ("seconds", QT_TRANSLATE_NOOP("Setting", "Seconds")),
-            ("frames", QT_TRANSLATE_NOOP("Setting", "Frames")),
-        ),
+        held=_TIME,
+        label="Time",
+        options=(("bars", "Bars and beats"), ("seconds", "Seconds"), ("frames", "Frames")),
     )
-    folded = Setting(
-        "interface/folded",
-        dict[str, bool](),
-        dict[str, bool],
-        held=Held(lambda session: dict(session.folded), _fold, lambda session: session.folded_changed),
-    )
+    folded = Setting("interface/folded", dict[str, bool](), dict[str, bool], held=_FOLDED)
     """Which parts of panels are folded, by name."""
 
     volume = Setting("sound/volume", 0.8, Annotated[float, msgspec.Meta(ge=0.0, le=1.0)], held=_in_listening("volume"))

@@ -42,22 +42,28 @@ def collect(sources: list[Path], target: Path) -> None:
 
 
 def declared() -> dict[str, tuple[str, list[str]]]:
-    """The texts that the core declares in English, by file, each with its context: messages and parameters."""
+    """The texts that tables declare in English, by file, each with its context."""
     sys.path.insert(0, str(ROOT))
     from app.messages import TEMPLATES
     from app.plan.parameters import PARAMETERS
     from app.project.model import DANCER_PARAMETERS
+    from app.shell.settings import SETTINGS
 
     parameters = (*PARAMETERS.values(), *DANCER_PARAMETERS.values())
-    words = (word for parameter in parameters for word in parameter.words if word != "×")
+    of_parameters = [word for parameter in parameters for word in parameter.words]
+    of_settings = [word for setting in SETTINGS if setting.label for word in setting.words]
     return {
-        "messages": ("Message", list(dict.fromkeys(TEMPLATES.values()))),
-        "parameters": ("Parameter", list(dict.fromkeys(words))),
+        name: (context, list(dict.fromkeys(texts)))
+        for name, context, texts in (
+            ("messages", "Message", TEMPLATES.values()),
+            ("parameters", "Parameter", of_parameters),
+            ("settings", "Setting", of_settings),
+        )
     }
 
 
 def collect_declared(target: Path, context: str, texts: list[str]) -> None:
-    """Texts of the core, in their order; what is translated stays."""
+    """Texts of tables, in their order; what is translated stays."""
     known = translations(target) if target.exists() else {}
     ts = ET.Element("TS", version="2.1", language=LANGUAGE, sourcelanguage="en")
     element = ET.SubElement(ts, "context")

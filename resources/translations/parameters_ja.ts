@@ -60,6 +60,10 @@
             <translation>唇の張りの見え方。自然な量に対する倍率</translation>
         </message>
         <message>
+            <source>×</source>
+            <translation>×</translation>
+        </message>
+        <message>
             <source>Sway</source>
             <translation>揺れ</translation>
         </message>
