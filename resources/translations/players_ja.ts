@@ -86,35 +86,6 @@
         <source>Another dance to the same music</source>
         <translation>同じ音楽に別の踊りを作ります</translation>
     </message>
-    <message>
-        <source>m</source>
-        <comment>metres</comment>
-        <translation>m</translation>
-    </message>
-    <message>
-        <source>X</source>
-        <translation>X</translation>
-    </message>
-    <message>
-        <source>To the right as the audience sees it, from the middle</source>
-        <translation>客席から見て右方向、中央から</translation>
-    </message>
-    <message>
-        <source>Z</source>
-        <translation>Z</translation>
-    </message>
-    <message>
-        <source>Towards the audience, from the middle</source>
-        <translation>客席に向かう方向、中央から</translation>
-    </message>
-    <message>
-        <source>Turn</source>
-        <translation>向き</translation>
-    </message>
-    <message>
-        <source>0 faces the audience, positive turns to the right as the audience sees it</source>
-        <translation>0 は客席向き、正の値は客席から見て右向き</translation>
-    </message>
 </context>
 <context>
     <name>ParameterSections</name>
@@ -165,6 +136,38 @@
     <message>
         <source>Another seed for each</source>
         <translation>それぞれに別のシードを割り当てる</translation>
+    </message>
+</context>
+<context>
+    <name>Place</name>
+    <message>
+        <source>m</source>
+        <comment>metres</comment>
+        <translation>m</translation>
+    </message>
+    <message>
+        <source>To the right as the audience sees it, from the middle</source>
+        <translation>中央から、客席から見て右向き</translation>
+    </message>
+    <message>
+        <source>0 faces the audience, positive turns to the right as the audience sees it</source>
+        <translation>0 で客席正面、正の値は客席から見て右向き</translation>
+    </message>
+    <message>
+        <source>X</source>
+        <translation>X</translation>
+    </message>
+    <message>
+        <source>Z</source>
+        <translation>Z</translation>
+    </message>
+    <message>
+        <source>Towards the audience, from the middle</source>
+        <translation>中央から客席向き</translation>
+    </message>
+    <message>
+        <source>Turn</source>
+        <translation>向き</translation>
     </message>
 </context>
 <context>
@@ -274,35 +277,6 @@
     <message>
         <source>Stage from above</source>
         <translation>上から見たステージ</translation>
-    </message>
-    <message>
-        <source>m</source>
-        <comment>metres</comment>
-        <translation>m</translation>
-    </message>
-    <message>
-        <source>X</source>
-        <translation>X</translation>
-    </message>
-    <message>
-        <source>To the right as the audience sees it, from the middle</source>
-        <translation>中央から、客席から見て右向き</translation>
-    </message>
-    <message>
-        <source>Z</source>
-        <translation>Z</translation>
-    </message>
-    <message>
-        <source>Towards the audience, from the middle</source>
-        <translation>中央から客席向き</translation>
-    </message>
-    <message>
-        <source>Turn</source>
-        <translation>向き</translation>
-    </message>
-    <message>
-        <source>0 faces the audience, positive turns to the right as the audience sees it</source>
-        <translation>0 で客席正面、正の値は客席から見て右向き</translation>
     </message>
 </context>
 <context>

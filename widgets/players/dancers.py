@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Callable
 from pathlib import Path
 
-import msgspec
 from PySide6.QtCore import QEvent, Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent
 from PySide6.QtWidgets import (
@@ -32,7 +30,6 @@ from app.rig.character_library import characters
 from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon
 from widgets.common.instrument_name import character_name
-from widgets.common.number_slider import NumberSlider
 from widgets.common.paths import ask_for_file
 from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
@@ -42,7 +39,7 @@ from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.players.dancer_list import DancerList
 from widgets.players.newcomers import add_dancer, duplicate_dancer, remove_dancer
 from widgets.players.parameter_rows import LARGEST, ParameterSlider, rows_of
-from widgets.players.stage import FARTHEST_M
+from widgets.players.place_numbers import name_places, place_sliders, shown_number, with_number
 
 MENU = ("dancers.add", "dancers.rename", "dancers.duplicate", "dancers.remove", "", "dancers.choreography")
 """The context menu of the list: actions by id, an empty one is a line."""
@@ -52,7 +49,6 @@ _LEARN = "\0learn"
 """Of the options of choreographies: no names of one."""
 _MOST_ROWS = 5
 _SOURCE = DANCER_PARAMETERS["source"]
-_PLACES = (("x_m", FARTHEST_M, 2, 0.05, False), ("z_m", FARTHEST_M, 2, 0.05, False), ("turn_rad", 180.0, 0, 5.0, True))
 
 
 class DancersSection(QWidget):
@@ -81,10 +77,7 @@ class DancersSection(QWidget):
         self._dice.setObjectName("dancer_dice")
         numbers = rows_of("dancer", DANCER_PARAMETERS)
         self._numbers = {number.name: ParameterSlider(session, number, "dancer") for number in numbers}
-        self._places = {
-            name: NumberSlider(session, -most, most, decimals=decimals, step=step, slides=slides)
-            for name, most, decimals, step, slides in _PLACES
-        }
+        self._places = place_sliders(session, "dancer")
         self._read: tuple[str, list[Option]] | None = None
         """A choreography whose sources are known."""
         self._build()
@@ -117,8 +110,6 @@ class DancersSection(QWidget):
         choreography.addWidget(self._choreography, 1)
         choreography.addWidget(self._look)
         grid.addLayout(choreography, 0, 1)
-        for name, slider in self._places.items():
-            slider.setObjectName(f"dancer_{name}")
         seed = QHBoxLayout()
         seed.setSpacing(4)
         for row, (name, slider) in enumerate(self._numbers.items(), len(combos)):
@@ -217,8 +208,7 @@ class DancersSection(QWidget):
             value, default = float(getattr(dancer, name)), float(number.parameter.default)
             number.show_value(value, default=default, by_hand=not number.parameter.is_own and value != default)
         for name, slider in self._places.items():
-            value = getattr(dancer.stage, name)
-            slider.show_value(float(round(math.degrees(value)) if name == "turn_rad" else value), by_hand=False)
+            slider.show_value(shown_number(dancer.stage, name), by_hand=False)
 
     def _sources(self, dancer: Dancer) -> list[Option]:
         """The captures that a choreography was learned from; none where it cannot be read, which its problem says."""
@@ -321,8 +311,7 @@ class DancersSection(QWidget):
     def _place(self, name: str, value: float, token: object | None) -> None:
         dancer = self.dancer
         if dancer is not None:
-            number = math.radians(value) if name == "turn_rad" else value
-            place = msgspec.structs.replace(dancer.stage, **{name: number})
+            place = with_number(dancer.stage, name, value)
             self._edit("place", lambda project, id: edit.place_dancers(project, {id: place}), token)
 
     def _edit(self, name: str, change: Callable[[Project, str], Project], token: object | None = None) -> None:
@@ -361,18 +350,7 @@ class DancersSection(QWidget):
         self._mirrored.setToolTip(self.tr("Left and right exchanged"))
         self._look.setToolTip(self.tr("Show what the choreography has learned"))
         self._dice.setToolTip(self.tr("Another dance to the same music"))
-        metres = self.tr("m", "metres")
-        words = {
-            "x_m": (self.tr("X"), metres, self.tr("To the right as the audience sees it, from the middle")),
-            "z_m": (self.tr("Z"), metres, self.tr("Towards the audience, from the middle")),
-            "turn_rad": (
-                self.tr("Turn"),
-                "°",
-                self.tr("0 faces the audience, positive turns to the right as the audience sees it"),
-            ),
-        }
-        for name, (label, unit, tip) in words.items():
-            self._places[name].set_texts(label, unit, tip)
+        name_places(self._places)
         for number in self._numbers.values():
             number.retranslate()
         self._show()
