@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject
 
-from app.shell.settings import SETTINGS, Held, Setting
+from app.shell.held import Held
+from app.shell.settings import SETTINGS, Setting
 from widgets.common.session import Session
 
 if TYPE_CHECKING:

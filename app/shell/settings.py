@@ -15,24 +15,21 @@ from __future__ import annotations
 import base64
 import binascii
 import os
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Final, Generic, TypeVar, overload
 
 import msgspec
 import platformdirs
-from PySide6.QtCore import QByteArray, QCoreApplication, QObject, QTimer, Signal, SignalInstance
+from PySide6.QtCore import QByteArray, QCoreApplication, QObject, QTimer, Signal
 
 from app import encoding
 from app.errors import AppError, FileError, MapError, Message
 from app.formats.atomic import atomic_write
 from app.formats.toml import read_toml, shaped, toml
+from app.shell.held import FOLDED, THEME, TIME, Held, in_listening, in_pitches
 from app.shell.language import LANGUAGES
 from app.stream.sender import LEAST_PORT, MOST_PORT
 from widgets.common.listening import Source
-from widgets.common.session import Session
-from widgets.common.tokens import THEMES
 
 T = TypeVar("T")
 
@@ -45,49 +42,6 @@ WRITE_MS: Final = 300
 def settings_path() -> Path:
     """Where the settings of this user are."""
     return Path(platformdirs.user_config_dir("suisou", appauthor=False)) / "editor.toml"
-
-
-@dataclass(frozen=True)
-class Held:
-    """Where a session has a setting while the editor runs."""
-
-    get: Callable[[Session], Any]
-    set: Callable[[Session, Any], object]
-    changed: Callable[[Session], SignalInstance]
-
-
-def _in_pitches(name: str) -> Held:
-    return Held(
-        lambda session: getattr(session.pitch_display, name),
-        lambda session, value: session.pitch_display.set(**{name: value}),
-        lambda session: session.pitch_display.changed,
-    )
-
-
-def _in_listening(name: str) -> Held:
-    return Held(
-        lambda session: getattr(session.listening, name),
-        lambda session, value: session.listening.set(**{name: value}),
-        lambda session: session.listening.changed,
-    )
-
-
-def _fold(session: Session, folded: dict[str, bool]) -> None:
-    for name, is_folded in folded.items():
-        session.set_folded(name, is_folded)
-
-
-_FOLDED: Final = Held(lambda session: dict(session.folded), _fold, lambda session: session.folded_changed)
-_THEME: Final = Held(
-    lambda session: session.tokens.name,
-    lambda session, name: session.set_tokens(THEMES[name]),
-    lambda session: session.theme_changed,
-)
-_TIME: Final = Held(
-    lambda session: session.time_display,
-    lambda session, display: session.set_time_display(display),
-    lambda session: session.time_display_changed,
-)
 
 
 class Setting(Generic[T]):
@@ -202,46 +156,46 @@ class Settings(QObject):
 
     language = Setting("interface/language", "", label="Language", options=(("", "The system's"), *LANGUAGES.items()))
     theme = Setting(
-        "interface/theme", "dark", held=_THEME, label="Theme", options=(("dark", "Dark"), ("light", "Light"))
+        "interface/theme", "dark", held=THEME, label="Theme", options=(("dark", "Dark"), ("light", "Light"))
     )
     written_pitch = Setting(
         "pitch/written",
         False,
-        held=_in_pitches("written"),
+        held=in_pitches("written"),
         label="Pitches",
         options=((False, "As they sound (concert)"), (True, "As written for the instrument")),
     )
     middle_c_octave = Setting(
         "pitch/middle_c_octave",
         4,
-        held=_in_pitches("middle_c_octave"),
+        held=in_pitches("middle_c_octave"),
         label="Middle C",
         options=((4, "C4"), (3, "C3")),
     )
     syllables = Setting(
         "pitch/syllables",
         False,
-        held=_in_pitches("syllables"),
+        held=in_pitches("syllables"),
         label="Names of notes",
         options=((False, "C D E"), (True, "Do Re Mi")),
     )
     time_display = Setting(
         "interface/time_display",
         "bars",
-        held=_TIME,
+        held=TIME,
         label="Time",
         options=(("bars", "Bars and beats"), ("seconds", "Seconds"), ("frames", "Frames")),
     )
-    folded = Setting("interface/folded", dict[str, bool](), dict[str, bool], held=_FOLDED)
+    folded = Setting("interface/folded", dict[str, bool](), dict[str, bool], held=FOLDED)
     """Which parts of panels are folded, by name."""
 
-    volume = Setting("sound/volume", 0.8, Annotated[float, msgspec.Meta(ge=0.0, le=1.0)], held=_in_listening("volume"))
+    volume = Setting("sound/volume", 0.8, Annotated[float, msgspec.Meta(ge=0.0, le=1.0)], held=in_listening("volume"))
     """0..1 as the ear judges it."""
-    click = Setting("sound/click", False, held=_in_listening("click"))
+    click = Setting("sound/click", False, held=in_listening("click"))
     """Whether a metronome is heard."""
-    scrub_sound = Setting("sound/scrub", True, held=_in_listening("scrub_sound"))
+    scrub_sound = Setting("sound/scrub", True, held=in_listening("scrub_sound"))
     """Whether moving the playhead by hand is heard."""
-    source = Setting("sound/source", "recording", Source, held=_in_listening("source"))
+    source = Setting("sound/source", "recording", Source, held=in_listening("source"))
     """What is heard where a project has a recording."""
 
     midi_port = Setting("midi/port", "")
