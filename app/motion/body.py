@@ -19,7 +19,8 @@ from app.motion.curve import Curve, FloatArray, Noise, bump, moves, rows_changed
 from app.motion.gaze import Look
 from app.motion.pose import Offset, Poses, hold_body
 from app.motion.seed import generator
-from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerParameters, PlayerPlan, PoseTarget, same_events
+from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerPlan, PoseTarget, same_events
+from app.plan.parameters import PlayerParameters
 from app.plan.pose import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
 from app.score.metre_map import FeltBeats, beat_ticks_at
 from metadata.model import AmplitudeScale, Body, Posture, at_amplitude

@@ -22,7 +22,8 @@ from app.motion.posture import hips_path, stance, trunk
 from app.motion.solve import Curves, Player, padding, solve
 from app.motion.splice import changed_stretch, spliced
 from app.motion.stations import raised_curve, sampled, station_curves
-from app.plan.model import PlayerParameters, PlayerPlan, TimeFrame, same_events
+from app.plan.model import PlayerPlan, TimeFrame, same_events
+from app.plan.parameters import PlayerParameters, deciding
 from app.rig.carriage import carrying
 from app.rig.hold import Hold, Lips, Placed, giving_for
 from app.rig.model import Character
@@ -30,17 +31,6 @@ from app.score.metre_map import FeltBeats
 from instrument_maps.model import Carriage, InstrumentMap
 from metadata.load import load_expressions
 from metadata.model import Body, Embouchure, Expression, Posture
-
-PLANNED_WITH = (
-    "breath_min_beats",
-    "breath_last_beat_beats",
-    "breath_prepare_beats",
-    "breath_need",
-    "lung_s",
-    "circular_breathing",
-    "cue_leader",
-)
-"""Parameters that decide what is planned, and not how a plan looks."""
 
 SETTLED = 0.6
 """Part of their amplitude, and of their sway once more, that players keep whose instrument lies on the lap."""
@@ -216,15 +206,11 @@ class Playing:
     @property
     def _settings(self) -> tuple[object, ...]:
         """What every frame depends on: values first, the others by identity."""
-        parameters = {name: value for name, value in _fields(self.parameters).items() if name not in PLANNED_WITH}
         still = self.player
         endpin = None if still.stand is None else still.stand.endpin
-        values = (self.player_id, self.start_s, parameters, self.posture, still.carriage, still.lowered, endpin)
+        shown = deciding(self.parameters, "motion")
+        values = (self.player_id, self.start_s, shown, self.posture, still.carriage, still.lowered, endpin)
         return (values, still.skeleton, still.hold, self.body, self.dance)
-
-
-def _fields(parameters: PlayerParameters) -> dict[str, object]:
-    return {name: getattr(parameters, name) for name in parameters.__struct_fields__}
 
 
 def prepare(

@@ -20,9 +20,10 @@ from app.performance.bodies import hold_now, hold_of, is_held, suited_to
 from app.performance.loudness import heard, note_loudness
 from app.performance.reach import posed_body, reached
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
-from app.plan.generate import BREATH_PARAMETERS, EnsemblePlan, Line, Piece, frame_around, plan_ensemble
+from app.plan.generate import EnsemblePlan, Line, Piece, frame_around, plan_ensemble
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
+from app.plan.parameters import deciding
 from app.project.model import Player, Project
 from app.rig.character_library import bundled_characters, character_library, character_revision
 from app.rig.fit import missed
@@ -360,8 +361,7 @@ def _work(line: Line, before: Line | None) -> int:
         return 0
     if before is None or line.notes is not before.notes or line.instrument_map is not before.instrument_map:
         return len(line.notes)
-    searched = (*BREATH_PARAMETERS, "cue_leader", "seed")
-    same = all(getattr(line.parameters, name) == getattr(before.parameters, name) for name in searched)
+    same = deciding(line.parameters, "breaths", "cues") == deciding(before.parameters, "breaths", "cues")
     kept, said = set(before.corrections), set(line.corrections)
     if not same or any(isinstance(item, RemoveEvent | SetBreath | SetCue | Vary) for item in kept ^ said):
         return len(line.notes)

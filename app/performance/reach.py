@@ -15,7 +15,8 @@ import numpy as np
 from app.errors import Message
 from app.motion.perform import prepare
 from app.performance.bodies import body_of, character_of, hold_of
-from app.plan.model import FingeringEvent, PlayerParameters, PlayerPlan, Problem, TimeFrame, grips_of
+from app.plan.model import FingeringEvent, PlayerPlan, Problem, TimeFrame, grips_of
+from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.model import Player
 from app.rig.hold import hand_targets

@@ -58,8 +58,9 @@ from app.plan.lungs import (
     where_short,
     with_circular_breathing,
 )
-from app.plan.model import BreathEvent, FloatArray, PlayerParameters, Problem, TimeFrame
+from app.plan.model import BreathEvent, FloatArray, Problem, TimeFrame
 from app.plan.notation import at_score_tempo, notated
+from app.plan.parameters import PlayerParameters
 from app.plan.rest_breaths import heard_breaths, heard_catch, rest_breaths, within_note
 from app.plan.rests import rest_ticks
 from app.plan.stagger import ALONE, Shared, within_held

@@ -14,7 +14,8 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.line import MEZZOFORTE, LineTimes
-from app.plan.model import EmbouchureEvent, FingeringEvent, FloatArray, PlayerParameters, TongueEvent
+from app.plan.model import EmbouchureEvent, FingeringEvent, FloatArray, TongueEvent
+from app.plan.parameters import PlayerParameters
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap
 

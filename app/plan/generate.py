@@ -40,7 +40,8 @@ from app.plan.gesture import Pulse, plan_gestures, pulse
 from app.plan.heard import blown
 from app.plan.line import Line, LineTimes, Piece, Seeds, note_times, without_sound
 from app.plan.memo import Memo
-from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerParameters, PlayerPlan, Problem, TimeFrame
+from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, Problem, TimeFrame
+from app.plan.parameters import restricted
 from app.plan.pose import plan_poses
 from app.plan.stagger import Breathed, Shared, SharedLine, breathed_of, shared_line, shared_with
 from app.plan.together import one_at_a_time
@@ -51,16 +52,6 @@ from metadata.load import load_expressions
 from metadata.model import Expression
 
 __all__ = ["EnsemblePlan", "Line", "Piece", "make_plans", "plan_ensemble", "time_frame"]
-
-BREATH_PARAMETERS = (
-    "breath_min_beats",
-    "breath_last_beat_beats",
-    "breath_prepare_beats",
-    "breath_need",
-    "lung_s",
-    "circular_breathing",
-)
-"""Parameters that the breaths look at."""
 
 PREROLL_BEATS = 4.0
 PREROLL_LEAST_S = 2.0
@@ -224,17 +215,12 @@ def _with_notes(
 def _leading(line: Line) -> Line:
     """The line as far as cues depend on it."""
     corrections = _of(line.corrections, SetCue, RemoveEvent, SetBreath)
-    return Line(line.player_id, line.notes, line.instrument_map, _only(line.parameters, "cue_leader"), corrections)
+    return Line(line.player_id, line.notes, line.instrument_map, restricted(line.parameters, "cues"), corrections)
 
 
 def _of(corrections: tuple[Correction, ...], *kinds: type[Correction]) -> tuple[Correction, ...]:
     """The corrections of some kinds."""
     return tuple(item for item in corrections if isinstance(item, kinds))
-
-
-def _only(parameters: PlayerParameters, *names: str) -> PlayerParameters:
-    """Some of the parameters; the others as if nobody had set them."""
-    return PlayerParameters(**{name: getattr(parameters, name) for name in names})
 
 
 class _Given(NamedTuple):
@@ -272,7 +258,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         without_sound(notes),
         times.contour,
         piece,
-        _only(parameters, *BREATH_PARAMETERS),
+        restricted(parameters, "breaths"),
         frame,
         _of(corrections, SetBreath, RemoveEvent, SetCue),
         given.shared,
@@ -281,7 +267,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         heard,
     )
     events = breaths.events
-    lips, by_hand = _only(parameters, "embouchure_tension"), _of(corrections, SetEmbouchure)
+    lips, by_hand = restricted(parameters, "lips"), _of(corrections, SetEmbouchure)
     made_lips = memo.step(
         "made embouchures",
         plan_embouchures,
@@ -320,7 +306,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     expressions = memo.step("corrected expressions", correct_expressions, made_expressions, faced, clock)
     tongues = memo.step("tongues", plan_tongues, notes, times, instrument, fingerings)
     posed = _of(corrections, PoseCorrection)
-    poses, pose_problems = memo.step("poses", plan_poses, posed, instrument, _only(parameters, "posture"), clock)
+    poses, pose_problems = memo.step("poses", plan_poses, posed, instrument, restricted(parameters, "poses"), clock)
     lost = memo.step(
         "lost",
         _lost,

@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from app.chance import begun, chance, share_of
 from app.plan.corrections import Correction
-from app.plan.model import FloatArray, PlayerParameters
+from app.plan.model import FloatArray
+from app.plan.parameters import PlayerParameters
 from app.score.metre_map import IntArray as IntArray
 from app.score.metre_map import MetreMap
 from app.score.model import Note

@@ -8,7 +8,8 @@ import numpy.typing as npt
 from app.plan.dynamics import mean_around
 from app.plan.heard import STOPS_AT, Blown, step_means
 from app.plan.line import MEZZOFORTE, IntArray, LineTimes, marked
-from app.plan.model import FloatArray, PlayerParameters
+from app.plan.model import FloatArray
+from app.plan.parameters import PlayerParameters
 from instrument_maps.model import Air
 
 FULL_BREATH_S = 0.5

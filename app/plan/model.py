@@ -19,36 +19,6 @@ from app.identity_cache import IdentityCache
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 
 
-class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What the animator may set for one player; every field is a `--set` parameter by its name."""
-
-    amplitude: float = 0.5
-    breath_min_beats: float = 0.5
-    breath_last_beat_beats: float = 1.0
-    breath_prepare_beats: float = 2.0
-    lung_s: float = 9.0
-    embouchure_tension: float = 1.0
-    sway: float = 1.0
-    weight_shift: float = 1.0
-    bell_height: float = 1.0
-    posture: Literal["standing", "seated"] = "standing"
-    cue_leader: bool | None = None
-    """None: the piece decides (the highest part that plays first leads)."""
-    seed: int = 0
-    breath_need: float = 0.35
-    """Share of the lungs used up before a rest too short for a preparation is breathed in; 0: in every rest (T6)."""
-    circular_breathing: bool = False
-    """Breathing in through the nose while playing: no catch breaths."""
-    choreography: str = ""
-    """What hips, trunk and head dance while playing: the name of a bundled choreography or the absolute path of a
-    ``.choreography`` file; empty: they move as is generated."""
-    dance_amount: float = 0.5
-    """0: nothing of the dance, 1: as much of it as a player can do."""
-    dance_variation: int = 0
-    """Another one is another dance to the same music, the same for everyone who has it; 0: a dance of the player's own,
-    by ``seed``."""
-
-
 # Events hold no cycles (`gc=False`): a hundred thousand notes have a million of them, and a collection that looked at
 # each would stop the editor for half a second.
 

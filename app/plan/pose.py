@@ -15,7 +15,8 @@ import numpy as np
 
 from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, Correction, PoseCorrection
-from app.plan.model import PlayerParameters, PoseEvent, PoseTarget, Problem
+from app.plan.model import PoseEvent, PoseTarget, Problem
+from app.plan.parameters import PlayerParameters
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_body

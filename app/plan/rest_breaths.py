@@ -15,7 +15,8 @@ from app.plan.corrections import WITHIN
 from app.plan.heard import BREATH_S, Silences
 from app.plan.line import IntArray, LineTimes, Piece
 from app.plan.lungs import EPSILON
-from app.plan.model import BreathEvent, FloatArray, PlayerParameters, TimeFrame
+from app.plan.model import BreathEvent, FloatArray, TimeFrame
+from app.plan.parameters import PlayerParameters
 from app.score.model import Note
 
 

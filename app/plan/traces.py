@@ -15,7 +15,8 @@ from app.plan.corrections import Correction, SetEmbouchure
 from app.plan.embouchure import strain_of, tension_of
 from app.plan.heard import Blown, step_means
 from app.plan.line import Heard, LineTimes, Steps
-from app.plan.model import FloatArray, PlayerParameters, Traces
+from app.plan.model import FloatArray, Traces
+from app.plan.parameters import PlayerParameters
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap

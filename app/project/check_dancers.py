@@ -9,7 +9,7 @@ from app.choreography.model_file import SUFFIX
 from app.project import limits
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState
 from app.project.fault import Fault, about, between, id_faults, look_faults, text_faults, unique
-from app.project.model import Dancer, Project
+from app.project.model import DANCER_PARAMETERS, Dancer, Project
 
 
 def dancer_faults(project: Project) -> Iterator[Fault]:
@@ -39,11 +39,9 @@ def _one_dancer_faults(dancer: Dancer, place: str) -> Iterator[Fault]:
     if not is_choreography(dancer.choreography):
         yield f"{place}.choreography", f"must be the path of a {SUFFIX} file or the name of a bundled choreography"
     yield from look_faults(dancer, place)
-    yield from between(f"{place}.seed", dancer.seed, limits.SEED)
-    yield from between(f"{place}.delay_beats", dancer.delay_beats, limits.DELAY_BEATS)
-    yield from between(f"{place}.source", dancer.source, (-1, limits.CHOREOGRAPHY_INDEX[1]))
-    yield from between(f"{place}.size", dancer.size, limits.DANCE_SIZE)
-    yield from between(f"{place}.weight", dancer.weight, limits.DANCE_WEIGHT)
+    for name, parameter in DANCER_PARAMETERS.items():
+        if parameter.bounds is not None:
+            yield from between(f"{place}.{name}", getattr(dancer, name), parameter.bounds)
 
 
 def _dance_correction_faults(correction: DanceCorrection, place: str) -> Iterator[Fault]:

@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import Final, TypeAlias
 
 from app.errors import shortened
+from app.plan.parameters import Bounds
 from app.project import limits
 from app.project.model import Dancer, Player
 
@@ -32,7 +33,7 @@ def within(prefix: str, found: Iterable[Fault]) -> Iterator[Fault]:
         yield f"{prefix}.{place}", detail
 
 
-def between(place: str, value: float, bounds: limits.Bounds) -> Iterator[Fault]:
+def between(place: str, value: float, bounds: Bounds) -> Iterator[Fault]:
     """A number outside its bounds."""
     # Also not where it is no number at all, or a whole one that no float can hold.
     if not bounds[0] <= value <= bounds[1]:

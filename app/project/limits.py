@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import Final, TypeAlias
+from typing import Final
 
+from app.plan import parameters as of_players
+from app.plan.parameters import Bounds
 from app.score import limits as of_score
-
-Bounds: TypeAlias = tuple[float, float]
-"""Lowest and highest, both allowed."""
 
 LAST_TICK: Final = of_score.LAST_TICK
 TICKS_PER_QUARTER: Final = (1, 32767)
@@ -28,7 +27,7 @@ METRE_DENOMINATORS: Final = (1, 2, 4, 8, 16, 32, 64)
 PREROLL_BEATS: Final = (0.0, 64.0)
 FELT_BEAT_QUARTERS: Final = (1 / 16, 16.0)
 FPS: Final = (Fraction(1), Fraction(240))
-SEED: Final = (0, 2**63 - 1)
+SEED: Final = of_players.SEED
 OFFSET_S: Final = (-86_400.0, 86_400.0)
 STAGE_M: Final = (-1000.0, 1000.0)
 TURN_RAD: Final = (-1000.0, 1000.0)
@@ -39,11 +38,6 @@ MOST_NAME: Final = of_score.MOST_NAME
 """Characters of a name that a person gives."""
 MOST_PLAYERS: Final = 1000
 MOST_DANCERS: Final = 200
-DELAY_BEATS: Final = (0.0, 10_000.0)
-DANCE_SIZE: Final = (0.0, 1.5)
-"""Of the motion as captured."""
-DANCE_WEIGHT: Final = (-1.0, 1.0)
-"""From light to heavy; 0: as captured."""
 CHOREOGRAPHY_INDEX: Final = (0, 2**31 - 1)
 """Of a basic motion, a segment or a source of a choreography."""
 MOST_TAKES: Final = 2000

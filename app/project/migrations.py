@@ -1,13 +1,17 @@
 """Project files of older versions, brought up to the present one, one version at a time.
 
 A migration is a pure function on the file's decoded JSON; the first takes version 1 to 2, the next 2 to 3 and so on.
-Whoever changes what a file holds adds one here, and a sample of the old version to ``tests/data/projects``.
+Whoever changes what a file holds adds one to `STRUCTURE`, and a sample to ``tests/data/projects``; a new parameter only
+says of itself which version is the first that has it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any, Final, TypeAlias
+
+from app.plan.parameters import PARAMETERS
+from app.project.model import DANCER_PARAMETERS
 
 Raw: TypeAlias = dict[str, Any]
 """A project file as decoded JSON."""
@@ -37,12 +41,10 @@ def _with_markers(raw: Raw) -> Raw:
     return {**raw, "score": {**raw["score"], "markers": []}}
 
 
-def _with_breath_need(raw: Raw) -> Raw:
-    """5 to 6: rests are breathed in as air is needed; before, players breathed in every rest. Where unplayed parts
-    sound is kept; a piece that was read before has it when it is read again."""
+def _with_unplayed_sounding(raw: Raw) -> Raw:
+    """5 to 6: where unplayed parts sound is kept; a piece that was read before has it when it is read again."""
     unplayed = [{**part, "sounding": []} for part in raw["score"]["unplayed"]]
-    players = [{**player, "parameters": {**player["parameters"], "breath_need": 0.0}} for player in raw["players"]]
-    return {**raw, "players": players, "score": {**raw["score"], "unplayed": unplayed}}
+    return {**raw, "score": {**raw["score"], "unplayed": unplayed}}
 
 
 def _with_dancers(raw: Raw) -> Raw:
@@ -51,42 +53,57 @@ def _with_dancers(raw: Raw) -> Raw:
     return {**raw, "dancers": [], "dance_corrections": {}, "score": {**raw["score"], "percussion": []}}
 
 
-def _with_body_dances(raw: Raw) -> Raw:
-    """7 to 8: players may dance while they play; before, nobody did. Dancers have a weight; they danced as captured."""
-    still = {"choreography": "", "dance_amount": 0.5, "dance_variation": 0}
-    players = [{**player, "parameters": {**player["parameters"], **still}} for player in raw["players"]]
-    dancers = [{**dancer, "weight": 0.0} for dancer in raw["dancers"]]
-    return {**raw, "players": players, "dancers": dancers}
+def _with_parameters(raw: Raw, version: int) -> Raw:
+    """What players and dancers could not be set to before this version."""
+    of_players, of_dancers = (
+        {name: parameter.in_older_files for name, parameter in table.items() if parameter.since == version}
+        for table in (PARAMETERS, DANCER_PARAMETERS)
+    )
+    if of_players:
+        players = [{**player, "parameters": {**player["parameters"], **of_players}} for player in raw["players"]]
+        raw = {**raw, "players": players}
+    return {**raw, "dancers": [{**dancer, **of_dancers} for dancer in raw["dancers"]]} if of_dancers else raw
 
 
-MIGRATIONS: Final[tuple[Migration, ...]] = (
-    _with_read_notes,
-    _with_transpositions,
-    _with_takes,
-    _with_markers,
-    _with_breath_need,
-    _with_dancers,
-    _with_body_dances,
+STRUCTURE: Final[Mapping[int, Migration]] = {
+    2: _with_read_notes,
+    3: _with_transpositions,
+    4: _with_takes,
+    5: _with_markers,
+    6: _with_unplayed_sounding,
+    7: _with_dancers,
+}
+"""By the version that they lead to. New parameters say themselves since which version they are there."""
+
+
+def _migration(version: int) -> Migration:
+    def migration(raw: Raw) -> Raw:
+        structure = STRUCTURE.get(version)
+        return _with_parameters(raw if structure is None else structure(raw), version)
+
+    return migration
+
+
+CURRENT: Final = max(
+    *STRUCTURE, *(parameter.since for table in (PARAMETERS, DANCER_PARAMETERS) for parameter in table.values())
 )
-"""In order."""
-
-CURRENT: Final = len(MIGRATIONS) + 1
 """The version that is written."""
+MIGRATIONS: Final = {version: _migration(version) for version in range(2, CURRENT + 1)}
 
 
-def migrated(raw: Raw, version: int, migrations: Sequence[Migration] = MIGRATIONS) -> Raw:
+def migrated(raw: Raw, version: int, migrations: Mapping[int, Migration] = MIGRATIONS) -> Raw:
     """The file's content as the present version has it; what is given stays as it is.
 
     Parameters
     ----------
     version : int
-        Of ``raw``, from 1 to ``len(migrations) + 1``.
+        Of ``raw``, from 1 to the last that the migrations lead to.
 
     Raises
     ------
     KeyError, TypeError, ValueError, IndexError, AttributeError
         The content is not what its version says.
     """
-    for number, migration in enumerate(migrations[version - 1 :], version + 1):
-        raw = {**migration(raw), VERSION_KEY: number}
+    for number in range(version + 1, max(migrations) + 1):
+        raw = {**migrations[number](raw), VERSION_KEY: number}
     return raw

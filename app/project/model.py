@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import Annotated, Final
 
 import msgspec
 import numpy as np
@@ -13,7 +14,8 @@ import numpy as np
 from app.errors import UsageError
 from app.plan.corrections import Correction
 from app.plan.generate import PREROLL_BEATS
-from app.plan.model import PlayerParameters
+from app.plan.parameters import SEED, Parameter, PlayerParameters, declared
+from app.project import limits
 from app.project.casting import StagePosition, amplitude, choose_characters, player_seed, stage_seats, usual_posture
 from app.project.dance_corrections import DanceCorrection
 from app.project.footprint import footprint
@@ -96,13 +98,33 @@ class Dancer(msgspec.Struct, frozen=True):
     choreography: str
     character_id: str
     stage: StagePosition
-    seed: int = 0
-    delay_beats: float = 0.0
+    # fmt: off
+    seed: Annotated[int, Parameter(
+        "Variation", "Another number is another dance to the same music",
+        section="dancer", bounds=SEED, is_own=True,
+    )] = 0
+    delay_beats: Annotated[float, Parameter(
+        "Delay", "In a canon: so much later than the music", "beats",
+        bounds=(0.0, 10_000.0), usual=32.0, step=1.0, decimals=1, section="dancer", row=1,
+    )] = 0.0
     mirrored: bool = False
-    source: int = -1
-    size: float = 1.0
-    weight: float = 0.0
+    source: Annotated[int, Parameter(
+        "Preferred source", "The capture whose motion is danced where it suits the music about as well",
+        bounds=(-1, limits.CHOREOGRAPHY_INDEX[1]),
+    )] = -1
+    size: Annotated[
+        float, Parameter("Size of motion", "Of trunk and arms: 1 as captured", "×", section="dancer", bounds=(0.0, 1.5))
+    ] = 1.0
+    weight: Annotated[float, Parameter(
+        "Weight", "From light to heavy: how deep the knees bend; 0 as captured",
+        section="dancer", bounds=(-1.0, 1.0), since=8,
+    )] = 0.0
+    # fmt: on
     colour: str = ""
+
+
+DANCER_PARAMETERS: Final[Mapping[str, Parameter]] = declared(Dancer)
+"""Every parameter of a dancer by name."""
 
 
 class CompSpan(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

@@ -8,41 +8,20 @@ Raises `UsageError` with these ids: ``set.syntax`` (text), ``set.player_unknown`
 from __future__ import annotations
 
 import fnmatch
-import math
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Final, TypeAlias, get_args
+from typing import Final
 
 import msgspec
 
 from app.choreography.library import bundled_choreographies, is_choreography
 from app.choreography.model_file import SUFFIX
 from app.errors import UsageError
-from app.plan.model import PlayerParameters
+from app.plan.parameters import AUTOMATIC, PARAMETERS, PlayerParameters, Value
 from app.project import limits
 
-Value: TypeAlias = str | int | float | bool | None
-
-# Closed ranges; what is not named here is bounded by its type alone.
-_BOUNDS: Final[Mapping[str, tuple[float, float]]] = {
-    "amplitude": (0.0, 1.0),
-    "breath_min_beats": (0.0, 64.0),
-    "breath_last_beat_beats": (0.0, 64.0),
-    "breath_prepare_beats": (0.0, 64.0),
-    "breath_need": (0.0, 1.0),
-    "lung_s": (1.0, 60.0),
-    "embouchure_tension": (0.0, 2.0),
-    "sway": (0.0, 2.0),
-    "weight_shift": (0.0, 2.0),
-    "bell_height": (0.0, 2.0),
-    "seed": (0, 2**63 - 1),
-    "dance_amount": (0.0, 1.0),
-    "dance_variation": (0, 2**63 - 1),
-}
-_TYPES: Final = {field.name: field.type for field in msgspec.structs.fields(PlayerParameters)}
 _CASTING: Final = ("instrument", "character")
-_AUTOMATIC: Final = "auto"
 _DANCED: Final = "choreography"
 _GENERATED: Final = "none"
 """As a choreography: the body moves as is generated."""
@@ -58,7 +37,7 @@ class Setting(msgspec.Struct, frozen=True):
 
 def parameter_names() -> tuple[str, ...]:
     """Every name that can be set, in a fixed order."""
-    return (*_TYPES, *_CASTING)
+    return (*PARAMETERS, *_CASTING)
 
 
 def matching_players(wanted: str, names: Sequence[str]) -> tuple[int, ...]:
@@ -121,26 +100,16 @@ def parse_settings(
     return tuple(settings.values())
 
 
-def bounds(parameter: str) -> tuple[float, float] | None:
-    """Lowest and highest number of a parameter, both allowed; None for one that is no number."""
-    return _BOUNDS.get(parameter)
-
-
 def is_possible(parameter: str, value: object) -> bool:
     """Whether a player's parameter may have this value."""
-    try:
-        msgspec.convert(value, _TYPES[parameter])
-    except msgspec.ValidationError:
-        return False
     if parameter == _DANCED and isinstance(value, str) and value:
         return is_choreography(value) and len(value) <= limits.MOST_TEXT
-    low, high = _BOUNDS.get(parameter, (-math.inf, math.inf))
-    return not isinstance(value, int | float) or isinstance(value, bool) or low <= value <= high
+    return PARAMETERS[parameter].allows(value)
 
 
 def with_settings(parameters: PlayerParameters, settings: Iterable[Setting]) -> PlayerParameters:
     """The parameters with those settings that are fields of them."""
-    changes = {setting.parameter: setting.value for setting in settings if setting.parameter in _TYPES}
+    changes = {setting.parameter: setting.value for setting in settings if setting.parameter in PARAMETERS}
     return msgspec.structs.replace(parameters, **changes)
 
 
@@ -164,27 +133,23 @@ def _split(text: str, names: Sequence[str]) -> tuple[tuple[int, ...], str, str]:
 
 def _value(parameter: str, text: str, choices: Mapping[str, tuple[str, ...]]) -> Value:
     if parameter in choices:
-        possible = (*choices[parameter], _AUTOMATIC)
+        possible = (*choices[parameter], AUTOMATIC)
         if text not in possible:
             raise UsageError("set.value_invalid", parameter=parameter, value=text, possible=", ".join(possible))
-        return None if text == _AUTOMATIC else text
+        return None if text == AUTOMATIC else text
     if parameter == _DANCED:
         return _choreography(text)
-    kind = _TYPES[parameter]
-    candidate: object = None if text.casefold() in (_AUTOMATIC, "none", "null") else text
     try:
-        value: Value = msgspec.convert(candidate, kind, strict=False)
-    except msgspec.ValidationError:
-        value = math.nan
-    low, high = _BOUNDS.get(parameter, (-math.inf, math.inf))
-    if isinstance(value, int | float) and not isinstance(value, bool) and not low <= value <= high:
-        raise UsageError("set.value_invalid", parameter=parameter, value=text, possible=range_text(parameter))
-    return value
+        return PARAMETERS[parameter].read(text)
+    except ValueError as error:
+        raise UsageError(
+            "set.value_invalid", parameter=parameter, value=text, possible=range_text(parameter)
+        ) from error
 
 
 def _choreography(text: str) -> str:
     """A bundled choreography by its name, any other by the path of its file."""
-    if text.casefold() in ("", _GENERATED, _AUTOMATIC):
+    if text.casefold() in ("", _GENERATED, AUTOMATIC):
         return ""
     known = bundled_choreographies()
     if text in known:
@@ -197,17 +162,6 @@ def _choreography(text: str) -> str:
 
 def range_text(parameter: str) -> str:
     """What a parameter may be, as a text for a message: numbers and words only."""
-    if parameter in _BOUNDS:
-        low, high = _BOUNDS[parameter]
-        return f"{low} ... {high}"
     if parameter == _DANCED:
         return ", ".join((_GENERATED, *bundled_choreographies(), f"*{SUFFIX}"))
-    options: list[str] = []
-    for kind in get_args(_TYPES[parameter]) or (_TYPES[parameter],):
-        if isinstance(kind, str):
-            options.append(kind)
-        elif kind is bool:
-            options += ["true", "false"]
-        elif kind is type(None):
-            options.append(_AUTOMATIC)
-    return ", ".join(options)
+    return PARAMETERS[parameter].possible

@@ -25,7 +25,7 @@ from app.formats.atomic import atomic_write
 from app.formats.files import files_in
 from app.formats.toml import read_toml, toml
 from app.formats.user_folder import Named
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PARAMETERS, PlayerParameters
 from app.project import limits
 from app.project.check import expression_faults
 from app.project.names import clean_name, file_stem
@@ -35,8 +35,8 @@ from metadata.model import Expression
 
 T = TypeVar("T")
 
-NOT_IN_PRESETS: Final = frozenset({"seed", "cue_leader", "dance_variation"})
-"""Parameters that make one player differ from the others: a preset is for many."""
+_SHARED: Final = tuple(name for name, parameter in PARAMETERS.items() if not parameter.is_own)
+"""A preset is for many."""
 _NAME: Final = "name"
 
 
@@ -70,8 +70,7 @@ def preset_of(parameters: PlayerParameters, name: str, only: Iterable[str] | Non
     cleaned = clean_name(name)[: limits.MOST_NAME]
     if not cleaned:
         raise UsageError("preset.no_name")
-    kept = [field for field in parameters.__struct_fields__ if field not in NOT_IN_PRESETS]
-    wanted = kept if only is None else [field for field in kept if field in set(only)]
+    wanted = _SHARED if only is None else [field for field in _SHARED if field in set(only)]
     return Preset(cleaned, {field: getattr(parameters, field) for field in wanted})
 
 
@@ -119,7 +118,7 @@ def _read_preset(path: Path) -> Preset:
         raise MapError("table.invalid", file=path.name, place=_NAME, detail="must be a name on one line")
     table = {parameter: restored(value) if isinstance(value, str) else value for parameter, value in table.items()}
     for parameter, value in table.items():
-        if parameter not in PlayerParameters.__struct_fields__ or parameter in NOT_IN_PRESETS:
+        if parameter not in _SHARED:
             raise MapError("table.invalid", file=path.name, place=parameter, detail="not a parameter of presets")
         if not is_possible(parameter, value):
             raise MapError(

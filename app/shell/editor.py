@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, get_args
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject
 
-from widgets.common.listening import SOURCES
-from widgets.common.session import Session, TimeDisplay
-from widgets.common.tokens import THEMES
+from app.shell.held import Held
+from app.shell.settings import SETTINGS, Setting
+from widgets.common.session import Session
 
 if TYPE_CHECKING:
     from app.shell.actions import ActionTable
@@ -42,52 +43,20 @@ class Editor(QObject):
         self.language = language
         self.questions = questions
         self._restore()
-        session.pitch_display.changed.connect(self._remember_pitch)
-        session.time_display_changed.connect(self._remember_time)
-        session.theme_changed.connect(self._remember_theme)
-        session.folded_changed.connect(self._remember_folded)
-        session.listening.changed.connect(self._remember_listening)
+        for setting in SETTINGS:
+            if setting.held is not None:
+                setting.held.changed(session).connect(partial(self._remember, setting, setting.held))
 
     def _restore(self) -> None:
-        settings, session = self.settings, self.session
-        session.set_tokens(THEMES.get(settings.theme, session.tokens))
-        session.pitch_display.set(settings.written_pitch, settings.middle_c_octave, settings.syllables)
-        for name, folded in settings.folded.items():
-            session.set_folded(name, folded)
-        display = settings.time_display
-        for known in get_args(TimeDisplay):
-            if display == known:
-                session.set_time_display(known)
+        for setting in SETTINGS:
+            if setting.held is not None:
+                setting.held.set(self.session, getattr(self.settings, setting.name))
 
-        listening = session.listening
-        listening.set(volume=settings.volume, click=settings.click, scrub_sound=settings.scrub_sound)
-        source = settings.source
-        for heard in SOURCES:
-            if source == heard:
-                listening.set(source=heard)
-
-    def _remember_pitch(self) -> None:
-        pitch = self.session.pitch_display
-        self.settings.written_pitch = pitch.written
-        self.settings.middle_c_octave = pitch.middle_c_octave
-        self.settings.syllables = pitch.syllables
-
-    def _remember_time(self) -> None:
-        self.settings.time_display = self.session.time_display
-
-    def _remember_folded(self) -> None:
-        self.settings.folded = dict(self.session.folded)
-
-    def _remember_listening(self) -> None:
-        listening, settings = self.session.listening, self.settings
+    def _remember(self, setting: Setting[Any], held: Held) -> None:
         # Told of much else, as of every phrase that is made: only what the person chose is written.
-        for name in ("volume", "click", "scrub_sound", "source"):
-            value = getattr(listening, name)
-            if getattr(settings, name) != value:
-                setattr(settings, name, value)
-
-    def _remember_theme(self) -> None:
-        self.settings.theme = self.session.tokens.name
+        value = held.get(self.session)
+        if getattr(self.settings, setting.name) != value:
+            setattr(self.settings, setting.name, value)
 
     def speak(self, code: str) -> None:
         """Show the editor in a language; empty: the system's."""

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
+from typing import Any
+
 from PySide6.QtCore import QCoreApplication
 
 from app.shell.actions import CONTEXTS, menu_with_keys, plain
 from app.shell.editor import Editor
-from app.shell.language import LANGUAGES
+from app.shell.settings import SETTINGS, Setting
 from widgets.dialogs.preferences import Choice, PreferencesDialog
 from widgets.dialogs.shortcuts import ShortcutRow
 
@@ -22,17 +25,33 @@ def show_preferences(editor: Editor, page: str) -> PreferencesDialog:
     """
     dialog = PreferencesDialog(
         editor.session,
-        Choice(editor.settings.language, {"": "", **LANGUAGES}),
+        [_choice(editor, setting) for setting in SETTINGS if setting.label],
         lambda: shortcut_rows(editor),
         editor.table.conflicts,
         menu_with_keys,
         editor.window,
     )
-    dialog.language_chosen.connect(editor.speak)
     dialog.shortcut_chosen.connect(editor.table.set_keys)
     dialog.show_page(page)
     dialog.open()
     return dialog
+
+
+def _choice(editor: Editor, setting: Setting[Any]) -> Choice:
+    """A setting as a row of the preferences: what the session holds, or else the language."""
+    session, held = editor.session, setting.held
+    if held is None:
+        return Choice(
+            setting.name, setting.label, setting.options, lambda: editor.settings.language, editor.speak, is_list=True
+        )
+    return Choice(
+        setting.name,
+        setting.label,
+        setting.options,
+        partial(held.get, session),
+        partial(held.set, session),
+        held.changed(session),
+    )
 
 
 def shortcut_rows(editor: Editor) -> tuple[ShortcutRow, ...]:

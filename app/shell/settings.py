@@ -16,17 +16,20 @@ import base64
 import binascii
 import os
 from pathlib import Path
-from typing import Annotated, Any, Final, Generic, Literal, TypeVar, overload
+from typing import Annotated, Any, Final, Generic, TypeVar, overload
 
 import msgspec
 import platformdirs
 from PySide6.QtCore import QByteArray, QCoreApplication, QObject, QTimer, Signal
 
 from app import encoding
-from app.errors import AppError, FileError, Message
+from app.errors import AppError, FileError, MapError, Message
 from app.formats.atomic import atomic_write
 from app.formats.toml import read_toml, shaped, toml
+from app.shell.held import FOLDED, THEME, TIME, Held, in_listening, in_pitches
+from app.shell.language import LANGUAGES
 from app.stream.sender import LEAST_PORT, MOST_PORT
+from widgets.common.listening import Source
 
 T = TypeVar("T")
 
@@ -41,8 +44,8 @@ def settings_path() -> Path:
     return Path(platformdirs.user_config_dir("suisou", appauthor=False)) / "editor.toml"
 
 
-class _Value(Generic[T]):
-    """One setting, an attribute of `Settings`.
+class Setting(Generic[T]):
+    """One setting, an attribute of `Settings`: declared here once, restored, remembered and shown by what it says.
 
     Parameters
     ----------
@@ -51,19 +54,43 @@ class _Value(Generic[T]):
     default : T
     kind : type, optional
         What is possible, as msgspec understands it; by default the default's type.
+    held : Held, optional
+        It is restored at the start, and remembered whenever it changes there.
+    label : str
+        In the preferences; empty: it is not there.
+    options : tuple of (value, word)
+        What is possible, if not all of a kind. Like the label in English, to be translated (context ``Setting``).
     """
 
-    def __init__(self, key: str, default: T, kind: Any = None) -> None:
+    def __init__(
+        self,
+        key: str,
+        default: T,
+        kind: Any = None,
+        *,
+        held: Held | None = None,
+        label: str = "",
+        options: tuple[tuple[T, str], ...] = (),
+    ) -> None:
         section, _, name = key.partition("/")
         self.keys = section, name
         self.default = default
+        self.held, self.label, self.options = held, label, options
         self._kind = type(default) if kind is None else kind
 
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """Its label and the words of its options."""
+        return (self.label, *(word for _, word in self.options))
+
     @overload
-    def __get__(self, settings: None, owner: type) -> _Value[T]: ...
+    def __get__(self, settings: None, owner: type) -> Setting[T]: ...
     @overload
     def __get__(self, settings: Settings, owner: type) -> T: ...
-    def __get__(self, settings: Settings | None, owner: type) -> T | _Value[T]:
+    def __get__(self, settings: Settings | None, owner: type) -> T | Setting[T]:
         if settings is None:
             return self
         stored = settings.stored(self.keys)
@@ -75,6 +102,9 @@ class _Value(Generic[T]):
     def read(self, stored: object, file: str) -> T:
         """The value; MapError where it is not possible."""
         value: T = shaped(stored, self._kind, file)
+        possible = [one for one, _ in self.options]
+        if possible and value not in possible:
+            raise MapError("table.invalid", file=file, place="", detail=f"possible: {', '.join(map(str, possible))}")
         return value
 
     def written(self, value: T) -> object:
@@ -82,7 +112,7 @@ class _Value(Generic[T]):
         return value
 
 
-class _Bytes(_Value[QByteArray]):
+class _Bytes(Setting[QByteArray]):
     """Bytes of Qt, as base64."""
 
     def __init__(self, key: str) -> None:
@@ -98,7 +128,7 @@ class _Bytes(_Value[QByteArray]):
         return base64.b64encode(value.data()).decode()
 
 
-class _FilePath(_Value[str]):
+class _FilePath(Setting[str]):
     """A path, also one whose name is not UTF-8."""
 
     def read(self, stored: object, file: str) -> str:
@@ -124,49 +154,70 @@ class Settings(QObject):
 
     failed = Signal(object)
 
-    language = _Value("interface/language", "")
-    """``"en"``, ``"ja"``; empty: the system's."""
-    theme = _Value("interface/theme", "dark")
-    folded = _Value("interface/folded", dict[str, bool](), dict[str, bool])
+    language = Setting("interface/language", "", label="Language", options=(("", "The system's"), *LANGUAGES.items()))
+    theme = Setting(
+        "interface/theme", "dark", held=THEME, label="Theme", options=(("dark", "Dark"), ("light", "Light"))
+    )
+    written_pitch = Setting(
+        "pitch/written",
+        False,
+        held=in_pitches("written"),
+        label="Pitches",
+        options=((False, "As they sound (concert)"), (True, "As written for the instrument")),
+    )
+    middle_c_octave = Setting(
+        "pitch/middle_c_octave",
+        4,
+        held=in_pitches("middle_c_octave"),
+        label="Middle C",
+        options=((4, "C4"), (3, "C3")),
+    )
+    syllables = Setting(
+        "pitch/syllables",
+        False,
+        held=in_pitches("syllables"),
+        label="Names of notes",
+        options=((False, "C D E"), (True, "Do Re Mi")),
+    )
+    time_display = Setting(
+        "interface/time_display",
+        "bars",
+        held=TIME,
+        label="Time",
+        options=(("bars", "Bars and beats"), ("seconds", "Seconds"), ("frames", "Frames")),
+    )
+    folded = Setting("interface/folded", dict[str, bool](), dict[str, bool], held=FOLDED)
     """Which parts of panels are folded, by name."""
-    time_display = _Value("interface/time_display", "bars")
-    """``"bars"``, ``"seconds"`` or ``"frames"``."""
 
-    written_pitch = _Value("pitch/written", False)
-    """Pitches as written for the instrument instead of as they sound."""
-    middle_c_octave = _Value("pitch/middle_c_octave", 4, Literal[3, 4])
-    syllables = _Value("pitch/syllables", False)
-    """Do re mi instead of C D E."""
-
-    volume = _Value("sound/volume", 0.8, Annotated[float, msgspec.Meta(ge=0.0, le=1.0)])
+    volume = Setting("sound/volume", 0.8, Annotated[float, msgspec.Meta(ge=0.0, le=1.0)], held=in_listening("volume"))
     """0..1 as the ear judges it."""
-    click = _Value("sound/click", False)
+    click = Setting("sound/click", False, held=in_listening("click"))
     """Whether a metronome is heard."""
-    scrub_sound = _Value("sound/scrub", True)
+    scrub_sound = Setting("sound/scrub", True, held=in_listening("scrub_sound"))
     """Whether moving the playhead by hand is heard."""
-    source = _Value("sound/source", "recording")
-    """What is heard where a project has a recording: ``"recording"``, ``"synthesiser"`` or ``"both"``."""
+    source = Setting("sound/source", "recording", Source, held=in_listening("source"))
+    """What is heard where a project has a recording."""
 
-    midi_port = _Value("midi/port", "")
+    midi_port = Setting("midi/port", "")
     """The device that is recorded from; empty: none was chosen."""
-    count_in_bars = _Value("midi/count_in_bars", 1, Annotated[int, msgspec.Meta(ge=0, le=4)])
+    count_in_bars = Setting("midi/count_in_bars", 1, Annotated[int, msgspec.Meta(ge=0, le=4)])
 
-    stream_host = _Value("stream/host", "")
+    stream_host = Setting("stream/host", "")
     """The computer that is streamed to; empty: none was chosen."""
-    stream_port = _Value("stream/port", 0, Annotated[int, msgspec.Meta(ge=LEAST_PORT, le=MOST_PORT)])
+    stream_port = Setting("stream/port", 0, Annotated[int, msgspec.Meta(ge=LEAST_PORT, le=MOST_PORT)])
     """0: none was chosen."""
-    stream_everyone = _Value("stream/everyone", False)
+    stream_everyone = Setting("stream/everyone", False)
     """Every player is streamed, not only the one in front."""
-    stream_faces = _Value("stream/faces", "")
+    stream_faces = Setting("stream/faces", "")
     """Of `app.stream.faces.FACE_NAMES`; empty: none was chosen."""
-    stream_rate_hz = _Value("stream/rate_hz", 0)
+    stream_rate_hz = Setting("stream/rate_hz", 0)
     """Frames in a second; 0: none were chosen."""
 
     geometry = _Bytes("window/geometry")
     """Where the window is and how large."""
     layout = _Bytes("window/layout")
     """Where the panels are."""
-    timeline = _Value("window/timeline", "")
+    timeline = Setting("window/timeline", "")
     """The timeline's lanes: order, heights, folds."""
 
     folder = _FilePath("files/folder", "")
@@ -175,12 +226,12 @@ class Settings(QObject):
     """Where players were last exported to."""
     unreal_project = _FilePath("files/unreal_project", "")
     """The Unreal project that players were last exported into; empty: none."""
-    export_into = _Value("files/export_into", "folder")
+    export_into = Setting("files/export_into", "folder")
     """Where players were last exported to: ``"folder"`` or ``"unreal"``."""
-    _recent = _Value("files/recent", tuple[str, ...](), tuple[str, ...])
+    _recent = Setting("files/recent", tuple[str, ...](), tuple[str, ...])
 
-    _shortcuts = _Value("shortcuts", dict[str, str](), dict[str, str])
-    _midi_devices = _Value("midi_devices", dict[str, dict[str, str]](), dict[str, dict[str, str]])
+    _shortcuts = Setting("shortcuts", dict[str, str](), dict[str, str])
+    _midi_devices = Setting("midi_devices", dict[str, dict[str, str]](), dict[str, dict[str, str]])
 
     def __init__(self, path: Path) -> None:
         super().__init__()
@@ -248,8 +299,8 @@ class Settings(QObject):
         """The table without values that are not possible, which are problems."""
         self._table = table
         file = os.fspath(self.path)
-        for value in vars(type(self)).values():
-            if isinstance(value, _Value) and (stored := self.stored(value.keys)) is not None:
+        for value in SETTINGS:
+            if (stored := self.stored(value.keys)) is not None:
                 try:
                     value.read(stored, file)
                 except AppError as error:
@@ -293,6 +344,10 @@ class Settings(QObject):
         """Give an action a shortcut of one's own; None: as it comes."""
         others = {id: own for id, own in self._shortcuts.items() if id != action_id}
         self._shortcuts = others if keys is None else {**others, action_id: keys}
+
+
+SETTINGS: Final = tuple(value for value in vars(Settings).values() if isinstance(value, Setting))
+"""Every setting."""
 
 
 def _put(table: dict[str, Any], keys: tuple[str, str], value: object) -> None:

@@ -14,7 +14,6 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 TARGET = ROOT / "resources" / "translations"
 LANGUAGE = "ja"
-CONTEXT = "Message"
 
 
 def rooms() -> dict[str, list[Path]]:
@@ -42,19 +41,37 @@ def collect(sources: list[Path], target: Path) -> None:
         sys.exit("\n".join([f"{target.name}: lupdate complains", *complaints]))
 
 
-def collect_messages(target: Path) -> None:
-    """The templates of `app.messages`, in their order."""
+def declared() -> dict[str, tuple[str, list[str]]]:
+    """The texts that tables declare in English, by file, each with its context."""
     sys.path.insert(0, str(ROOT))
     from app.messages import TEMPLATES
+    from app.plan.parameters import PARAMETERS
+    from app.project.model import DANCER_PARAMETERS
+    from app.shell.settings import SETTINGS
 
+    parameters = (*PARAMETERS.values(), *DANCER_PARAMETERS.values())
+    of_parameters = [word for parameter in parameters for word in parameter.words]
+    of_settings = [word for setting in SETTINGS if setting.label for word in setting.words]
+    return {
+        name: (context, list(dict.fromkeys(texts)))
+        for name, context, texts in (
+            ("messages", "Message", TEMPLATES.values()),
+            ("parameters", "Parameter", of_parameters),
+            ("settings", "Setting", of_settings),
+        )
+    }
+
+
+def collect_declared(target: Path, context: str, texts: list[str]) -> None:
+    """Texts of tables, in their order; what is translated stays."""
     known = translations(target) if target.exists() else {}
     ts = ET.Element("TS", version="2.1", language=LANGUAGE, sourcelanguage="en")
-    context = ET.SubElement(ts, "context")
-    ET.SubElement(context, "name").text = CONTEXT
-    for source in dict.fromkeys(TEMPLATES.values()):
-        message = ET.SubElement(context, "message")
+    element = ET.SubElement(ts, "context")
+    ET.SubElement(element, "name").text = context
+    for source in texts:
+        message = ET.SubElement(element, "message")
         ET.SubElement(message, "source").text = source
-        text = known.get((CONTEXT, source), "")
+        text = known.get((context, source), "")
         translation = ET.SubElement(message, "translation")
         if text:
             translation.text = text
@@ -90,7 +107,8 @@ def main() -> None:
     TARGET.mkdir(exist_ok=True)
     for room, sources in rooms().items():
         collect(sources, TARGET / f"{room}_{LANGUAGE}.ts")
-    collect_messages(TARGET / f"messages_{LANGUAGE}.ts")
+    for name, (context, texts) in declared().items():
+        collect_declared(TARGET / f"{name}_{LANGUAGE}.ts", context, texts)
     release()
     for path in sorted(TARGET.glob(f"*_{LANGUAGE}.ts")):
         found = translations(path)

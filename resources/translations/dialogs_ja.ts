@@ -1852,66 +1852,6 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <source>Your own instruments: a map (.toml) and a model (.glb) in this folder. They are read again as soon as they change.</source>
         <translation>自分の楽器：このフォルダに置いたマップ（.toml）とモデル（.glb）。変更するとすぐに読み込み直されます。</translation>
     </message>
-    <message>
-        <source>Language</source>
-        <translation>言語</translation>
-    </message>
-    <message>
-        <source>Theme</source>
-        <translation>テーマ</translation>
-    </message>
-    <message>
-        <source>Pitches</source>
-        <translation>音高</translation>
-    </message>
-    <message>
-        <source>Middle C</source>
-        <translation>中央ハ</translation>
-    </message>
-    <message>
-        <source>Names of notes</source>
-        <translation>音名</translation>
-    </message>
-    <message>
-        <source>Time</source>
-        <translation>時間</translation>
-    </message>
-    <message>
-        <source>Dark</source>
-        <translation>ダーク</translation>
-    </message>
-    <message>
-        <source>Light</source>
-        <translation>ライト</translation>
-    </message>
-    <message>
-        <source>As they sound (concert)</source>
-        <translation>実音</translation>
-    </message>
-    <message>
-        <source>As written for the instrument</source>
-        <translation>記譜音</translation>
-    </message>
-    <message>
-        <source>Do Re Mi</source>
-        <translation>ドレミ</translation>
-    </message>
-    <message>
-        <source>Bars and beats</source>
-        <translation>小節と拍</translation>
-    </message>
-    <message>
-        <source>Seconds</source>
-        <translation>秒</translation>
-    </message>
-    <message>
-        <source>Frames</source>
-        <translation>フレーム</translation>
-    </message>
-    <message>
-        <source>The system&apos;s</source>
-        <translation>システムに合わせる</translation>
-    </message>
 </context>
 <context>
     <name>RangeChooser</name>

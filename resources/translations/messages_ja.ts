@@ -448,28 +448,12 @@
             <translation>{dancer} のキャラクター</translation>
         </message>
         <message>
-            <source>preferred source of {dancer}</source>
-            <translation>{dancer} の優先ソース</translation>
+            <source>{parameter} of {dancer}</source>
+            <translation>{dancer} の{parameter}</translation>
         </message>
         <message>
             <source>mirror {dancer}</source>
             <translation>{dancer} を左右反転</translation>
-        </message>
-        <message>
-            <source>variation of {dancer}</source>
-            <translation>{dancer} のバリエーション</translation>
-        </message>
-        <message>
-            <source>size of {dancer}'s motion</source>
-            <translation>{dancer} の動きの大きさ</translation>
-        </message>
-        <message>
-            <source>weight of {dancer}'s motion</source>
-            <translation>{dancer} の動きの重さ</translation>
-        </message>
-        <message>
-            <source>delay of {dancer}</source>
-            <translation>{dancer} の遅れ</translation>
         </message>
         <message>
             <source>place {dancer} on the stage</source>
@@ -528,72 +512,8 @@
             <translation>プレイヤーの色: {count} 人</translation>
         </message>
         <message>
-            <source>amplitude of players: {count}</source>
-            <translation>動きの大きさ: {count} 人</translation>
-        </message>
-        <message>
-            <source>shortest rest to breathe in, players: {count}</source>
-            <translation>息を吸う休符の下限: {count} 人</translation>
-        </message>
-        <message>
-            <source>rest with a breath on its last beat, players: {count}</source>
-            <translation>最後の拍で吸う下限: {count} 人</translation>
-        </message>
-        <message>
-            <source>rest with a prepared breath, players: {count}</source>
-            <translation>予備動作を付ける下限: {count} 人</translation>
-        </message>
-        <message>
-            <source>air used up before a short rest is breathed in, players: {count}</source>
-            <translation>短い休符で吸うまでに使う息: {count} 人</translation>
-        </message>
-        <message>
-            <source>lungs of players: {count}</source>
-            <translation>一息の長さ: {count} 人</translation>
-        </message>
-        <message>
-            <source>circular breathing of players: {count}</source>
-            <translation>循環呼吸: {count} 人</translation>
-        </message>
-        <message>
-            <source>embouchure tension of players: {count}</source>
-            <translation>アンブシュアの張り: {count} 人</translation>
-        </message>
-        <message>
-            <source>body motion of players: {count}</source>
-            <translation>体の動き: {count} 人</translation>
-        </message>
-        <message>
-            <source>amount of dance, players: {count}</source>
-            <translation>踊りの量: {count} 人</translation>
-        </message>
-        <message>
-            <source>variation of the dance, players: {count}</source>
-            <translation>踊りのバリエーション: {count} 人</translation>
-        </message>
-        <message>
-            <source>sway of players: {count}</source>
-            <translation>揺れ: {count} 人</translation>
-        </message>
-        <message>
-            <source>weight shift of players: {count}</source>
-            <translation>重心移動: {count} 人</translation>
-        </message>
-        <message>
-            <source>bell height of players: {count}</source>
-            <translation>ベルの高さ: {count} 人</translation>
-        </message>
-        <message>
-            <source>standing or seated, players: {count}</source>
-            <translation>立奏・座奏: {count} 人</translation>
-        </message>
-        <message>
-            <source>who gives cues, players: {count}</source>
-            <translation>合図を出す人: {count} 人</translation>
-        </message>
-        <message>
-            <source>seed of players: {count}</source>
-            <translation>シード: {count} 人</translation>
+            <source>{parameter}, players: {count}</source>
+            <translation>{parameter}: {count} 人</translation>
         </message>
         <message>
             <source>reset players: {count}</source>

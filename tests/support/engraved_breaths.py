@@ -12,7 +12,7 @@ import msgspec
 
 from app.plan.generate import Line, make_plans, time_frame
 from app.plan.line import Piece, line_times
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.score.felt_beat import felt_beats
 from app.score.metre_map import Metre, MetreMap
 from instrument_maps.load import bundled_maps

@@ -9,16 +9,17 @@ from hypothesis import strategies as st
 
 from app.errors import Message
 from app.plan.corrections import Correction
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PARAMETERS, Bounds, PlayerParameters
 from app.project import limits
 from app.project.casting import StagePosition
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
-from app.project.model import AudioTrack, Dancer, Player, Project
+from app.project.model import DANCER_PARAMETERS, AudioTrack, Dancer, Player, Project
 from app.score.limits import too_long
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Note, Part, PercussionHit, Score, UnplayedPart
 from app.score.tempo import TempoChange, TempoMap
 from metadata.model import ARKIT_MORPHS, Expression
+from tests.support.parameters import values
 
 texts = st.text(st.characters(exclude_categories=["Cs"]), max_size=12)
 ids = st.text(st.characters(exclude_categories=["Cs"]), min_size=1, max_size=6)
@@ -26,7 +27,7 @@ fractions01 = st.floats(0.0, 1.0)
 ticks = st.integers(-100_000, 100_000)
 
 
-def within(bounds: limits.Bounds) -> st.SearchStrategy[float]:
+def within(bounds: Bounds) -> st.SearchStrategy[float]:
     return st.floats(*bounds)
 
 
@@ -114,12 +115,8 @@ def dancers(draw: st.DrawFn, id: str, name: str, folder: str) -> Dancer:
         ),
         character_id=draw(ids),
         stage=draw(stages),
-        seed=draw(st.integers(*limits.SEED)),
-        delay_beats=draw(within(limits.DELAY_BEATS)),
         mirrored=draw(st.booleans()),
-        source=draw(st.integers(-1, 9)),
-        size=draw(within(limits.DANCE_SIZE)),
-        weight=draw(within(limits.DANCE_WEIGHT)),
+        **{name: draw(values(parameter)) for name, parameter in DANCER_PARAMETERS.items()},
         colour=draw(st.sampled_from(["", "#0A1b2C"])),
     )
 
@@ -142,19 +139,7 @@ def players(draw: st.DrawFn, id: str, name: str, part_ids: list[str]) -> Player:
         part_id=draw(st.sampled_from(part_ids)),
         instrument_id=draw(ids),
         character_id=draw(ids),
-        parameters=PlayerParameters(
-            amplitude=draw(fractions01),
-            breath_min_beats=draw(st.floats(0.0, 64.0)),
-            lung_s=draw(st.floats(1.0, 60.0)),
-            circular_breathing=draw(st.booleans()),
-            choreography=draw(st.sampled_from(["", "salsa", "/dances/tango.choreography"])),
-            dance_amount=draw(fractions01),
-            dance_variation=draw(st.integers(*limits.SEED)),
-            sway=draw(st.floats(0.0, 2.0)),
-            posture=draw(st.sampled_from(["standing", "seated"])),
-            cue_leader=draw(st.none() | st.booleans()),
-            seed=draw(st.integers(0, 2**63 - 1)),
-        ),
+        parameters=PlayerParameters(**{name: draw(values(parameter)) for name, parameter in PARAMETERS.items()}),
         stage=draw(stages),
         colour=draw(st.sampled_from(["", "#0A1b2C"])),
         muted=draw(st.booleans()),

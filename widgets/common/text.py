@@ -65,6 +65,8 @@ def _told(message: Message, name: str, session: Session | None, player_id: str |
             return _pitch(session, float(value), player)
         if name in NOTES and isinstance(value, str):
             return _anchor(session, value, player, is_anchor=name == "anchor")
+    if name == "parameter":
+        return parameter_text(str(value))
     words = _WORDS.get(name)
     return words().get(str(value), str(value).replace("_", " ")) if words is not None else value
 
@@ -164,6 +166,11 @@ def _controls() -> dict[str, str]:
         "slide": QCoreApplication.translate("Told", "the slide"),
         "trigger": QCoreApplication.translate("Told", "the trigger"),
     }
+
+
+def parameter_text(english: str) -> str:
+    """A word of a parameter (`app.plan.parameters`) in the language of the editor."""
+    return QCoreApplication.translate("Parameter", english) if english else ""
 
 
 _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
-from PySide6.QtCore import QEvent, QSize, Qt, Signal
+from PySide6.QtCore import QCoreApplication, QEvent, QSize, Qt, Signal, SignalInstance
 from PySide6.QtWidgets import (
     QButtonGroup,
     QDialog,
@@ -25,18 +26,37 @@ from app.encoding import shown
 from instrument_maps.library import library, own_folder
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
-from widgets.common.session import Session, TimeDisplay
+from widgets.common.session import Session
 from widgets.common.text import message_text
-from widgets.common.tokens import THEMES
 from widgets.dialogs.shortcuts import ShortcutRow, ShortcutsPage
 
 
 @dataclass(frozen=True)
 class Choice:
-    """One of several: the key that is chosen, and all keys with their names."""
+    """A setting that is one of several.
 
-    chosen: str
-    names: Mapping[str, str]
+    Attributes
+    ----------
+    name, label : str
+    options : tuple of (value, word)
+        Label and words are English, translated in the context ``Setting``.
+    chosen : callable
+        Gives the present value.
+    choose : callable
+        Given another value.
+    changed : signal or None
+        Sent when there is another one.
+    is_list : bool
+        A list that opens, instead of all options beside one another.
+    """
+
+    name: str
+    label: str
+    options: tuple[tuple[Any, str], ...]
+    chosen: Callable[[], Any]
+    choose: Callable[[Any], object]
+    changed: SignalInstance | None = None
+    is_list: bool = False
 
 
 class PreferencesDialog(QDialog):
@@ -45,26 +65,23 @@ class PreferencesDialog(QDialog):
     Parameters
     ----------
     session : Session
-        Theme, pitch and time are its own.
-    language : Choice
-        Codes and the languages' own names; the empty code is the system's.
+    choices : sequence of Choice
+        In their order.
     shortcuts, conflicts, menu_of : callable
         See `ShortcutsPage`.
 
     Signals
     -------
-    language_chosen(str)
     shortcut_chosen(str, object)
         See `ShortcutsPage.chosen`.
     """
 
-    language_chosen = Signal(str)
     shortcut_chosen = Signal(str, object)
 
     def __init__(
         self,
         session: Session,
-        language: Choice,
+        choices: Sequence[Choice],
         shortcuts: Callable[[], tuple[ShortcutRow, ...]],
         conflicts: Callable[[str, str], tuple[str, ...]],
         menu_of: Callable[[str], str],
@@ -73,10 +90,10 @@ class PreferencesDialog(QDialog):
         super().__init__(parent)
         self.setObjectName("preferences")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self._session = session
+        self._session, self._choices = session, tuple(choices)
         self._labels: dict[str, Label] = {}
-        self._radios: dict[str, QRadioButton] = {}
-        self._groups: list[QButtonGroup] = []
+        self._lists: dict[str, ComboBox] = {}
+        self._radios: dict[str, list[QRadioButton]] = {}
         self.tabs = QTabWidget()
         self.tabs.setObjectName("preferences_tabs")
         general = QWidget()
@@ -84,28 +101,13 @@ class PreferencesDialog(QDialog):
         self._form.setContentsMargins(16, 16, 16, 16)
         self._form.setVerticalSpacing(12)
         self._form.setHorizontalSpacing(24)
-        self._languages = ComboBox()
-        self._languages.setObjectName("preferences_language")
-        for code in language.names:
-            self._languages.addItem(language.names[code], code)
-        self._languages.setCurrentIndex(max(self._languages.findData(language.chosen), 0))
-        self._languages.activated.connect(self._choose_language)
-        self._row("language", self._languages)
-        self._options("theme", [(name, partial(self._choose_theme, name)) for name in THEMES])
-        pitch = session.pitch_display
-        self._options(
-            "pitch", [("concert", lambda: pitch.set(written=False)), ("written", lambda: pitch.set(written=True))]
-        )
-        self._options(
-            "octave",
-            [("c4", lambda: pitch.set(middle_c_octave=4)), ("c3", lambda: pitch.set(middle_c_octave=3))],
-        )
-        self._options(
-            "names",
-            [("letters", lambda: pitch.set(syllables=False)), ("syllables", lambda: pitch.set(syllables=True))],
-        )
-        displays: tuple[TimeDisplay, ...] = ("bars", "seconds", "frames")
-        self._options("time", [(display, partial(session.set_time_display, display)) for display in displays])
+        for choice in self._choices:
+            label, field = Label(), self._list(choice) if choice.is_list else self._options(choice)
+            label.setBuddy(field)
+            self._labels[choice.name] = label
+            self._form.addRow(label, field)
+            if choice.changed is not None:
+                choice.changed.connect(self.refresh)
         self.tabs.addTab(general, "")
         self.shortcuts = ShortcutsPage(session, shortcuts, conflicts, menu_of)
         self.shortcuts.chosen.connect(self.shortcut_chosen)
@@ -117,38 +119,33 @@ class PreferencesDialog(QDialog):
         column.setContentsMargins(10, 8, 10, 10)
         column.addWidget(self.tabs, 1)
         column.addWidget(self._buttons)
-        for signal in (
-            session.theme_changed,
-            session.time_display_changed,
-            session.instruments_changed,
-            pitch.changed,
-        ):
-            signal.connect(self.refresh)
+        session.instruments_changed.connect(self.refresh)
         self.retranslate()
         self.refresh()
 
-    def _row(self, name: str, field: QWidget) -> None:
-        label = Label()
-        label.setBuddy(field)
-        self._labels[name] = label
-        self._form.addRow(label, field)
+    def _list(self, choice: Choice) -> QWidget:
+        field = self._lists[choice.name] = ComboBox()
+        field.setObjectName(f"preferences_{choice.name}")
+        field.addItems([word for _, word in choice.options])
+        field.activated.connect(lambda index: choice.choose(choice.options[index][0]))
+        return field
 
-    def _options(self, name: str, options: list[tuple[str, Callable[[], object]]]) -> None:
-        group = QButtonGroup(self)
+    def _options(self, choice: Choice) -> QWidget:
         field = QWidget()
+        group = QButtonGroup(field)
         line = QHBoxLayout(field)
         line.setContentsMargins(0, 0, 0, 0)
         line.setSpacing(16)
-        for key, choose in options:
+        radios = self._radios[choice.name] = []
+        for value, _ in choice.options:
             radio = QRadioButton()
-            radio.setObjectName(f"preferences_{name}_{key}")
-            radio.clicked.connect(partial(_call, choose))
+            radio.setObjectName(f"preferences_{choice.name}_{value}")
+            radio.clicked.connect(partial(_call, choice.choose, value))
             group.addButton(radio)
             line.addWidget(radio)
-            self._radios[f"{name}.{key}"] = radio
+            radios.append(radio)
         line.addStretch(1)
-        self._groups.append(group)
-        self._row(name, field)
+        return field
 
     def _instruments_page(self) -> QWidget:
         """Where a person's own maps are, and what is wrong with them."""
@@ -195,24 +192,14 @@ class PreferencesDialog(QDialog):
 
     def refresh(self) -> None:
         """Show what is chosen now."""
-        session = self._session
-        pitch = session.pitch_display
-        chosen = (
-            f"theme.{session.tokens.name}",
-            "pitch.written" if pitch.written else "pitch.concert",
-            f"octave.c{pitch.middle_c_octave}",
-            "names.syllables" if pitch.syllables else "names.letters",
-            f"time.{session.time_display}",
-        )
-        for key in chosen:
-            self._radios[key].setChecked(True)
+        for choice in self._choices:
+            values = [value for value, _ in choice.options]
+            chosen = values.index(choice.chosen())
+            if choice.is_list:
+                self._lists[choice.name].setCurrentIndex(chosen)
+            else:
+                self._radios[choice.name][chosen].setChecked(True)
         self._show_instruments()
-
-    def _choose_theme(self, name: str) -> None:
-        self._session.set_tokens(THEMES[name])
-
-    def _choose_language(self, index: int) -> None:
-        self.language_chosen.emit(str(self._languages.itemData(index)))
 
     def retranslate(self) -> None:
         """Set the texts."""
@@ -227,30 +214,13 @@ class PreferencesDialog(QDialog):
                 "they change."
             )
         )
-        for name, text in (
-            ("language", self.tr("Language")),
-            ("theme", self.tr("Theme")),
-            ("pitch", self.tr("Pitches")),
-            ("octave", self.tr("Middle C")),
-            ("names", self.tr("Names of notes")),
-            ("time", self.tr("Time")),
-        ):
-            self._labels[name].setText(text)
-        for key, text in (
-            ("theme.dark", self.tr("Dark")),
-            ("theme.light", self.tr("Light")),
-            ("pitch.concert", self.tr("As they sound (concert)")),
-            ("pitch.written", self.tr("As written for the instrument")),
-            ("octave.c4", "C4"),
-            ("octave.c3", "C3"),
-            ("names.letters", "C D E"),
-            ("names.syllables", self.tr("Do Re Mi")),
-            ("time.bars", self.tr("Bars and beats")),
-            ("time.seconds", self.tr("Seconds")),
-            ("time.frames", self.tr("Frames")),
-        ):
-            self._radios[key].setText(text)
-        self._languages.setItemText(self._languages.findData(""), self.tr("The system's"))
+        for choice in self._choices:
+            self._labels[choice.name].setText(_word(choice.label))
+            for index, (_, word) in enumerate(choice.options):
+                if choice.is_list:
+                    self._lists[choice.name].setItemText(index, _word(word))
+                else:
+                    self._radios[choice.name][index].setText(_word(word))
 
     def sizeHint(self) -> QSize:
         """Room for the list of shortcuts."""
@@ -263,5 +233,9 @@ class PreferencesDialog(QDialog):
         super().changeEvent(event)
 
 
-def _call(choose: Callable[[], object], *_: object) -> None:
-    choose()
+def _word(english: str) -> str:
+    return QCoreApplication.translate("Setting", english)
+
+
+def _call(choose: Callable[[Any], object], value: object, *_: object) -> None:
+    choose(value)

@@ -12,21 +12,23 @@ from PySide6.QtWidgets import QHBoxLayout, QToolButton, QVBoxLayout, QWidget
 from app.choreography.library import bundled_choreographies
 from app.choreography.model_file import SUFFIX
 from app.encoding import shown
-from app.errors import Message
+from app.plan.parameters import PARAMETERS
 from app.project.edit import body_dance as edit
-from app.project.edit.players import reset_parameters, set_parameters
+from app.project.edit.players import parameter_edit, reset_parameters, set_parameters
 from app.project.model import Player, Project
 from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon
-from widgets.common.number_slider import NumberSlider
 from widgets.common.paths import ask_for_file
 from widgets.common.plain import Label
 from widgets.common.session import Session
+from widgets.common.text import parameter_text
+from widgets.players.parameter_rows import ParameterSlider, rows_of
 
 _GENERATED = ""
 _FROM_FILE = "\0file"
 """Of the options: no name of a choreography."""
-_AMOUNT, _VARIATION = "dance_amount", "dance_variation"
+_DANCED = PARAMETERS["choreography"]
+_VARIATION = "dance_variation"
 
 
 class BodyDanceRows(QWidget):
@@ -43,10 +45,7 @@ class BodyDanceRows(QWidget):
         self._label, self._choreography = Label(), Combo()
         self._choreography.setObjectName("parameter_choreography")
         self._label.setBuddy(self._choreography)
-        self._sliders = {
-            _AMOUNT: NumberSlider(session, 0.0, 1.0, step=0.05),
-            _VARIATION: NumberSlider(session, 0.0, float(2**31 - 1), decimals=0, step=1.0, slides=False),
-        }
+        self._sliders = {one.name: ParameterSlider(session, one) for one in rows_of("dance")}
         self._dice = QToolButton()
         self._dice.setObjectName("dance_dice")
         self._build()
@@ -72,10 +71,10 @@ class BodyDanceRows(QWidget):
         rows = QVBoxLayout(self)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.addLayout(choice)
-        rows.addWidget(self._sliders[_AMOUNT])
-        rows.addLayout(variation)
         for name, slider in self._sliders.items():
-            slider.setObjectName(f"parameter_{name}")
+            if name != _VARIATION:
+                rows.addWidget(slider)
+        rows.addLayout(variation)
 
     # Showing
 
@@ -92,13 +91,13 @@ class BodyDanceRows(QWidget):
             widget.setVisible(any(dances))
         for name, slider in self._sliders.items():
             values = [float(getattr(player.parameters, name)) for player in players]
-            default = 0.5 if name == _AMOUNT else 0.0
-            changed = name == _AMOUNT and any(value != default for value in values)
+            default = float(slider.parameter.default)
+            changed = not slider.parameter.is_own and any(value != default for value in values)
             slider.show_value(values[0], mixed=len(set(values)) > 1, default=default, by_hand=changed)
 
     def _show_choreography(self, dances: Sequence[str]) -> None:
         self._choreography.show_option(dances[0] if len(dances) == 1 else None)
-        told = [self.tr("How hips, trunk and head move while playing; hands, lips and feet keep their places")]
+        told = [parameter_text(_DANCED.tip)]
         self._choreography.setToolTip("\n".join([*told, *(shown(path) for path in dances if path)]))
 
     # Editing
@@ -112,14 +111,14 @@ class BodyDanceRows(QWidget):
             choreography = ask_for_file(self, self.tr("Choreography"), start, f"{kind} (*{SUFFIX})")
         chosen = self._session.players
         if choreography is not None:
-            self._edit("choreography", lambda project: edit.set_body_dance(project, chosen, choreography))
+            self._edit(_DANCED.name, lambda project: edit.set_body_dance(project, chosen, choreography))
         if id == _FROM_FILE:
             # Also where none was chosen, or it was refused: the list does not stay at the question.
             players = [self._session.project.player(player_id) for player_id in chosen]
             self._show_choreography(list(dict.fromkeys(player.parameters.choreography for player in players)))
 
     def _set(self, name: str, value: float, token: object) -> None:
-        chosen, number = self._session.players, int(value) if name == _VARIATION else float(value)
+        chosen, number = self._session.players, PARAMETERS[name].kind(value)
         self._edit(name, lambda project: set_parameters(project, chosen, **{name: number}), token)
 
     def _reset(self, name: str) -> None:
@@ -131,8 +130,7 @@ class BodyDanceRows(QWidget):
         self._edit(_VARIATION, lambda project: edit.vary_body_dances(project, chosen))
 
     def _edit(self, name: str, change: Callable[[Project], Project], token: object | None = None) -> None:
-        named = Message(f"edit.parameter_{name}", {"count": len(self._session.players)})
-        self._session.attempt(named, change, token, self)
+        self._session.attempt(parameter_edit(name, len(self._session.players)), change, token, self)
 
     # Words and pictures
 
@@ -141,20 +139,10 @@ class BodyDanceRows(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor; what is shown of players follows with `show_players`."""
-        self._label.setText(self.tr("Body motion"))
+        self._label.setText(parameter_text(_DANCED.label))
         self._dice.setToolTip(self.tr("Another dance for each"))
-        words = {
-            _AMOUNT: (
-                self.tr("Dance amount"),
-                self.tr("How much of the dance: 0 none, 1 as much as a player can do; it takes the place of the sway"),
-            ),
-            _VARIATION: (
-                self.tr("Variation"),
-                self.tr("0: a dance of the player's own; who has the same other number moves in unison, dancers too"),
-            ),
-        }
-        for name, (label, tip) in words.items():
-            self._sliders[name].set_texts(label, "", tip)
+        for slider in self._sliders.values():
+            slider.retranslate()
 
     # Qt's own names
 

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Callable
 from pathlib import Path
 
-import msgspec
 from PySide6.QtCore import QEvent, Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent
 from PySide6.QtWidgets import (
@@ -25,23 +23,23 @@ from app.choreography.library import bundled_choreographies, choreography_path
 from app.choreography.model_file import SUFFIX, read_model
 from app.encoding import shown
 from app.errors import AppError, Message
-from app.project import limits
 from app.project.document import Change
 from app.project.edit import dancers as edit
-from app.project.model import Dancer, Project
+from app.project.model import DANCER_PARAMETERS, Dancer, Project
 from app.rig.character_library import characters
 from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon
 from widgets.common.instrument_name import character_name
-from widgets.common.number_slider import NumberSlider
 from widgets.common.paths import ask_for_file
 from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
 from widgets.common.session import Session
+from widgets.common.text import parameter_text
 from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.players.dancer_list import DancerList
 from widgets.players.newcomers import add_dancer, duplicate_dancer, remove_dancer
-from widgets.players.stage import FARTHEST_M
+from widgets.players.parameter_rows import ParameterSlider, rows_of
+from widgets.players.place_numbers import name_places, place_sliders, shown_number, with_number
 
 MENU = ("dancers.add", "dancers.rename", "dancers.duplicate", "dancers.remove", "", "dancers.choreography")
 """The context menu of the list: actions by id, an empty one is a line."""
@@ -50,7 +48,7 @@ _FROM_FILE = "\0file"
 _LEARN = "\0learn"
 """Of the options of choreographies: no names of one."""
 _MOST_ROWS = 5
-_PLACES = (("x_m", FARTHEST_M, 2, 0.05, False), ("z_m", FARTHEST_M, 2, 0.05, False), ("turn_rad", 180.0, 0, 5.0, True))
+_SOURCE = DANCER_PARAMETERS["source"]
 
 
 class DancersSection(QWidget):
@@ -77,14 +75,9 @@ class DancersSection(QWidget):
         self._look, self._dice = QToolButton(), QToolButton()
         self._look.setObjectName("dancer_look")
         self._dice.setObjectName("dancer_dice")
-        self._sliders = {
-            "seed": NumberSlider(session, 0.0, float(2**31 - 1), decimals=0, step=1.0, slides=False),
-            "size": NumberSlider(session, *limits.DANCE_SIZE, default=1.0, step=0.05),
-            "weight": NumberSlider(session, *limits.DANCE_WEIGHT, default=0.0, step=0.05),
-            "delay_beats": NumberSlider(session, 0.0, 32.0, default=0.0, step=1.0, decimals=1),
-            **{name: NumberSlider(session, -most, most, decimals=decimals, step=step, slides=slides)
-               for name, most, decimals, step, slides in _PLACES},
-        }  # fmt: skip
+        numbers = rows_of("dancer", DANCER_PARAMETERS)
+        self._numbers = {number.name: ParameterSlider(session, number, "dancer") for number in numbers}
+        self._places = place_sliders(session, "dancer")
         self._read: tuple[str, list[Option]] | None = None
         """A choreography whose sources are known."""
         self._build()
@@ -117,23 +110,22 @@ class DancersSection(QWidget):
         choreography.addWidget(self._choreography, 1)
         choreography.addWidget(self._look)
         grid.addLayout(choreography, 0, 1)
-        for name, slider in self._sliders.items():
-            slider.setObjectName(f"dancer_{name}")
         seed = QHBoxLayout()
         seed.setSpacing(4)
-        seed.addWidget(self._sliders["seed"], 1)
-        seed.addWidget(self._dice)
-        grid.addLayout(seed, 3, 0, 1, 2)
-        grid.addWidget(self._sliders["size"], 4, 0, 1, 2)
-        grid.addWidget(self._sliders["weight"], 5, 0, 1, 2)
-        grid.addWidget(self._sliders["delay_beats"], 6, 0, 1, 2)
-        grid.addWidget(self._mirrored, 7, 0, 1, 2)
+        for row, (name, slider) in enumerate(self._numbers.items(), len(combos)):
+            if name == "seed":
+                seed.addWidget(slider, 1)
+                seed.addWidget(self._dice)
+                grid.addLayout(seed, row, 0, 1, 2)
+            else:
+                grid.addWidget(slider, row, 0, 1, 2)
         place = QHBoxLayout()
         place.setSpacing(4)
         for name in ("x_m", "z_m"):
-            place.addWidget(self._sliders[name], 1)
-        grid.addLayout(place, 8, 0, 1, 2)
-        grid.addWidget(self._sliders["turn_rad"], 9, 0, 1, 2)
+            place.addWidget(self._places[name], 1)
+        grid.addWidget(self._mirrored, grid.rowCount(), 0, 1, 2)
+        grid.addLayout(place, grid.rowCount(), 0, 1, 2)
+        grid.addWidget(self._places["turn_rad"], grid.rowCount(), 0, 1, 2)
         self._section.body.addWidget(self.list)
         self._section.body.addWidget(self._form)
         outer = QVBoxLayout(self)
@@ -161,17 +153,16 @@ class DancersSection(QWidget):
         self._mirrored.clicked.connect(lambda on: self._change("mirrored", mirrored=bool(on)))
         self._dice.clicked.connect(self._new_variation)
         self._look.clicked.connect(self._show_choreography)
-        for name in ("seed", "size", "weight", "delay_beats"):
-            slider, whole = self._sliders[name], name == "seed"
-            slider.changed.connect(
-                lambda value, token, name=name, whole=whole: self._change(
-                    name, token, **{name: int(value) if whole else float(value)}
+        for name, number in self._numbers.items():
+            number.changed.connect(
+                lambda value, token, name=name, kind=number.parameter.kind: self._change(
+                    name, token, **{name: kind(value)}
                 )
             )
+        for name, slider in self._places.items():
+            slider.changed.connect(lambda value, token, name=name: self._place(name, value, token))
+        for slider in (*self._numbers.values(), *self._places.values()):
             slider.released.connect(session.document.end_gesture)
-        for name, *_ in _PLACES:
-            self._sliders[name].changed.connect(lambda value, token, name=name: self._place(name, value, token))
-            self._sliders[name].released.connect(session.document.end_gesture)
 
     # Showing
 
@@ -213,13 +204,11 @@ class DancersSection(QWidget):
         self._source.set_options([Option("-1", self.tr("None")), *self._sources(dancer)])
         self._source.show_option(str(dancer.source))
         self._mirrored.setChecked(dancer.mirrored)
-        values = {name: getattr(dancer, name) for name in ("seed", "size", "weight", "delay_beats")}
-        values |= {name: getattr(dancer.stage, name) for name in ("x_m", "z_m")}
-        values["turn_rad"] = round(math.degrees(dancer.stage.turn_rad))
-        for name, slider in self._sliders.items():
-            default = 1.0 if name == "size" else 0.0
-            changed = name in ("size", "weight", "delay_beats") and float(values[name]) != default
-            slider.show_value(float(values[name]), default=default, by_hand=changed)
+        for name, number in self._numbers.items():
+            value, default = float(getattr(dancer, name)), float(number.parameter.default)
+            number.show_value(value, default=default, by_hand=not number.parameter.is_own and value != default)
+        for name, slider in self._places.items():
+            slider.show_value(shown_number(dancer.stage, name), by_hand=False)
 
     def _sources(self, dancer: Dancer) -> list[Option]:
         """The captures that a choreography was learned from; none where it cannot be read, which its problem says."""
@@ -322,15 +311,14 @@ class DancersSection(QWidget):
     def _place(self, name: str, value: float, token: object | None) -> None:
         dancer = self.dancer
         if dancer is not None:
-            number = math.radians(value) if name == "turn_rad" else value
-            place = msgspec.structs.replace(dancer.stage, **{name: number})
+            place = with_number(dancer.stage, name, value)
             self._edit("place", lambda project, id: edit.place_dancers(project, {id: place}), token)
 
     def _edit(self, name: str, change: Callable[[Project, str], Project], token: object | None = None) -> None:
         dancer = self.dancer
         if dancer is not None:
             self._session.attempt(
-                Message(f"edit.dancer_{name}", {"dancer": dancer.name}),
+                edit.dancer_edit(name, dancer.name),
                 lambda project: change(project, dancer.id),
                 token,
             )
@@ -353,31 +341,18 @@ class DancersSection(QWidget):
         texts = {
             "choreography": self.tr("Choreography"),
             "character": self.tr("Character"),
-            "source": self.tr("Preferred source"),
+            "source": parameter_text(_SOURCE.label),
         }
         for name, text in texts.items():
             self._labels[name].setText(text)
-        self._source.setToolTip(self.tr("The capture whose motion is danced where it suits the music about as well"))
+        self._source.setToolTip(parameter_text(_SOURCE.tip))
         self._mirrored.setText(self.tr("Mirrored"))
         self._mirrored.setToolTip(self.tr("Left and right exchanged"))
         self._look.setToolTip(self.tr("Show what the choreography has learned"))
         self._dice.setToolTip(self.tr("Another dance to the same music"))
-        metres = self.tr("m", "metres")
-        words = {
-            "seed": (self.tr("Variation"), "", self.tr("Another number is another dance to the same music")),
-            "size": (self.tr("Size of motion"), "×", self.tr("Of trunk and arms: 1 as captured")),
-            "weight": (self.tr("Weight"), "", self.tr("From light to heavy: how deep the knees bend; 0 as captured")),
-            "delay_beats": (self.tr("Delay"), self.tr("beats"), self.tr("In a canon: so much later than the music")),
-            "x_m": (self.tr("X"), metres, self.tr("To the right as the audience sees it, from the middle")),
-            "z_m": (self.tr("Z"), metres, self.tr("Towards the audience, from the middle")),
-            "turn_rad": (
-                self.tr("Turn"),
-                "°",
-                self.tr("0 faces the audience, positive turns to the right as the audience sees it"),
-            ),
-        }
-        for name, (label, unit, tip) in words.items():
-            self._sliders[name].set_texts(label, unit, tip)
+        name_places(self._places)
+        for number in self._numbers.values():
+            number.retranslate()
         self._show()
 
     # Qt's own names

@@ -301,7 +301,7 @@ class PlayersPanel(QWidget):
 
     def _reseed(self) -> None:
         chosen = self._session.players
-        self._session.attempt(self._name("edit.parameter_seed"), lambda project: vary_players(project, chosen))
+        self._session.attempt(edit.parameter_edit("seed", len(chosen)), lambda project: vary_players(project, chosen))
 
     def _set_spread(self, value: float, token: object) -> None:
         self._session.variety = value

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
 
 import shiboken6
 from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
@@ -12,57 +11,31 @@ from PySide6.QtGui import QIcon, QImage, QPixmap, QShowEvent
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QToolButton, QVBoxLayout, QWidget
 
 from app.errors import AppError, Message
+from app.plan.parameters import Parameter, Value
 from app.project.edit import players as edit
+from app.project.edit.players import parameter_edit
 from app.project.model import Player, Project
 from app.rig.character_library import bundled_characters, characters
 from instrument_maps.library import all_maps
 from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon
 from widgets.common.instrument_name import character_name, instrument_name
-from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.session import Session
 from widgets.common.swatch import ColourSwatch
 from widgets.common.tasks import Progress, StopWanted
+from widgets.common.text import parameter_text
 from widgets.players.body_dance import BodyDanceRows
+from widgets.players.parameter_rows import ParameterChoice, ParameterSlider, rows_of
 from widgets.players.portrait import portrait_of
 
 LABEL_PX = 88
 PORTRAIT_PX = 28
 PORTRAITS_AFTER_MS = 3000
-_LEADER = {"auto": None, "yes": True, "no": False}
-_CIRCULAR = {"no": False, "yes": True}
-
-
-@dataclass(frozen=True)
-class _Slider:
-    """A parameter as a control: its bounds, and the part of them that the control fills."""
-
-    name: str
-    section: str
-    maximum: float
-    fills: float
-    step: float
-    minimum: float = 0.0
-    decimals: int = 2
-
-
-_SLIDERS = (
-    _Slider("amplitude", "motion", 1.0, 1.0, 0.05),
-    _Slider("sway", "motion", 2.0, 2.0, 0.05),
-    _Slider("weight_shift", "motion", 2.0, 2.0, 0.05),
-    _Slider("bell_height", "motion", 2.0, 2.0, 0.05),
-    _Slider("breath_min_beats", "breath", 64.0, 4.0, 0.25),
-    _Slider("breath_last_beat_beats", "breath", 64.0, 8.0, 0.25),
-    _Slider("breath_prepare_beats", "breath", 64.0, 8.0, 0.25),
-    _Slider("breath_need", "breath", 1.0, 1.0, 0.05),
-    _Slider("lung_s", "breath", 60.0, 20.0, 0.5, minimum=1.0, decimals=1),
-    _Slider("embouchure_tension", "face", 2.0, 2.0, 0.05),
-)
 _SECTIONS = ("motion", "breath", "face", "player")
 """What is changed most stands first."""
-_LARGEST_SEED = 2**31 - 1
+_POSTURE = "posture"
 
 
 class ParameterSections(QWidget):
@@ -80,7 +53,12 @@ class ParameterSections(QWidget):
         super().__init__(parent)
         self._session = session
         self._sections = {name: Section(session, f"players_{name}", self) for name in _SECTIONS}
-        self._sliders: dict[str, NumberSlider] = {}
+        self._sliders: dict[str, ParameterSlider] = {}
+        self._choices: dict[str, ParameterChoice] = {}
+        self._body_dance = BodyDanceRows(session)
+        self._dice = QToolButton()
+        self._dice.setObjectName("seed_dice")
+        self._dice.clicked.connect(self.dice_thrown)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
         outer.setSpacing(0)
@@ -89,12 +67,9 @@ class ParameterSections(QWidget):
         self._portraits: dict[str, QIcon] = {}
         self._asked = False
         self._make_player_rows()
-        for row in _SLIDERS:
-            self._make_slider(row)
-        self._make_circular_breathing()
-        self._body_dance = BodyDanceRows(session)
-        self._sections["motion"].body.addWidget(self._body_dance)
-        self._make_seed()
+        for name in _SECTIONS[:-1]:
+            for parameter in rows_of(name):
+                self._make_row(parameter)
         self.retranslate()
         session.theme_changed.connect(self._dress)
         session.instruments_changed.connect(self._instruments_changed)
@@ -104,27 +79,28 @@ class ParameterSections(QWidget):
     # Building
 
     def _make_player_rows(self) -> None:
-        self._labels = {name: Label() for name in ("part", "instrument", "character", "posture", "leader", "colour")}
+        self._labels = {name: Label() for name in ("part", "instrument", "character", "colour")}
         self._part, self._instrument, self._character = Combo(), Combo(), Combo()
-        self._posture, self._leader = Combo(), Combo()
         self._colour = ColourSwatch(self._session)
         controls: dict[str, QWidget] = {
             "part": self._part,
             "instrument": self._instrument,
             "character": self._character,
-            "posture": self._posture,
-            "leader": self._leader,
             "colour": self._colour,
         }
+        for name, control in controls.items():
+            control.setObjectName(f"player_{name}")
+            self._labels[name].setBuddy(control)
+        rows = [(self._labels[name], control) for name, control in controls.items()]
+        choices = [self._make_choice(parameter) for parameter in rows_of("player")]
+        rows[-1:-1] = [(choice.label, choice) for choice in choices]
         self._character.setIconSize(QSize(PORTRAIT_PX, PORTRAIT_PX))
         grid = QGridLayout()
         grid.setSpacing(4)
         grid.setColumnStretch(1, 1)
-        for line, (name, control) in enumerate(controls.items()):
-            control.setObjectName(f"player_{name}")
-            self._labels[name].setMinimumWidth(LABEL_PX)
-            self._labels[name].setBuddy(control)
-            grid.addWidget(self._labels[name], line, 0)
+        for line, (label, control) in enumerate(rows):
+            label.setMinimumWidth(LABEL_PX)
+            grid.addWidget(label, line, 0)
             place = Qt.AlignmentFlag.AlignLeft if control is self._colour else Qt.AlignmentFlag(0)
             grid.addWidget(control, line, 1, place)
         self._sections["player"].body.addLayout(grid)
@@ -132,51 +108,33 @@ class ParameterSections(QWidget):
         self._instrument.chosen.connect(lambda id: self._assign("edit.player_instrument", instrument_id=id))
         self._character.chosen.connect(lambda id: self._change("edit.player_character", character_id=id))
         self._colour.chosen.connect(lambda colour: self._change("edit.player_colour", colour=colour))
-        self._posture.chosen.connect(lambda posture: self._set("posture", posture))
-        self._leader.chosen.connect(lambda choice: self._set("cue_leader", _LEADER[choice]))
 
-    def _make_slider(self, row: _Slider) -> None:
-        slider = NumberSlider(
-            self._session,
-            row.minimum,
-            row.maximum,
-            step=row.step,
-            decimals=row.decimals,
-            fills=(row.minimum if row.minimum < 0 else 0.0, row.fills),
-        )
-        slider.setObjectName(f"parameter_{row.name}")
-        slider.changed.connect(lambda value, token, name=row.name: self._set(name, value, token))
-        slider.reset.connect(lambda _, name=row.name: self._reset(name))
+    def _make_row(self, parameter: Parameter) -> None:
+        body = self._sections[parameter.section].body
+        if parameter.choices:
+            body.addLayout(self._make_choice(parameter).line())
+        elif parameter.name == "choreography":
+            body.addWidget(self._body_dance)
+        elif parameter.name == "seed":
+            line = QHBoxLayout()
+            line.setSpacing(4)
+            line.addWidget(self._make_slider(parameter), 1)
+            line.addWidget(self._dice)
+            body.addLayout(line)
+        else:
+            body.addWidget(self._make_slider(parameter))
+
+    def _make_choice(self, parameter: Parameter) -> ParameterChoice:
+        choice = self._choices[parameter.name] = ParameterChoice(parameter)
+        choice.chosen.connect(lambda id: self._set(parameter, choice.values[id]))
+        return choice
+
+    def _make_slider(self, parameter: Parameter) -> ParameterSlider:
+        slider = self._sliders[parameter.name] = ParameterSlider(self._session, parameter)
+        slider.changed.connect(lambda value, token: self._set(parameter, parameter.kind(value), token))
+        slider.reset.connect(lambda _: self._reset(parameter))
         slider.released.connect(self._session.document.end_gesture)
-        self._sliders[row.name] = slider
-        self._sections[row.section].body.addWidget(slider)
-
-    def _make_circular_breathing(self) -> None:
-        self._circular_label, self._circular = Label(), Combo()
-        self._circular.setObjectName("parameter_circular_breathing")
-        self._circular_label.setBuddy(self._circular)
-        self._circular.chosen.connect(lambda choice: self._set("circular_breathing", _CIRCULAR[choice]))
-        line = QHBoxLayout()
-        line.setSpacing(4)
-        line.addWidget(self._circular_label)
-        line.addWidget(self._circular, 1)
-        self._sections["breath"].body.addLayout(line)
-
-    def _make_seed(self) -> None:
-        seed = NumberSlider(self._session, 0.0, float(_LARGEST_SEED), decimals=0, step=1.0, slides=False)
-        seed.setObjectName("parameter_seed")
-        seed.changed.connect(lambda value, token: self._set("seed", int(value), token))
-        seed.reset.connect(lambda _: self._reset("seed"))
-        seed.released.connect(self._session.document.end_gesture)
-        self._sliders["seed"] = seed
-        self._dice = QToolButton()
-        self._dice.setObjectName("seed_dice")
-        self._dice.clicked.connect(self.dice_thrown)
-        line = QHBoxLayout()
-        line.setSpacing(4)
-        line.addWidget(seed, 1)
-        line.addWidget(self._dice)
-        self._sections["motion"].body.addLayout(line)
+        return slider
 
     def _dress(self) -> None:
         self._dice.setIcon(icon("dice", self._session.tokens))
@@ -195,10 +153,10 @@ class ParameterSections(QWidget):
         self._instrument.show_option(_common(players, lambda player: player.instrument_id))
         self._character.show_option(_common(players, lambda player: player.character_id))
         self._show_postures(players)
-        self._leader.show_option(_common(players, lambda player: _leader_id(player.parameters.cue_leader)))
-        self._circular.show_option(
-            _common(players, lambda player: "yes" if player.parameters.circular_breathing else "no")
-        )
+        for name, choice in self._choices.items():
+            if name != _POSTURE:
+                chosen = {str(getattr(player.parameters, name)) for player in players}
+                choice.show_option(chosen.pop() if len(chosen) == 1 else None)
         self._colour.show_colours(tuple(dict.fromkeys(self._session.colour(player) for player in players)))
         self._body_dance.show_players(players)
         casts = [edit.cast_parameters(project, player.id, edit.instrument_of(player)) for player in players]
@@ -209,16 +167,18 @@ class ParameterSections(QWidget):
 
     def _show_postures(self, players: list[Player]) -> None:
         """Offer what all instruments are played in, and say of the others why not."""
-        options = []
-        for id, text, reason in (
-            ("standing", self.tr("Standing"), self.tr("Played seated only: {players}")),
-            ("seated", self.tr("Seated"), self.tr("Played standing only: {players}")),
-        ):
+        posture, options = self._choices[_POSTURE], []
+        reasons = {
+            "standing": self.tr("Played seated only: {players}"),
+            "seated": self.tr("Played standing only: {players}"),
+        }
+        for id, word in posture.parameter.choices:
             barred = [player.name for player in players if id not in edit.postures_of(player)]
-            options.append(Option(id, text, reason=reason.format(players=", ".join(barred)) if barred else ""))
-        self._posture.set_options(options)
-        self._posture.setToolTip("\n".join(option.reason for option in options if option.reason))
-        self._posture.show_option(_common(players, edit.posture_of))
+            reason = reasons[str(id)].format(players=", ".join(barred)) if barred else ""
+            options.append(Option(str(id), parameter_text(word), reason=reason))
+        posture.set_options(options)
+        posture.setToolTip("\n".join(option.reason for option in options if option.reason))
+        posture.show_option(_common(players, edit.posture_of))
 
     # Editing
 
@@ -236,19 +196,19 @@ class ParameterSections(QWidget):
         chosen = self._session.players
         self._apply(self._name(name), lambda project: edit.assign(project, chosen, **ids))
 
-    def _set(self, parameter: str, value: str | float | int | bool | None, token: object | None = None) -> None:
+    def _set(self, parameter: Parameter, value: Value, token: object | None = None) -> None:
         chosen = self._session.players
         self._apply(
-            self._name(f"edit.parameter_{parameter}"),
-            lambda project: edit.set_parameters(project, chosen, **{parameter: value}),
+            parameter_edit(parameter.name, len(chosen)),
+            lambda project: edit.set_parameters(project, chosen, **{parameter.name: value}),
             token,
         )
 
-    def _reset(self, parameter: str) -> None:
+    def _reset(self, parameter: Parameter) -> None:
         chosen = self._session.players
         self._apply(
-            self._name(f"edit.parameter_{parameter}"),
-            lambda project: edit.reset_parameters(project, chosen, (parameter,)),
+            parameter_edit(parameter.name, len(chosen)),
+            lambda project: edit.reset_parameters(project, chosen, (parameter.name,)),
         )
 
     # Portraits
@@ -302,29 +262,18 @@ class ParameterSections(QWidget):
             "part": self.tr("Part"),
             "instrument": self.tr("Instrument"),
             "character": self.tr("Character"),
-            "posture": self.tr("Posture"),
-            "leader": self.tr("Gives cues"),
             "colour": self.tr("Colour"),
         }
         for name, text in texts.items():
             self._labels[name].setText(text)
         self._show_instruments()
         self._show_characters()
-        self._leader.set_options(
-            [
-                Option("auto", self.tr("Automatic")),
-                Option("yes", self.tr("Yes")),
-                Option("no", self.tr("Never")),
-            ]
-        )
-        self._circular_label.setText(self.tr("Circular breathing"))
-        self._circular.set_options([Option("no", self.tr("No")), Option("yes", self.tr("Yes"))])
-        self._circular.setToolTip(
-            self.tr("Breathes in through the nose while playing, and never stops the line for a catch breath")
-        )
         self._colour.setToolTip(self.tr("Colour of the player in the timeline and on the stage"))
         self._dice.setToolTip(self.tr("Another seed for each"))
-        self._retranslate_sliders()
+        for slider in self._sliders.values():
+            slider.retranslate()
+        for choice in self._choices.values():
+            choice.retranslate()
         self.show_players()
 
     def _show_instruments(self) -> None:
@@ -333,51 +282,6 @@ class ParameterSections(QWidget):
     def _instruments_changed(self) -> None:
         self._show_instruments()
         self.show_players()
-
-    def _retranslate_sliders(self) -> None:
-        beats, seconds = self.tr("beats"), self.tr("s", "seconds")
-        words = {
-            "amplitude": (
-                self.tr("Amplitude"), "", self.tr("How much the player moves: 0 still, 0.5 natural, 1 a lot"),
-            ),
-            "sway": (self.tr("Sway"), "×", self.tr("Swaying with the beat, times the natural amount")),
-            "weight_shift": (self.tr("Weight shift"), "×", self.tr("From foot to foot, times the natural amount")),
-            "bell_height": (
-                self.tr("Bell height"), "×", self.tr("The bell follows the melody, times the natural amount"),
-            ),
-            "seed": (self.tr("Seed"), "", self.tr("Another seed is another performance of the same plan")),
-            "breath_min_beats": (
-                self.tr("Breathes in rests from"), beats, self.tr("In a shorter rest the player does not breathe"),
-            ),
-            "breath_last_beat_beats": (
-                self.tr("On the last beat from"), beats,
-                self.tr("In a rest from this length on, the breath takes its last beat; in a shorter one all of it"),
-            ),
-            "breath_prepare_beats": (
-                self.tr("Prepared from"), beats,
-                self.tr("In a rest from this length on, the player gets ready, then breathes on the last beat"),
-            ),
-            "breath_need": (
-                self.tr("Air spent first"), "",
-                self.tr(
-                    "Part of the lungs that is used up before the player breathes in a rest too short to prepare in: "
-                    "0 every such rest, 1 only with empty lungs"
-                ),
-            ),
-            "lung_s": (
-                self.tr("A full lung lasts"),
-                seconds,
-                self.tr(
-                    "On a usual instrument; longer or shorter on one that takes less or more air. "
-                    "Longer phrases get a catch breath"
-                ),
-            ),
-            "embouchure_tension": (
-                self.tr("Embouchure tension"), "×", self.tr("How tight the lips look, times the natural amount"),
-            ),
-        }  # fmt: skip
-        for name, (label, unit, tip) in words.items():
-            self._sliders[name].set_texts(label, unit, tip)
 
     # Qt's own names
 
@@ -397,7 +301,3 @@ def _common(players: list[Player], value: Callable[[Player], str]) -> str | None
     """What all have in common; None where they differ."""
     values = {value(player) for player in players}
     return values.pop() if len(values) == 1 else None
-
-
-def _leader_id(leads: bool | None) -> str:
-    return next(id for id, value in _LEADER.items() if value is leads)

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
-import msgspec
 from PySide6.QtCore import QEvent
 from PySide6.QtWidgets import QGridLayout, QToolButton, QVBoxLayout, QWidget
 
@@ -13,10 +10,10 @@ from app.project.casting import StagePosition
 from app.project.edit import players as edit
 from app.project.edit.dancers import place_dancers
 from widgets.common.icons import icon
-from widgets.common.number_slider import NumberSlider
 from widgets.common.section import Section
 from widgets.common.session import Session
-from widgets.players.stage import FARTHEST_M, StageView
+from widgets.players.place_numbers import name_places, place_sliders, shown_number, with_number
+from widgets.players.stage import StageView
 
 
 class StageSection(QWidget):
@@ -36,18 +33,10 @@ class StageSection(QWidget):
         self._arc.clicked.connect(self._arrange)
         self._section.header.add_button(self._snap)
         self._section.header.add_button(self._arc)
-        self._numbers = {
-            name: NumberSlider(session, -reach, reach, decimals=decimals, step=step, slides=slides)
-            for name, reach, decimals, step, slides in (
-                ("x_m", FARTHEST_M, 2, 0.05, False),
-                ("z_m", FARTHEST_M, 2, 0.05, False),
-                ("turn_rad", 180.0, 0, 5.0, True),
-            )
-        }
+        self._numbers = place_sliders(session, "stage")
         grid = QGridLayout()
         grid.setSpacing(4)
         for place, (name, number) in enumerate(self._numbers.items()):
-            number.setObjectName(f"stage_{name}")
             number.changed.connect(lambda value, token, name=name: self._set(name, value, token))
             number.released.connect(session.document.end_gesture)
             grid.addWidget(number, place // 2, place % 2, 1, 1 + place // 2)
@@ -73,8 +62,8 @@ class StageSection(QWidget):
         for name, number in self._numbers.items():
             number.setEnabled(bool(stages))
             if stages:
-                shown = [_shown(stage, name) for stage in stages]
-                usual = [_shown(arc[player_id], name) for player_id in self._session.players]
+                shown = [shown_number(stage, name) for stage in stages]
+                usual = [shown_number(arc[player_id], name) for player_id in self._session.players]
                 apart = any(abs(one - other) > 5e-3 for one, other in zip(shown, usual, strict=True))
                 number.show_value(shown[0], mixed=len(set(shown)) > 1, default=usual[0], by_hand=apart)
 
@@ -90,11 +79,9 @@ class StageSection(QWidget):
         self._session.attempt(name, lambda project: place_dancers(edit.place(project, places), places), token)
 
     def _set(self, name: str, value: float, token: object | None) -> None:
-        wanted = math.radians(value) if name == "turn_rad" else value
         project = self._session.project
         places = {
-            player_id: msgspec.structs.replace(project.player(player_id).stage, **{name: wanted})
-            for player_id in self._session.players
+            player_id: with_number(project.player(player_id).stage, name, value) for player_id in self._session.players
         }
         self._session.attempt(self._name(), lambda project: edit.place(project, places), token)
 
@@ -111,18 +98,7 @@ class StageSection(QWidget):
         self._snap.setToolTip(self.tr("Snap to 0.1 m and 5° (Alt: the other way round)"))
         self._arc.setToolTip(self.tr("Automatic arc: everyone in order, open to the audience"))
         self.view.setAccessibleName(self.tr("Stage from above"))
-        metres = self.tr("m", "metres")
-        tips = {
-            "x_m": (self.tr("X"), metres, self.tr("To the right as the audience sees it, from the middle")),
-            "z_m": (self.tr("Z"), metres, self.tr("Towards the audience, from the middle")),
-            "turn_rad": (
-                self.tr("Turn"),
-                "°",
-                self.tr("0 faces the audience, positive turns to the right as the audience sees it"),
-            ),
-        }
-        for name, (label, unit, tip) in tips.items():
-            self._numbers[name].set_texts(label, unit, tip)
+        name_places(self._numbers)
         self.view.update()
 
     # Qt's own names
@@ -131,8 +107,3 @@ class StageSection(QWidget):
         if event.type() == QEvent.Type.LanguageChange:
             self.retranslate()
         super().changeEvent(event)
-
-
-def _shown(stage: StagePosition, name: str) -> float:
-    """A number of a place as it is shown: metres or degrees."""
-    return round(math.degrees(stage.turn_rad)) + 0.0 if name == "turn_rad" else float(getattr(stage, name))

@@ -20,25 +20,17 @@ import msgspec
 
 from app.choreography.library import is_bundled_name, is_choreography
 from app.encoding import shown
-from app.errors import AppError
+from app.errors import AppError, Message
 from app.project import limits
 from app.project.casting import DANCER_ROOM_M, ELBOW_M, StagePosition
 from app.project.edit.players import free_name, instrument_of
 from app.project.footprint import footprint
 from app.project.ids import fresh_dancer_ids
-from app.project.model import Dancer, Project
+from app.project.model import DANCER_PARAMETERS, Dancer, Project
 from app.project.names import clean_name
 from app.rig.character_library import bundled_characters
 
 MOST_IN_ROW: Final = 5
-BOUNDS: Final[Mapping[str, limits.Bounds]] = {
-    "seed": limits.SEED,
-    "delay_beats": limits.DELAY_BEATS,
-    "source": (-1, limits.CHOREOGRAPHY_INDEX[1]),
-    "size": limits.DANCE_SIZE,
-    "weight": limits.DANCE_WEIGHT,
-}
-"""Lowest and highest value of the numbers of a dancer."""
 
 
 def add_dancer(
@@ -112,7 +104,18 @@ def rename_dancer(project: Project, dancer_id: str, name: str) -> Project:
 def change_dancers(project: Project, dancer_ids: Collection[str], **fields: Any) -> Project:
     """Set fields of `Dancer` (``character_id``, ``delay_beats``, ``mirrored`` ...) for several dancers; numbers are
     held within their bounds. See `rename_dancer`, `set_choreography` and `place_dancers` for the others."""
-    return _changed(project, dancer_ids, {name: _held(name, value) for name, value in fields.items()})
+    held = {
+        name: DANCER_PARAMETERS[name].held(value) if name in DANCER_PARAMETERS else value
+        for name, value in fields.items()
+    }
+    return _changed(project, dancer_ids, held)
+
+
+def dancer_edit(field: str, dancer: str) -> Message:
+    """What the history calls a change of a field of a dancer of this name."""
+    if field in DANCER_PARAMETERS:
+        return Message("edit.dancer_parameter", {"parameter": DANCER_PARAMETERS[field].label, "dancer": dancer})
+    return Message(f"edit.dancer_{field}", {"dancer": dancer})
 
 
 def set_choreography(project: Project, dancer_ids: Collection[str], choreography: str | os.PathLike[str]) -> Project:
@@ -219,10 +222,3 @@ def _seldom_seen(project: Project) -> str:
     seen = Counter(player.character_id for player in project.players)
     seen.update(dancer.character_id for dancer in project.dancers)
     return min(bundled_characters(), key=lambda id: seen[id])
-
-
-def _held(name: str, value: Any) -> Any:
-    if name not in BOUNDS:
-        return value
-    low, high = BOUNDS[name]
-    return type(value)(min(max(value, low), high))

@@ -10,13 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import Final
 
 import msgspec
 
 from app.chance import chance, next_seed
-from app.errors import AppError, MapError
-from app.plan.model import PlayerParameters
+from app.errors import AppError, MapError, Message
+from app.plan.parameters import PARAMETERS, PlayerParameters, Value
 from app.project import limits
 from app.project.anchors import moved
 from app.project.casting import (
@@ -32,21 +31,10 @@ from app.project.footprint import footprint
 from app.project.ids import MADE_PART, fresh_note_ids, fresh_part_ids, fresh_player_ids
 from app.project.model import Player, Project, characters_for
 from app.project.names import clean_name
-from app.project.parameters import Value, bounds
 from app.score.choose import require_map
 from app.score.model import Part
 from instrument_maps.library import all_maps, find_map
 from instrument_maps.model import InstrumentMap, Posture
-
-SPREADS: Final[Mapping[str, float]] = {
-    "amplitude": 0.5,
-    "lung_s": 4.0,
-    "embouchure_tension": 0.5,
-    "sway": 1.0,
-    "weight_shift": 1.0,
-    "bell_height": 1.0,
-}
-"""What `randomise` varies, and how far from the ensemble's middle at a spread of 1."""
 
 
 def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap | None = None) -> PlayerParameters:
@@ -100,7 +88,7 @@ def rename(project: Project, player_id: str, name: str) -> Project:
 
 def set_parameters(project: Project, player_ids: Collection[str], **values: Value) -> Project:
     """Set parameters for several players; numbers are held within their bounds."""
-    held = {name: _held(name, value) for name, value in values.items()}
+    held = {name: PARAMETERS[name].held(value) for name, value in values.items()}
     return _with_players(
         project,
         (
@@ -126,7 +114,7 @@ def reset_parameters(project: Project, player_ids: Collection[str], names: Colle
 
 
 def randomise(project: Project, player_ids: Collection[str], spread: float) -> Project:
-    """Make players differ: each of `SPREADS` by chance around what they have on average now, and a seed of their own.
+    """Make players differ: what has a spread by chance around what they have on average now, and a seed of their own.
 
     Parameters
     ----------
@@ -139,17 +127,24 @@ def randomise(project: Project, player_ids: Collection[str], spread: float) -> P
     # The seeds of before are the dice of now: the same ensemble gives the same result, pressed again another.
     roll = sum(player.parameters.seed for player in chosen) % 2**63
     values: dict[str, dict[str, Value]] = {player.id: {} for player in chosen}
-    for name, reach in SPREADS.items():
-        low, high = bounds(name) or (0.0, 1.0)
+    for name, parameter in PARAMETERS.items():
+        if not parameter.spread:
+            continue
         middle = sum(getattr(player.parameters, name) for player in chosen) / len(chosen)
         steps = [2.0 * chance("randomise", name, roll, player.id) - 1.0 for player in chosen]
         mean = sum(steps) / len(steps) if len(steps) > 1 else 0.0
         for player, step in zip(chosen, steps, strict=True):
-            values[player.id][name] = round(min(max(middle + spread * reach * (step - mean), low), high), 2)
+            value = middle + spread * parameter.spread * (step - mean)
+            values[player.id][name] = round(parameter.held(value), 2)
     for player in chosen:
         values[player.id]["seed"] = next_seed(player.id, roll)
         project = set_parameters(project, (player.id,), **values[player.id])
     return project
+
+
+def parameter_edit(parameter: str, count: int) -> Message:
+    """What the history calls a change of a parameter of so many players."""
+    return Message("edit.parameter", {"parameter": PARAMETERS[parameter].label, "count": count})
 
 
 def place(project: Project, places: Mapping[str, StagePosition]) -> Project:
@@ -359,12 +354,3 @@ def free_channel(parts: Sequence[Part]) -> int:
     """A channel no part uses, not the percussion's; the first again where all are taken."""
     used = {part.channel for part in parts}
     return next((channel for channel in range(16) if channel != 9 and channel not in used), 0)
-
-
-def _held(name: str, value: Value) -> Value:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return value
-    low, high = bounds(name) or (float(value), float(value))
-    if name in ("seed", "dance_variation"):
-        return int(min(max(value, low), high))
-    return min(max(float(value), low), high)

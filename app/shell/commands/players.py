@@ -92,7 +92,7 @@ def toggle_posture(session: Session) -> None:
     chosen = tuple(player.id for player in free)
     seated = all(player.parameters.posture == "seated" for player in free)
     session.attempt(
-        _count("edit.parameter_posture", len(chosen)),
+        edit.parameter_edit("posture", len(chosen)),
         lambda project: edit.set_parameters(project, chosen, posture="standing" if seated else "seated"),
     )
 

@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from app.errors import Message
 from app.performance.ensemble import Performance
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.project.casting import Footprint, stage_seats
 from app.project.edit import notes
 from app.project.model import Player, Project

@@ -20,7 +20,7 @@ from app.choreography.model_file import write_model
 from app.errors import Message
 from app.performance.dancers import dancing_of
 from app.performance.ensemble import Performance
-from app.project.edit.dancers import add_dancer, change_dancers, remove_dancers, set_choreography
+from app.project.edit.dancers import add_dancer, change_dancers, dancer_edit, remove_dancers, set_choreography
 from app.project.model import Project
 from app.score.model import PercussionHit, Score
 from tests.support.dances import model
@@ -181,7 +181,7 @@ def test_it_follows_the_selection_and_the_edits(
     first, second = session.project.dancers
 
     def edit(project: Project) -> None:
-        session.apply(Message("edit.dancer_seed", {"dancer": ""}), project)
+        session.apply(dancer_edit("seed", ""), project)
         session.set_performance(Performance(session.project))
 
     session.set_dancer(first.id)

@@ -15,7 +15,7 @@ def test_everything_is_japanese_at_once_and_english_again(session: Session, qtbo
     qtbot.addWidget(panel)
     panel.show()
     english = texts_of(panel)
-    translator = FromFiles("players", "common")
+    translator = FromFiles("players", "common", "parameters")
     assert translator.faults == []
     QApplication.installTranslator(translator)
     try:

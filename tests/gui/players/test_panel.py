@@ -269,8 +269,8 @@ def test_every_number_is_typed_and_reset(
         ("player_part", lambda player: player.part_id),
         ("player_instrument", lambda player: player.instrument_id),
         ("player_character", lambda player: player.character_id),
-        ("player_posture", lambda player: player.parameters.posture),
-        ("player_leader", lambda player: player.parameters.cue_leader),
+        ("parameter_posture", lambda player: player.parameters.posture),
+        ("parameter_cue_leader", lambda player: player.parameters.cue_leader),
         ("parameter_circular_breathing", lambda player: player.parameters.circular_breathing),
     ],
 )
@@ -295,7 +295,7 @@ def test_a_posture_in_which_an_instrument_is_not_played_cannot_be_chosen(
     monkeypatch.setattr(players_edit, "instrument_of", lambda player: only if player.id == seated else instrument)
     session.set_players((ids(session)[1],))
     session.set_players((seated,))
-    combo = child(panel, QComboBox, "player_posture")
+    combo = child(panel, QComboBox, "parameter_posture")
     assert isinstance(combo, Combo)
     # As the player is seen, whatever the project says; the reason names the player.
     assert combo.shown == "seated"

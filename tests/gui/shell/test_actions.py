@@ -162,7 +162,7 @@ def test_the_preferences_hold_at_once(program: Program, settings: Settings, qtbo
     from app.shell.preferences import show_preferences
 
     dialog = show_preferences(program.editor, "general")
-    for name in ("preferences_theme_light", "preferences_octave_c3", "preferences_time_frames"):
+    for name in ("preferences_theme_light", "preferences_middle_c_octave_3", "preferences_time_display_frames"):
         dialog.findChild(object, name).click()
     assert program.session.tokens.name == "light"
     assert program.session.pitch_display.middle_c_octave == 3

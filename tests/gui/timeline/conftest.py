@@ -11,7 +11,7 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.grid import Grid
 from app.project.model import Player, Project

@@ -23,6 +23,7 @@ from app.errors import AppError, Message
 from app.plan.corrections import PoseCorrection
 from app.project.casting import StagePosition
 from app.project.edit.dancers import add_dancer, place_dancers
+from app.project.edit.players import parameter_edit
 from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
 from tests.support.dances import model
 from tests.support.windows import show
@@ -199,7 +200,7 @@ def test_seated_players_have_stools(shot: Shot, session: Session) -> None:
         msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, posture="seated"))
         for player in project.players
     )
-    session.apply(Message("edit.parameter_posture", {"count": 4}), replace(project, players=seated))
+    session.apply(parameter_edit("posture", 4), replace(project, players=seated))
     assert differing(standing, shot("ensemble")) > 400
 
 

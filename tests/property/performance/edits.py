@@ -25,12 +25,14 @@ from app.plan.corrections import (
     SetEmbouchure,
     Vary,
 )
+from app.plan.parameters import PARAMETERS
 from app.project.edit.corrections import put
 from app.project.model import Player, Project, project_from_score
 from app.score.model import ControllerCurve, Note, Part, Score
 from app.score.tempo import TempoChange, TempoMap
 from instrument_maps.load import bundled_maps
 from metadata.model import Expression
+from tests.support.parameters import others
 
 Edit = Callable[[Project], Project]
 QUARTER = 480
@@ -134,12 +136,8 @@ def edits(draw: st.DrawFn, project: Project) -> Project:
             notes += [note, new]
         return _with_notes(project, part, notes)
     if kind == "parameter":
-        name, value = draw(
-            st.sampled_from(
-                [("amplitude", 0.9), ("lung_s", 4.0), ("breath_min_beats", 0.1), ("embouchure_tension", 1.3),
-                 ("seed", 9), ("cue_leader", True), ("cue_leader", False), ("posture", "seated"), ("sway", 0.2)]
-            )
-        )  # fmt: skip
+        name = draw(st.sampled_from([name for name in PARAMETERS if name != "choreography"]))
+        value = draw(st.sampled_from(others(PARAMETERS[name], getattr(player.parameters, name))))
         return _with_player(project, player, parameters=msgspec.structs.replace(player.parameters, **{name: value}))
     if kind == "instrument":
         other = draw(st.sampled_from([*bundled_maps(), "serpent"]))

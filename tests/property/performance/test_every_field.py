@@ -27,7 +27,7 @@ from app.plan.corrections import (
 )
 from app.plan.generate import plan_ensemble, time_frame
 from app.plan.line import Line, Piece
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.project.model import Project
 from app.score.metre_map import Metre, MetreMap
 from app.score.model import ControllerCurve, Note

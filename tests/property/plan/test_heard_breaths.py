@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from app.performance.loudness import heard, note_loudness, sounding_curve
 from app.plan.generate import Line, make_plans, time_frame
 from app.plan.heard import GASP_S
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.score.model import ControllerCurve, Note, Part
 from instrument_maps.load import bundled_maps
 from tests.support.blown import TEMPO

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from app.plan.catch_lengths import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_PLAYED_S
 from app.plan.generate import Line, Piece, make_plans, time_frame
-from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
+from app.plan.model import BreathEvent, PlayerPlan
+from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, PlainNote, piece_of, valves

@@ -15,7 +15,8 @@ from app.export.report import PlayerReport, StagePlace, failures
 from app.motion.model import Motion
 from app.motion.perform import Playing, prepare
 from app.performance.contacts import ContactJudge
-from app.plan.model import PlayerParameters, PlayerPlan
+from app.plan.model import PlayerPlan
+from app.plan.parameters import PlayerParameters
 from app.rig.character_library import character_named
 from app.rig.fit import fit_hold
 from app.rig.instrument import load_instrument

@@ -10,7 +10,8 @@ import pytest
 
 from app.motion.model import Motion
 from app.motion.perform import perform
-from app.plan.model import GestureEvent, PlayerParameters
+from app.plan.model import GestureEvent
+from app.plan.parameters import PlayerParameters
 from app.plan.pose import pose_limits
 from app.rig import quaternion
 from app.rig.carriage import carriage_rotation, carrying, joint_rotations, upright

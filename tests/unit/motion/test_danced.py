@@ -10,7 +10,7 @@ from app.choreography.body_layer import MOST
 from app.motion.danced import CHANNELS, BodyLayer
 from app.motion.model import Motion
 from app.motion.perform import Playing, prepare
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
 from app.rig.hold import hand_targets
 from tests.unit.motion.events import TICKS

@@ -14,7 +14,8 @@ import pytest
 from app.motion.model import Motion
 from app.motion.perform import perform
 from app.plan.generate import Line, make_plans, time_frame
-from app.plan.model import PlayerParameters, PlayerPlan
+from app.plan.model import PlayerPlan
+from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.hold_file import hold_for

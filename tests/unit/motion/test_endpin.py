@@ -12,7 +12,7 @@ from app.motion.body import BodyMotion
 from app.motion.contact import Carried
 from app.motion.endpin import Stand
 from app.motion.perform import prepare
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
 from app.rig.character_library import character_named
 from app.rig.hold_file import hold_for

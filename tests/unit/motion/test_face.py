@@ -7,7 +7,8 @@ import pytest
 from app.errors import Message
 from app.motion.face import Face, breath_opening, face_morphs
 from app.motion.gaze import ENTRY_GUARD_S, plan_gaze
-from app.plan.model import EmbouchureEvent, ExpressionEvent, PlayerParameters, PlayerPlan
+from app.plan.model import EmbouchureEvent, ExpressionEvent, PlayerPlan
+from app.plan.parameters import PlayerParameters
 from app.rig.hold import Lips
 from metadata.load import load_body, load_expressions
 from metadata.model import ARKIT_MORPHS

@@ -15,7 +15,8 @@ from app.errors import Message
 from app.export.joints import anatomical_angles
 from app.motion.model import Motion
 from app.motion.perform import prepare
-from app.plan.model import GestureEvent, PlayerParameters, PlayerPlan, TimeFrame
+from app.plan.model import GestureEvent, PlayerPlan, TimeFrame
+from app.plan.parameters import PlayerParameters
 from app.rig import quaternion, skinning
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.hold import Hold, hand_targets

@@ -10,7 +10,8 @@ import pytest
 
 from app.motion.model import Motion
 from app.motion.perform import frame_count, perform
-from app.plan.model import GestureEvent, PlayerParameters, PlayerPlan, TimeFrame
+from app.plan.model import GestureEvent, PlayerPlan, TimeFrame
+from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
 from app.rig.hold import hand_targets
 from app.rig.skeleton import forward, rest_positions

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from app.motion.model import Motion
 from app.motion.perform import perform
 from app.motion.reach import softly_capped, softly_over
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
 from app.rig.hold import hand_targets
 from app.rig.skeleton import forward

@@ -13,7 +13,7 @@ from app.export.joints import angular_accelerations
 from app.motion.model import Motion
 from app.motion.perform import perform
 from app.motion.stop import EASE, LONGEST
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.rig.hold import hand_targets
 from app.rig.ik import arm
 from app.rig.skeleton import forward

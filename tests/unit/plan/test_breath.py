@@ -11,7 +11,8 @@ import pytest
 from app.plan.catch_lengths import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_SOUNDING_S
 from app.plan.corrections import RemoveEvent, SetBreath
 from app.plan.generate import Line, make_plans, time_frame
-from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
+from app.plan.model import BreathEvent, PlayerPlan
+from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from instrument_maps.model import Air
 from tests.support.plan import PlainClock, PlainNote, even, line_of, piece_of, valves

@@ -7,7 +7,7 @@ import random
 import pytest
 
 from app.plan.generate import Line, make_plans, time_frame
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from tests.support.engraved_breaths import marked_lines, share_at_phrase_ends
 from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves

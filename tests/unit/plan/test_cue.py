@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from app.plan.generate import Line, make_plans, time_frame
-from app.plan.model import CueEvent, PlayerParameters
+from app.plan.model import CueEvent
+from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from tests.support.plan import PlainClock, line_of, piece_of, slide, valves
 

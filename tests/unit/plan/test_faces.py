@@ -10,7 +10,8 @@ from app.plan.corrections import ChangeExpression, RemoveEvent
 from app.plan.embouchure import TONGUE_S
 from app.plan.generate import Line, make_plans, time_frame
 from app.plan.line import MEZZOFORTE, line_times
-from app.plan.model import ExpressionEvent, PlayerParameters, PlayerPlan
+from app.plan.model import ExpressionEvent, PlayerPlan
+from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, PlainNote, even, line_of, piece_of, slide, valves

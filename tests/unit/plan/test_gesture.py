@@ -10,7 +10,8 @@ import pytest
 
 from app.plan.generate import Line, make_plans, time_frame
 from app.plan.gesture import ARCH, LOWER_S, LOWERED_LEAST_S, RAISE_S, RELEASE, STIR_S
-from app.plan.model import GestureEvent, PlayerParameters, PlayerPlan
+from app.plan.model import GestureEvent, PlayerPlan
+from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from tests.support.plan import PlainClock, PlainNote, even, line_of, piece_of, valves
 

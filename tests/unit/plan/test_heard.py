@@ -14,7 +14,8 @@ from app.plan.generate import Line, make_plans, time_frame
 from app.plan.heard import BLOWS_FROM, STOPS_AT, blown, find_gaps, silences
 from app.plan.line import line_times
 from app.plan.lungs import air_used_s
-from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
+from app.plan.model import BreathEvent, PlayerPlan
+from app.plan.parameters import PlayerParameters
 from app.score.model import ControllerCurve, Part
 from instrument_maps.load import bundled_maps
 from tests.support.blown import TEMPO, Blow, breath_curve, take, ticks

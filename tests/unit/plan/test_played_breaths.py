@@ -10,7 +10,8 @@ import pytest
 
 from app.plan.generate import Line, make_plans, time_frame
 from app.plan.line import MEZZOFORTE, marked
-from app.plan.model import PlayerParameters, PlayerPlan
+from app.plan.model import PlayerPlan
+from app.plan.parameters import PlayerParameters
 from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
 
 Q = 480

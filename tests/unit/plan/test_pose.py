@@ -7,7 +7,7 @@ import math
 import pytest
 
 from app.plan.corrections import PoseCorrection
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.plan.pose import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES, plan_poses, pose_limits
 from instrument_maps.load import bundled_maps
 from metadata.load import load_body

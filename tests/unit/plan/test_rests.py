@@ -6,7 +6,7 @@ import pytest
 
 from app.plan.generate import Line, make_plans, time_frame
 from app.plan.line import line_times
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.plan.rests import rest_ticks
 from app.score.felt_beat import felt_beat_ticks
 from app.score.metre_map import Metre

@@ -9,7 +9,8 @@ import pytest
 
 from app.plan.corrections import Correction, RemoveEvent
 from app.plan.generate import Line, make_plans, time_frame
-from app.plan.model import PlayerParameters, PlayerPlan
+from app.plan.model import PlayerPlan
+from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from tests.support.plan import PlainClock, line_of, piece_of, valves
 

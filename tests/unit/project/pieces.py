@@ -18,7 +18,7 @@ from app.plan.corrections import (
     SetEmbouchure,
     Vary,
 )
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition, stage_arc
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
 from app.project.model import AudioTrack, CompSpan, Dancer, Player, PlayerTakes, Project

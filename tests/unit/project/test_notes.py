@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from app.errors import AppError
 from app.plan.corrections import PinFingering, RemoveEvent, SetBreath
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.edit import notes as edit
 from app.project.grid import Grid

@@ -8,7 +8,7 @@ import msgspec
 import pytest
 
 from app.errors import UsageError
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.project.parameters import (
     matching_players,
     parameter_names,

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from app.errors import AppError, UsageError
 from app.formats.toml import toml
 from app.messages import text
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.project import presets
 from app.project.edit.players import set_parameters
 from metadata.load import read_expression

@@ -18,12 +18,13 @@ from app.errors import FileError, Message
 from app.messages import error_text, text
 from app.project.edit.body_dance import set_body_dance
 from app.project.edit.piece import set_audio
-from app.project.migrations import CURRENT, MIGRATIONS, Raw, migrated
+from app.project.migrations import CURRENT, MIGRATIONS, STRUCTURE, Raw, migrated
 from app.project.model import AudioTrack, Project
 from app.project.storage import backup_path, decode, encode, is_project_file, load, missing, missing_media, save
 from tests.unit.project.pieces import full_project, small_project
 
 SAMPLES = Path(__file__).parents[2] / "data" / "projects"
+VERSIONS = sorted(int(path.stem.removeprefix("version_")) for path in SAMPLES.glob("version_*.suisou"))
 
 
 def changed(project: Project, **fields: object) -> bytes:
@@ -76,7 +77,7 @@ def test_the_file_is_readable_and_the_same_every_time(tmp_path: Path) -> None:
     assert "録音.wav" in content
 
 
-@pytest.mark.parametrize("version", range(1, CURRENT + 1))
+@pytest.mark.parametrize("version", VERSIONS)
 def test_every_version_that_ever_was_can_be_read(version: int) -> None:
     path = SAMPLES / f"version_{version}.suisou"
     assert json.loads(path.read_bytes())["schema_version"] == version
@@ -113,9 +114,12 @@ def test_every_version_that_ever_was_can_be_read(version: int) -> None:
 
 
 def test_the_present_version_is_written_as_its_sample_says() -> None:
-    # Whoever changes what a file holds adds a migration and a sample, and leaves the old samples as they are.
-    path = SAMPLES / f"version_{CURRENT}.suisou"
-    assert encode(load(path), path) == path.read_bytes()
+    # Whoever changes what a file holds adds a migration and a sample, and leaves the old samples as they are. What only
+    # parameters are new in needs none: its file is the newest sample with them.
+    path = SAMPLES / f"version_{VERSIONS[-1]}.suisou"
+    content = encode(load(path), path)
+    assert json.loads(content) == migrated(json.loads(path.read_bytes()), VERSIONS[-1])
+    assert VERSIONS[-1] < CURRENT or content == path.read_bytes()
 
 
 def test_migrations_follow_one_another() -> None:
@@ -125,14 +129,15 @@ def test_migrations_follow_one_another() -> None:
     def second(raw: Raw) -> Raw:
         return {**raw, "steps": [*raw["steps"], "2 to 3"]}
 
-    chain = (first, second)
+    chain = {2: first, 3: second}
     old = {"schema_version": 1, "title": "x"}
     new = migrated(old, 1, chain)
     assert new == {"schema_version": 3, "title": "x", "steps": ["1 to 2", "2 to 3"]}
     assert old == {"schema_version": 1, "title": "x"}
     assert migrated({"schema_version": 2, "steps": []}, 2, chain)["steps"] == ["2 to 3"]
     assert migrated(new, 3, chain) is new
-    assert len(MIGRATIONS) == CURRENT - 1
+    assert {1, *STRUCTURE} <= set(VERSIONS)
+    assert list(MIGRATIONS) == list(range(2, CURRENT + 1))
 
 
 def test_a_newer_file_is_refused_by_its_version_alone() -> None:

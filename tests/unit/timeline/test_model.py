@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from app.errors import Message
 from app.performance.ensemble import Performance
-from app.plan.model import PlayerParameters
+from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.document import Document
 from app.project.edit import notes

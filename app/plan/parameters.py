@@ -1,0 +1,267 @@
+"""What a person may set of a performer: each parameter is declared once, where it is a field.
+
+Its type, name and default are the field's; all else is said by the `Parameter` in its annotation. Sliders and lists of
+choices, ``--set``, checks, presets, randomising, the history, older files and what is made anew after a change follow
+from that. The words are English; the editor translates them (context ``Parameter``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass, replace
+from typing import Annotated, Any, Final, Literal, TypeAlias, get_args, get_origin, get_type_hints
+
+import msgspec
+
+Bounds: TypeAlias = tuple[float, float]
+"""Lowest and highest, both allowed."""
+Value: TypeAlias = str | int | float | bool | None
+Decided: TypeAlias = Literal["breaths", "cues", "lips", "poses", "motion"]
+"""What a parameter decides: a step of the plan, or how a plan looks."""
+
+SEED: Final = (0, 2**63 - 1)
+AUTOMATIC: Final = "auto"
+"""None as a text."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What is said of a parameter once.
+
+    Attributes
+    ----------
+    label, tip, unit : str
+        English.
+    bounds : (low, high) or None
+        None: its type alone bounds it.
+    usual : float or None
+        The control fills up to here, more can be typed; None: up to the highest value.
+    step : float
+        Of the control.
+    decimals : int
+    choices : tuple of (value, word)
+        A list instead of a slider; the words are English.
+    section : str
+        Which part of the panel shows it; empty: something else than a slider or a plain list does.
+    row : int
+        Rows of higher numbers stand lower in the section; those of the same follow the fields.
+    decides : frozenset of Decided
+        What has to be made anew after a change.
+    spread : float
+        How far from the ensemble's middle the players differ when they are randomised with a spread of 1; 0: they are
+        not.
+    is_own : bool
+        It makes one player differ from the others, and is in no preset.
+    since : int
+        The first version of project files that has it.
+    before : Value or UNSET
+        What files of earlier versions mean; by default its default.
+    name, kind, default
+        Of the field.
+    """
+
+    label: str
+    tip: str = ""
+    unit: str = ""
+    _: KW_ONLY
+    bounds: Bounds | None = None
+    usual: float | None = None
+    step: float = 0.05
+    decimals: int = 2
+    choices: tuple[tuple[Value, str], ...] = ()
+    section: str = ""
+    row: int = 0
+    decides: frozenset[Decided] = frozenset({"motion"})
+    spread: float = 0.0
+    is_own: bool = False
+    since: int = 1
+    before: Value | msgspec.UnsetType = msgspec.UNSET
+    name: str = ""
+    kind: Any = None
+    default: Any = None
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """Every text that a person may see."""
+        return tuple(filter(None, (self.label, self.tip, self.unit, *(word for _, word in self.choices))))
+
+    @property
+    def in_older_files(self) -> Value:
+        """What a file without it means."""
+        value: Value = self.default if self.before is msgspec.UNSET else self.before
+        return value
+
+    @property
+    def possible(self) -> str:
+        """What it may be, as a text for a message: numbers and words only."""
+        if self.bounds is not None:
+            return f"{self.bounds[0]} ... {self.bounds[1]}"
+        options: list[str] = []
+        for kind in get_args(self.kind) or (self.kind,):
+            if isinstance(kind, str):
+                options.append(kind)
+            elif kind is bool:
+                options += ["true", "false"]
+            elif kind is type(None):
+                options.append(AUTOMATIC)
+        return ", ".join(options)
+
+    def allows(self, value: object) -> bool:
+        """Whether it may have this value."""
+        try:
+            msgspec.convert(value, self.kind)
+        except msgspec.ValidationError:
+            return False
+        return not _is_number(value) or self.held(value) == value
+
+    def held(self, value: Any) -> Any:
+        """A number within the bounds and of the right type; another value as it is."""
+        if self.bounds is None or not _is_number(value):
+            return value
+        low, high = self.bounds
+        return self.kind(min(max(value, low), high))
+
+    def read(self, text: str) -> Value:
+        """The value that a text means. Raises ValueError where it is not possible."""
+        try:
+            value: Value = msgspec.convert(
+                None if text.casefold() in (AUTOMATIC, "none", "null") else text, self.kind, strict=False
+            )
+        except msgspec.ValidationError as error:
+            raise ValueError(text) from error
+        if not self.allows(value):
+            raise ValueError(text)
+        return value
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def declared(struct: type[msgspec.Struct]) -> dict[str, Parameter]:
+    """The parameters of a struct by name, in the order of its fields."""
+    found = {}
+    hints = get_type_hints(struct, include_extras=True)
+    for field in msgspec.structs.fields(struct):
+        hint = hints[field.name]
+        kind, *said = get_args(hint) if get_origin(hint) is Annotated else (hint,)
+        for parameter in said:
+            if isinstance(parameter, Parameter):
+                found[field.name] = replace(parameter, name=field.name, kind=kind, default=field.default)
+    return found
+
+
+_SHARE: Final = (0.0, 1.0)
+_NATURAL: Final = (0.0, 2.0)
+"""Of what is times the natural amount."""
+_BEATS: Final = (0.0, 64.0)
+_BREATHS: Final[frozenset[Decided]] = frozenset({"breaths"})
+
+
+class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What the animator may set for one player; every field is a `--set` parameter by its name."""
+
+    # fmt: off
+    amplitude: Annotated[float, Parameter(
+        "Amplitude", "How much the player moves: 0 still, 0.5 natural, 1 a lot",
+        bounds=_SHARE, section="motion", spread=0.5,
+    )] = 0.5
+    breath_min_beats: Annotated[float, Parameter(
+        "Breathes in rests from", "In a shorter rest the player does not breathe", "beats",
+        bounds=_BEATS, usual=4.0, step=0.25, section="breath", decides=_BREATHS,
+    )] = 0.5
+    breath_last_beat_beats: Annotated[float, Parameter(
+        "On the last beat from",
+        "In a rest from this length on, the breath takes its last beat; in a shorter one all of it", "beats",
+        bounds=_BEATS, usual=8.0, step=0.25, section="breath", decides=_BREATHS,
+    )] = 1.0
+    breath_prepare_beats: Annotated[float, Parameter(
+        "Prepared from",
+        "In a rest from this length on, the player gets ready, then breathes on the last beat", "beats",
+        bounds=_BEATS, usual=8.0, step=0.25, section="breath", decides=_BREATHS,
+    )] = 2.0
+    lung_s: Annotated[float, Parameter(
+        "A full lung lasts",
+        "On a usual instrument; longer or shorter on one that takes less or more air. "
+        "Longer phrases get a catch breath", "s",
+        bounds=(1.0, 60.0), usual=20.0, step=0.5, decimals=1,
+        section="breath", row=1, decides=_BREATHS, spread=4.0,
+    )] = 9.0
+    embouchure_tension: Annotated[float, Parameter(
+        "Embouchure tension", "How tight the lips look, times the natural amount", "×",
+        bounds=_NATURAL, section="face", decides=frozenset({"lips", "motion"}), spread=0.5,
+    )] = 1.0
+    sway: Annotated[float, Parameter(
+        "Sway", "Swaying with the beat, times the natural amount", "×",
+        bounds=_NATURAL, section="motion", spread=1.0,
+    )] = 1.0
+    weight_shift: Annotated[float, Parameter(
+        "Weight shift", "From foot to foot, times the natural amount", "×",
+        bounds=_NATURAL, section="motion", spread=1.0,
+    )] = 1.0
+    bell_height: Annotated[float, Parameter(
+        "Bell height", "The bell follows the melody, times the natural amount", "×",
+        bounds=_NATURAL, section="motion", spread=1.0,
+    )] = 1.0
+    posture: Annotated[Literal["standing", "seated"], Parameter(
+        "Posture", choices=(("standing", "Standing"), ("seated", "Seated")),
+        section="player", decides=frozenset({"poses", "motion"}),
+    )] = "standing"
+    cue_leader: Annotated[bool | None, Parameter(
+        "Gives cues", choices=((None, "Automatic"), (True, "Yes"), (False, "Never")),
+        section="player", decides=frozenset({"cues"}), is_own=True,
+    )] = None
+    """None: the piece decides (the highest part that plays first leads)."""
+    seed: Annotated[int, Parameter(
+        "Seed", "Another seed is another performance of the same plan",
+        bounds=SEED, section="motion", row=2, decides=frozenset({"breaths", "motion"}), is_own=True,
+    )] = 0
+    breath_need: Annotated[float, Parameter(
+        "Air spent first",
+        "Part of the lungs that is used up before the player breathes in a rest too short to prepare in: "
+        "0 every such rest, 1 only with empty lungs",
+        bounds=_SHARE, section="breath", decides=_BREATHS, since=6, before=0.0,
+    )] = 0.35
+    """Share of the lungs used up before a rest too short for a preparation is breathed in; 0: in every rest (T6)."""
+    circular_breathing: Annotated[bool, Parameter(
+        "Circular breathing",
+        "Breathes in through the nose while playing, and never stops the line for a catch breath",
+        choices=((False, "No"), (True, "Yes")), section="breath", row=2, decides=_BREATHS,
+    )] = False
+    choreography: Annotated[str, Parameter(
+        "Body motion", "How hips, trunk and head move while playing; hands, lips and feet keep their places",
+        section="motion", row=1, since=8,
+    )] = ""
+    """What hips, trunk and head dance while playing: the name of a bundled choreography or the absolute path of a
+    ``.choreography`` file; empty: they move as is generated."""
+    dance_amount: Annotated[float, Parameter(
+        "Dance amount",
+        "How much of the dance: 0 none, 1 as much as a player can do; it takes the place of the sway",
+        bounds=_SHARE, section="dance", since=8,
+    )] = 0.5
+    dance_variation: Annotated[int, Parameter(
+        "Variation",
+        "0: a dance of the player's own; who has the same other number moves in unison, dancers too",
+        bounds=SEED, section="dance", is_own=True, since=8,
+    )] = 0
+    """Another one is another dance to the same music, the same for everyone who has it; 0: a dance of the player's own,
+    by ``seed``."""
+    # fmt: on
+
+
+PARAMETERS: Final[Mapping[str, Parameter]] = declared(PlayerParameters)
+"""Every parameter of a player by name."""
+_DECIDING: Final = {
+    kind: tuple(name for name, parameter in PARAMETERS.items() if kind in parameter.decides)
+    for kind in get_args(Decided)
+}
+
+
+def restricted(parameters: PlayerParameters, *kinds: Decided) -> PlayerParameters:
+    """Those parameters that decide any of this; the others have their defaults."""
+    return PlayerParameters(**{name: getattr(parameters, name) for kind in kinds for name in _DECIDING[kind]})
+
+
+def deciding(parameters: PlayerParameters, *kinds: Decided) -> tuple[Value, ...]:
+    """The values of those parameters that decide any of this: equal ones give the same."""
+    return tuple(getattr(parameters, name) for kind in kinds for name in _DECIDING[kind])

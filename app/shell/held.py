@@ -1,0 +1,57 @@
+"""Where a session has the settings that it is restored to, and that are remembered whenever they change there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Final
+
+from PySide6.QtCore import SignalInstance
+
+from widgets.common.session import Session
+from widgets.common.tokens import THEMES
+
+
+@dataclass(frozen=True)
+class Held:
+    """Where a session has a setting while the editor runs."""
+
+    get: Callable[[Session], Any]
+    set: Callable[[Session, Any], object]
+    changed: Callable[[Session], SignalInstance]
+
+
+def in_pitches(name: str) -> Held:
+    """How pitches are named."""
+    return Held(
+        lambda session: getattr(session.pitch_display, name),
+        lambda session, value: session.pitch_display.set(**{name: value}),
+        lambda session: session.pitch_display.changed,
+    )
+
+
+def in_listening(name: str) -> Held:
+    """How the person listens."""
+    return Held(
+        lambda session: getattr(session.listening, name),
+        lambda session, value: session.listening.set(**{name: value}),
+        lambda session: session.listening.changed,
+    )
+
+
+def _fold(session: Session, folded: dict[str, bool]) -> None:
+    for name, is_folded in folded.items():
+        session.set_folded(name, is_folded)
+
+
+FOLDED: Final = Held(lambda session: dict(session.folded), _fold, lambda session: session.folded_changed)
+THEME: Final = Held(
+    lambda session: session.tokens.name,
+    lambda session, name: session.set_tokens(THEMES[name]),
+    lambda session: session.theme_changed,
+)
+TIME: Final = Held(
+    lambda session: session.time_display,
+    lambda session, display: session.set_time_display(display),
+    lambda session: session.time_display_changed,
+)

@@ -1,0 +1,88 @@
+"""The panel shows every parameter that is declared, and what is changed there is what the history says."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtWidgets import QApplication, QWidget
+from pytestqt.qtbot import QtBot
+
+from app.plan.parameters import PARAMETERS, Parameter
+from app.project.edit.body_dance import set_body_dance
+from app.project.edit.dancers import add_dancer
+from app.project.model import DANCER_PARAMETERS
+from tests.gui.japanese import FromFiles
+from tests.support.parameters import others
+from tests.support.windows import show_in_front
+from widgets.common.combo import Combo
+from widgets.common.number_slider import NumberSlider
+from widgets.common.session import Session
+from widgets.common.text import sentence
+from widgets.players.panel import PlayersPanel
+
+
+@pytest.fixture
+def panel(session: Session, qtbot: QtBot) -> PlayersPanel:
+    players = tuple(player.id for player in session.project.players)
+    project, dancer = add_dancer(set_body_dance(session.project, players, "salsa"), "salsa", "Anna")
+    session.document.open(project)
+    session.set_players(players)
+    session.set_dancer(dancer)
+    made = PlayersPanel(session)
+    qtbot.addWidget(made)
+    show_in_front(made)
+    return made
+
+
+def choose(control: QWidget, value: object) -> None:
+    """Want a value, as the hand does."""
+    if isinstance(control, Combo):
+        control.chosen.emit(str(value))
+    else:
+        assert isinstance(control, NumberSlider)
+        control.changed.emit(float(str(value)), None)
+
+
+@pytest.mark.parametrize("parameter", PARAMETERS.values(), ids=PARAMETERS)
+def test_every_parameter_is_changed_for_all_who_are_selected(
+    panel: PlayersPanel, session: Session, parameter: Parameter
+) -> None:
+    control = panel.findChild(QWidget, f"parameter_{parameter.name}")
+    assert isinstance(control, QWidget)
+    assert control.isVisibleTo(panel)
+    now = getattr(session.project.players[0].parameters, parameter.name)
+    value = "" if parameter.name == "choreography" else others(parameter, now)[-1]
+    choose(control, value)
+    assert {getattr(player.parameters, parameter.name) for player in session.project.players} == {value}
+    assert len(session.document.done) == 1
+    assert sentence(session.document.done[0].name) == f"{parameter.label}, players: {len(session.project.players)}"
+
+
+@pytest.mark.parametrize("parameter", DANCER_PARAMETERS.values(), ids=DANCER_PARAMETERS)
+def test_every_parameter_of_a_dancer_is_changed(panel: PlayersPanel, session: Session, parameter: Parameter) -> None:
+    control = panel.findChild(QWidget, f"dancer_{parameter.name}")
+    assert isinstance(control, QWidget)
+    value = 0 if parameter.name == "source" else others(parameter, parameter.default)[-1]
+    choose(control, value)
+    assert getattr(session.project.dancers[0], parameter.name) == value
+    assert sentence(session.document.done[0].name) == f"{parameter.label} of Anna"
+
+
+def test_words_are_those_of_the_declaration_in_both_languages(panel: PlayersPanel) -> None:
+    japanese = FromFiles("parameters")
+    assert japanese.faults == []
+    for translator in (None, japanese):
+        if translator is not None:
+            QApplication.installTranslator(translator)
+        try:
+            QApplication.processEvents()
+            for table, prefix in ((PARAMETERS, "parameter"), (DANCER_PARAMETERS, "dancer")):
+                for parameter in table.values():
+                    control = panel.findChild(QWidget, f"{prefix}_{parameter.name}")
+                    assert isinstance(control, QWidget)
+                    tip = japanese.texts.get(("Parameter", parameter.tip, "")) if translator else parameter.tip
+                    label = japanese.texts["Parameter", parameter.label, ""] if translator else parameter.label
+                    assert control.toolTip().startswith(tip or "")
+                    assert not isinstance(control, NumberSlider) or control.accessibleName() == label
+        finally:
+            if translator is not None:
+                QApplication.removeTranslator(translator)

@@ -1,0 +1,77 @@
+"""Whatever is declared as a setting is restored, remembered, and shown in the preferences where it has a label."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from PySide6.QtWidgets import QApplication, QComboBox, QRadioButton
+
+from app.shell.app import Program
+from app.shell.editor import Editor
+from app.shell.preferences import show_preferences
+from app.shell.settings import SETTINGS, Setting, Settings
+from tests.gui.conftest import quartet_project
+from tests.support.tasks import ImmediateTasks
+from widgets.common.listening import SOURCES
+from widgets.common.session import Session
+
+
+def other(setting: Setting[Any]) -> object:
+    """Another value than the default."""
+    if setting.options:
+        return setting.options[-1][0]
+    if isinstance(setting.default, bool):
+        return not setting.default
+    return {"folded": {"a part": True}, "volume": 0.25, "source": SOURCES[-1]}[setting.name]
+
+
+def test_what_the_session_holds_is_remembered_and_restored(program: Program, settings: Settings) -> None:
+    held = [(setting, setting.held) for setting in SETTINGS if setting.held is not None]
+    assert len(held) >= 10
+    for setting, place in held:
+        value = other(setting)
+        assert getattr(settings, setting.name) != value
+        place.set(program.session, value)
+        assert getattr(settings, setting.name) == value
+    settings.sync()
+    session = Session(quartet_project(), ImmediateTasks())
+    Editor(session, Settings(settings.path), program.editor.language, program.editor.questions)
+    for setting, place in held:
+        assert place.get(session) == other(setting) != setting.default, setting.name
+    session.deleteLater()
+
+
+def test_every_setting_with_a_label_is_chosen_in_the_preferences(program: Program, settings: Settings) -> None:
+    program.editor.speak("en")
+    dialog = show_preferences(program.editor, "general")
+    for setting in [one for one in SETTINGS if one.label]:
+        options, value = list(setting.options), other(setting)
+        if setting.name == "language":
+            languages = dialog.findChild(QComboBox, "preferences_language")
+            assert [languages.itemText(index) for index in range(languages.count())] == [word for _, word in options]
+            languages.activated.emit(len(options) - 1)
+        else:
+            radios = [dialog.findChild(QRadioButton, f"preferences_{setting.name}_{option}") for option, _ in options]
+            chosen = [option for (option, _), radio in zip(options, radios, strict=True) if radio.isChecked()]
+            assert chosen == [getattr(settings, setting.name)]
+            radios[-1].click()
+            assert radios[-1].isChecked()
+        assert getattr(settings, setting.name) == value
+    QApplication.processEvents()
+    # All that can be translated is in the other language now.
+    words = {"C4", "C3", "C D E", "English", "日本語"}
+    english = {
+        word for one in SETTINGS if one.label for word in (one.label, *(text for _, text in one.options))
+    } - words
+    assert not english & {radio.text() for radio in dialog.findChildren(QRadioButton)}
+    dialog.close()
+
+
+def test_a_value_that_is_no_option_is_a_problem(program: Program, settings: Settings) -> None:
+    settings.sync()
+    path = settings.path
+    path.write_text("[interface]\ntheme = 'blue'\ntime_display = 'ticks'\n[sound]\nsource = 'radio'\n")
+    read = Settings(path)
+    assert (read.theme, read.time_display, read.source) == ("dark", "bars", "recording")
+    places = {problem.arguments["place"] for problem in read.problems}
+    assert places == {"interface.theme", "interface.time_display", "sound.source"}

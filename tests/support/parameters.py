@@ -1,0 +1,32 @@
+"""Values of parameters, as their declarations allow them: a new parameter is in every test that draws from here."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hypothesis import strategies as st
+
+from app.plan.parameters import Parameter
+
+CHOREOGRAPHIES = ("", "salsa", "/dances/tango.choreography")
+
+
+def values(parameter: Parameter) -> st.SearchStrategy[Any]:
+    """Any value of a parameter."""
+    if parameter.choices:
+        return st.sampled_from([value for value, _ in parameter.choices])
+    if parameter.bounds is None:
+        return st.sampled_from(CHOREOGRAPHIES)
+    return st.integers(*map(int, parameter.bounds)) if parameter.kind is int else st.floats(*parameter.bounds)
+
+
+def others(parameter: Parameter, now: object) -> list[Any]:
+    """Values far from the present one: what is chosen from, or the ends of what is usual."""
+    if parameter.choices:
+        found = [value for value, _ in parameter.choices]
+    elif parameter.bounds is None:
+        found = list(CHOREOGRAPHIES[:2])
+    else:
+        low, high = parameter.bounds
+        found = [parameter.kind(low), parameter.kind(min(high if parameter.usual is None else parameter.usual, 1000))]
+    return [value for value in found if value != now]

@@ -1,0 +1,88 @@
+"""Every parameter of a player, changed alone: what is taken over from before is what would be made from nothing, and
+what the parameter says it decides is what it decides."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+import pytest
+
+from app.motion.curve import frame_times
+from app.motion.model import Motion
+from app.motion.perform import Playing, frame_count
+from app.motion.solve import padding
+from app.performance.ensemble import Performance
+from app.plan.corrections import PoseCorrection
+from app.plan.parameters import PARAMETERS, Parameter
+from app.project.edit.corrections import put
+from app.project.edit.players import set_parameters
+from tests.property.performance.edits import piece
+from tests.support.parameters import others
+from tests.support.performed import playing_of
+
+FPS = Fraction(6)
+
+
+@cache
+def before(danced: bool) -> Performance:
+    """Two trumpets, who take turns to lead, and a trombone; the first may dance, and holds the bell up."""
+    project = piece()
+    first = project.players[0].id
+    project = put(project, first, [PoseCorrection("up", "bell", 0, 9600, up_deg=500.0)])
+    made = Performance(set_parameters(project, (first,), choreography="salsa") if danced else project)
+    made.prepare()
+    return made
+
+
+def all_frames(playing: Playing) -> Motion:
+    return playing.motion(FPS, 0, frame_count(playing.plan.time_frame, FPS))
+
+
+def arrays(motion: Motion) -> dict[str, np.ndarray]:
+    of = {
+        name: getattr(motion, name) for name in ("rotations", "hips_m", "instrument_position_m", "instrument_rotation")
+    }
+    return of | motion.morphs | motion.controls
+
+
+def differing(one: Motion, other: Motion) -> np.ndarray:
+    """Which frames are not the same bits."""
+    ours, theirs = arrays(one), arrays(other)
+    assert ours.keys() == theirs.keys()
+    differs = np.zeros(len(one.hips_m), bool)
+    for name, values in ours.items():
+        differs |= (values != theirs[name]).reshape(len(differs), -1).any(axis=1)
+    return differs
+
+
+def within(spans_s: np.ndarray, start_s: float, count: int) -> np.ndarray:
+    """Which of so many frames are in some spans or around them."""
+    times_s, room_s = frame_times(start_s, FPS, 0, count), float((padding(FPS) + 1) / FPS)
+    found = np.zeros(count, bool)
+    for first_s, last_s in spans_s:
+        found |= (times_s >= first_s - room_s) & (times_s <= last_s + room_s)
+    return found
+
+
+@pytest.mark.parametrize("parameter", PARAMETERS.values(), ids=PARAMETERS)
+def test_a_change_makes_anew_what_it_says_and_no_less(parameter: Parameter) -> None:
+    old = before(parameter.section == "dance")
+    first = old.project.players[0]
+    seen = False
+    for value in others(parameter, getattr(first.parameters, parameter.name)):
+        changed = set_parameters(old.project, (first.id,), **{parameter.name: value})
+        warm, cold = Performance(changed, old), Performance(changed)
+        assert warm.plans == cold.plans
+        assert warm.plans == old.plans or parameter.decides != {"motion"}
+        seen |= warm.plans != old.plans
+        for player, was in zip(changed.players, old.project.players, strict=True):
+            then = playing_of(old, was)
+            now, fresh = playing_of(warm, player, then), playing_of(cold, player)
+            motion = all_frames(now)
+            assert not differing(motion, all_frames(fresh)).any()
+            differs = differing(motion, all_frames(then))
+            assert not (differs & ~within(now.changed_s(then), now.start_s, len(differs))).any()
+            seen |= bool(differs.any())
+    assert seen, "it does nothing"

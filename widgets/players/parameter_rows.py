@@ -1,0 +1,73 @@
+"""Parameters as controls: what each is called, which numbers it takes, and where it stands, as it is declared."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from PySide6.QtWidgets import QHBoxLayout
+
+from app.plan.parameters import PARAMETERS, Parameter
+from widgets.common.combo import Combo, Option
+from widgets.common.number_slider import NumberSlider
+from widgets.common.plain import Label
+from widgets.common.session import Session
+from widgets.common.text import parameter_text
+
+LARGEST = 2**31 - 1
+"""The largest whole number that a control takes."""
+
+
+def rows_of(section: str, table: Mapping[str, Parameter] = PARAMETERS) -> list[Parameter]:
+    """The parameters that a part of the panel shows, from the top."""
+    return sorted((one for one in table.values() if one.section == section), key=lambda one: one.row)
+
+
+class ParameterSlider(NumberSlider):
+    """The slider of a parameter that is a number; whole ones are typed."""
+
+    def __init__(self, session: Session, parameter: Parameter, prefix: str = "parameter") -> None:
+        low, high = parameter.bounds or (0.0, LARGEST)
+        whole = parameter.kind is int
+        super().__init__(
+            session,
+            float(low),
+            float(min(high, LARGEST)),
+            default=float(parameter.default),
+            step=1.0 if whole else parameter.step,
+            decimals=0 if whole else parameter.decimals,
+            slides=not whole,
+            fills=None if whole else (min(low, 0.0), high if parameter.usual is None else parameter.usual),
+        )
+        self.parameter = parameter
+        self.setObjectName(f"{prefix}_{parameter.name}")
+
+    def retranslate(self) -> None:
+        """Set the words in the language of the editor."""
+        said = self.parameter
+        self.set_texts(parameter_text(said.label), parameter_text(said.unit), parameter_text(said.tip))
+
+
+class ParameterChoice(Combo):
+    """The list of a parameter that is one of a few; the ids of its options are the values as texts."""
+
+    def __init__(self, parameter: Parameter) -> None:
+        super().__init__()
+        self.parameter = parameter
+        self.values = {str(value): value for value, _ in parameter.choices}
+        self.label = Label()
+        self.label.setBuddy(self)
+        self.setObjectName(f"parameter_{parameter.name}")
+
+    def line(self) -> QHBoxLayout:
+        """The list behind its label."""
+        line = QHBoxLayout()
+        line.setSpacing(4)
+        line.addWidget(self.label)
+        line.addWidget(self, 1)
+        return line
+
+    def retranslate(self) -> None:
+        """Set the words in the language of the editor."""
+        self.label.setText(parameter_text(self.parameter.label))
+        self.setToolTip(parameter_text(self.parameter.tip))
+        self.set_options([Option(str(value), parameter_text(word)) for value, word in self.parameter.choices])
