@@ -110,6 +110,8 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.arrange_players": "automatic arc",
     "edit.apply_preset": "preset {preset} for players: {count}",
     "preset.saved": "the preset {name} is saved",
+    "doubling.posture": "{player} and {other} are not played in one posture, so that one person cannot play both",
+    "doubling.together": ("{player} and {other} sound at once for {seconds:g} s, so that one person cannot play both"),
     "player.too_many": "a project can have {most} players",
     "player.no_name": "a name must have at least one sign that can be seen",
     "player.no_part": "there is no part {part}",

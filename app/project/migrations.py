@@ -59,6 +59,11 @@ def _with_body_dances(raw: Raw) -> Raw:
     return {**raw, "players": players, "dancers": dancers}
 
 
+def _with_doublings(raw: Raw) -> Raw:
+    """8 to 9: a player may share the body of another; before, everybody had one of their own."""
+    return {**raw, "players": [{**player, "doubles": ""} for player in raw["players"]]}
+
+
 MIGRATIONS: Final[tuple[Migration, ...]] = (
     _with_read_notes,
     _with_transpositions,
@@ -67,6 +72,7 @@ MIGRATIONS: Final[tuple[Migration, ...]] = (
     _with_breath_need,
     _with_dancers,
     _with_body_dances,
+    _with_doublings,
 )
 """In order."""
 
