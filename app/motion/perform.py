@@ -71,6 +71,8 @@ class Frames:
         As the curves of `Playing`.
     danced : (F, 12) float64 or None
         Of its layer; None: nothing is danced.
+    stowed : (F,) float64 or None
+        How far the instrument is put aside.
     """
 
     times_s: FloatArray
@@ -81,6 +83,7 @@ class Frames:
     placed: dict[str, Placed]
     raised: FloatArray
     danced: FloatArray | None = None
+    stowed: FloatArray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +115,8 @@ class Playing:
         What hips, trunk and head dance, by the amount of the parameters.
     inhaling : Envelopes
         When the dance gives way to breaths.
+    stowed : Curve or None
+        How far the instrument is put aside for another one (`app.motion.doubling`).
     """
 
     plan: PlayerPlan
@@ -130,6 +135,7 @@ class Playing:
     raised: Curve
     dance: BodyLayer | None = None
     inhaling: Envelopes = NOT_SHOWN
+    stowed: Curve | None = None
 
     @property
     def player_id(self) -> str:
@@ -154,6 +160,7 @@ class Playing:
             placed=self.placed(times_s),
             raised=self.raised.sample(times_s),
             danced=self._danced(times_s),
+            stowed=None if self.stowed is None else self.stowed.sample(times_s),
         )
         curves = self.curves(frames_of)
         return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]))
@@ -171,6 +178,8 @@ class Playing:
         if frames.danced is not None:
             amount, free = self.parameters.dance_amount, _stands_free(self.player)
             moved = with_dance(moved, frames.danced, amount, self.body, legs=free)
+        if frames.stowed is not None and self.player.put_aside is not None:
+            moved = self.player.put_aside.watched(moved, frames.stowed)
         morphs = face_morphs(
             frames.face,
             self.body.embouchure[self.instrument_map.embouchure.kind],
@@ -179,7 +188,9 @@ class Playing:
             frames.look.blinks,
             moved.lowered,
         )
-        return Curves(moved, frames.controls, morphs, frames.face.mouth_open, frames.placed, frames.raised)
+        return Curves(
+            moved, frames.controls, morphs, frames.face.mouth_open, frames.placed, frames.raised, frames.stowed
+        )
 
     def placed(self, times_s: FloatArray) -> dict[str, Placed]:
         """Where the fingers are, and the hands that give way for some of them, at ascending times."""
@@ -199,6 +210,8 @@ class Playing:
         spans += [curve.changed_s(other.stations[name]) for name, curve in self.stations.items()]
         spans.append(self.raised.changed_s(other.raised))
         spans.append(self.inhaling.changed_s(other.inhaling))
+        if self.stowed is not None and other.stowed is not None:
+            spans.append(self.stowed.changed_s(other.stowed))
         for ours, theirs in ((self.layers, other.layers), (self.face, other.face), (self.gaze, other.gaze)):
             for member in fields(ours):
                 value = getattr(ours, member.name)
@@ -219,7 +232,8 @@ class Playing:
         parameters = {name: value for name, value in _fields(self.parameters).items() if name not in PLANNED_WITH}
         still = self.player
         endpin = None if still.stand is None else still.stand.endpin
-        values = (self.player_id, self.start_s, parameters, self.posture, still.carriage, still.lowered, endpin)
+        put = (still.aside, self.stowed is None)
+        values = (self.player_id, self.start_s, parameters, self.posture, still.carriage, still.lowered, endpin, put)
         return (values, still.skeleton, still.hold, self.body, self.dance)
 
 

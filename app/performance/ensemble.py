@@ -8,7 +8,7 @@ wrong with the file of that instrument or character.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 from threading import RLock
 from typing import Final
@@ -20,6 +20,7 @@ from app.performance.bodies import hold_now, hold_of, is_held, suited_to
 from app.performance.loudness import heard, note_loudness
 from app.performance.reach import reached
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
+from app.plan.doubling import Change, changes, first_played, held_plan
 from app.plan.generate import BREATH_PARAMETERS, EnsemblePlan, Line, Piece, frame_around, plan_ensemble
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
@@ -180,11 +181,12 @@ class Performance:
             )
             self.unseen = dict[str, Message]()
             plans = {}
+            held = {player.id: self._in_hands(player, made) for player in self.project.players}
             for player in self.project.players:
                 # Whether hands reach is found out by posing them: with many players it takes as long as planning.
                 if stop_wanted():
                     raise Cancelled("work.stopped")
-                plans[player.id] = self._told(player, made)
+                plans[player.id] = self._told(player, held[player.id])
             self._plans = plans
             _CHECKED.update(player.parameters.choreography for player in self.project.players)
             self.__dict__["_ensemble"] = made
@@ -209,9 +211,28 @@ class Performance:
             return False
         return True
 
-    def _told(self, player: Player, made: EnsemblePlan) -> PlayerPlan:
+    def _in_hands(self, player: Player, made: EnsemblePlan) -> PlayerPlan | None:
+        """A player's plan; of who plays other instruments too, without what is done while this one lies aside."""
+        plan = made.plans.get(player.id)
+        played = [one for one in self.project.played_by(player) if one.id in made.plans]
+        if plan is None or len(played) == 1:
+            return plan
+        notes = {one.id: made.plans[one.id].fingerings for one in played}
+        names = {one.id: one.name for one in played}
+        found = held_plan(plan, first_played(notes), changes(notes), names)
+        # What is as it was is the very same, field by field: motions are compared so.
+        parts = {
+            name: self._memo.step(f"held:{player.id}:{name}", lambda value=value: value, value)  # type: ignore[misc]
+            for name in ("cues", "gestures", "expressions", "problems")
+            for value in [getattr(found, name)]
+        }
+        return self._memo.step(
+            f"held:{player.id}", lambda: msgspec.structs.replace(plan, **parts), plan, *parts.values()
+        )
+
+    def _told(self, player: Player, plan: PlayerPlan | None) -> PlayerPlan:
         """A player's plan with what is wrong about the player."""
-        plan, frame = made.plans.get(player.id), self.time_frame
+        frame = self.time_frame
         lacking = self.lacking(player)
         if lacking:
             self.unseen[player.id] = lacking[0]
@@ -380,6 +401,12 @@ class Performance:
     def held(self, player: Player) -> InstrumentMap:
         """That map as the player's body plays it: of its size, touched by what the body has. Raises AppError."""
         return suited_to(player, self.instrument(player)).instrument
+
+
+def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str, tuple[Change, ...]]:
+    """Of a person who plays several instruments, whose is in the hands at first, and when they are changed."""
+    notes = {player.id: performance.plan(player).fingerings for player in played}
+    return first_played(notes), changes(notes)
 
 
 def _not_danced(player: Player) -> tuple[Message, ...]:

@@ -412,7 +412,8 @@ def with_settings(project: Project, settings: Sequence[Setting], maps: Mapping[s
         if isinstance(character, str):
             player = msgspec.structs.replace(player, character_id=character)
         if "posture" in chosen:
-            for one in project.played_by(player):
+            others = [one for one in project.played_by(player) if one.id != player.id]
+            for one in (player, *others):
                 if one.instrument_id in maps:
                     _require_posture(player, maps[one.instrument_id])
         players[index] = player

@@ -1,0 +1,140 @@
+"""An instrument that is put aside: where it lies while its player has another in the hands, and how it comes there.
+
+The hand that bears it swings out about its shoulder from where the instrument is lowered to, and down as far as the arm
+is long: what is natural before the body is so beside it, whatever the instrument is. The other hand lets go and hangs.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.motion.arms import HANGS_RAD
+from app.motion.body import BodyMotion
+from app.motion.contact import Y_AXIS, Z_AXIS, Carried
+from app.motion.curve import FloatArray
+from app.motion.posture import Side, Trunk
+from app.motion.reach import clavicle_of
+from app.rig import quaternion
+from app.rig.hold import Hold, hand_targets
+from app.rig.ik import arm
+from app.rig.model import Skeleton
+
+SWING_RAD = float(np.deg2rad(48.0))
+"""How far aside of where it is lowered the first instrument lies ..."""
+NEXT_RAD = float(np.deg2rad(26.0))
+"""... and by how much more each further one."""
+FARTHEST = 2
+DROP_M = 0.26
+LONGEST = 0.9
+"""It lies so much lower, or as far as the arm comes with this share of its length."""
+LOOKS_RAD = {"neck": 0.16, "head": 0.2}
+LOOKS_DOWN_RAD = {"neck": 0.06, "head": 0.16}
+TURNS_RAD = {"spine": 0.05, "chest": 0.08, "upperChest": 0.06}
+"""Neck and head look where the hand goes, and the trunk turns with it."""
+
+
+@dataclass(frozen=True)
+class Aside:
+    """Where an instrument is put aside: by which hand, and as which one of the person's, from 0."""
+
+    side: Side
+    number: int
+
+    @property
+    def sign(self) -> float:
+        """1 to the left, -1 to the right."""
+        return 1.0 if self.side == "left" else -1.0
+
+    @property
+    def angle_rad(self) -> float:
+        """How far it swings aside, to the left."""
+        return self.sign * (SWING_RAD + NEXT_RAD * min(self.number, FARTHEST))
+
+
+@dataclass(frozen=True)
+class Place:
+    """An instrument's place aside.
+
+    Attributes
+    ----------
+    aside : Aside
+    pivot_m : (3,) float64
+        What it swings about: the shoulder of a body that keeps still.
+    drop_m : float
+        How much lower it lies.
+    rest : Carried
+        Where it lies, one frame.
+    """
+
+    aside: Aside
+    pivot_m: FloatArray
+    drop_m: float
+    rest: Carried
+
+    @classmethod
+    def of(cls, aside: Aside, skeleton: Skeleton, hold: Hold, base: Trunk, low: Carried) -> Place:
+        """From where a body that keeps still has the lowered instrument."""
+        joint, reaches_m = clavicle_of(skeleton, aside.side)
+        begins_m = base.chest_m + quaternion.rotate(base.chest, skeleton.offsets_m[joint])
+        pivot_m = (begins_m + quaternion.rotate(base.chest, reaches_m))[0]
+        bare = cls(aside, pivot_m, 0.0, low)
+        swung = bare._swung(low, np.ones(1))
+        hand = next((hand for hand in hold.hands if hand.side == aside.side), None)
+        drop_m = 0.0
+        if hand is not None:
+            wrist_m = hand_targets(hand, swung.position_m, swung.rotation, {})[0][0] - pivot_m
+            across2 = float(wrist_m[0] ** 2 + wrist_m[2] ** 2)
+            reach2 = (LONGEST * arm(skeleton, aside.side).length_m) ** 2
+            lowest_m = -float(np.sqrt(max(reach2 - across2, 0.0)))
+            drop_m = float(min(max(wrist_m[1] - lowest_m, 0.0), DROP_M))
+        rest = Carried(swung.position_m - drop_m * Y_AXIS, swung.rotation)
+        return replace(bare, drop_m=drop_m, rest=rest)
+
+    def put(self, carried: Carried, stowed: FloatArray) -> Carried:
+        """The instrument on its way: 0 where it is carried, 1 where it lies, (F,)."""
+        swung = self._swung(carried, stowed)
+        position_m = swung.position_m - (self.drop_m * stowed)[:, None] * Y_AXIS
+        share = stowed[:, None]
+        position_m = position_m + (self.rest.position_m - position_m) * share
+        rotation = quaternion.slerp(swung.rotation, self.rest.rotation, stowed)
+        lies = share >= 1.0
+        return Carried(
+            np.where(lies, self.rest.position_m, np.where(share <= 0.0, carried.position_m, position_m)),
+            np.where(lies, self.rest.rotation, np.where(share <= 0.0, carried.rotation, rotation)),
+        )
+
+    def _swung(self, carried: Carried, stowed: FloatArray) -> Carried:
+        turn = quaternion.from_axis_angle(Y_AXIS, self.aside.angle_rad * stowed)
+        return Carried(
+            self.pivot_m + quaternion.rotate(turn, carried.position_m - self.pivot_m),
+            quaternion.multiply(turn, carried.rotation),
+        )
+
+    def let_go(
+        self, skeleton: Skeleton, hold: Hold, arms: dict[int, FloatArray], stowed: FloatArray
+    ) -> dict[int, FloatArray]:
+        """The arms, the one that does not bear the instrument on its way to hanging down."""
+        result = dict(arms)
+        for hand in hold.hands:
+            if hand.side == self.aside.side:
+                continue
+            limb, sign = arm(skeleton, hand.side), 1.0 if hand.side == "right" else -1.0
+            hangs = quaternion.from_axis_angle(Z_AXIS, sign * HANGS_RAD)
+            joint, _ = clavicle_of(skeleton, hand.side)
+            for bone in (joint, limb.upper, limb.lower, limb.end):
+                there = hangs if bone == limb.upper else quaternion.IDENTITY
+                freed = quaternion.slerp(arms[bone], np.broadcast_to(there, arms[bone].shape), stowed)
+                result[bone] = np.where(stowed[:, None] > 0.0, freed, arms[bone])
+        return result
+
+    def watched(self, motion: BodyMotion, stowed: FloatArray) -> BodyMotion:
+        """The body looking where the hand goes."""
+        turn, forward = dict(motion.turn_rad), dict(motion.forward_rad)
+        for shares in (TURNS_RAD, LOOKS_RAD):
+            for joint, angle_rad in shares.items():
+                turn[joint] = turn[joint] + self.aside.sign * angle_rad * stowed
+        for joint, angle_rad in LOOKS_DOWN_RAD.items():
+            forward[joint] = forward[joint] + angle_rad * stowed
+        return replace(motion, turn_rad=turn, forward_rad=forward)
