@@ -1,7 +1,7 @@
 """An instrument that is put aside: where it lies while its player has another in the hands, and how it comes there.
 
-The hand that bears it swings out about its shoulder from where the instrument is lowered to, and down as far as the arm
-is long: what is natural before the body is so beside it, whatever the instrument is. The other hand lets go and hangs.
+The arm that bears it swings as a whole about its shoulder, out and down, from where the instrument is lowered to: what
+is natural before the body is so beside it, whatever the instrument is. The other hand lets go and hangs.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ SWING_RAD = float(np.deg2rad(48.0))
 NEXT_RAD = float(np.deg2rad(26.0))
 """... and by how much more each further one."""
 FARTHEST = 2
-DROP_M = 0.26
-LONGEST = 0.9
-"""It lies so much lower, or as far as the arm comes with this share of its length."""
+LEAST_M = 1e-6
+DOWN_RAD = float(np.deg2rad(30.0))
+"""The arm comes down by so much."""
 LOOKS_RAD = {"neck": 0.16, "head": 0.2}
 LOOKS_DOWN_RAD = {"neck": 0.06, "head": 0.16}
 TURNS_RAD = {"spine": 0.05, "chest": 0.08, "upperChest": 0.06}
@@ -62,15 +62,15 @@ class Place:
     aside : Aside
     pivot_m : (3,) float64
         What it swings about: the shoulder of a body that keeps still.
-    drop_m : float
-        How much lower it lies.
+    swing_rad : (3,) float64
+        The whole swing as a rotation vector.
     rest : Carried
         Where it lies, one frame.
     """
 
     aside: Aside
     pivot_m: FloatArray
-    drop_m: float
+    swing_rad: FloatArray
     rest: Carried
 
     @classmethod
@@ -79,34 +79,32 @@ class Place:
         joint, reaches_m = clavicle_of(skeleton, aside.side)
         begins_m = base.chest_m + quaternion.rotate(base.chest, skeleton.offsets_m[joint])
         pivot_m = (begins_m + quaternion.rotate(base.chest, reaches_m))[0]
-        bare = cls(aside, pivot_m, 0.0, low)
-        swung = bare._swung(low, np.ones(1))
+        turn = quaternion.from_axis_angle(Y_AXIS, aside.angle_rad)
         hand = next((hand for hand in hold.hands if hand.side == aside.side), None)
-        drop_m = 0.0
-        if hand is not None:
-            wrist_m = hand_targets(hand, swung.position_m, swung.rotation, {})[0][0] - pivot_m
-            across2 = float(wrist_m[0] ** 2 + wrist_m[2] ** 2)
-            reach2 = (LONGEST * arm(skeleton, aside.side).length_m) ** 2
-            lowest_m = -float(np.sqrt(max(reach2 - across2, 0.0)))
-            drop_m = float(min(max(wrist_m[1] - lowest_m, 0.0), DROP_M))
-        rest = Carried(swung.position_m - drop_m * Y_AXIS, swung.rotation)
-        return replace(bare, drop_m=drop_m, rest=rest)
+        borne_m = low.position_m if hand is None else hand_targets(hand, low.position_m, low.rotation, {})[0]
+        out_m = quaternion.rotate(turn, borne_m[0] - pivot_m) * np.array([1.0, 0.0, 1.0])
+        axis = np.cross(Y_AXIS, out_m / max(float(np.linalg.norm(out_m)), LEAST_M))
+        whole = quaternion.multiply(quaternion.from_axis_angle(axis, DOWN_RAD), turn)
+        bare = cls(aside, pivot_m, quaternion.to_rotation_vector(whole), low)
+        return replace(bare, rest=bare._swung(low, np.ones(1)))
+
+    def turned(self, stowed: FloatArray) -> FloatArray:
+        """How far the arm has swung, (F, 4)."""
+        return quaternion.from_rotation_vector(stowed[:, None] * self.swing_rad)
 
     def put(self, carried: Carried, stowed: FloatArray) -> Carried:
         """The instrument on its way: 0 where it is carried, 1 where it lies, (F,)."""
-        swung = self._swung(carried, stowed)
-        position_m = swung.position_m - (self.drop_m * stowed)[:, None] * Y_AXIS
-        share = stowed[:, None]
-        position_m = position_m + (self.rest.position_m - position_m) * share
+        swung, share = self._swung(carried, stowed), stowed[:, None]
+        position_m = swung.position_m + (self.rest.position_m - swung.position_m) * share
         rotation = quaternion.slerp(swung.rotation, self.rest.rotation, stowed)
-        lies = share >= 1.0
+        lies, stays = share >= 1.0, share <= 0.0
         return Carried(
-            np.where(lies, self.rest.position_m, np.where(share <= 0.0, carried.position_m, position_m)),
-            np.where(lies, self.rest.rotation, np.where(share <= 0.0, carried.rotation, rotation)),
+            np.where(lies, self.rest.position_m, np.where(stays, carried.position_m, position_m)),
+            np.where(lies, self.rest.rotation, np.where(stays, carried.rotation, rotation)),
         )
 
     def _swung(self, carried: Carried, stowed: FloatArray) -> Carried:
-        turn = quaternion.from_axis_angle(Y_AXIS, self.aside.angle_rad * stowed)
+        turn = self.turned(stowed)
         return Carried(
             self.pivot_m + quaternion.rotate(turn, carried.position_m - self.pivot_m),
             quaternion.multiply(turn, carried.rotation),
@@ -115,8 +113,8 @@ class Place:
     def let_go(
         self, skeleton: Skeleton, hold: Hold, arms: dict[int, FloatArray], stowed: FloatArray
     ) -> dict[int, FloatArray]:
-        """The arms, the one that does not bear the instrument on its way to hanging down."""
-        result = dict(arms)
+        """The arm that does not bear the instrument, on its way to hanging down."""
+        result: dict[int, FloatArray] = {}
         for hand in hold.hands:
             if hand.side == self.aside.side:
                 continue

@@ -217,8 +217,6 @@ def _upper(player: Player, curves: Curves) -> tuple[FloatArray, FloatArray, Trun
     )
     if player.stand is not None:
         carried = player.stand.stood(carried, curves.body)
-    if player.put_aside is not None and curves.stowed is not None and np.any(curves.stowed):
-        carried = player.put_aside.put(carried, curves.stowed)
     return hips_m, hips, upper, carried
 
 
@@ -230,7 +228,12 @@ def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatAr
     controls = stopped(skeleton, player.hold, upper, motion, carried, curves.controls, curves.placed)
     arms = solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed)
     if player.put_aside is not None and curves.stowed is not None and np.any(curves.stowed):
-        arms = player.put_aside.let_go(skeleton, player.hold, arms, curves.stowed)
+        # The other hand lets go where the instrument was lowered, and does not follow it.
+        letting_go = player.put_aside.let_go(skeleton, player.hold, arms, curves.stowed)
+        carried = player.put_aside.put(carried, curves.stowed)
+        swung = player.put_aside.turned(curves.stowed)
+        arms = solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed, swung)
+        arms |= letting_go
     local |= arms
     local |= solve_legs(player.place, skeleton, hips_m, hips)
     looking = np.stack([motion.eyes_pitch_rad, motion.eyes_yaw_rad, np.zeros(len(curves))], axis=-1)
