@@ -68,8 +68,7 @@ def solve_arms(
     placed: Mapping[str, Placed],
     swung: FloatArray | None = None,
 ) -> dict[int, FloatArray]:
-    """Rotations of clavicles, arms and hands, by joint; ``swung`` (F, 4) is how far elbows have gone with arms that swing
-    as a whole."""
+    """Rotations of clavicles, arms and hands, by joint; ``swung`` (F, 4) is how far elbows go with arms that swing."""
     rotations: dict[int, FloatArray] = {}
     with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
     for hand in hold.hands:

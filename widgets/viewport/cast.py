@@ -69,12 +69,20 @@ class Member:
     world_from_player : (3, 4) float64
     seat_m : (3,) float64 or None
         Middle of the seat's top in the player's frame; None: standing.
+    person_id : str
+        Who has the body, which is drawn once: of who doubles an instrument nothing else is seen.
     """
 
     player_id: str
     kit: Kit
     world_from_player: Floats
     seat_m: Floats | None
+    person_id: str
+
+    @property
+    def has_body(self) -> bool:
+        """Whether the body is drawn."""
+        return self.person_id == self.player_id
 
 
 def kit_of(player: Player) -> Kit:
@@ -92,13 +100,15 @@ def dancer_kit(dancer: Dancer) -> Kit:
 
 def dancing_member(dancer: Dancer, kit: Kit) -> Member:
     """A dancer at their place."""
-    return Member(dancer.id, kit, placed(dancer.stage), None)
+    return Member(dancer.id, kit, placed(dancer.stage), None, dancer.id)
 
 
-def member_of(player: Player, kit: Kit) -> Member:
-    """A player at their place."""
+def member_of(player: Player, kit: Kit, person_id: str = "") -> Member:
+    """A player at their place, with the body of a person; empty: one of their own."""
+    person_id = person_id or player.id
     posture = body_of(player).postures[kit.map.hold.possible(player.parameters.posture)]
-    return Member(player.id, kit, placed(player.stage), seat(kit.character.skeleton, posture))
+    seat_m = seat(kit.character.skeleton, posture) if person_id == player.id else None
+    return Member(player.id, kit, placed(player.stage), seat_m, person_id)
 
 
 def placed(stage: StagePosition) -> Floats:

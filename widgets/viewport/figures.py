@@ -14,7 +14,7 @@ from widgets.viewport.cast import Kit, Member, Stage, dancer_kit, dancing_member
 from widgets.viewport.geometry import Crowd
 from widgets.viewport.renderer import Shapes, crowd_of, shapes_of
 
-CastKey = tuple[tuple[str, str, str, str, int, int, float, float, float], ...]
+CastKey = tuple[tuple[str, str, str, str, str, int, int, float, float, float], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +37,7 @@ def cast_key(project: Project) -> CastKey:
     return tuple(
         (
             player.id,
+            project.person(player).id,
             player.character_id,
             player.instrument_id,
             player.parameters.posture,
@@ -49,7 +50,7 @@ def cast_key(project: Project) -> CastKey:
         for player in project.players
     ) + tuple(
         (
-            *(dancer.id, dancer.character_id, "", "", 0, character_revision(dancer.character_id)),
+            *(dancer.id, dancer.id, dancer.character_id, "", "", 0, character_revision(dancer.character_id)),
             *(dancer.stage.x_m, dancer.stage.z_m, dancer.stage.turn_rad),
         )
         for dancer in project.dancers
@@ -58,12 +59,13 @@ def cast_key(project: Project) -> CastKey:
 
 def same_figures(one: CastKey, other: CastKey) -> bool:
     """Whether two stages differ in places alone, so that nothing has to be loaded."""
-    return [row[:6] for row in one] == [row[:6] for row in other]
+    return [row[:7] for row in one] == [row[:7] for row in other]
 
 
 def load(project: Project, before: Shapes | None, progress: Progress, stop_wanted: StopWanted) -> Loaded:
     """Load everybody. A player of whom something is missing is left out. Raises Cancelled."""
     kits: dict[tuple[str, str], Kit] = {}
+    persons: dict[str, str] = {}
     done = 0
 
     def make(player: Player) -> Member:
@@ -75,7 +77,9 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_wante
         pair = (player.character_id, player.instrument_id)
         if pair not in kits:
             kits[pair] = kit_of(player)
-        return member_of(player, kits[pair])
+        # Where what the person plays first cannot be seen, the next has the body.
+        person = persons.setdefault(project.person(player).id, player.id)
+        return member_of(player, kits[pair], person)
 
     def make_dancer(dancer: Dancer) -> Member:
         if stop_wanted():
@@ -85,7 +89,8 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_wante
             kits[pair] = dancer_kit(dancer)
         return dancing_member(dancer, kits[pair])
 
-    found, dancers = attempt(project.players, make), attempt(project.dancers, make_dancer)
+    everybody = [player for person in project.bodies for player in project.played_by(person)]
+    found, dancers = attempt(everybody, make), attempt(project.dancers, make_dancer)
     members = [*found.made.values(), *dancers.made.values()]
     stage = Stage(members)
     shapes = shapes_of(stage, before)
@@ -102,7 +107,7 @@ def moved(project: Project, loaded: Loaded) -> Loaded:
     members = [
         dancing_member(dancers[member.player_id], member.kit)
         if member.player_id in dancers
-        else member_of(players[member.player_id], member.kit)
+        else member_of(players[member.player_id], member.kit, member.person_id)
         for member in loaded.stage.members
     ]
     stage = Stage(members)

@@ -99,7 +99,8 @@ def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
     """The coarsest shapes of everyone, end to end."""
     parts: list[tuple[int, Geometry]] = []
     for row, member in enumerate(stage.members):
-        parts.append((row, shapes.characters[member.kit.character.id][-1]))
+        if member.has_body:
+            parts.append((row, shapes.characters[member.kit.character.id][-1]))
         if member.kit.held is not None:
             parts.append((row, shapes.instruments[member.kit.map.id][-1]))
         if member.seat_m is not None:
@@ -109,7 +110,7 @@ def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
 
 def _looks_same(one: Stage, other: Stage) -> bool:
     return len(one.members) == len(other.members) and all(
-        own.kit is its.kit and (own.seat_m is None) == (its.seat_m is None)
+        own.kit is its.kit and (own.seat_m is None, own.has_body) == (its.seat_m is None, its.has_body)
         for own, its in zip(one.members, other.members, strict=True)
     )
 
@@ -336,7 +337,9 @@ class Renderer:
         self._bones.set_data(rows)
         capsules = limbs.capsules()
         self._limb_rows[:, :-1] = capsules.reshape(count, -1, 4)
-        middle = capsules[:, 0, 0, :3]
+        # Of who has no body of their own there is the instrument alone.
+        first = [0 if member.has_body else HELD for member in stage.members]
+        middle = capsules[np.arange(count), first, 0, :3]
         self._limb_rows[:, -1, :3] = middle
         self._limb_rows[:, -1, 3] = np.where(stage.shown, SHADOW_RADIUS_M, 0.0)
         self._limb_texture.set_data(self._limb_rows)
@@ -370,7 +373,8 @@ class Renderer:
             return
         program = self._figures
         program["u_shaded"] = 1.0
-        for row in sorted(near, key=lambda row: (stage.members[row].kit.character.id, level[row])):
+        bodies = [row for row in near if stage.members[row].has_body]
+        for row in sorted(bodies, key=lambda row: (stage.members[row].kit.character.id, level[row])):
             solid = self._solid(shapes.characters[stage.members[row].kit.character.id][level[row]])
             program.bind(self._shape(stage, row, int(level[row]), solid))
             program.bind(solid.surface)

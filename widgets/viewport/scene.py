@@ -191,7 +191,8 @@ class Scene(QObject):
 
     def _is_selected(self, performer: Player | Dancer) -> bool:
         if isinstance(performer, Player):
-            return performer.id in self._session.players
+            played = self._session.project.played_by(performer)
+            return any(player.id in self._session.players for player in played)
         dancer = self._session.dancer
         return dancer is not None and performer.id == dancer.id
 
@@ -210,7 +211,8 @@ class Scene(QObject):
         project = session.project
         players = {performer.id: performer for performer in project.performers}
         rows, visible = self.rows(), self.visible(selected=False)
-        known = [(row, players[own]) for row in visible if (own := stage.members[row].player_id) in players]
+        bodies = [row for row in visible if stage.members[row].has_body]
+        known = [(row, players[own]) for row in bodies if (own := stage.members[row].player_id) in players]
         names, skeletons = [], []
         if state.shows("names"):
             places_m = over_heads_m(stage, [row for row, _ in known], camera.up)
