@@ -74,7 +74,9 @@ def _judgement(report: Report) -> list[str]:
     """The table of measures, what is not played and what to look at."""
     lines: list[str] = []
     if any(player.measures is not None for player in report.players):
-        played = [one for player in report.players for one in (player, *player.doubles)]
+        played: list[PlayerReport | DoubleReport] = []
+        for player in report.players:
+            played += [player, *player.doubles]
         lines += ["", *columns([_HEAD, *map(_row, played)])]
         lines += ["(greatest distance at any frame of a sounding note, on the meshes read back; * beyond its bound)"]
         for one in played:

@@ -228,19 +228,23 @@ def _export_player(
     for index, double in enumerate(doubles, 1):
         begun = index / (1 + len(doubles))
         told(begun)
-        held = names[double.player.id]
+        own_files = names[double.player.id]
         motion = player_motion(performance, double, request.span)
         scene = instrument_scene(double.instrument, double.model, motion, stem, request.creator)
         for name, kind in wanted.items():
             if "instrument" in kind.holds:
-                kind.write(folder / held[f"instrument_{name}"], scene, beside)
+                kind.write(folder / own_files[f"instrument_{name}"], scene, beside)
         del motion, scene
-        part = 1.0 / (1 + len(doubles))
-        own = judging.measured(double, held, lambda share, begun=begun, part=part: told(begun + part * share))
-        reports.append(_double_report(request, double, held, own))
+        own = judging.measured(double, own_files, _part_of(told, begun, 1.0 / (1 + len(doubles))))
+        reports.append(_double_report(request, double, own_files, own))
     told(1.0)
     report = msgspec.structs.replace(_player_report(request, performer, files, measured), doubles=tuple(reports))
     return report, measured
+
+
+def _part_of(told: Callable[[float], None], begun: float, share: float) -> Callable[[float], None]:
+    """Tells of a part of some work."""
+    return lambda done: told(begun + share * done)
 
 
 @dataclass(frozen=True)

@@ -78,6 +78,8 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.add_player": "add {player}",
     "edit.duplicate_players": "duplicate players: {count}",
     "edit.remove_players": "remove players: {count}",
+    "edit.join_players": "one person plays instruments: {count}",
+    "edit.separate_players": "separate players: {count}",
     "edit.move_players": "order of the players",
     "edit.mute": "mute players: {count}",
     "edit.unmute": "unmute players: {count}",

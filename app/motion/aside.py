@@ -21,9 +21,9 @@ from app.rig.hold import Hold, hand_targets
 from app.rig.ik import arm
 from app.rig.model import Skeleton
 
-SWING_RAD = float(np.deg2rad(48.0))
+SWING_RAD = float(np.deg2rad(66.0))
 """How far aside of where it is lowered the first instrument lies ..."""
-NEXT_RAD = float(np.deg2rad(26.0))
+NEXT_RAD = float(np.deg2rad(24.0))
 """... and by how much more each further one."""
 FARTHEST = 2
 LEAST_M = 1e-6
@@ -31,7 +31,7 @@ DOWN_RAD = float(np.deg2rad(30.0))
 """The arm comes down by so much."""
 LOOKS_RAD = {"neck": 0.16, "head": 0.2}
 LOOKS_DOWN_RAD = {"neck": 0.06, "head": 0.16}
-TURNS_RAD = {"spine": 0.05, "chest": 0.08, "upperChest": 0.06}
+TURNS_RAD = {"spine": 0.08, "chest": 0.14, "upperChest": 0.1}
 """Neck and head look where the hand goes, and the trunk turns with it."""
 
 

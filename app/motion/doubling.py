@@ -7,11 +7,12 @@ held or blown is ever blended.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 
 import numpy as np
+import numpy.typing as npt
 
 from app.motion.aside import Aside
 from app.motion.curve import EVERYWHERE, Curve, FloatArray, frame_times, moves
@@ -71,11 +72,11 @@ class Doubling(Playing):
     def _blend(
         self,
         shares: FloatArray,
-        frames: np.ndarray[tuple[int, ...], np.dtype[np.intp]],
-        made: dict[int, Motion],
-        rotations: np.ndarray[tuple[int, ...], np.dtype[np.float32]],
-        hips_m: np.ndarray[tuple[int, ...], np.dtype[np.float32]],
-        morphs: dict[str, np.ndarray[tuple[int, ...], np.dtype[np.float32]]],
+        frames: npt.NDArray[np.intp],
+        made: Mapping[int, Motion],
+        rotations: npt.NDArray[np.float32],
+        hips_m: npt.NDArray[np.float32],
+        morphs: Mapping[str, npt.NDArray[np.float32]],
     ) -> None:
         """Fill in the frames in which the body goes over from one to another."""
         order = np.argsort(shares, axis=0)
@@ -91,8 +92,8 @@ class Doubling(Playing):
             at_m = a.hips_m[here] + (b.hips_m[here] - a.hips_m[here]).astype(np.float64) * share[:, None]
             player = self.player
             hips = turned[:, player.skeleton.index("hips")]
-            for joint, values in solve_legs(player.place, player.skeleton, at_m, hips).items():
-                turned[:, joint] = values
+            for joint, leg in solve_legs(player.place, player.skeleton, at_m, hips).items():
+                turned[:, joint] = leg
             rotations[here], hips_m[here] = turned, at_m
             for name, values in morphs.items():
                 first, second = (

@@ -123,8 +123,11 @@ class Performance:
         blown = self._memo.step(f"heard:{player.id}", lambda: heard(part), part.notes, part.curves)
         return self._memo.step(
             f"line:{player.id}",
-            lambda: Line(player.id, part.notes, instrument, player.parameters, corrections, loudness, blown),
+            lambda: Line(
+                player.id, part.notes, instrument, player.parameters, corrections, loudness, blown, player.doubles
+            ),
             player.id,
+            player.doubles,
             part.notes,
             instrument,
             player.parameters,

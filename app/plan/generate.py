@@ -165,7 +165,8 @@ def plan_ensemble(
     lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
     piece = shared.step("felt bars", lambda: with_felt_bars(piece, all_times), piece, all_times)
     rhythms = tuple(times.rhythm for times in all_times)
-    found = shared.step("entries", lambda: entries(all_times, piece), rhythms, piece)
+    persons = tuple(line.person or line.player_id for line in lines)
+    found = shared.step("entries", lambda: entries(all_times, piece, persons), rhythms, piece, persons)
     cues, cue_ids = shared.step(
         "cues",
         lambda: plan_cues(found, lines, all_times, piece, frame),

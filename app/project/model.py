@@ -336,7 +336,7 @@ def project_from_score(
             played[doubled[part.id]].append(part)
     cast = characters_for([max((maps[one.map_id] for one in played[part.id]), key=_hand_travel_m) for part in persons])
     places = stage_seats([together(footprint(maps[one.map_id]) for one in played[part.id]) for part in persons])
-    bodies = {part.id: body for part, *body in zip(persons, cast, places, strict=True)}
+    bodies = {part.id: (body, place) for part, body, place in zip(persons, cast, places, strict=True)}
     players = []
     for part, name, instrument in zip(parts, names, instruments, strict=True):
         person = doubled.get(part.id, part.id)

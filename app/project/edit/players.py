@@ -167,7 +167,8 @@ def randomise(project: Project, player_ids: Collection[str], spread: float) -> P
 
 
 def place(project: Project, places: Mapping[str, StagePosition]) -> Project:
-    """Put players somewhere on the stage; who doubles stands where the person does."""
+    """Put players somewhere on the stage, and with them the whole persons."""
+    places = {project.person(player).id: places[player.id] for player in project.players if player.id in places}
     return _with_players(
         project,
         (
