@@ -42,7 +42,7 @@ from app.formats.scene import Scene
 from app.motion.model import Motion
 from app.performance.cast import Performer
 from app.performance.dancers import Dancing
-from app.performance.ensemble import Performance
+from app.performance.ensemble import Performance, changes_of
 from app.performance.motion import player_motion
 from app.project.model import Dancer
 from app.project.names import file_stems
@@ -222,7 +222,9 @@ def _export_player(
         done += kind.work
         told(done / work)
     del motion, scenes  # the files are measured, not what they were made from
-    judging = _Judging(request, target, folder, files.get("character_fbx"))
+    _, found = changes_of(performance, [one.player for one in (performer, *doubles)])
+    changing = tuple((change.start_s, change.end_s) for change in found)
+    judging = _Judging(request, target, folder, files.get("character_fbx"), changing)
     measured = judging.measured(performer, files, lambda share: told((done + _MEASURES_WORK * share) / work))
     reports = []
     for index, double in enumerate(doubles, 1):
@@ -255,6 +257,7 @@ class _Judging:
     target: TargetSkeleton
     folder: Path
     character: str | None
+    changing: tuple[tuple[float, float], ...]
 
     def measured(self, performer: Performer, held: dict[str, str], told: Callable[[float], None]) -> Measured | None:
         """What the files hold of somebody's playing: the person's character and the instrument."""
@@ -271,6 +274,7 @@ class _Judging:
             self.request.span.first_frame_s,
             told,
             self.target,
+            self.changing,
         )
 
 

@@ -220,9 +220,9 @@ class Performance:
         played = [one for one in self.project.played_by(player) if one.id in made.plans]
         if plan is None or len(played) == 1:
             return plan
-        notes = {one.id: made.plans[one.id].fingerings for one in played}
+        plans = {one.id: made.plans[one.id] for one in played}
         names = {one.id: one.name for one in played}
-        found = held_plan(plan, first_played(notes), changes(notes), names)
+        found = held_plan(plan, first_played(plans), changes(plans), names)
         # What is as it was is the very same, field by field: motions are compared so.
         parts = {
             name: self._memo.step(f"held:{player.id}:{name}", lambda value=value: value, value)  # type: ignore[misc]
@@ -408,8 +408,8 @@ class Performance:
 
 def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str, tuple[Change, ...]]:
     """Of a person who plays several instruments, whose is in the hands at first, and when they are changed."""
-    notes = {player.id: performance.plan(player).fingerings for player in played}
-    return first_played(notes), changes(notes)
+    plans = {player.id: performance.plan(player) for player in played}
+    return first_played(plans), changes(plans)
 
 
 def _not_danced(player: Player) -> tuple[Message, ...]:

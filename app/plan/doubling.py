@@ -12,6 +12,7 @@ doubling.overlap(before, after, seconds): one still sounds when the other begins
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import Final, Protocol, TypeVar
@@ -19,7 +20,7 @@ from typing import Final, Protocol, TypeVar
 import msgspec
 
 from app.errors import Message
-from app.plan.model import FingeringEvent, GestureEvent, PlayerPlan, Problem
+from app.plan.model import GestureEvent, PlayerPlan, Problem
 
 NEEDED_S: Final = 2.0
 """A shorter rest is told; assumed."""
@@ -29,6 +30,8 @@ LEAST_S: Final = 0.8
 """None takes less, however short the rest: the notes around it suffer."""
 AFTER_S, BEFORE_S = 0.12, 0.3
 """From the end of the last note to the change, and from the change to the first one: the lips are there before."""
+BREATH_S: Final = 0.08
+"""From the change to the breath."""
 PUT, TAKEN = 0.42, 0.58
 """Shares of the change at which the first lies aside, and the hand has the second."""
 
@@ -58,19 +61,23 @@ class Change(msgspec.Struct, frozen=True):
     note_id: str
 
 
-def changes(played: Mapping[str, Sequence[FingeringEvent]]) -> tuple[Change, ...]:
-    """When a person changes.
+def changes(played: Mapping[str, PlayerPlan]) -> tuple[Change, ...]:
+    """When a person changes: after a note, and where there is the time before the breath for the next one.
 
     Parameters
     ----------
-    played : mapping of str to sequence of FingeringEvent
+    played : mapping of str to PlayerPlan
         By player, in order: everything the person plays.
     """
     rows = [
         (event.start_s, event.end_s, place, player, event.note_id)
-        for place, (player, events) in enumerate(played.items())
-        for event in events
+        for place, (player, plan) in enumerate(played.items())
+        for event in plan.fingerings
     ]
+    drawn = {
+        player: [breath.start_s for breath in plan.breaths if breath.kind == "breath"]
+        for player, plan in played.items()
+    }
     notes = sorted(rows, key=lambda row: row[:3])
     found: list[Change] = []
     free_s = float("-inf")
@@ -79,6 +86,10 @@ def changes(played: Mapping[str, Sequence[FingeringEvent]]) -> tuple[Change, ...
             continue
         rest_s = next_s - end_s
         from_s, to_s = end_s + AFTER_S, next_s - BEFORE_S
+        breaths_s = drawn[after]
+        first = bisect_left(breaths_s, end_s)
+        if first < len(breaths_s) and from_s + NEEDED_S <= breaths_s[first] - BREATH_S < to_s:
+            to_s = breaths_s[first] - BREATH_S
         length_s = min(max(to_s - from_s, LEAST_S), USUAL_S)
         middle_s = 0.5 * (from_s + to_s)
         begin_s = max(middle_s - 0.5 * length_s, free_s)
@@ -104,9 +115,13 @@ def in_hands(player_id: str, first: str, found: Sequence[Change]) -> tuple[tuple
     return tuple(spans)
 
 
-def first_played(played: Mapping[str, Sequence[FingeringEvent]]) -> str:
+def first_played(played: Mapping[str, PlayerPlan]) -> str:
     """Whose instrument a person has in the hands at first."""
-    begun = [(events[0].start_s, place, player) for place, (player, events) in enumerate(played.items()) if events]
+    begun = [
+        (plan.fingerings[0].start_s, place, player)
+        for place, (player, plan) in enumerate(played.items())
+        if plan.fingerings
+    ]
     return min(begun)[2] if begun else next(iter(played))
 
 
