@@ -21,9 +21,9 @@ from app.rig.hold import Hold, hand_targets
 from app.rig.ik import arm
 from app.rig.model import Skeleton
 
-SWING_RAD = float(np.deg2rad(66.0))
+SWING_RAD = float(np.deg2rad(58.0))
 """How far aside of where it is lowered the first instrument lies ..."""
-NEXT_RAD = float(np.deg2rad(24.0))
+NEXT_RAD = float(np.deg2rad(36.0))
 """... and by how much more each further one."""
 FARTHEST = 2
 LEAST_M = 1e-6
@@ -31,8 +31,8 @@ DOWN_RAD = float(np.deg2rad(30.0))
 """The arm comes down by so much."""
 LOOKS_RAD = {"neck": 0.16, "head": 0.2}
 LOOKS_DOWN_RAD = {"neck": 0.06, "head": 0.16}
-TURNS_RAD = {"spine": 0.08, "chest": 0.14, "upperChest": 0.1}
-"""Neck and head look where the hand goes, and the trunk turns with it."""
+TURNS = {"spine": 0.09, "chest": 0.16, "upperChest": 0.12}
+"""Neck and head look where the hand goes, and the trunk turns by these shares of the arm's swing."""
 
 
 @dataclass(frozen=True)
@@ -130,9 +130,10 @@ class Place:
     def watched(self, motion: BodyMotion, stowed: FloatArray) -> BodyMotion:
         """The body looking where the hand goes."""
         turn, forward = dict(motion.turn_rad), dict(motion.forward_rad)
-        for shares in (TURNS_RAD, LOOKS_RAD):
-            for joint, angle_rad in shares.items():
-                turn[joint] = turn[joint] + self.aside.sign * angle_rad * stowed
+        for joint, angle_rad in LOOKS_RAD.items():
+            turn[joint] = turn[joint] + self.aside.sign * angle_rad * stowed
+        for joint, share in TURNS.items():
+            turn[joint] = turn[joint] + self.aside.angle_rad * share * stowed
         for joint, angle_rad in LOOKS_DOWN_RAD.items():
             forward[joint] = forward[joint] + angle_rad * stowed
         return replace(motion, turn_rad=turn, forward_rad=forward)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 
 import msgspec
 import numpy as np
 
+from app.motion.aside import Aside
 from app.motion.body import BodyMotion, Layers, Levels, body_motion
-from app.motion.contact import freedom
+from app.motion.contact import Carried, freedom
 from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
 from app.motion.danced import BodyLayer, giving_way, inhaling, with_dance
@@ -306,6 +307,23 @@ def prepare(
         dance=dance,
         inhaling=NOT_SHOWN if dance is None else inhaling(plan.breaths),
     )
+
+
+def lying(
+    parameters: PlayerParameters,
+    instrument_map: InstrumentMap,
+    character: Character,
+    hold: Hold,
+    body: Body,
+    number: int,
+) -> Carried:
+    """Where an instrument lies while its player has another in the hands, one frame; ``number`` as of `Aside`."""
+    carriage = instrument_map.hold.carriage(parameters.posture)
+    posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
+    still = _player(parameters, instrument_map, character, hold, body, posture, None)
+    place = replace(still, aside=Aside(instrument_map.hold.support_hand, number)).put_aside
+    assert place is not None
+    return place.rest
 
 
 def _player(

@@ -18,7 +18,7 @@ from vispy.gloo import gl
 
 from widgets.viewport import shaders
 from widgets.viewport.camera import Camera
-from widgets.viewport.cast import Stage
+from widgets.viewport.cast import Member, Stage
 from widgets.viewport.geometry import (
     LEVELS,
     Crowd,
@@ -28,6 +28,7 @@ from widgets.viewport.geometry import (
     crowd_edges,
     edges,
     instrument_levels,
+    stand,
     stool,
 )
 from widgets.viewport.limbs import HELD, LIMBS, SHADING, Limbs
@@ -58,11 +59,13 @@ SEEN_THROUGH = 0.85
 
 @dataclass(frozen=True, eq=False)
 class Shapes:
-    """Geometries by level of detail: of characters by id, of instruments by the id of their map."""
+    """Geometries by level of detail: of characters by id, of instruments by the id of their map; what one sits on, and
+    what an instrument lies on."""
 
     characters: Mapping[str, tuple[Geometry, ...]]
     instruments: Mapping[str, tuple[Geometry, ...]]
     stool: Geometry
+    stand: Geometry
 
 
 @dataclass(frozen=True)
@@ -92,7 +95,7 @@ def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
             instruments[member.kit.map.id] = instrument_levels(member.kit.instrument, stage.first_node)
         if member.seat_m is not None:
             height_m = float(member.seat_m[1])
-    return Shapes(characters, instruments, stool(stage.seat_bone, height_m))
+    return Shapes(characters, instruments, stool(stage.seat_bone, height_m), stand(stage.stand_bone))
 
 
 def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
@@ -105,14 +108,20 @@ def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
             parts.append((row, shapes.instruments[member.kit.map.id][-1]))
         if member.seat_m is not None:
             parts.append((row, shapes.stool))
+        if member.stand_m is not None:
+            parts.append((row, shapes.stand))
     return crowd(parts)
 
 
 def _looks_same(one: Stage, other: Stage) -> bool:
     return len(one.members) == len(other.members) and all(
-        own.kit is its.kit and (own.seat_m is None, own.has_body) == (its.seat_m is None, its.has_body)
+        own.kit is its.kit and _parts_of(own) == _parts_of(its)
         for own, its in zip(one.members, other.members, strict=True)
     )
+
+
+def _parts_of(member: Member) -> tuple[bool, bool, bool]:
+    return member.has_body, member.seat_m is not None, member.stand_m is not None
 
 
 def _sides(geometry: Geometry | Crowd) -> tuple[tuple[bool, Any], ...]:
@@ -198,7 +207,7 @@ class Renderer:
             return
         alive = {
             id(level) for levels in (*shapes.characters.values(), *shapes.instruments.values()) for level in levels
-        } | {id(shapes.stool)}
+        } | {id(shapes.stool), id(shapes.stand)}
         self._solids = {key: solid for key, solid in self._solids.items() if key in alive}
         self._morphed.clear()
         count = len(stage.members)
@@ -389,6 +398,9 @@ class Renderer:
         for row in near:
             if stage.members[row].seat_m is not None:
                 bound = self._draw_shared(self._solid(shapes.stool), bound, row, mode)
+        for row in near:
+            if stage.members[row].stand_m is not None:
+                bound = self._draw_shared(self._solid(shapes.stand), bound, row, mode)
 
     def _draw_shared(self, solid: _Solid, bound: _Solid | None, row: int, mode: str) -> _Solid:
         if solid is not bound:
