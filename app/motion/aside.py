@@ -21,14 +21,14 @@ from app.rig.hold import Hold, hand_targets
 from app.rig.ik import arm
 from app.rig.model import Skeleton
 
-SWING_RAD = float(np.deg2rad(58.0))
+SWING_RAD = float(np.deg2rad(52.0))
 """How far aside of where it is lowered the first instrument lies ..."""
-NEXT_RAD = float(np.deg2rad(36.0))
+NEXT_RAD = float(np.deg2rad(44.0))
 """... and by how much more each further one."""
 FARTHEST = 2
 LEAST_M = 1e-6
-DOWN_RAD = float(np.deg2rad(30.0))
-"""The arm comes down by so much."""
+DOWN_RAD = float(np.deg2rad(10.0))
+"""The arm comes down by so much; more would bring the bells of two instruments together below the shoulder."""
 LOOKS_RAD = {"neck": 0.16, "head": 0.2}
 LOOKS_DOWN_RAD = {"neck": 0.06, "head": 0.16}
 TURNS = {"spine": 0.09, "chest": 0.16, "upperChest": 0.12}
