@@ -488,6 +488,14 @@
             <translation>プレイヤーを削除: {count} 人</translation>
         </message>
         <message>
+            <source>one person plays instruments: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>separate players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>order of the players</source>
             <translation>プレイヤーの順番</translation>
         </message>
@@ -614,6 +622,14 @@
         <message>
             <source>the preset {name} is saved</source>
             <translation>プリセット {name} を保存しました</translation>
+        </message>
+        <message>
+            <source>{player} and {other} are not played in one posture, so that one person cannot play both</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{player} and {other} sound at once for {seconds:g} s, so that one person cannot play both</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>a project can have {most} players</source>
@@ -894,6 +910,14 @@
         <message>
             <source>the players are still being loaded; try again in a moment</source>
             <translation>プレイヤーを読み込み中です。少し待ってからもう一度お試しください</translation>
+        </message>
+        <message>
+            <source>the rest of {rest_s:g} s is too short to change from {before} to {after}: about {needed_s:g} s are needed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{before} still sounds {seconds:g} s into {after}, but one person plays both: the change takes notes away</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>{label}: the first choice</source>
@@ -1604,8 +1628,8 @@
             <translation>{part}: {most} 人で分担し、それ以上に重なる {count} 音を省きました（最初は {bar} 小節 {beat:g} 拍目の {pitch}）</translation>
         </message>
         <message>
-            <source>{part}: the player of this track changes to {instrument} for {count} {count:note|notes}, the first at bar {bar}, beat {beat:g} ({pitch}); a player has one instrument here, so another one plays {count:it|them}</source>
-            <translation>{part}: このトラックの奏者は {count} 音を {instrument} に持ち替えて吹きます（最初は {bar} 小節 {beat:g} 拍目の {pitch}）。ここでは 1 人の奏者は楽器を 1 つしか持たないため、別の奏者が担当します</translation>
+            <source>{part}: the player of this track changes to {instrument} for {count} {count:note|notes}, the first at bar {bar}, beat {beat:g} ({pitch})</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>{count} {count:note sounds|notes sound} together with others, the first at bar {bar}, beat {beat:g} ({pitch}); too few and too short for another player</source>

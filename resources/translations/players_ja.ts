@@ -399,6 +399,10 @@
         <translation>ばらつき</translation>
     </message>
     <message>
+        <source>{instrument}, played by {name}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>selected players</source>
         <translation>選択したプレイヤー</translation>
     </message>

@@ -467,6 +467,14 @@
         <translation>プレイヤーを複製</translation>
     </message>
     <message>
+        <source>One person plays these in turn</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Separate into players of their own</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Remove players</source>
         <translation>プレイヤーを削除</translation>
     </message>
