@@ -177,7 +177,8 @@ def import_project(
             characters[first.place] = row.character_id
     players = []
     for player in project.players:
-        part = project.part(player)
-        character = characters.get(part.place, player.character_id)
+        # Whoever plays several instruments is who was chosen for the first of them that says so.
+        places = [project.part(one).place for one in project.played_by(player)]
+        character = next((characters[place] for place in places if place in characters), player.character_id)
         players.append(msgspec.structs.replace(player, character_id=character))
     return replace(project, players=tuple(players), source=source)

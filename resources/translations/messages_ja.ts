@@ -489,11 +489,11 @@
         </message>
         <message>
             <source>one person plays instruments: {count}</source>
-            <translation type="unfinished" />
+            <translation>一人で持ち替え: {count}</translation>
         </message>
         <message>
             <source>separate players: {count}</source>
-            <translation type="unfinished" />
+            <translation>プレイヤーを分ける: {count}</translation>
         </message>
         <message>
             <source>order of the players</source>
@@ -625,11 +625,11 @@
         </message>
         <message>
             <source>{player} and {other} are not played in one posture, so that one person cannot play both</source>
-            <translation type="unfinished" />
+            <translation>{player}と{other}は同じ姿勢で演奏できないため、一人では持ち替えられません</translation>
         </message>
         <message>
             <source>{player} and {other} sound at once for {seconds:g} s, so that one person cannot play both</source>
-            <translation type="unfinished" />
+            <translation>{player}と{other}は合わせて{seconds:g}秒同時に鳴るため、一人では持ち替えられません</translation>
         </message>
         <message>
             <source>a project can have {most} players</source>
@@ -913,11 +913,11 @@
         </message>
         <message>
             <source>the rest of {rest_s:g} s is too short to change from {before} to {after}: about {needed_s:g} s are needed</source>
-            <translation type="unfinished" />
+            <translation>{before}から{after}への持ち替えには休みが{rest_s:g}秒では短すぎます: 約{needed_s:g}秒必要です</translation>
         </message>
         <message>
             <source>{before} still sounds {seconds:g} s into {after}, but one person plays both: the change takes notes away</source>
-            <translation type="unfinished" />
+            <translation>一人で持ち替えますが、{after}の始まりから{seconds:g}秒間まだ{before}が鳴っています: 持ち替えの間の音は演奏できません</translation>
         </message>
         <message>
             <source>{label}: the first choice</source>
@@ -1629,7 +1629,7 @@
         </message>
         <message>
             <source>{part}: the player of this track changes to {instrument} for {count} {count:note|notes}, the first at bar {bar}, beat {beat:g} ({pitch})</source>
-            <translation type="unfinished" />
+            <translation>{part}: このトラックのプレイヤーは{count}音を{instrument}に持ち替えて演奏します。最初は{bar}小節{beat:g}拍目 ({pitch})</translation>
         </message>
         <message>
             <source>{count} {count:note sounds|notes sound} together with others, the first at bar {bar}, beat {beat:g} ({pitch}); too few and too short for another player</source>

@@ -400,7 +400,7 @@
     </message>
     <message>
         <source>{instrument}, played by {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>{instrument} ({name}が持ち替え)</translation>
     </message>
     <message>
         <source>selected players</source>

@@ -468,11 +468,11 @@
     </message>
     <message>
         <source>One person plays these in turn</source>
-        <translation type="unfinished"></translation>
+        <translation>一人で持ち替えて演奏</translation>
     </message>
     <message>
         <source>Separate into players of their own</source>
-        <translation type="unfinished"></translation>
+        <translation>別々のプレイヤーに分ける</translation>
     </message>
     <message>
         <source>Remove players</source>
