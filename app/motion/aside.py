@@ -29,6 +29,8 @@ FARTHEST = 2
 LEAST_M = 1e-6
 DOWN_RAD = float(np.deg2rad(10.0))
 """The arm comes down by so much; more would bring the bells of two instruments together below the shoulder."""
+OUT_M, LONGEST = 0.04, 0.93
+"""It goes out by so much, clear of the body, as far as the arm comes with this share of its length."""
 LOOKS_RAD = {"neck": 0.16, "head": 0.2}
 LOOKS_DOWN_RAD = {"neck": 0.06, "head": 0.16}
 TURNS = {"spine": 0.09, "chest": 0.16, "upperChest": 0.12}
@@ -86,7 +88,15 @@ class Place:
         axis = np.cross(Y_AXIS, out_m / max(float(np.linalg.norm(out_m)), LEAST_M))
         whole = quaternion.multiply(quaternion.from_axis_angle(axis, DOWN_RAD), turn)
         bare = cls(aside, pivot_m, quaternion.to_rotation_vector(whole), low)
-        return replace(bare, rest=bare._swung(low, np.ones(1)))
+        lies = bare._swung(low, np.ones(1))
+        reach_m = LONGEST * arm(skeleton, aside.side).length_m
+        # What the arm cannot reach with it there lies nearer.
+        towards = out_m / max(float(np.linalg.norm(out_m)), LEAST_M)
+        wrist_m = quaternion.rotate(whole, borne_m[0] - pivot_m)
+        along_m = float(wrist_m @ towards)
+        room_m = float(np.sqrt(max(reach_m**2 - wrist_m @ wrist_m + along_m**2, 0.0))) - along_m
+        further_m = min(max(room_m, 0.0), OUT_M)
+        return replace(bare, rest=Carried(lies.position_m + further_m * towards, lies.rotation))
 
     def turned(self, stowed: FloatArray) -> FloatArray:
         """How far the arm has swung, (F, 4)."""
