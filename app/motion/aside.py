@@ -93,8 +93,8 @@ class Place:
         # What the arm cannot reach with it there lies nearer.
         towards = out_m / max(float(np.linalg.norm(out_m)), LEAST_M)
         wrist_m = quaternion.rotate(whole, borne_m[0] - pivot_m)
-        along_m = float(wrist_m @ towards)
-        room_m = float(np.sqrt(max(reach_m**2 - wrist_m @ wrist_m + along_m**2, 0.0))) - along_m
+        along_m, away2 = float(wrist_m @ towards), float(wrist_m @ wrist_m)
+        room_m = max(reach_m**2 - away2 + along_m**2, 0.0) ** 0.5 - along_m
         further_m = min(max(room_m, 0.0), OUT_M)
         return replace(bare, rest=Carried(lies.position_m + further_m * towards, lies.rotation))
 

@@ -214,7 +214,9 @@ class ParameterSections(QWidget):
             ("standing", self.tr("Standing"), self.tr("Played seated only: {players}")),
             ("seated", self.tr("Seated"), self.tr("Played standing only: {players}")),
         ):
-            barred = [player.name for player in players if id not in edit.postures_of(player)]
+            barred = [
+                player.name for player in players if id not in edit.postures_of_person(self._session.project, player)
+            ]
             options.append(Option(id, text, reason=reason.format(players=", ".join(barred)) if barred else ""))
         self._posture.set_options(options)
         self._posture.setToolTip("\n".join(option.reason for option in options if option.reason))

@@ -85,16 +85,35 @@ def change(project: Project, player_ids: Collection[str], **fields: object) -> P
     """Set fields of `Player` (``instrument_id``, ``muted`` ...) for several players; see `rename` for names.
 
     A character is that of the whole person.
+
+    Raises
+    ------
+    AppError
+        ``doubling.posture``: one person would play instruments that no posture fits.
     """
     if "character_id" in fields:
         player_ids = {*player_ids, *persons_of(project, player_ids)}
-    return _with_players(
+    result = _with_players(
         project,
         (
             msgspec.structs.replace(player, **fields) if player.id in player_ids else player
             for player in project.players
         ),
     )
+    return _in_one_posture(result, player_ids) if "instrument_id" in fields else result
+
+
+def _in_one_posture(project: Project, player_ids: Collection[str]) -> Project:
+    """The persons of some players in a posture in which they can play everything they do."""
+    for person_id in sorted(persons_of(project, player_ids)):
+        first, *others = project.played_by(project.player(person_id))
+        for other in others:
+            if not set(postures_of(first)) & set(postures_of(other)):
+                raise AppError("doubling.posture", player=other.name, other=first.name)
+        possible = postures_of_person(project, first)
+        if others and first.parameters.posture not in possible:
+            project = set_parameters(project, (person_id,), posture=possible[0])
+    return project
 
 
 def rename(project: Project, player_id: str, name: str) -> Project:

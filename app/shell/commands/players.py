@@ -108,7 +108,8 @@ def _step(session: Session, by: int) -> None:
 
 def toggle_posture(session: Session) -> None:
     """Let the selected players sit down, those whose instruments are played so; stand up where all of them sit."""
-    free = [player for player in _chosen(session) if len(edit.postures_of(player)) > 1]
+    project = session.project
+    free = [player for player in _chosen(session) if len(edit.postures_of_person(project, player)) > 1]
     chosen = tuple(player.id for player in free)
     seated = all(player.parameters.posture == "seated" for player in free)
     session.attempt(
@@ -151,7 +152,7 @@ def _has_players(session: Session) -> bool:
 
 
 def _may_sit_or_stand(session: Session) -> bool:
-    return any(len(edit.postures_of(player)) > 1 for player in _chosen(session))
+    return any(len(edit.postures_of_person(session.project, player)) > 1 for player in _chosen(session))
 
 
 def _are_several(session: Session) -> bool:

@@ -12,6 +12,7 @@ from app.errors import AppError, FileError
 from app.project.casting import StagePosition
 from app.project.doubling import together_s
 from app.project.edit import players as edit
+from app.project.edit.generation import vary_players
 from app.project.model import Player, project_from_score, with_settings
 from app.project.parameters import Setting
 from app.project.reimport import reimport
@@ -74,6 +75,7 @@ def test_what_is_changed_of_one_instrument_is_changed_of_the_person() -> None:
         edit.place(project, {piccolo: StagePosition(3.0, 1.0, 0.2)}),
         edit.reseed(project, (piccolo,)),
         edit.randomise(project, (piccolo, oboe), 1.0),
+        vary_players(project, (piccolo,)),
     ]
     for changed in changes:
         assert body(changed.player(flute)) == body(changed.player(piccolo)) != body(project.player(flute))
@@ -144,3 +146,13 @@ def test_a_setting_of_one_instrument_is_one_of_the_person() -> None:
     project = flutist()
     changed = with_settings(project, [Setting(1, "amplitude", 0.77)], MAPS)
     assert [player.parameters.amplitude for player in changed.players[:2]] == [0.77, 0.77]
+
+
+def test_a_posture_fits_everything_that_one_person_plays() -> None:
+    seated_only = next(id for id, one in MAPS.items() if one.hold.postures == ("seated",))
+    project = flutist()
+    flute, piccolo, _ = (player.id for player in project.players)
+    assert project.player(flute).parameters.posture == "standing"
+    changed = edit.change(project, (piccolo,), instrument_id=seated_only)
+    assert [changed.player(id).parameters.posture for id in (flute, piccolo)] == ["seated", "seated"]
+    assert edit.postures_of_person(changed, changed.player(flute)) == ("seated",)
