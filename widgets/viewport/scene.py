@@ -185,7 +185,7 @@ class Scene(QObject):
         stage = self.stage
         if stage is None:
             return {}
-        selected = {player.id: player for player in self._session.project.performers if self._is_selected(player)}
+        selected = {player.id: player for player in self._session.project.seen if self._is_selected(player)}
         rows = {own: stage.index(own) for own in selected}
         return {row: rgb(self._session.colour(selected[own])) for own, row in rows.items() if row is not None}
 
