@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
@@ -110,7 +111,9 @@ def stream(arguments: argparse.Namespace) -> int:
     span = whole_span(performance.time_frame, arguments.fps)
     first = _first_frame(span, arguments.from_s)
     performers = project.performers
-    chosen = [performers[at] for at in select_players(arguments.players, [one.name for one in performers])]
+    asked = [performers[at] for at in select_players(arguments.players, [one.name for one in performers])]
+    # Whoever is asked for by any instrument is sent with all.
+    chosen = list(dict.fromkeys(project.person(one) if isinstance(one, Player) else one for one in asked))
     if not chosen:
         raise UsageError("stream.nobody")
     checked_port(arguments.port + len(chosen) - 1)
@@ -119,8 +122,9 @@ def stream(arguments: argparse.Namespace) -> int:
         raise UsageError("stream.broadcast", host=arguments.host)
     players = [one for one in chosen if isinstance(one, Player)]
     dancers = [one for one in chosen if isinstance(one, Dancer)]
-    find_holds(performance, players)
-    playing, dancing = performers_of(performance, players), attempt(dancers, lambda one: _dancing(performance, one))
+    everything = [one for player in players for one in project.played_by(player)]
+    find_holds(performance, everything)
+    playing, dancing = performers_of(performance, everything), attempt(dancers, lambda one: _dancing(performance, one))
     made: dict[str, Performer | Dancing] = {**playing.made, **dancing.made}
     left_out = playing.left_out + dancing.left_out
     if not made:
@@ -132,7 +136,10 @@ def stream(arguments: argparse.Namespace) -> int:
     senders = [Sender(address.port(ports[one.id]), arguments.broadcast) for one in sent]
     try:
         alone = len(chosen) == 1
-        cast = [_Streamed(performance, one, made[one.id], span, arguments, alone) for one in sent]
+        cast = [
+            _Streamed(performance, one, made[one.id], _beside(performance, one, playing.made), span, arguments, alone)
+            for one in sent
+        ]
         for one, sender in zip(sent, senders, strict=True):
             say(f"{one.name}: {arguments.host}:{sender.address.at[1]}")
         if not is_loopback(arguments.host):
@@ -144,6 +151,15 @@ def stream(arguments: argparse.Namespace) -> int:
         for sender in senders:
             sender.close()
     return status
+
+
+def _beside(performance: Performance, one: Player | Dancer, made: Mapping[str, Performer]) -> tuple[Performer, ...]:
+    """The other instruments of somebody who is sent, as far as they can be seen."""
+    if not isinstance(one, Player):
+        return ()
+    return tuple(
+        made[other.id] for other in performance.project.played_by(one) if other is not one and other.id in made
+    )
 
 
 def _dancing(performance: Performance, dancer: Dancer) -> Dancing:
@@ -171,6 +187,7 @@ class _Streamed:
         performance: Performance,
         performer: Player | Dancer,
         made: Performer | Dancing,
+        beside: tuple[Performer, ...],
         span: FrameSpan,
         arguments: argparse.Namespace,
         alone: bool,
@@ -188,14 +205,18 @@ class _Streamed:
             else:
                 progress(0.0, performer.name)
                 self._motion = made.motion(span.fps, span.first, span.count)
+            self._beside = [player_motion(performance, one, span) for one in beside]
         finally:
             progress.clear()
         instrument = performer.instrument_id if isinstance(performer, Player) else None
-        self._sent: Sent = Sent(made.character, instrument, arguments.faces)
+        self._sent: Sent = Sent(
+            made.character, instrument, arguments.faces, tuple(one.player.instrument_id for one in beside)
+        )
         self._stage: StagePosition = IN_THE_MIDDLE if alone else performer.stage
 
     def datagrams(self, frame: int, time_s: float) -> list[bytes]:
-        return self._sent.datagrams(_pose(self._motion, frame), time_s, self._stage)
+        beside = [_pose(motion, frame) for motion in self._beside]
+        return self._sent.datagrams(_pose(self._motion, frame), time_s, self._stage, beside)
 
 
 def _pose(motion: Motion, frame: int) -> Pose:

@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING
 
 from app.encoding import shown
 from app.export.measure import PlayerMeasures, Spread
-from app.export.report import BONES_BOUND_MM, SLIDE_BOUND_MM_S, DancerReport, PlayerReport, Report, failures
+from app.export.report import (
+    BONES_BOUND_MM,
+    SLIDE_BOUND_MM_S,
+    DancerReport,
+    DoubleReport,
+    PlayerReport,
+    Report,
+    failures,
+)
 from app.messages import filled, text
 from app.performance.contacts import GRIP_MM, TOUCH_MM
 
@@ -66,12 +74,15 @@ def _judgement(report: Report) -> list[str]:
     """The table of measures, what is not played and what to look at."""
     lines: list[str] = []
     if any(player.measures is not None for player in report.players):
-        lines += ["", *columns([_HEAD, *(_row(player) for player in report.players)])]
-        lines += ["(greatest distance at any frame of a sounding note, on the meshes read back; * beyond its bound)"]
+        played: list[PlayerReport | DoubleReport] = []
         for player in report.players:
-            wrong = failures(player)
+            played += [player, *player.doubles]
+        lines += ["", *columns([_HEAD, *map(_row, played)])]
+        lines += ["(greatest distance at any frame of a sounding note, on the meshes read back; * beyond its bound)"]
+        for one in played:
+            wrong = failures(one)
             if wrong:
-                lines.append(f"! {player.name}: {', '.join(wrong)}")
+                lines.append(f"! {one.name}: {', '.join(wrong)}")
     if any(dancer.measures is not None for dancer in report.dancers):
         lines += ["", *columns([_DANCE_HEAD, *(_dance_row(dancer) for dancer in report.dancers)])]
         lines += ["(feet that stand, and bones, of the files read back; * beyond its bound)"]
@@ -101,13 +112,14 @@ def columns(rows: Iterable[tuple[str, ...]]) -> list[str]:
     ]
 
 
-def _row(player: PlayerReport) -> tuple[str, ...]:
+def _row(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
     measures = player.measures
     if measures is None:
         return (player.name, str(player.notes), *[""] * (len(_HEAD) - 2))
     judged = sum(control.judged for control in measures.controls.values())
     right = sum(control.right for control in measures.controls.values())
-    sway = "" if player.sway_correlation is None else f"{player.sway_correlation:.2f}"
+    correlation = player.sway_correlation if isinstance(player, PlayerReport) else None
+    sway = "" if correlation is None else f"{correlation:.2f}"
     return (
         player.name,
         str(player.notes),

@@ -141,6 +141,7 @@ def measure_player(
     first_frame_s: float,
     progress: Callable[[float], None] = lambda share: None,
     target: TargetSkeleton | None = None,
+    changing: Sequence[tuple[float, float]] = (),
 ) -> Measured:
     """Measure what was read back of one player's two files.
 
@@ -161,6 +162,8 @@ def measure_player(
         Told the share 0..1 that is done; what it raises stops the work.
     target : TargetSkeleton, optional
         The skeleton the player's file is on; ours if absent.
+    changing : sequence of (float, float)
+        When the player changes instruments: a breath may be drawn then, with nothing at the lips.
     """
     if player_scene.clip is None or instrument_scene.clip is None:
         raise ValueError("a file without a clip cannot be measured")
@@ -193,7 +196,9 @@ def measure_player(
             if contact.grip == "guide"
         },
         lips=_lips(instrument, traces, blowing),
-        upper_lip_in_breaths=_lip_gap(instrument, traces, blowing, _within(times_s, inhaling)),
+        upper_lip_in_breaths=_lip_gap(
+            instrument, traces, blowing, _within(times_s, inhaling) & ~_within(times_s, changing)
+        ),
         feet={name: _drift(traces.landmarks[name]) for name in _SOLES if name in traces.landmarks},
         bones=_spread(traces.bone_deviation_m, BONES_MM),
         penetration=_spread(traces.depth_m[sounding], PENETRATION_MM),

@@ -74,6 +74,20 @@ class SkeletonReport(msgspec.Struct, frozen=True):
     differences: tuple[Difference, ...] = ()
 
 
+class DoubleReport(msgspec.Struct, frozen=True):
+    """What a player plays on another instrument. It is measured with the player's character; while the other is played
+    it lies beside the player."""
+
+    name: str
+    part: str
+    instrument: str
+    size: float
+    missed: dict[str, float]
+    files: dict[str, str]
+    notes: int
+    measures: PlayerMeasures | None
+
+
 class PlayerReport(msgspec.Struct, frozen=True):
     """One player's files and what they hold."""
 
@@ -96,6 +110,8 @@ class PlayerReport(msgspec.Struct, frozen=True):
     """Of the instrument, as a multiple of its model: a small player has a small one."""
     missed: dict[str, float] = {}
     """Touches that the hold of this body does not meet however it moves, millimetres: told, and counted apart."""
+    doubles: tuple[DoubleReport, ...] = ()
+    """The other instruments that the player changes to."""
 
 
 class DancerReport(msgspec.Struct, frozen=True):
@@ -152,7 +168,11 @@ class Report(msgspec.Struct, frozen=True):
     @property
     def file_count(self) -> int:
         """Files that were written, this report among them."""
-        files = [*(player.files for player in self.players), *(dancer.files for dancer in self.dancers)]
+        files = [
+            *(player.files for player in self.players),
+            *(double.files for player in self.players for double in player.doubles),
+            *(dancer.files for dancer in self.dancers),
+        ]
         return sum(map(len, files)) + (self.sound is not None) + 1
 
 
@@ -179,7 +199,7 @@ def _told(spread: Spread, missed_mm: float) -> bool:
     return missed_mm > 0.0 and spread.max_mm <= missed_mm + spread.bound_mm
 
 
-def failures(player: PlayerReport) -> tuple[str, ...]:
+def failures(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
     """Names of the measures that a player's files do not keep."""
     measures = player.measures
     if measures is None:
@@ -212,6 +232,10 @@ def failures(player: PlayerReport) -> tuple[str, ...]:
         failed.append(f"acceleration of {measures.acceleration.joint}")
     if measures.breaths.shown < measures.breaths.planned:
         failed.append("breaths")
-    if player.sway_correlation is not None and player.sway_correlation >= SWAY_CORRELATION:
+    if (
+        isinstance(player, PlayerReport)
+        and player.sway_correlation is not None
+        and player.sway_correlation >= SWAY_CORRELATION
+    ):
         failed.append("sway")
     return tuple(failed)

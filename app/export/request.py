@@ -7,7 +7,7 @@ most); ``work.stopped``; those of `app.performance.cast`.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -36,7 +36,8 @@ class Request:
     ----------
     performance : Performance
     players : tuple of Player
-        Those to export; names of files come from all the players, so that they do not depend on the choice.
+        Those to export, each with everything that the person plays; names of files come from all the players, so that
+        they do not depend on the choice.
     folder : path
     formats : frozenset of str
         Of `FILE_FORMATS`.
@@ -79,16 +80,20 @@ class ExportCast:
     Attributes
     ----------
     performers : tuple of Performer
+        Persons, each as who plays the first instrument.
     targets : dict of str to CheckedTarget
         What each is written on, by the id of the player or dancer.
     left_out : tuple of LeftOut
     dances : tuple of Dancing
+    doubles : dict of str to tuple of Performer
+        What else a person plays, by the person's id; who plays one instrument is not there.
     """
 
     performers: tuple[Performer, ...]
     targets: dict[str, CheckedTarget]
     left_out: tuple[LeftOut, ...]
     dances: tuple[Dancing, ...] = ()
+    doubles: dict[str, tuple[Performer, ...]] = field(default_factory=dict)
 
     @property
     def player_ids(self) -> tuple[str, ...]:
@@ -136,7 +141,10 @@ def cast_of(
             raise Cancelled("work.stopped")
         return dancing_of(request.performance, dancer)
 
-    found, dances = attempt(request.players, make), attempt(request.dancers, make_dance)
+    project = request.performance.project
+    persons = tuple(dict.fromkeys(project.person(player) for player in request.players))
+    found, dances = attempt(persons, make), attempt(request.dancers, make_dance)
+    beside = attempt((one for id in found.made for one in project.played_by(project.player(id))[1:]), make)
     characters = {id: performer.character for id, performer in found.made.items()}
     characters |= {id: dance.character for id, dance in dances.made.items()}
     targets = checked_targets(characters, request.skeleton, asset)
@@ -148,11 +156,15 @@ def cast_of(
         )
         left_out += spoilt(seen, targets, asset, wording)
     absent = {one.player.id for one in left_out}
-    if absent.issuperset([*(player.id for player in request.players), *(dancer.id for dancer in request.dancers)]):
+    if absent.issuperset([*(player.id for player in persons), *(dancer.id for dancer in request.dancers)]):
         refuse_nobody(left_out, request.source, wording)
+    doubles: dict[str, list[Performer]] = {}
+    for made in beside.made.values():
+        doubles.setdefault(made.player.doubles, []).append(made)
     return ExportCast(
         tuple(made for id, made in found.made.items() if id not in absent),
         targets,
-        left_out,
+        left_out + beside.left_out,
         tuple(made for id, made in dances.made.items() if id not in absent),
+        {id: tuple(made) for id, made in doubles.items() if id not in absent},
     )

@@ -6,6 +6,7 @@ Messages: those of `app.export.request`.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
@@ -22,6 +23,7 @@ from app.export.instrument import instrument_scene
 from app.export.measure import Measured, contact_name, greatest_correlations, measure_player
 from app.export.report import (
     DancerReport,
+    DoubleReport,
     LeftOutReport,
     PlayerReport,
     Report,
@@ -40,7 +42,7 @@ from app.formats.scene import Scene
 from app.motion.model import Motion
 from app.performance.cast import Performer
 from app.performance.dancers import Dancing
-from app.performance.ensemble import Performance
+from app.performance.ensemble import Performance, changes_of
 from app.performance.motion import player_motion
 from app.project.model import Dancer
 from app.project.names import file_stems
@@ -109,7 +111,14 @@ def write_cast(
 
             checked = cast.targets[player.id]
             report, measured = _export_player(
-                request, performer, checked.target, stems[player.id], names[player.id], folder, told
+                request,
+                performer,
+                cast.doubles.get(player.id, ()),
+                checked.target,
+                stems[player.id],
+                names,
+                folder,
+                told,
             )
             asset = None if request.asset is None else shown(request.asset.name)
             skeleton = SkeletonReport(checked.target.choice, asset, checked.differences)
@@ -144,19 +153,25 @@ def write_cast(
 
 
 def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str, dict[str, str]]:
-    """Names of the files of every player and dancer: by id, then by what they hold."""
+    """Names of the files of every player and dancer: by id, then by what they hold. Who doubles has a file of the
+    instrument alone, named after the person."""
     names: dict[str, dict[str, str]] = {}
     stems = _stems(performance)
-    for player_id in (player.id for player in performance.project.players):
-        stem = stems[player_id]
-        instrument = performance.project.player(player_id).instrument_id
-        held_stems: dict[Held, str] = {"character": stem, "instrument": f"{stem}_{instrument}"}
-        names[player_id] = {
-            f"{held}_{name}": f"{held_stems[held]}{kind.suffix}"
-            for name, kind in FILE_FORMATS.items()
-            if name in formats
-            for held in kind.holds
-        }
+    for person in performance.project.bodies:
+        stem, taken = stems[person.id], set[str]()
+        for player in performance.project.played_by(person):
+            held_stem = f"{stem}_{player.instrument_id}"
+            if held_stem in taken:
+                held_stem = f"{held_stem}_{stems[player.id]}"
+            taken.add(held_stem)
+            held_stems: dict[Held, str] = {"character": stem, "instrument": held_stem}
+            names[player.id] = {
+                f"{held}_{name}": f"{held_stems[held]}{kind.suffix}"
+                for name, kind in FILE_FORMATS.items()
+                if name in formats
+                for held in kind.holds
+                if held == "instrument" or player is person
+            }
     for dancer in performance.project.dancers:
         names[dancer.id] = {
             f"character_{name}": f"{stems[dancer.id]}{kind.suffix}"
@@ -179,16 +194,18 @@ REPORT = "report.json"
 def _export_player(
     request: Request,
     performer: Performer,
+    doubles: tuple[Performer, ...],
     target: TargetSkeleton,
     stem: str,
-    files: dict[str, str],
+    names: dict[str, dict[str, str]],
     folder: Path,
     told: Callable[[float], None],
 ) -> tuple[PlayerReport, Measured | None]:
     told(0.0)
-    performance, character = request.performance, performer.character
+    performance, character, files = request.performance, performer.character, names[performer.player.id]
     wanted = {name: kind for name, kind in FILE_FORMATS.items() if name in request.formats}
     work = _MOTION_WORK + sum(kind.work for kind in wanted.values()) + _MEASURES_WORK * ("fbx" in wanted)
+    work *= 1 + len(doubles)
     motion = player_motion(
         performance, performer, request.span, progress=lambda share: told(_MOTION_WORK / work * share)
     )
@@ -205,22 +222,76 @@ def _export_player(
         done += kind.work
         told(done / work)
     del motion, scenes  # the files are measured, not what they were made from
-    measured = None
-    if "fbx" in wanted:
-        measured = measure_player(
-            read_scene(folder / files["character_fbx"]),
-            read_scene(folder / files["instrument_fbx"]),
-            character,
+    _, found = changes_of(performance, [one.player for one in (performer, *doubles)])
+    changing = tuple((change.start_s, change.end_s) for change in found)
+    judging = _Judging(request, target, folder, files.get("character_fbx"), changing)
+    measured = judging.measured(performer, files, lambda share: told((done + _MEASURES_WORK * share) / work))
+    reports = []
+    for index, double in enumerate(doubles, 1):
+        begun = index / (1 + len(doubles))
+        told(begun)
+        own_files = names[double.player.id]
+        motion = player_motion(performance, double, request.span)
+        scene = instrument_scene(double.instrument, double.model, motion, stem, request.creator)
+        for name, kind in wanted.items():
+            if "instrument" in kind.holds:
+                kind.write(folder / own_files[f"instrument_{name}"], scene, beside)
+        del motion, scene
+        own = judging.measured(double, own_files, _part_of(told, begun, 1.0 / (1 + len(doubles))))
+        reports.append(_double_report(request, double, own_files, own))
+    told(1.0)
+    report = msgspec.structs.replace(_player_report(request, performer, files, measured), doubles=tuple(reports))
+    return report, measured
+
+
+def _part_of(told: Callable[[float], None], begun: float, share: float) -> Callable[[float], None]:
+    """Tells of a part of some work."""
+    return lambda done: told(begun + share * done)
+
+
+@dataclass(frozen=True)
+class _Judging:
+    """What the files of a person are measured with; without an FBX file of the character nothing is."""
+
+    request: Request
+    target: TargetSkeleton
+    folder: Path
+    character: str | None
+    changing: tuple[tuple[float, float], ...]
+
+    def measured(self, performer: Performer, held: dict[str, str], told: Callable[[float], None]) -> Measured | None:
+        """What the files hold of somebody's playing: the person's character and the instrument."""
+        if self.character is None:
+            return None
+        return measure_player(
+            read_scene(self.folder / self.character),
+            read_scene(self.folder / held["instrument_fbx"]),
+            performer.character,
             performer.instrument,
-            performance.plan(performer.player),
+            self.request.performance.plan(performer.player),
             performer.body,
             load_skeleton(performer.body.skeleton),
-            request.span.first_frame_s,
-            lambda share: told((done + _MEASURES_WORK * share) / work),
-            target,
+            self.request.span.first_frame_s,
+            told,
+            self.target,
+            self.changing,
         )
-    told(1.0)
-    return _player_report(request, performer, files, measured), measured
+
+
+def _double_report(
+    request: Request, double: Performer, files: dict[str, str], measured: Measured | None
+) -> DoubleReport:
+    player, span = double.player, request.span
+    return DoubleReport(
+        name=player.name,
+        part=request.performance.project.part(player).name,
+        instrument=player.instrument_id,
+        size=double.instrument.size,
+        missed=_missed_mm(double.hold),
+        files=files,
+        notes=sum(span.shows_onset(note.start_s) for note in request.performance.plan(player).fingerings),
+        measures=None if measured is None else measured.measures,
+    )
 
 
 def _export_dancer(
@@ -339,9 +410,10 @@ def _report(
     project, span = request.performance.project, request.span
     problems = [
         f"{player.name}: {wording(message)}"
-        for player in (performer.player for performer in cast.performers)
+        for performer in cast.performers
+        for player in (performer.player, *(double.player for double in cast.doubles.get(performer.player.id, ())))
         for message in (
-            *cast.targets[player.id].messages,
+            *(cast.targets[player.id].messages if player is performer.player else ()),
             *(problem.message for problem in request.performance.plan(player).problems),
         )
     ]

@@ -5,6 +5,12 @@ from __future__ import annotations
 from typing import Final
 
 TEMPLATES: Final[dict[str, str]] = {
+    "doubling.rest_short": (
+        "the rest of {rest_s:g} s is too short to change from {before} to {after}: about {needed_s:g} s are needed"
+    ),
+    "doubling.overlap": (
+        "{before} still sounds {seconds:g} s into {after}, but one person plays both: the change takes notes away"
+    ),
     # The plan: fingerings
     "fingering.first_choice": "{label}: the first choice",
     "fingering.trill": "{label} instead of {first}: less motion in a trill at {time_ms} ms a note",

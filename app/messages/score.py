@@ -114,7 +114,7 @@ TEMPLATES: Final[dict[str, str]] = {
     ),
     "score.doubling": (
         "{part}: the player of this track changes to {instrument} for {count} {count:note|notes}, the first at bar "
-        "{bar}, beat {beat:g} ({pitch}); a player has one instrument here, so another one plays {count:it|them}"
+        "{bar}, beat {beat:g} ({pitch})"
     ),
     "score.stray_notes": (
         "{count} {count:note sounds|notes sound} together with others, the first at bar {bar}, beat {beat:g} "

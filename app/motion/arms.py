@@ -66,13 +66,15 @@ def solve_arms(
     carried: Carried,
     controls: Mapping[str, FloatArray],
     placed: Mapping[str, Placed],
+    swung: FloatArray | None = None,
 ) -> dict[int, FloatArray]:
-    """Rotations of clavicles, arms and hands, by joint."""
+    """Rotations of clavicles, arms and hands, by joint; ``swung`` (F, 4) is how far elbows go with arms that swing."""
     rotations: dict[int, FloatArray] = {}
     with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
     for hand in hold.hands:
         targets = hand_targets(hand, carried.position_m, carried.rotation, controls, placed)
-        rotations |= _solve_arm(skeleton, hand, body, with_chest, motion, *targets)
+        turned = with_chest if swung is None else quaternion.multiply(swung, with_chest)
+        rotations |= _solve_arm(skeleton, hand, body, turned, motion, *targets)
     for side, sign in (("left", -1.0), ("right", 1.0)):
         if all(hand.side != side for hand in hold.hands):
             hangs = quaternion.from_axis_angle(np.array([0.0, 0.0, 1.0]), sign * HANGS_RAD)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 
 import msgspec
 import numpy as np
 
+from app.motion.aside import Aside
 from app.motion.body import BodyMotion, Layers, Levels, body_motion
-from app.motion.contact import freedom
+from app.motion.contact import Carried, freedom
 from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
 from app.motion.danced import BodyLayer, giving_way, inhaling, with_dance
@@ -61,6 +62,8 @@ class Frames:
         As the curves of `Playing`.
     danced : (F, 12) float64 or None
         Of its layer; None: nothing is danced.
+    stowed : (F,) float64 or None
+        How far the instrument is put aside.
     """
 
     times_s: FloatArray
@@ -71,6 +74,7 @@ class Frames:
     placed: dict[str, Placed]
     raised: FloatArray
     danced: FloatArray | None = None
+    stowed: FloatArray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,6 +106,8 @@ class Playing:
         What hips, trunk and head dance, by the amount of the parameters.
     inhaling : Envelopes
         When the dance gives way to breaths.
+    stowed : Curve or None
+        How far the instrument is put aside for another one (`app.motion.doubling`).
     """
 
     plan: PlayerPlan
@@ -120,6 +126,7 @@ class Playing:
     raised: Curve
     dance: BodyLayer | None = None
     inhaling: Envelopes = NOT_SHOWN
+    stowed: Curve | None = None
 
     @property
     def player_id(self) -> str:
@@ -144,6 +151,7 @@ class Playing:
             placed=self.placed(times_s),
             raised=self.raised.sample(times_s),
             danced=self._danced(times_s),
+            stowed=None if self.stowed is None else self.stowed.sample(times_s),
         )
         curves = self.curves(frames_of)
         return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]))
@@ -161,6 +169,8 @@ class Playing:
         if frames.danced is not None:
             amount, free = self.parameters.dance_amount, _stands_free(self.player)
             moved = with_dance(moved, frames.danced, amount, self.body, legs=free)
+        if frames.stowed is not None and self.player.put_aside is not None:
+            moved = self.player.put_aside.watched(moved, frames.stowed)
         morphs = face_morphs(
             frames.face,
             self.body.embouchure[self.instrument_map.embouchure.kind],
@@ -169,7 +179,9 @@ class Playing:
             frames.look.blinks,
             moved.lowered,
         )
-        return Curves(moved, frames.controls, morphs, frames.face.mouth_open, frames.placed, frames.raised)
+        return Curves(
+            moved, frames.controls, morphs, frames.face.mouth_open, frames.placed, frames.raised, frames.stowed
+        )
 
     def placed(self, times_s: FloatArray) -> dict[str, Placed]:
         """Where the fingers are, and the hands that give way for some of them, at ascending times."""
@@ -189,6 +201,8 @@ class Playing:
         spans += [curve.changed_s(other.stations[name]) for name, curve in self.stations.items()]
         spans.append(self.raised.changed_s(other.raised))
         spans.append(self.inhaling.changed_s(other.inhaling))
+        if self.stowed is not None and other.stowed is not None:
+            spans.append(self.stowed.changed_s(other.stowed))
         for ours, theirs in ((self.layers, other.layers), (self.face, other.face), (self.gaze, other.gaze)):
             for member in fields(ours):
                 value = getattr(ours, member.name)
@@ -208,8 +222,8 @@ class Playing:
         """What every frame depends on: values first, the others by identity."""
         still = self.player
         endpin = None if still.stand is None else still.stand.endpin
-        shown = deciding(self.parameters, "motion")
-        values = (self.player_id, self.start_s, shown, self.posture, still.carriage, still.lowered, endpin)
+        shown, put = deciding(self.parameters, "motion"), (still.aside, self.stowed is None)
+        values = (self.player_id, self.start_s, shown, self.posture, still.carriage, still.lowered, endpin, put)
         return (values, still.skeleton, still.hold, self.body, self.dance)
 
 
@@ -278,6 +292,23 @@ def prepare(
         dance=dance,
         inhaling=NOT_SHOWN if dance is None else inhaling(plan.breaths),
     )
+
+
+def lying(
+    parameters: PlayerParameters,
+    instrument_map: InstrumentMap,
+    character: Character,
+    hold: Hold,
+    body: Body,
+    number: int,
+) -> Carried:
+    """Where an instrument lies while its player has another in the hands, one frame; ``number`` as of `Aside`."""
+    carriage = instrument_map.hold.carriage(parameters.posture)
+    posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
+    still = _player(parameters, instrument_map, character, hold, body, posture, None)
+    place = replace(still, aside=Aside(instrument_map.hold.support_hand, number)).put_aside
+    assert place is not None
+    return place.rest
 
 
 def _player(

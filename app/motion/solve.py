@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from app.motion.arms import solve_arms
+from app.motion.aside import Aside, Place
 from app.motion.body import BodyMotion
 from app.motion.contact import Carried, carry
 from app.motion.curve import FloatArray
@@ -54,7 +55,7 @@ class Player:
 
     ``still`` is the posture before any motion and ``base`` its trunk, one frame; ``grip_of_lips_m`` (3,) is how far
     playing lips bring the mouthpiece from where one lip alone would carry it, in the head's frame. ``stand`` is there
-    where the instrument stands on the floor.
+    where the instrument stands on the floor, ``aside`` where the person plays others too.
     """
 
     skeleton: Skeleton
@@ -66,6 +67,7 @@ class Player:
     base: Trunk
     grip_of_lips_m: FloatArray
     stand: Stand | None = None
+    aside: Aside | None = None
 
     def standing_on(self, endpin: Endpin | None) -> Player:
         """The player with the instrument on its endpin, where it usually is low enough for that."""
@@ -73,6 +75,15 @@ class Player:
             return self
         _, _, _, usual = _upper(self, Curves(self.still, {}, {}, np.zeros(1)))
         return replace(self, stand=Stand.of(endpin, self.carriage, usual))
+
+    @cached_property
+    def put_aside(self) -> Place | None:
+        """Where the instrument lies while another is in the hands."""
+        if self.aside is None:
+            return None
+        low = replace(self.still, lowered=np.ones(1))
+        _, _, _, carried = _upper(replace(self, aside=None, stand=None), Curves(low, {}, {}, np.zeros(1)))
+        return Place.of(self.aside, self.skeleton, self.hold, self.base, carried)
 
     @cached_property
     def drawn_m(self) -> float:
@@ -100,6 +111,8 @@ class Curves:
         Where the fingers are that leave their home.
     raised : (F,) float64 or float
         How high fingers wait over their keys, 0..1.
+    stowed : (F,) float64 or None
+        How far the instrument is put aside, 0..1; None: not at all.
     """
 
     body: BodyMotion
@@ -108,6 +121,7 @@ class Curves:
     mouth_open: FloatArray
     placed: dict[str, Placed] = field(default_factory=dict)
     raised: FloatArray | float = 0.0
+    stowed: FloatArray | None = None
 
     def __len__(self) -> int:
         return len(self.mouth_open)
@@ -120,6 +134,7 @@ class Curves:
             self.mouth_open[frames],
             {finger: Placed(*(values[frames] for values in where)) for finger, where in self.placed.items()},
             self.raised if isinstance(self.raised, float) else self.raised[frames],
+            None if self.stowed is None else self.stowed[frames],
         )
 
 
@@ -211,7 +226,15 @@ def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatAr
     hips_m, hips, upper, carried = _upper(player, curves)
     local = {skeleton.index("hips"): hips} | upper.local
     controls = stopped(skeleton, player.hold, upper, motion, carried, curves.controls, curves.placed)
-    local |= solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed)
+    arms = solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed)
+    if player.put_aside is not None and curves.stowed is not None and np.any(curves.stowed):
+        # The other hand lets go where the instrument was lowered, and does not follow it.
+        letting_go = player.put_aside.let_go(skeleton, player.hold, arms, curves.stowed)
+        carried = player.put_aside.put(carried, curves.stowed)
+        swung = player.put_aside.turned(curves.stowed)
+        arms = solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed, swung)
+        arms |= letting_go
+    local |= arms
     local |= solve_legs(player.place, skeleton, hips_m, hips)
     looking = np.stack([motion.eyes_pitch_rad, motion.eyes_yaw_rad, np.zeros(len(curves))], axis=-1)
     for name in ("leftEye", "rightEye"):

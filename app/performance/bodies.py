@@ -11,8 +11,12 @@ from collections.abc import Callable
 from functools import cache, lru_cache
 from typing import TypeVar
 
+import numpy as np
+import numpy.typing as npt
+
 from app.errors import FileError, MapError, UsageError, shortened
 from app.identity_cache import IdentityCache
+from app.motion.perform import lying
 from app.project.model import Player
 from app.rig.character_library import bundled_characters, character_named, character_revision
 from app.rig.grip_search import Told, unheard
@@ -29,6 +33,7 @@ from metadata.load import load_body
 from metadata.model import Body
 
 T = TypeVar("T")
+FloatArray = npt.NDArray[np.float64]
 
 _MODELS: IdentityCache[InstrumentModel] = IdentityCache(128)
 """More than there are instruments: in an orchestra with one more than these, each would be read again at every edit."""
@@ -86,6 +91,26 @@ def hold_of(player: Player, instrument: InstrumentMap, told: Told = unheard) -> 
         return hold_for(character, model, instrument, body, told)
 
     return _HOLDS.get((character, model, instrument, body), lambda: _worked_out(player, instrument, found))
+
+
+def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[FloatArray, FloatArray] | None:
+    """Where an instrument lies in the player's frame while the person has another in the hands: position (3,) and
+    rotation (4,). None as long as it would take time to say how it is held.
+
+    Parameters
+    ----------
+    player : Player
+    instrument : InstrumentMap
+        Of the library.
+    number : int
+        Which of the person's instruments it is, from 0.
+    """
+    if not is_held(player, instrument):
+        return None
+    suitable = suited_to(player, instrument).instrument
+    hold = hold_of(player, suitable)
+    rest = lying(player.parameters, suitable, character_of(player), hold, body_of(player), number)
+    return rest.position_m[0], rest.rotation[0]
 
 
 def _worked_out(player: Player, instrument: InstrumentMap, work_out: Callable[[], T]) -> T:

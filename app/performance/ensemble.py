@@ -8,7 +8,7 @@ wrong with the file of that instrument or character.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 from threading import RLock
 from typing import Final
@@ -20,6 +20,7 @@ from app.performance.bodies import hold_now, hold_of, is_held, suited_to
 from app.performance.loudness import heard, note_loudness
 from app.performance.reach import posed_body, reached
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
+from app.plan.doubling import Change, changes, first_played, held_plan
 from app.plan.generate import EnsemblePlan, Line, Piece, frame_around, plan_ensemble
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
@@ -106,7 +107,7 @@ class Performance:
         corrections = self.project.corrections.get(player.id, ())
         loudness = self._memo.step(f"loudness:{player.id}", note_loudness, part)
         blown = self._memo.step(f"heard:{player.id}", heard, part)
-        said = (player.parameters, corrections, loudness, blown)
+        said = (player.parameters, corrections, loudness, blown, player.doubles)
         return self._memo.step(f"line:{player.id}", Line, player.id, part.notes, instrument, *said)
 
     @cached_property
@@ -157,11 +158,12 @@ class Performance:
             )
             self.unseen = dict[str, Message]()
             plans = {}
+            held = {player.id: self._in_hands(player, made) for player in self.project.players}
             for player in self.project.players:
                 # Whether hands reach is found out by posing them: with many players it takes as long as planning.
                 if stop_wanted():
                     raise Cancelled("work.stopped")
-                plans[player.id] = self._told(player, made)
+                plans[player.id] = self._told(player, held[player.id])
             self._plans = plans
             _CHECKED.update(player.parameters.choreography for player in self.project.players)
             self.__dict__["_ensemble"] = made
@@ -186,9 +188,26 @@ class Performance:
             return False
         return True
 
-    def _told(self, player: Player, made: EnsemblePlan) -> PlayerPlan:
+    def _in_hands(self, player: Player, made: EnsemblePlan) -> PlayerPlan | None:
+        """A player's plan; of who plays other instruments too, without what is done while this one lies aside."""
+        plan = made.plans.get(player.id)
+        played = [one for one in self.project.played_by(player) if one.id in made.plans]
+        if plan is None or len(played) == 1:
+            return plan
+        plans = {one.id: made.plans[one.id] for one in played}
+        names = {one.id: one.name for one in played}
+        found = held_plan(plan, first_played(plans), changes(plans), names)
+        # What is as it was is the very same, field by field: motions are compared so.
+        parts = {
+            name: self._memo.step(f"held:{player.id}:{name}", _same, value)
+            for name in ("cues", "gestures", "expressions", "problems")
+            for value in [getattr(found, name)]
+        }
+        return self._memo.step(f"held:{player.id}", _with_parts, plan, tuple(parts), *parts.values())
+
+    def _told(self, player: Player, plan: PlayerPlan | None) -> PlayerPlan:
         """A player's plan with what is wrong about the player."""
-        plan, frame = made.plans.get(player.id), self.time_frame
+        frame = self.time_frame
         lacking = self.lacking(player)
         if lacking:
             self.unseen[player.id] = lacking[0]
@@ -344,6 +363,12 @@ class Performance:
         return suited_to(player, self.instrument(player)).instrument
 
 
+def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str, tuple[Change, ...]]:
+    """Of a person who plays several instruments, whose is in the hands at first, and when they are changed."""
+    plans = {player.id: performance.plan(player) for player in played}
+    return first_played(plans), changes(plans)
+
+
 def _not_danced(player: Player) -> tuple[Message, ...]:
     """What to tell of a choreography that the player cannot dance."""
     if not player.parameters.choreography:
@@ -370,6 +395,15 @@ def _work(line: Line, before: Line | None) -> int:
 
 def _all_expressions(own: tuple[Expression, ...]) -> dict[str, Expression]:
     return load_expressions() | {expression.name: expression for expression in own}
+
+
+def _same(value: tuple[object, ...]) -> tuple[object, ...]:
+    return value
+
+
+def _with_parts(plan: PlayerPlan, names: tuple[str, ...], *values: tuple[object, ...]) -> PlayerPlan:
+    """The plan with other events in some of its fields."""
+    return msgspec.structs.replace(plan, **dict(zip(names, values, strict=True)))
 
 
 def _with_problems(player_id: str, plan: PlayerPlan | None, frame: TimeFrame, told: tuple[Problem, ...]) -> PlayerPlan:

@@ -175,19 +175,27 @@ class LiveMotion:
             def same_body(player: Player) -> bool:
                 return revisions.get(player.character_id) == known.get(player.character_id)
 
-            tracks = {}
-            for player in performance.project.players:
-                plan, old = performance.plan(player), before.tracks.get(player.id)
-                waited = player.id in before.performance.waiting
-                if old is None or not same_frames or waited:
-                    tracks[player.id] = _Track(player, plan)
-                elif (
-                    plan is old.plan
-                    and same_faces
+            def same_playing(player: Player) -> bool:
+                old = before.tracks.get(player.id)
+                return (
+                    old is not None
+                    and performance.plan(player) is old.plan
                     and _looks_same(player, old.player)
                     and same_body(player)
                     and not player.parameters.choreography
-                ):
+                )
+
+            project = performance.project
+            unchanged = {player.id for player in project.players if same_playing(player)}
+            tracks: dict[str, _Track] = {}
+            for player in project.players:
+                plan, old = performance.plan(player), before.tracks.get(player.id)
+                # Whoever plays several instruments moves as all of them ask.
+                whole = {one.id for one in project.played_by(player)}
+                waited = not whole.isdisjoint(before.performance.waiting)
+                if old is None or not same_frames or waited:
+                    tracks[player.id] = _Track(player, plan)
+                elif same_faces and whole <= unchanged and whole == _played_before(before, player):
                     tracks[player.id] = old
                 else:
                     tracks[player.id] = old.after(player, plan, same_chunks)
@@ -458,7 +466,8 @@ class LiveMotion:
             return track.playing or track.prepared
         if isinstance(track.player, Dancer):
             return self._dancing(shown, track, track.player)
-        if track.player.id in shown.performance.waiting:
+        played = shown.performance.project.played_by(track.player)
+        if any(one.id in shown.performance.waiting for one in played):
             track.error = Message("character.hold_waiting", {})
         else:
             found = performers_of(shown.performance, (track.player,))
@@ -576,6 +585,12 @@ def _distance(index: int, here: int) -> int:
     return index - here if index >= here else BEHIND_COSTS * (here - index)
 
 
+def _played_before(shown: _Shown, player: Player) -> set[str]:
+    """Ids of all that the person played who played this before."""
+    project = shown.performance.project
+    return {one.id for one in project.played_by(project.player(player.id))}
+
+
 def _looks_same(player: Player, before: Player | Dancer) -> bool:
     """Whether nothing of a player changed that is seen in the motion, beside the plan."""
     if player is before:
@@ -583,4 +598,4 @@ def _looks_same(player: Player, before: Player | Dancer) -> bool:
     if not isinstance(before, Player):
         return False
     same = player.instrument_id == before.instrument_id and player.character_id == before.character_id
-    return same and player.parameters == before.parameters
+    return same and player.parameters == before.parameters and player.doubles == before.doubles

@@ -11,10 +11,11 @@ import numpy as np
 
 from app.errors import Cancelled
 from app.identity_cache import IdentityCache
+from app.motion.doubling import Doubling, doubled
 from app.motion.model import Motion
 from app.motion.perform import Playing, prepare
-from app.performance.cast import Performer
-from app.performance.ensemble import Performance
+from app.performance.cast import Performer, performers_of
+from app.performance.ensemble import Performance, changes_of
 from app.performance.span import FrameSpan
 
 Progress = Callable[[float], None]
@@ -25,7 +26,8 @@ StopWanted = Callable[[], bool]
 CHUNK = 16384
 """Frames made between two questions whether to stop."""
 
-_PLAYING: IdentityCache[Playing] = IdentityCache(8)
+_PLAYING: IdentityCache[Playing] = IdentityCache(16)
+_DOUBLED: IdentityCache[tuple[Doubling, ...]] = IdentityCache(8)
 
 
 def playing_of(
@@ -35,6 +37,22 @@ def playing_of(
 
     ``danced`` says whether the player's choreography is wanted, which may take seconds to generate.
     """
+    played = performance.project.played_by(performer.player)
+    if len(played) == 1:
+        return _alone(performance, performer, before, danced)
+    old = before if isinstance(before, Doubling) else None
+    # Who cannot be seen is left out of what the body does.
+    others = performers_of(performance, (one for one in played if one.id != performer.player.id)).made
+    all_of = [others.get(one.id, performer) for one in played if one.id in others or one.id == performer.player.id]
+    known = {} if old is None else {one.player_id: one for one in old.played}
+    alone = [_alone(performance, one, known.get(one.player.id), danced) for one in all_of]
+    keys = (*alone, *(performance.plan(one) for one in played))
+    found = _DOUBLED.get(keys, lambda: doubled(alone, *changes_of(performance, [one.player for one in all_of])))
+    return found[[one.player.id for one in all_of].index(performer.player.id)]
+
+
+def _alone(performance: Performance, performer: Performer, before: Playing | None, danced: bool) -> Playing:
+    """A player's plan made ready to be seen, as if the person played nothing else."""
     player, plan, felt_beats = (
         performer.player,
         performance.plan(performer.player),

@@ -14,11 +14,12 @@ from fractions import Fraction
 
 import numpy as np
 
+from app.motion.doubling import Doubling
 from app.motion.perform import Frames, Playing
 from app.motion.pose import Poses
 from app.motion.reach import Help
 from app.motion.solve import Curves, helped, needs, poses
-from app.performance.chunks import Pose
+from app.performance.chunks import Floats, Pose
 from app.performance.live_breath import LiveBreath, LiveLook
 from app.performance.live_hands import FRAMES, LiveHands
 from app.performance.live_help import LiveHelp
@@ -50,6 +51,7 @@ class PlayAlong:
 
     def __init__(self, playing: Playing, expressions: Mapping[str, Expression] | None = None) -> None:
         known = dict(load_expressions() if expressions is None else expressions)
+        self._whole = playing
         self._playing = replace(playing, expressions=known)
         self._hands = LiveHands(playing)
         self._breath = LiveBreath(playing, known)
@@ -65,6 +67,23 @@ class PlayAlong:
     def player_id(self) -> str:
         """Who plays."""
         return self._playing.player_id
+
+    @property
+    def lying(self) -> dict[str, tuple[Floats, Floats]]:
+        """Where the person's other instruments lie meanwhile, by player: position (3,) and rotation (4,)."""
+        if not isinstance(self._whole, Doubling):
+            return {}
+        others = (
+            (one.player_id, one.player.put_aside) for one in self._whole.played if one.player_id != self.player_id
+        )
+        return {
+            player_id: (
+                place.rest.position_m[0].astype(np.float32),
+                place.rest.rotation[0].astype(np.float32),
+            )
+            for player_id, place in others
+            if place is not None
+        }
 
     @property
     def fingering(self) -> Fingering | None:

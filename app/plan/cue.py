@@ -32,7 +32,7 @@ import numpy as np
 from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, SetCue, removed_ids
 from app.plan.dynamics import vigour_of
-from app.plan.line import IntArray, Line, LineTimes, Piece, Rhythm
+from app.plan.line import BEFORE_FIRST_TICK, IntArray, Line, LineTimes, Piece, Rhythm
 from app.plan.model import CueEvent, FloatArray, TimeFrame
 from instrument_maps.vocabulary import vocabulary
 
@@ -97,8 +97,11 @@ class Entry(msgspec.Struct, frozen=True):
     players: tuple[tuple[int, int], ...]
 
 
-def entries(all_times: tuple[Rhythm, ...], piece: Piece) -> tuple[Entry, ...]:
-    """Every place that asks for a cue, in order: by the rhythm of the lines and the tempo alone."""
+def entries(all_times: tuple[Rhythm, ...], piece: Piece, persons: tuple[str, ...] = ()) -> tuple[Entry, ...]:
+    """Every place that asks for a cue, in order: by the rhythm of the lines and the tempo alone.
+
+    ``persons`` says who plays each line, where somebody plays several: whoever changes instruments has not rested.
+    """
     sounding = [(line, times) for line, times in enumerate(all_times) if len(times.onset_tick)]
     if not sounding:
         return ()
@@ -110,7 +113,7 @@ def entries(all_times: tuple[Rhythm, ...], piece: Piece) -> tuple[Entry, ...]:
         # A tempo that changes while they come in belongs to their entry.
         if not shared or entry.tick - shared[-1].tick >= _beat(piece, shared[-1].tick):
             shared.append(entry)
-    return tuple(sorted([*shared, *_joining(sounding, lines, shared, piece)], key=lambda entry: entry.tick))
+    return tuple(sorted([*shared, *_joining(sounding, lines, shared, piece, persons)], key=lambda entry: entry.tick))
 
 
 class _Spans(msgspec.Struct, frozen=True):
@@ -243,20 +246,36 @@ def _new_tempo(lasts_s: FloatArray, place: int) -> Literal["cue.tempo", "cue.aft
     return "cue.tempo"
 
 
-def _joining(sounding: list[tuple[int, Rhythm]], lines: _Spans, shared: list[Entry], piece: Piece) -> list[Entry]:
+def _joining(
+    sounding: list[tuple[int, Rhythm]],
+    lines: _Spans,
+    shared: list[Entry],
+    piece: Piece,
+    persons: tuple[str, ...],
+) -> list[Entry]:
     """Where players come in after long rests of their own while others play; those within a bar are one entry."""
     first = int(lines.starts[0])
     rows: list[tuple[int, float, int, int]] = []
     for line, times in sounding:
         ends = np.insert(times.played_end_tick[:-1], 0, first)
         ends_s = np.insert(times.played_end_s[:-1], 0, piece.clock.seconds(float(first)))
+        begins = np.arange(len(ends)) == 0
+        for other, theirs in sounding:
+            if other != line and persons and persons[other] == persons[line]:
+                before = np.searchsorted(theirs.onset_tick, times.onset_tick) - 1
+                later = (before >= 0) & (theirs.played_end_tick[before] >= ends)
+                ends, ends_s = (
+                    np.where(later, found, own)
+                    for found, own in ((theirs.played_end_tick[before], ends), (theirs.played_end_s[before], ends_s))
+                )
+                begins &= before < 0
         rests_s = times.onset_s - ends_s
         # A voice that comes in first of all after the others needs no long rest for it.
-        for index in np.flatnonzero((rests_s >= LONG_REST_LEAST_S) | (np.arange(len(rests_s)) == 0)).tolist():
+        for index in np.flatnonzero((rests_s >= LONG_REST_LEAST_S) | begins).tolist():
             tick, rest_s = int(times.onset_tick[index]), float(rests_s[index])
             bars = (tick - int(ends[index])) / piece.metre_map.bar_ticks_at(tick)
             long = rest_s >= LONG_REST_S or bars >= LONG_REST_BARS
-            if bars >= 1.0 if index == 0 else long and bars >= LONG_REST_LEAST_BARS:
+            if bars >= 1.0 if begins[index] else long and bars >= LONG_REST_LEAST_BARS:
                 rows.append((tick, rest_s, line, index))
     rows.sort()
     given = [(entry.tick, entry.tick + piece.metre_map.bar_ticks_at(entry.tick)) for entry in shared]
@@ -302,6 +321,22 @@ def leader_of(
     return next(line for line in free if sections[line] == section), "melody"
 
 
+def _at_hand(leader: int, tick: int, lines: tuple[Line, ...], all_times: tuple[LineTimes, ...]) -> int:
+    """Of all lines of the leader's person the one whose instrument is in the hands: what begins there, or began last
+    before it."""
+    person = lines[leader].person or lines[leader].player_id
+    own = [index for index, line in enumerate(lines) if (line.person or line.player_id) == person]
+    if len(own) == 1:
+        return leader
+
+    def last(index: int) -> int:
+        onsets = all_times[index].onset_tick
+        before = int(np.searchsorted(onsets, tick, side="right"))
+        return int(onsets[before - 1]) if before else -BEFORE_FIRST_TICK
+
+    return max(own, key=lambda index: (last(index), index == leader))
+
+
 def _section(line: Line) -> str:
     """Who sits together: the family of the instrument, or the instrument."""
     return vocabulary().family(line.instrument_map.plays) or line.instrument_map.id
@@ -325,6 +360,7 @@ def plan_cues(
         leader, why = leader_of(entry, lines, all_times, piece)
         if leader is None:
             continue
+        leader = _at_hand(leader, entry.tick, lines, all_times)
         own = next((lines[line].notes[index] for line, index in entry.players if line == leader), None)
         note = own.id if own is not None and own.onset_tick == entry.tick else f"@{entry.tick}"
         loudness = float(np.mean([all_times[line].loudness[index] for line, index in entry.players]))

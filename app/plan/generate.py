@@ -157,7 +157,8 @@ def plan_ensemble(
         playable.append(_playable(line, piece.clock, tuple(faces), frame.first_frame_s, own[line.player_id]))
     lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
     piece = shared.step("felt bars", with_felt_bars, piece, all_times)
-    found = shared.step("entries", entries, tuple(times.rhythm for times in all_times), piece)
+    persons = tuple(line.person or line.player_id for line in lines)
+    found = shared.step("entries", entries, tuple(times.rhythm for times in all_times), piece, persons)
     leading = tuple(_leading(line) for line in lines)
     cues, cue_ids = shared.step("cues", plan_cues, found, leading, all_times, piece, frame)
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
@@ -215,7 +216,8 @@ def _with_notes(
 def _leading(line: Line) -> Line:
     """The line as far as cues depend on it."""
     corrections = _of(line.corrections, SetCue, RemoveEvent, SetBreath)
-    return Line(line.player_id, line.notes, line.instrument_map, restricted(line.parameters, "cues"), corrections)
+    parameters = restricted(line.parameters, "cues")
+    return Line(line.player_id, line.notes, line.instrument_map, parameters, corrections, person=line.person)
 
 
 def _of(corrections: tuple[Correction, ...], *kinds: type[Correction]) -> tuple[Correction, ...]:

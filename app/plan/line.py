@@ -96,6 +96,8 @@ class Line(msgspec.Struct, frozen=True):
         Mean loudness 0..1 of every note where a breath, volume or expression curve says it; empty: the velocities do.
     heard : Heard or None
         Those curves, and what else tells about the lips.
+    person : str
+        Id of the player whose body plays it; empty: one of its own.
     """
 
     player_id: str
@@ -105,6 +107,7 @@ class Line(msgspec.Struct, frozen=True):
     corrections: tuple[Correction, ...] = ()
     loudness: tuple[float, ...] = ()
     heard: Heard | None = None
+    person: str = ""
 
 
 class Piece(msgspec.Struct, frozen=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +24,20 @@ def footprint(instrument: InstrumentMap | None) -> Footprint:
     if instrument is None:
         return Footprint(row=len(vocabulary().seating))
     return _FOOTPRINTS.get((instrument,), lambda: _footprint(instrument))
+
+
+def together(footprints: Iterable[Footprint]) -> Footprint:
+    """The room of a person who plays several instruments in turn, in the section of the first."""
+    first, *others = footprints
+    if not others:
+        return first
+    return Footprint(
+        first.row,
+        first.place,
+        max(first.left_m, *(one.left_m for one in others)),
+        max(first.right_m, *(one.right_m for one in others)),
+        max(first.ahead_m, *(one.ahead_m for one in others)),
+    )
 
 
 def _footprint(instrument: InstrumentMap) -> Footprint:

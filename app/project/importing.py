@@ -8,6 +8,7 @@ from dataclasses import replace
 import msgspec
 
 from app.errors import Message
+from app.project.doubling import doubled_parts
 from app.project.model import Project, map_choices, project_from_score
 from app.score.model import Score, UnplayedPart
 from app.score.parts import PartWish, usual_wishes
@@ -79,6 +80,7 @@ class Outcome(msgspec.Struct, frozen=True):
     Attributes
     ----------
     players : int
+        Persons: who plays several instruments in turn is one.
     warnings : tuple of Message
     unplayed : tuple of UnplayedPart
     instruments : dict of PartWish to tuple of str
@@ -118,7 +120,8 @@ def outcome_of(
         for wish in (_unnamed(row.wish), _unnamed(automatic(row.wish))):
             if wish not in instruments:
                 instruments[wish] = known.get(wish) or _instruments(contents, wish, maps, stop_wanted)
-    return Outcome(len(score.parts), score.warnings, score.unplayed, instruments)
+    doubled = doubled_parts(score.parts, maps, score.tempo_map)
+    return Outcome(len(score.parts) - len(doubled), score.warnings, score.unplayed, instruments)
 
 
 def automatic(wish: PartWish) -> PartWish:
@@ -174,7 +177,8 @@ def import_project(
             characters[first.place] = row.character_id
     players = []
     for player in project.players:
-        part = project.part(player)
-        character = characters.get(part.place, player.character_id)
+        # Whoever plays several instruments is who was chosen for the first of them that says so.
+        places = [project.part(one).place for one in project.played_by(player)]
+        character = next((characters[place] for place in places if place in characters), player.character_id)
         players.append(msgspec.structs.replace(player, character_id=character))
     return replace(project, players=tuple(players), source=source)

@@ -65,6 +65,11 @@ def _with_parameters(raw: Raw, version: int) -> Raw:
     return {**raw, "dancers": [{**dancer, **of_dancers} for dancer in raw["dancers"]]} if of_dancers else raw
 
 
+def _with_doublings(raw: Raw) -> Raw:
+    """8 to 9: a player may share the body of another; before, everybody had one of their own."""
+    return {**raw, "players": [{**player, "doubles": ""} for player in raw["players"]]}
+
+
 STRUCTURE: Final[Mapping[int, Migration]] = {
     2: _with_read_notes,
     3: _with_transpositions,
@@ -72,6 +77,7 @@ STRUCTURE: Final[Mapping[int, Migration]] = {
     5: _with_markers,
     6: _with_unplayed_sounding,
     7: _with_dancers,
+    9: _with_doublings,
 }
 """By the version that they lead to. New parameters say themselves since which version they are there."""
 

@@ -18,7 +18,8 @@ from app.plan.parameters import SEED, Parameter, PlayerParameters, declared
 from app.project import limits
 from app.project.casting import StagePosition, amplitude, choose_characters, player_seed, stage_seats, usual_posture
 from app.project.dance_corrections import DanceCorrection
-from app.project.footprint import footprint
+from app.project.doubling import common_postures, doubled_parts, embodied
+from app.project.footprint import footprint, together
 from app.project.names import unique_names
 from app.project.parameters import Setting
 from app.project.parameters import with_settings as parameters_with
@@ -49,6 +50,9 @@ class Player(msgspec.Struct, frozen=True):
         ``"#rrggbb"``; empty: the theme's, by the player's place in the project.
     muted, soloed : bool
         Whether the player is heard; who is muted still plays in the picture and in exports.
+    doubles : str
+        Id of the player whose body plays this instrument too, as a flutist's plays the piccolo; empty: a body of its
+        own. What belongs to the person (character, parameters, place) is that player's.
     """
 
     id: str
@@ -61,6 +65,7 @@ class Player(msgspec.Struct, frozen=True):
     colour: str = ""
     muted: bool = False
     soloed: bool = False
+    doubles: str = ""
 
 
 class Dancer(msgspec.Struct, frozen=True):
@@ -194,7 +199,7 @@ class Project:
     ----------
     score : Score
     players : tuple of Player
-        In the order of the score.
+        In the order of the score. Who doubles has the character, the parameters and the place of the person.
     corrections : mapping of str to tuple of Correction
         By player id.
     seed : int
@@ -237,6 +242,33 @@ class Project:
     dancers: tuple[Dancer, ...] = ()
     dance_corrections: Mapping[str, tuple[DanceCorrection, ...]] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        players = embodied(self.players)
+        if players is not self.players:
+            object.__setattr__(self, "players", players)
+
+    @cached_property
+    def bodies(self) -> tuple[Player, ...]:
+        """The players who have a body, in order: one for each person."""
+        return tuple(player for player in self.players if self.person(player) is player)
+
+    def person(self, player: Player) -> Player:
+        """The player whose body plays; of who doubles nobody, the player."""
+        return self._players.get(player.doubles, player) if player.doubles else player
+
+    def played_by(self, player: Player) -> tuple[Player, ...]:
+        """Everything that a player's person plays: first the one who has the body, then what doubles it, in order."""
+        return self._persons[self.person(player).id]
+
+    @cached_property
+    def _persons(self) -> dict[str, tuple[Player, ...]]:
+        found = {player.id: [player] for player in self.bodies}
+        for player in self.players:
+            person = self.person(player)
+            if person is not player:
+                found[person.id].append(player)
+        return {id: tuple(players) for id, players in found.items()}
+
     @cached_property
     def metre_map(self) -> MetreMap:
         """The score's, with the beat that is felt."""
@@ -269,6 +301,11 @@ class Project:
         """Players, then dancers."""
         return (*self.players, *self.dancers)
 
+    @cached_property
+    def seen(self) -> tuple[Player | Dancer, ...]:
+        """Everybody who has a body: players, then dancers."""
+        return (*self.bodies, *self.dancers)
+
     @property
     def dancer_ids(self) -> Collection[str]:
         """Ids of all dancers."""
@@ -293,7 +330,8 @@ def project_from_score(
     *,
     seed: int = 0,
 ) -> Project:
-    """Cast a score: a player for every part, with a name, a character, a place and a size of motion of their own.
+    """Cast a score: a player for every part, with a name, a character, a place and a size of motion of their own, which
+    the parts of one person share.
 
     Parameters
     ----------
@@ -305,27 +343,40 @@ def project_from_score(
     parts = score.parts
     instruments = [maps[part.map_id] for part in parts]
     names = unique_names(part.name for part in parts)
-    cast = characters_for(instruments)
-    places = stage_seats([footprint(instrument) for instrument in instruments])
-    players = tuple(
-        Player(
-            id=part.id,
-            name=name,
-            part_id=part.id,
-            instrument_id=instrument.id,
-            character_id=character,
-            parameters=PlayerParameters(
-                amplitude=amplitude(seed, part.id),
-                seed=player_seed(seed, part.id),
-                posture=instrument.hold.possible(usual_posture(len(parts))),
-            ),
-            stage=place,
+    doubled = doubled_parts(parts, maps, score.tempo_map)
+    persons = [part for part in parts if part.id not in doubled]
+    played = {part.id: [part] for part in persons}
+    for part in parts:
+        if part.id in doubled:
+            played[doubled[part.id]].append(part)
+    cast = characters_for([max((maps[one.map_id] for one in played[part.id]), key=_hand_travel_m) for part in persons])
+    places = stage_seats([together(footprint(maps[one.map_id]) for one in played[part.id]) for part in persons])
+    bodies = {part.id: (body, place) for part, body, place in zip(persons, cast, places, strict=True)}
+    players = []
+    for part, name, instrument in zip(parts, names, instruments, strict=True):
+        person = doubled.get(part.id, part.id)
+        character, place = bodies[person]
+        possible = common_postures([maps[one.map_id] for one in played[person]])
+        usual = usual_posture(len(persons))
+        players.append(
+            Player(
+                id=part.id,
+                name=name,
+                part_id=part.id,
+                instrument_id=instrument.id,
+                character_id=character,
+                parameters=PlayerParameters(
+                    amplitude=amplitude(seed, person),
+                    seed=player_seed(seed, person),
+                    posture=usual if usual in possible else possible[0],
+                ),
+                stage=place,
+                doubles="" if person == part.id else person,
+            )
         )
-        for part, name, instrument, character, place in zip(parts, names, instruments, cast, places, strict=True)
-    )
     return Project(
         score,
-        players,
+        tuple(players),
         seed=seed,
         read_notes={part.id: {note.id: note for note in part.notes} for part in parts},
     )
@@ -357,8 +408,15 @@ def with_settings(project: Project, settings: Sequence[Setting], maps: Mapping[s
         seated.
     """
     players = list(project.players)
+    places = {player.id: index for index, player in enumerate(players)}
+    persons = [places[project.person(player).id] for player in players]
     for index in range(len(players)):
-        own = [setting for setting in settings if setting.player == index]
+        # What is set of an instrument that somebody doubles is, but for the instrument, set of the person.
+        own = [
+            setting
+            for setting in settings
+            if (setting.player if setting.parameter == "instrument" else persons[setting.player]) == index
+        ]
         chosen = {setting.parameter: setting.value for setting in own}
         player = msgspec.structs.replace(players[index], parameters=parameters_with(players[index].parameters, own))
         instrument, character = chosen.get("instrument"), chosen.get("character")
@@ -366,8 +424,11 @@ def with_settings(project: Project, settings: Sequence[Setting], maps: Mapping[s
             player = msgspec.structs.replace(player, instrument_id=instrument)
         if isinstance(character, str):
             player = msgspec.structs.replace(player, character_id=character)
-        if "posture" in chosen and player.instrument_id in maps:
-            _require_posture(player, maps[player.instrument_id])
+        if "posture" in chosen:
+            others = [one for one in project.played_by(player) if one.id != player.id]
+            for one in (player, *others):
+                if one.instrument_id in maps:
+                    _require_posture(player, maps[one.instrument_id])
         players[index] = player
     return replace(project, players=tuple(players))
 
@@ -386,11 +447,13 @@ def _require_posture(player: Player, instrument: InstrumentMap) -> None:
 
 def characters_for(instruments: Sequence[InstrumentMap]) -> tuple[str, ...]:
     """A character for each instrument, by the reach it asks for."""
-    travels_m = [
-        max((control.travel_m for control in instrument.controls if _by_hand(control)), default=0.0)
-        for instrument in instruments
-    ]
+    travels_m = [_hand_travel_m(instrument) for instrument in instruments]
     return choose_characters(travels_m, {id: _arm_m(character_named(id)) for id in bundled_characters()})
+
+
+def _hand_travel_m(instrument: InstrumentMap) -> float:
+    """How far an instrument asks a hand to travel."""
+    return max((control.travel_m for control in instrument.controls if _by_hand(control)), default=0.0)
 
 
 def _by_hand(control: Control) -> bool:

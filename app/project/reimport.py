@@ -38,6 +38,7 @@ from app.errors import UsageError
 from app.plan.corrections import Correction, kind
 from app.project.alignment import Floats, Line, align
 from app.project.anchors import moved, note_of
+from app.project.doubling import doubled_parts, without_persons
 from app.project.edit.corrections import put, take_back
 from app.project.edit.length import with_score
 from app.project.edit.players import free_name, newcomer, with_newcomers
@@ -478,7 +479,9 @@ def _with_players(
         dancer: tuple(moved(correction, {}, everywhere, scale) for correction in own)
         for dancer, own in project.dance_corrections.items()
     }
-    result = replace(scored, players=tuple(staying), corrections=corrections, takes=takes, dance_corrections=danced)
+    result = replace(
+        scored, players=without_persons(staying), corrections=corrections, takes=takes, dance_corrections=danced
+    )
     former = {part.id for part in project.score.parts}
     fresh = [part for part in parts if part.id not in former]
     return _with_new_players(result, fresh, maps) if fresh else result
@@ -489,11 +492,22 @@ def _with_new_players(project: Project, parts: Sequence[Part], maps: Mapping[str
     names = project.performer_names()
     playing = [maps[player.instrument_id] for player in project.players if player.instrument_id in maps]
     newcomers = []
-    for player_id, part in zip(fresh_player_ids(project, len(parts)), parts, strict=True):
+    doubled = doubled_parts(project.score.parts, maps, project.score.tempo_map)
+    players = {player.part_id: player.id for player in reversed(project.players)}
+    ids = fresh_player_ids(project, len(parts))
+    players |= {part.id: player_id for player_id, part in zip(ids, parts, strict=True)}
+    for player_id, part in zip(ids, parts, strict=True):
         names.append(free_name(part.name, names))
         playing.append(maps[part.map_id])
-        newcomers.append(newcomer(project, player_id, part, names[-1], playing))
+        doubles = _person(project, players.get(doubled.get(part.id, ""), ""))
+        newcomers.append(newcomer(project, player_id, part, names[-1], playing, doubles))
     return with_newcomers(project, tuple(newcomers))
+
+
+def _person(project: Project, player_id: str) -> str:
+    """Whose body a player has, by id; who is new has one of their own."""
+    known = next((player for player in project.players if player.id == player_id), None)
+    return player_id if known is None else project.person(known).id
 
 
 def _place_map(pairs: Iterable[tuple[int, int]], scale: Fraction) -> Callable[[int], int]:

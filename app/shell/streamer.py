@@ -11,7 +11,7 @@ import threading
 import time
 import weakref
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -170,18 +170,20 @@ class Streamer(QObject):
         lines = state.planned(project, self._session.in_front)
         if lines != state.lines:
             state.set(lines=lines)
-            if state.everyone and len(lines) < len(project.performers):
+            if state.everyone and len(lines) < len(project.seen):
                 told = Message(
                     "stream.no_room",
-                    {"count": len(project.performers), "port": state.port, "most": MOST_PORT},
+                    {"count": len(project.seen), "port": state.port, "most": MOST_PORT},
                 )
                 self._session.notice(told, Severity.WARNING)
         everyone = {performer.id: performer for performer in project.performers}
         performers = [everyone[line.player_id] for line in lines]
+        beside = [project.played_by(one)[1:] if isinstance(one, Player) else () for one in performers]
         self._thread.wish(
             _Wish(
                 address=self._address,
                 performers=tuple(performers),
+                beside=tuple(beside),
                 ports=tuple(line.port for line in lines),
                 stages=tuple(one.stage if state.everyone else IN_THE_MIDDLE for one in performers),
                 faces=state.faces,
@@ -222,10 +224,11 @@ class Streamer(QObject):
 
 @dataclass(frozen=True)
 class _Wish:
-    """What the thread sends."""
+    """What the thread sends; ``beside`` is what each performer plays besides."""
 
     address: Address
     performers: tuple[Player | Dancer, ...]
+    beside: tuple[tuple[Player, ...], ...]
     ports: tuple[int, ...]
     stages: tuple[StagePosition, ...]
     faces: FaceNames
@@ -279,7 +282,7 @@ class _Thread:
         self._closed = False
         self._began_s = time.perf_counter()
         self._senders: dict[int, Sender] = {}
-        self._sent: dict[str, tuple[tuple[Character, str | None, FaceNames], Sent]] = {}
+        self._sent: dict[str, tuple[tuple[Character, str | None, FaceNames, tuple[str, ...]], Sent]] = {}
         self._frames: deque[float] = deque()
         self._told_s = self._began_s
         self._thread = threading.Thread(target=self._run, name="streamer", daemon=True)
@@ -357,14 +360,24 @@ class _Thread:
         """Everybody's pose of now; whether nobody listens anywhere."""
         for port in self._senders.keys() - set(wish.ports):
             self._senders.pop(port).close()
-        poses = self._poses.poses([performer.id for performer in wish.performers], time_s)
+        everything = [*(one.id for one in wish.performers), *(one.id for played in wish.beside for one in played)]
+        posed = dict(zip(everything, self._poses.poses(everything, time_s), strict=True))
+        # What is played besides and cannot be seen is not sent.
+        beside = {
+            performer.id: [one for one in played if posed[one.id] is not None]
+            for performer, played in zip(wish.performers, wish.beside, strict=True)
+        }
         # Whose character is gone since the pose was made is among the problems.
-        sent = attempt(wish.performers, lambda performer: self._sent_of(performer, wish.faces)).made
+        sent = attempt(
+            wish.performers, lambda performer: self._sent_of(performer, wish.faces, beside[performer.id])
+        ).made
         outcomes = list[Outcome]()
-        for performer, port, stage, pose in zip(wish.performers, wish.ports, wish.stages, poses, strict=True):
+        for performer, port, stage in zip(wish.performers, wish.ports, wish.stages, strict=True):
+            pose = posed[performer.id]
+            others = [other for one in beside[performer.id] if (other := posed[one.id]) is not None]
             # What is not made yet is not sent: who receives it keeps the last one.
             if pose is not None and performer.id in sent:
-                datagrams = sent[performer.id].datagrams(pose, now_s - self._began_s, stage)
+                datagrams = sent[performer.id].datagrams(pose, now_s - self._began_s, stage, others)
                 if port not in self._senders:
                     self._senders[port] = Sender(wish.address.port(port), wish.broadcast)
                 outcomes.append(self._senders[port].send(datagrams))
@@ -372,10 +385,10 @@ class _Thread:
             self._frames.append(now_s)
         return bool(outcomes) and all(outcome is Outcome.UNHEARD for outcome in outcomes)
 
-    def _sent_of(self, performer: Player | Dancer, faces: FaceNames) -> Sent:
+    def _sent_of(self, performer: Player | Dancer, faces: FaceNames, beside: Sequence[Player]) -> Sent:
         """How a performer is sent; made anew for another character, instrument or names."""
         instrument = performer.instrument_id if isinstance(performer, Player) else None
-        of = (character_named(performer.character_id), instrument, faces)
+        of = (character_named(performer.character_id), instrument, faces, tuple(one.instrument_id for one in beside))
         known = self._sent.get(performer.id)
         if known is None or known[0] != of:
             known = self._sent[performer.id] = (of, Sent(*of))

@@ -7,7 +7,7 @@ model on it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -63,9 +63,17 @@ class Sent:
     instrument : str or None
         Name of its tracker; None: the performer holds none.
     faces : FaceNames
+    doubles : tuple of str
+        Names of the trackers of other instruments that the performer changes to.
     """
 
-    def __init__(self, character: Character, instrument: str | None, faces: FaceNames = "arkit") -> None:
+    def __init__(
+        self,
+        character: Character,
+        instrument: str | None,
+        faces: FaceNames = "arkit",
+        doubles: tuple[str, ...] = (),
+    ) -> None:
         skeleton, own = character.skeleton, character.own
         self._hips = skeleton.index("hips")
         self._holds = instrument is not None
@@ -92,13 +100,16 @@ class Sent:
             Head("/VMC/Ext/Root/Pos", ("root",), _TRANSFORM),
             *(Head("/VMC/Ext/Bone/Pos", (name,), _TRANSFORM) for name in names),
             *([] if instrument is None else [Head("/VMC/Ext/Tra/Pos", (instrument,), _TRANSFORM)]),
+            *(Head("/VMC/Ext/Tra/Pos", (name,), _TRANSFORM) for name in doubles),
             *(Head("/VMC/Ext/Blend/Val", (name,), 1) for name in self._face.names),
         ]
         if self._face.names:
             heads.append(Head("/VMC/Ext/Blend/Apply"))
         self._packets = Packets(heads)
 
-    def datagrams(self, pose: Posed, time_s: float, stage: StagePosition = IN_THE_MIDDLE) -> list[bytes]:
+    def datagrams(
+        self, pose: Posed, time_s: float, stage: StagePosition = IN_THE_MIDDLE, beside: Sequence[Posed] = ()
+    ) -> list[bytes]:
         """The packets of a pose.
 
         Parameters
@@ -108,14 +119,16 @@ class Sent:
             Since the stream began.
         stage : StagePosition, optional
             Where the performer stands; in the middle, facing the audience, unless said.
+        beside : sequence of Posed
+            The same body with each of the other instruments.
         """
         root_m = np.array([stage.x_m, 0.0, stage.z_m])
         root = np.array([0.0, np.sin(stage.turn_rad / 2.0), 0.0, np.cos(stage.turn_rad / 2.0)])
         bones_m, bones = self._local(pose)
         values = [[time_s], _transforms(root_m[None], root[None]), _transforms(bones_m, bones)]
-        if self._holds:
-            held_m = root_m + quaternion.rotate(root, pose.instrument_position_m)
-            held = quaternion.multiply(root, pose.instrument_rotation)
+        for one in (pose, *beside) if self._holds else ():
+            held_m = root_m + quaternion.rotate(root, one.instrument_position_m)
+            held = quaternion.multiply(root, one.instrument_rotation)
             values.append(_transforms(held_m[None], held[None]))
         return self._packets.filled(np.concatenate([*values, self._face.values(pose.morphs)]))
 

@@ -476,6 +476,14 @@
             <translation>プレイヤーを削除: {count} 人</translation>
         </message>
         <message>
+            <source>one person plays instruments: {count}</source>
+            <translation>一人で持ち替え: {count}</translation>
+        </message>
+        <message>
+            <source>separate players: {count}</source>
+            <translation>プレイヤーを分ける: {count}</translation>
+        </message>
+        <message>
             <source>order of the players</source>
             <translation>プレイヤーの順番</translation>
         </message>
@@ -538,6 +546,14 @@
         <message>
             <source>the preset {name} is saved</source>
             <translation>プリセット {name} を保存しました</translation>
+        </message>
+        <message>
+            <source>{player} and {other} are not played in one posture, so that one person cannot play both</source>
+            <translation>{player}と{other}は同じ姿勢で演奏できないため、一人では持ち替えられません</translation>
+        </message>
+        <message>
+            <source>{player} and {other} sound at once for {seconds:g} s, so that one person cannot play both</source>
+            <translation>{player}と{other}は合わせて{seconds:g}秒同時に鳴るため、一人では持ち替えられません</translation>
         </message>
         <message>
             <source>a project can have {most} players</source>
@@ -814,6 +830,14 @@
         <message>
             <source>the players are still being loaded; try again in a moment</source>
             <translation>プレイヤーを読み込み中です。少し待ってからもう一度お試しください</translation>
+        </message>
+        <message>
+            <source>the rest of {rest_s:g} s is too short to change from {before} to {after}: about {needed_s:g} s are needed</source>
+            <translation>{before}から{after}への持ち替えには休みが{rest_s:g}秒では短すぎます: 約{needed_s:g}秒必要です</translation>
+        </message>
+        <message>
+            <source>{before} still sounds {seconds:g} s into {after}, but one person plays both: the change takes notes away</source>
+            <translation>一人で持ち替えますが、{after}の始まりから{seconds:g}秒間まだ{before}が鳴っています: 持ち替えの間の音は演奏できません</translation>
         </message>
         <message>
             <source>{label}: the first choice</source>
@@ -1528,8 +1552,8 @@
             <translation>{part}: {most} 人で分担し、それ以上に重なる {count} 音を省きました（最初は {bar} 小節 {beat:g} 拍目の {pitch}）</translation>
         </message>
         <message>
-            <source>{part}: the player of this track changes to {instrument} for {count} {count:note|notes}, the first at bar {bar}, beat {beat:g} ({pitch}); a player has one instrument here, so another one plays {count:it|them}</source>
-            <translation>{part}: このトラックの奏者は {count} 音を {instrument} に持ち替えて吹きます（最初は {bar} 小節 {beat:g} 拍目の {pitch}）。ここでは 1 人の奏者は楽器を 1 つしか持たないため、別の奏者が担当します</translation>
+            <source>{part}: the player of this track changes to {instrument} for {count} {count:note|notes}, the first at bar {bar}, beat {beat:g} ({pitch})</source>
+            <translation>{part}: このトラックのプレイヤーは{count}音を{instrument}に持ち替えて演奏します。最初は{bar}小節{beat:g}拍目 ({pitch})</translation>
         </message>
         <message>
             <source>{count} {count:note sounds|notes sound} together with others, the first at bar {bar}, beat {beat:g} ({pitch}); too few and too short for another player</source>

@@ -197,6 +197,10 @@
         <translation>ばらつき</translation>
     </message>
     <message>
+        <source>{instrument}, played by {name}</source>
+        <translation>{instrument} ({name}が持ち替え)</translation>
+    </message>
+    <message>
         <source>selected players</source>
         <translation>選択したプレイヤー</translation>
     </message>

@@ -471,6 +471,14 @@
         <translation>プレイヤーを複製</translation>
     </message>
     <message>
+        <source>One person plays these in turn</source>
+        <translation>一人で持ち替えて演奏</translation>
+    </message>
+    <message>
+        <source>Separate into players of their own</source>
+        <translation>別々のプレイヤーに分ける</translation>
+    </message>
+    <message>
         <source>Remove players</source>
         <translation>プレイヤーを削除</translation>
     </message>

@@ -11,7 +11,7 @@ from typing import Final
 
 from PySide6.QtCore import QObject, Signal
 
-from app.performance.chunks import Pose
+from app.performance.chunks import Floats, Pose
 from app.performance.play_along import PlayAlong
 from app.score.take import Wiring
 
@@ -99,6 +99,11 @@ class LivePlayers(QObject):
                 self._poses.pop(player_id, None)
         if struck:
             self.struck.emit()
+
+    def lying(self, player_id: str, other_id: str) -> tuple[Floats, Floats] | None:
+        """Where another instrument of the person lies while this one is played: position (3,) and rotation (4,)."""
+        play_along = self._playing.get(player_id)
+        return None if play_along is None else play_along.lying.get(other_id)
 
     def pose(self, player_id: str, at_s: float) -> tuple[Pose, float] | None:
         """How a player stands now, and how much of that is to be seen, 0..1; None for who is not played.

@@ -87,7 +87,10 @@ class Streaming(QObject):
         front : sequence of str
             Ids of those who are selected, the one in front first.
         """
-        ids = [performer.id for performer in project.performers] if self.everyone else front[:1]
+        players = {player.id: player for player in project.players}
+        # A person who plays several instruments is sent once.
+        in_front = [project.person(players[id]).id if id in players else id for id in front[:1]]
+        ids = [performer.id for performer in project.seen] if self.everyone else in_front
         return tuple(Line(id, self.port + place) for place, id in enumerate(ids) if self.port + place <= MOST_PORT)
 
     def set(self, **values: object) -> None:

@@ -82,17 +82,23 @@ def foresee(
         There is no project, or something of somebody else's is in the way.
     """
     if destination == "unreal":
-        project = find_project(place)
-        plan = plan_export(performance, player_ids, source, project, by_length=True)
+        unreal = find_project(place)
+        plan = plan_export(performance, player_ids, source, unreal, by_length=True)
         return Foreseen(
             count=len(plan.written),
             replaced=tuple(shown(path.name) for path in plan.replaced),
             removed=tuple(shown(path.name) for path in plan.removed),
             kept=plan.kept,
-            project=project,
+            project=unreal,
         )
     names = file_names(performance, formats)
-    wanted = [name for player_id in player_ids for name in names[player_id].values()] + [REPORT]
+    project = performance.project
+    # Of a person also the other instruments.
+    everything = [
+        *player_ids,
+        *(one.id for one in project.players if one.doubles in player_ids and project.person(one) is not one),
+    ]
+    wanted = [name for player_id in everything for name in names[player_id].values()] + [REPORT]
     if sound:
         wanted.append(sound_name(source))
     return Foreseen(len(wanted), tuple(name for name in wanted if os.path.exists(place / name)))

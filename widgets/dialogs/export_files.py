@@ -97,7 +97,7 @@ class ExportDialog(QDialog):
 
         self._players = QListWidget()
         self._players.setObjectName("export_players")
-        performers = [(one.id, one.name) for one in self._project.players]
+        performers = [(one.id, one.name) for one in self._project.bodies]
         performers += [(one.id, one.name) for one in self._project.dancers]
         for performer_id, name in performers:
             item = QListWidgetItem(name)

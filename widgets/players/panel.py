@@ -38,6 +38,8 @@ MENU = (
     "dancers.add",
     "players.rename",
     "players.duplicate",
+    "players.join",
+    "players.separate",
     "players.remove",
     "",
     "players.mute",
@@ -208,11 +210,15 @@ class PlayersPanel(QWidget):
         rows = []
         for player in project.players:
             instrument, unseen = maps.get(player.instrument_id), performance.unseen.get(player.id)
+            played = instrument_name(instrument) if instrument is not None else player.instrument_id
+            person = project.person(player)
+            if person is not player:
+                played = self.tr("{instrument}, played by {name}").format(instrument=played, name=person.name)
             rows.append(
                 Row(
                     player,
                     self._session.colour(player),
-                    instrument_name(instrument) if instrument is not None else player.instrument_id,
+                    played,
                     len(self._session.problems(player.id)),
                     player.id == leader,
                     "" if unseen is None else sentence(unseen, self._session, player.id),
@@ -225,10 +231,11 @@ class PlayersPanel(QWidget):
 
     def _show_buttons(self) -> None:
         chosen, everyone = self._session.players, self._session.project.players
+        persons = len(self._session.project.bodies)
         self._count.setText(
             self.tr("{chosen} of {count} selected").format(chosen=len(chosen), count=len(everyone))
             if len(chosen) > 1
-            else self.tr("Players: {count}").format(count=len(everyone))
+            else self.tr("Players: {count}").format(count=persons)
         )
         for name in ("duplicate", "remove"):
             self._tools[name].setEnabled(bool(chosen))

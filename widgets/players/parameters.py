@@ -173,7 +173,9 @@ class ParameterSections(QWidget):
             "seated": self.tr("Played standing only: {players}"),
         }
         for id, word in posture.parameter.choices:
-            barred = [player.name for player in players if id not in edit.postures_of(player)]
+            barred = [
+                player.name for player in players if id not in edit.postures_of_person(self._session.project, player)
+            ]
             reason = reasons[str(id)].format(players=", ".join(barred)) if barred else ""
             options.append(Option(str(id), parameter_text(word), reason=reason))
         posture.set_options(options)

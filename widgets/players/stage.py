@@ -125,11 +125,13 @@ class StageView(QWidget):
 
     def _is_selected(self, one: Player | Dancer) -> bool:
         dancer = self._session.dancer
-        return one.id in self._session.players or (dancer is not None and one.id == dancer.id)
+        if isinstance(one, Player):
+            return any(player.id in self._session.players for player in self._session.project.played_by(one))
+        return dancer is not None and one.id == dancer.id
 
     def _at(self, position: QPointF) -> tuple[Player | Dancer | None, bool]:
         """Who is there, and whether by the nose. Only the selected show noses that can be taken."""
-        players = self._session.project.performers
+        players = self._session.project.seen
         for player in filter(self._is_selected, players):
             if _distance(self.nose_point(player), position) <= REACH_PX * 0.75:
                 return player, True
@@ -259,6 +261,8 @@ class StageView(QWidget):
         self._paint_floor(painter)
         project = self._session.project
         numbered: list[tuple[int, Player | Dancer]] = [*enumerate(project.players, 1), *enumerate(project.dancers, 1)]
+        # A person who plays several instruments stands there once, with the number of the first.
+        numbered = [(number, one) for number, one in numbered if isinstance(one, Dancer) or project.person(one) is one]
         # The selected lie on top.
         for number, player in sorted(numbered, key=lambda item: self._is_selected(item[1])):
             self._paint_performer(painter, number, player)

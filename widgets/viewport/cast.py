@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import AppError
-from app.performance.bodies import body_of, character_of, model_of, suited_to
+from app.performance.bodies import body_of, character_of, lies_at, model_of, suited_to
 from app.project.casting import StagePosition
 from app.project.model import Dancer, Player
 from app.rig import quaternion
@@ -69,12 +69,24 @@ class Member:
     world_from_player : (3, 4) float64
     seat_m : (3,) float64 or None
         Middle of the seat's top in the player's frame; None: standing.
+    person_id : str
+        Who has the body, which is drawn once: of who doubles an instrument nothing else is seen.
+    stand_m : (3,) float64 or None
+        Top of the stand on which the instrument lies while the person plays another, in the player's frame; None: there
+        is none.
     """
 
     player_id: str
     kit: Kit
     world_from_player: Floats
     seat_m: Floats | None
+    person_id: str
+    stand_m: Floats | None = None
+
+    @property
+    def has_body(self) -> bool:
+        """Whether the body is drawn."""
+        return self.person_id == self.player_id
 
 
 def kit_of(player: Player) -> Kit:
@@ -92,13 +104,28 @@ def dancer_kit(dancer: Dancer) -> Kit:
 
 def dancing_member(dancer: Dancer, kit: Kit) -> Member:
     """A dancer at their place."""
-    return Member(dancer.id, kit, placed(dancer.stage), None)
+    return Member(dancer.id, kit, placed(dancer.stage), None, dancer.id)
 
 
-def member_of(player: Player, kit: Kit) -> Member:
-    """A player at their place."""
+def stand_of(player: Player, kit: Kit, number: int) -> Floats | None:
+    """Top of the stand for one of the instruments of a person, counted from 0; None as long as nobody knows."""
+    found = lies_at(player, find_map(player.instrument_id), number)
+    if found is None:
+        return None
+    points = np.concatenate([mesh.positions_m for mesh in kit.instrument.meshes]).astype(np.float64)
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    # It lies on what is nearest to its middle.
+    nearest = points[int(np.argmin(np.linalg.norm(points - middle, axis=1)))]
+    top_m: Floats = found[0] + quaternion.rotate(found[1], nearest)
+    return top_m
+
+
+def member_of(player: Player, kit: Kit, person_id: str = "", stand_m: Floats | None = None) -> Member:
+    """A player at their place, with the body of a person; empty: one of their own."""
+    person_id = person_id or player.id
     posture = body_of(player).postures[kit.map.hold.possible(player.parameters.posture)]
-    return Member(player.id, kit, placed(player.stage), seat(kit.character.skeleton, posture))
+    seat_m = seat(kit.character.skeleton, posture) if person_id == player.id else None
+    return Member(player.id, kit, placed(player.stage), seat_m, person_id, stand_m)
 
 
 def placed(stage: StagePosition) -> Floats:
@@ -176,8 +203,8 @@ class Stage:
     Attributes
     ----------
     bones : (N, B, 3, 4) float32
-        ``world_from_rest`` of joints, then of the instrument's nodes (from `first_node`), then of the seat; of who
-        has no pose all 0.
+        ``world_from_rest`` of joints, then of the instrument's nodes (from `first_node`), then of the seat and of
+        the stand; of who has no pose all 0.
     joints : (N, J, 3, 4) float64
         ``world_from_joint``.
     heads : (N,) int
@@ -192,7 +219,8 @@ class Stage:
         self.first_node = max((len(member.kit.character.skeleton.names) for member in members), default=0)
         self._instruments = Instruments([member.kit.held for member in members])
         self.seat_bone = self.first_node + self._instruments.nodes
-        self.bones = np.zeros((count, self.seat_bone + 1, 3, 4), np.float32)
+        self.stand_bone = self.seat_bone + 1
+        self.bones = np.zeros((count, self.stand_bone + 1, 3, 4), np.float32)
         self.joints = np.zeros((count, self.first_node, 3, 4))
         self.heads = np.array([member.kit.character.skeleton.index("head") for member in members], np.intp)
         self.poses: list[Posed | None] = [None] * count
@@ -208,6 +236,11 @@ class Stage:
             if member.seat_m is not None:
                 self.bones[row, self.seat_bone, :, :3] = member.world_from_player[:, :3]
                 self.bones[row, self.seat_bone, :, 3] = _moved(member.world_from_player, member.seat_m)
+            if member.stand_m is not None:
+                # As high as it stands.
+                self.bones[row, self.stand_bone, :, :3] = member.world_from_player[:, :3]
+                self.bones[row, self.stand_bone, :, 1] *= member.stand_m[1]
+                self.bones[row, self.stand_bone, :, 3] = _moved(member.world_from_player, member.stand_m)
 
     def pose(self, poses: Mapping[str, Posed | None]) -> bool:
         """Put everyone into their poses; whether anything is other than before."""

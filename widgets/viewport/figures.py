@@ -5,16 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from app.errors import Cancelled
+from app.performance.bodies import is_held
 from app.performance.cast import LeftOut, attempt
 from app.project.model import Dancer, Player, Project
 from app.rig.character_library import character_revision
 from instrument_maps.library import library
 from widgets.common.tasks import Progress, StopWanted
-from widgets.viewport.cast import Kit, Member, Stage, dancer_kit, dancing_member, kit_of, member_of
+from widgets.viewport.cast import Kit, Member, Stage, dancer_kit, dancing_member, kit_of, member_of, stand_of
 from widgets.viewport.geometry import Crowd
 from widgets.viewport.renderer import Shapes, crowd_of, shapes_of
 
-CastKey = tuple[tuple[str, str, str, str, int, int, float, float, float], ...]
+CastKey = tuple[tuple[str, str, str, str, str, int, int, bool, float, float, float], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,11 +38,13 @@ def cast_key(project: Project) -> CastKey:
     return tuple(
         (
             player.id,
+            project.person(player).id,
             player.character_id,
             player.instrument_id,
             player.parameters.posture,
             instruments.revisions.get(player.instrument_id, 0),
             character_revision(player.character_id),
+            _has_stand(project, player),
             player.stage.x_m,
             player.stage.z_m,
             player.stage.turn_rad,
@@ -49,21 +52,28 @@ def cast_key(project: Project) -> CastKey:
         for player in project.players
     ) + tuple(
         (
-            *(dancer.id, dancer.character_id, "", "", 0, character_revision(dancer.character_id)),
+            *(dancer.id, dancer.id, dancer.character_id, "", "", 0, character_revision(dancer.character_id), False),
             *(dancer.stage.x_m, dancer.stage.z_m, dancer.stage.turn_rad),
         )
         for dancer in project.dancers
     )
 
 
+def _has_stand(project: Project, player: Player) -> bool:
+    """Whether the player's instrument lies on a stand at times, and it is known where."""
+    instrument = library().maps.get(player.instrument_id)
+    return len(project.played_by(player)) > 1 and instrument is not None and is_held(player, instrument)
+
+
 def same_figures(one: CastKey, other: CastKey) -> bool:
     """Whether two stages differ in places alone, so that nothing has to be loaded."""
-    return [row[:6] for row in one] == [row[:6] for row in other]
+    return [row[:8] for row in one] == [row[:8] for row in other]
 
 
 def load(project: Project, before: Shapes | None, progress: Progress, stop_wanted: StopWanted) -> Loaded:
     """Load everybody. A player of whom something is missing is left out. Raises Cancelled."""
     kits: dict[tuple[str, str], Kit] = {}
+    persons: dict[str, str] = {}
     done = 0
 
     def make(player: Player) -> Member:
@@ -75,7 +85,11 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_wante
         pair = (player.character_id, player.instrument_id)
         if pair not in kits:
             kits[pair] = kit_of(player)
-        return member_of(player, kits[pair])
+        # Where what the person plays first cannot be seen, the next has the body.
+        person = persons.setdefault(project.person(player).id, player.id)
+        played = project.played_by(player)
+        stand_m = stand_of(player, kits[pair], played.index(player)) if len(played) > 1 else None
+        return member_of(player, kits[pair], person, stand_m)
 
     def make_dancer(dancer: Dancer) -> Member:
         if stop_wanted():
@@ -85,7 +99,8 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_wante
             kits[pair] = dancer_kit(dancer)
         return dancing_member(dancer, kits[pair])
 
-    found, dancers = attempt(project.players, make), attempt(project.dancers, make_dancer)
+    everybody = [player for person in project.bodies for player in project.played_by(person)]
+    found, dancers = attempt(everybody, make), attempt(project.dancers, make_dancer)
     members = [*found.made.values(), *dancers.made.values()]
     stage = Stage(members)
     shapes = shapes_of(stage, before)
@@ -102,7 +117,7 @@ def moved(project: Project, loaded: Loaded) -> Loaded:
     members = [
         dancing_member(dancers[member.player_id], member.kit)
         if member.player_id in dancers
-        else member_of(players[member.player_id], member.kit)
+        else member_of(players[member.player_id], member.kit, member.person_id, member.stand_m)
         for member in loaded.stage.members
     ]
     stage = Stage(members)

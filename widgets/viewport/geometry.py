@@ -151,6 +151,16 @@ def stool(bone: int, height_m: float) -> Geometry:
     return joined(parts)
 
 
+def stand(bone: int) -> Geometry:
+    """What an instrument lies on: a rod on a foot, one high, its top in the origin; it moves with one bone."""
+    metal = (0.16, 0.165, 0.175)
+    profiles = (
+        [(0.0, 0.0), (0.011, -0.004), (0.011, -0.05), (0.008, -0.055), (0.008, -0.985)],
+        [(0.0, -0.982), (0.10, -0.988), (0.125, -0.994), (0.125, -1.0)],
+    )
+    return joined([_turned(np.array(points), metal, 0.45, 1.0, bone) for points in profiles])
+
+
 def joined(parts: Sequence[Geometry]) -> Geometry:
     """Several geometries as one, without their morphs."""
     whole = crowd([(0, part) for part in parts])

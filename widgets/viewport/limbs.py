@@ -115,6 +115,7 @@ class Limbs:
         self._held = np.array([(first, last) for first, last, _ in capsules])
         self._held_radii = np.array([radius for _, _, radius in capsules])
         self._seated = np.array([member.seat_m is not None for member in stage.members], dtype=bool)
+        self._without = np.array([not member.has_body for member in stage.members], dtype=bool)
 
     def capsules(self) -> Floats:
         """(N, LIMBS, 2, 4): both ends with their radius beside them, in the world."""
@@ -135,6 +136,7 @@ class Limbs:
         result[:, -1, 0, :3] = seats[:, :, 3] - across - down
         result[:, -1, 1, :3] = seats[:, :, 3] + across - down
         result[:, -1, :, 3] = 0.1
+        result[self._without, :bones] = (*FAR_AWAY_M, 0.0)
         result[~self._seated, -1] = (*FAR_AWAY_M, 0.0)
         result[~stage.shown] = (*FAR_AWAY_M, 0.0)
         return result

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
+from app.performance.chunks import Pose
 from widgets.common.session import Session
 from widgets.viewport.poses import Posed, Poses, blended
 
@@ -37,9 +40,31 @@ class LivePoses:
     def _shown(self, player_id: str, performed: Posed | None, time_s: float) -> Posed | None:
         now = self._session.live_players.pose(player_id, time_s)
         if now is None:
-            return performed
+            return self._beside(player_id, performed, time_s)
         live, share = now
         return live if performed is None or share >= 1.0 else blended(performed, live, share)
+
+    def _beside(self, player_id: str, performed: Posed | None, time_s: float) -> Posed | None:
+        """An instrument that lies aside while the person plays another one now: the body is that of now."""
+        live, project = self._session.live_players, self._session.project
+        own = next((player for player in project.players if player.id == player_id), None)
+        for other in () if own is None or performed is None else project.played_by(own):
+            now = live.pose(other.id, time_s) if other.id != player_id else None
+            if now is None or performed is None:
+                continue
+            body, share = now
+            found = live.lying(other.id, player_id)
+            position_m, rotation = found or (performed.instrument_position_m, performed.instrument_rotation)
+            beside = Pose(
+                rotations=body.rotations,
+                hips_m=body.hips_m,
+                morphs=body.morphs,
+                controls=dict(performed.controls),
+                instrument_position_m=np.asarray(position_m, np.float32),
+                instrument_rotation=np.asarray(rotation, np.float32),
+            )
+            return beside if share >= 1.0 else blended(performed, beside, share)
+        return performed
 
     def pose_now(self, player_id: str, time_s: float) -> Posed | None:
         """See `Poses.pose_now`: pictures of the performance show the performance."""

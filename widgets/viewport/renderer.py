@@ -18,7 +18,7 @@ from vispy.gloo import gl
 
 from widgets.viewport import shaders
 from widgets.viewport.camera import Camera
-from widgets.viewport.cast import Stage
+from widgets.viewport.cast import Member, Stage
 from widgets.viewport.geometry import (
     LEVELS,
     Crowd,
@@ -28,6 +28,7 @@ from widgets.viewport.geometry import (
     crowd_edges,
     edges,
     instrument_levels,
+    stand,
     stool,
 )
 from widgets.viewport.limbs import HELD, LIMBS, SHADING, Limbs
@@ -58,11 +59,13 @@ SEEN_THROUGH = 0.85
 
 @dataclass(frozen=True, eq=False)
 class Shapes:
-    """Geometries by level of detail: of characters by id, of instruments by the id of their map."""
+    """Geometries by level of detail: of characters by id, of instruments by the id of their map; what one sits on, and
+    what an instrument lies on."""
 
     characters: Mapping[str, tuple[Geometry, ...]]
     instruments: Mapping[str, tuple[Geometry, ...]]
     stool: Geometry
+    stand: Geometry
 
 
 @dataclass(frozen=True)
@@ -92,26 +95,33 @@ def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
             instruments[member.kit.map.id] = instrument_levels(member.kit.instrument, stage.first_node)
         if member.seat_m is not None:
             height_m = float(member.seat_m[1])
-    return Shapes(characters, instruments, stool(stage.seat_bone, height_m))
+    return Shapes(characters, instruments, stool(stage.seat_bone, height_m), stand(stage.stand_bone))
 
 
 def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
     """The coarsest shapes of everyone, end to end."""
     parts: list[tuple[int, Geometry]] = []
     for row, member in enumerate(stage.members):
-        parts.append((row, shapes.characters[member.kit.character.id][-1]))
+        if member.has_body:
+            parts.append((row, shapes.characters[member.kit.character.id][-1]))
         if member.kit.held is not None:
             parts.append((row, shapes.instruments[member.kit.map.id][-1]))
         if member.seat_m is not None:
             parts.append((row, shapes.stool))
+        if member.stand_m is not None:
+            parts.append((row, shapes.stand))
     return crowd(parts)
 
 
 def _looks_same(one: Stage, other: Stage) -> bool:
     return len(one.members) == len(other.members) and all(
-        own.kit is its.kit and (own.seat_m is None) == (its.seat_m is None)
+        own.kit is its.kit and _parts_of(own) == _parts_of(its)
         for own, its in zip(one.members, other.members, strict=True)
     )
+
+
+def _parts_of(member: Member) -> tuple[bool, bool, bool]:
+    return member.has_body, member.seat_m is not None, member.stand_m is not None
 
 
 def _sides(geometry: Geometry | Crowd) -> tuple[tuple[bool, Any], ...]:
@@ -197,7 +207,7 @@ class Renderer:
             return
         alive = {
             id(level) for levels in (*shapes.characters.values(), *shapes.instruments.values()) for level in levels
-        } | {id(shapes.stool)}
+        } | {id(shapes.stool), id(shapes.stand)}
         self._solids = {key: solid for key, solid in self._solids.items() if key in alive}
         self._morphed.clear()
         count = len(stage.members)
@@ -336,7 +346,9 @@ class Renderer:
         self._bones.set_data(rows)
         capsules = limbs.capsules()
         self._limb_rows[:, :-1] = capsules.reshape(count, -1, 4)
-        middle = capsules[:, 0, 0, :3]
+        # Of who has no body of their own there is the instrument alone.
+        first = [0 if member.has_body else HELD for member in stage.members]
+        middle = capsules[np.arange(count), first, 0, :3]
         self._limb_rows[:, -1, :3] = middle
         self._limb_rows[:, -1, 3] = np.where(stage.shown, SHADOW_RADIUS_M, 0.0)
         self._limb_texture.set_data(self._limb_rows)
@@ -370,7 +382,8 @@ class Renderer:
             return
         program = self._figures
         program["u_shaded"] = 1.0
-        for row in sorted(near, key=lambda row: (stage.members[row].kit.character.id, level[row])):
+        bodies = [row for row in near if stage.members[row].has_body]
+        for row in sorted(bodies, key=lambda row: (stage.members[row].kit.character.id, level[row])):
             solid = self._solid(shapes.characters[stage.members[row].kit.character.id][level[row]])
             program.bind(self._shape(stage, row, int(level[row]), solid))
             program.bind(solid.surface)
@@ -385,6 +398,9 @@ class Renderer:
         for row in near:
             if stage.members[row].seat_m is not None:
                 bound = self._draw_shared(self._solid(shapes.stool), bound, row, mode)
+        for row in near:
+            if stage.members[row].stand_m is not None:
+                bound = self._draw_shared(self._solid(shapes.stand), bound, row, mode)
 
     def _draw_shared(self, solid: _Solid, bound: _Solid | None, row: int, mode: str) -> _Solid:
         if solid is not bound:

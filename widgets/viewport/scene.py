@@ -185,13 +185,14 @@ class Scene(QObject):
         stage = self.stage
         if stage is None:
             return {}
-        selected = {player.id: player for player in self._session.project.performers if self._is_selected(player)}
+        selected = {player.id: player for player in self._session.project.seen if self._is_selected(player)}
         rows = {own: stage.index(own) for own in selected}
         return {row: rgb(self._session.colour(selected[own])) for own, row in rows.items() if row is not None}
 
     def _is_selected(self, performer: Player | Dancer) -> bool:
         if isinstance(performer, Player):
-            return performer.id in self._session.players
+            played = self._session.project.played_by(performer)
+            return any(player.id in self._session.players for player in played)
         dancer = self._session.dancer
         return dancer is not None and performer.id == dancer.id
 
@@ -210,7 +211,8 @@ class Scene(QObject):
         project = session.project
         players = {performer.id: performer for performer in project.performers}
         rows, visible = self.rows(), self.visible(selected=False)
-        known = [(row, players[own]) for row in visible if (own := stage.members[row].player_id) in players]
+        bodies = [row for row in visible if stage.members[row].has_body]
+        known = [(row, players[own]) for row in bodies if (own := stage.members[row].player_id) in players]
         names, skeletons = [], []
         if state.shows("names"):
             places_m = over_heads_m(stage, [row for row, _ in known], camera.up)

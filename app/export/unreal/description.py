@@ -23,9 +23,9 @@ from app.project.model import Dancer, Player
 from app.score.model import Score
 from app.score.tempo import TempoMap
 
-SCHEMA: Final = 2
-"""Rises when a script that knows the schema before would misread the file: one that knows 1 would take dancers for
-figures that are not needed any more."""
+SCHEMA: Final = 3
+"""Rises when a script that knows the schema before would misread the file: one that knows 1 would take dancers, one
+that knows 2 the instruments that a player changes to for figures that are not needed any more."""
 
 
 class Rate(msgspec.Struct, frozen=True):
@@ -56,8 +56,17 @@ class Figure(msgspec.Struct, frozen=True):
     bones: tuple[str, ...]
 
 
+class Double(msgspec.Struct, frozen=True):
+    """Another instrument that a player changes to; while it is not played it lies beside the player."""
+
+    name: str
+    part: str
+    instrument_id: str
+    instrument: Figure
+
+
 class Cast(msgspec.Struct, frozen=True):
-    """A player and the instrument."""
+    """A player and the instruments."""
 
     name: str
     part: str
@@ -67,6 +76,7 @@ class Cast(msgspec.Struct, frozen=True):
     place: Place
     character: Figure
     instrument: Figure
+    doubles: tuple[Double, ...]
 
 
 class CastDancer(msgspec.Struct, frozen=True):
@@ -218,7 +228,12 @@ def describe(
             place=place_of(player.stage),
             character=figure(layout.characters[player.id]),
             instrument=figure(layout.instruments[player.id]),
+            doubles=tuple(double(project.player(id)) for id in layout.doubles.get(player.id, ()) if id not in left_out),
         )
+
+    def double(player: Player) -> Double:
+        place = layout.instruments[player.id]
+        return Double(player.name, project.part(player).name, player.instrument_id, figure(place))
 
     def cast_dancer(dancer: Dancer, choreography: str) -> CastDancer:
         return CastDancer(
@@ -255,7 +270,7 @@ def describe(
         ),
         bars=_bars(score, bars, time),
         markers=_markers(score, bars, time),
-        cues=_cues(performance, players, time),
+        cues=_cues(performance, tuple(one for player in players for one in project.played_by(player)), time),
         files=dict(files),
         left_out=tuple(
             LeftOutFigures(one.name, left_out[one.id], _assets(layout.figures(one.id)))

@@ -52,6 +52,8 @@ class Layout:
         Relative to the piece's sources.
     sound, sequence : str
         Paths of the assets.
+    doubles : mapping of str to tuple of str
+        Ids of the players whose instruments somebody plays besides, by the id of the person.
     """
 
     piece: str
@@ -60,6 +62,7 @@ class Layout:
     sound_file: PurePosixPath
     sound: str
     sequence: str
+    doubles: dict[str, tuple[str, ...]]
 
     @property
     def sources(self) -> PurePosixPath:
@@ -71,15 +74,19 @@ class Layout:
         """The folder of the piece's assets."""
         return f"{CONTENT}/{self.piece}"
 
-    def files(self, performer_ids: tuple[str, ...]) -> tuple[PurePosixPath, ...]:
-        """Everything that an export of some players and dancers writes, relative to the piece's sources, in order."""
+    def files(self, performer_ids: tuple[str, ...], left_out: tuple[str, ...] = ()) -> tuple[PurePosixPath, ...]:
+        """Everything that an export of some players and dancers writes, relative to the piece's sources, in order;
+        without the instruments of those left out."""
         own = (PurePosixPath(name) for name in (DESCRIPTION, REPORT, MANIFEST))
-        figures = (place.file for performer_id in performer_ids for place in self.figures(performer_id))
+        without = {self.instruments[one].file for one in left_out if one in self.instruments}
+        places = (place.file for performer_id in performer_ids for place in self.figures(performer_id))
+        figures = (file for file in places if file not in without)
         return tuple(sorted([*figures, self.sound_file, *own]))
 
     def figures(self, performer_id: str) -> tuple[FigurePlace, ...]:
-        """The character of a player or dancer and, of a player, the instrument."""
-        return tuple(places[performer_id] for places in (self.characters, self.instruments) if performer_id in places)
+        """The character of a player or dancer and, of a player, the instruments."""
+        own = (places[performer_id] for places in (self.characters, self.instruments) if performer_id in places)
+        return (*own, *(self.instruments[double] for double in self.doubles.get(performer_id, ())))
 
 
 def piece_name(source: str, folder: Path) -> str:
@@ -103,10 +110,12 @@ def layout_of(project: Project, piece: str) -> Layout:
     players, dancers = project.players, project.dancers
     count = len(players)
     own = unique(asset_name(player.name, "Player") for player in players)
-    held = [f"{name}_{asset_name(player.instrument_id, 'held')}" for name, player in zip(own, players, strict=True)]
+    named = dict(zip((player.id for player in players), own, strict=True))
+    held = [f"{named[project.person(player).id]}_{asset_name(player.instrument_id, 'held')}" for player in players]
     # Dancers come last: whoever joins the players renames nothing of theirs.
     names = unique([*own, *held, *(asset_name(dancer.name, "Dancer") for dancer in dancers)])
     content = f"{CONTENT}/{piece}"
+    doubling = {player.id for player in players} - {person.id for person in project.bodies}
 
     def places(kind: str, performers: Sequence[Player | Dancer], names: tuple[str, ...]) -> dict[str, FigurePlace]:
         return {
@@ -119,9 +128,18 @@ def layout_of(project: Project, piece: str) -> Layout:
 
     return Layout(
         piece=piece,
-        characters=places("Characters", [*players, *dancers], names[:count] + names[2 * count :]),
+        characters={
+            id: place
+            for id, place in places("Characters", [*players, *dancers], names[:count] + names[2 * count :]).items()
+            if id not in doubling
+        },
         instruments=places("Instruments", players, names[count : 2 * count]),
         sound_file=PurePosixPath("Audio", f"S_{piece}.wav"),
         sound=f"{content}/Audio/S_{piece}",
         sequence=f"{content}/LS_{piece}",
+        doubles={
+            person.id: tuple(player.id for player in played[1:])
+            for person in project.bodies
+            if len(played := project.played_by(person)) > 1
+        },
     )

@@ -121,7 +121,7 @@ def plan_export(
     layout = layout_of(performance.project, piece_name(source, project.folder))
     plugin = wanted_plugin(project.folder)
     try:
-        done = [(layout.sources, layout.files(performer_ids))]
+        done = [(layout.sources, layout.files(performer_ids, left_out))]
         if plugin:
             done.append((PurePosixPath(PLUGIN), (*plugin, PurePosixPath(MANIFEST))))
         stays = frozenset(place.file for one in left_out for place in layout.figures(one))
@@ -254,7 +254,14 @@ def _figures(
         return names
 
     players = tuple(
-        msgspec.structs.replace(written, files=placed(player_id, written.files))
+        msgspec.structs.replace(
+            written,
+            files=placed(player_id, written.files),
+            doubles=tuple(
+                msgspec.structs.replace(double, files=placed(performer.player.id, double.files))
+                for performer, double in zip(cast.doubles.get(player_id, ()), written.doubles, strict=True)
+            ),
+        )
         for player_id, written in zip(cast.player_ids, report.players, strict=True)
     )
     dancers = tuple(
@@ -326,12 +333,13 @@ def _figures_written(
 ) -> Iterator[tuple[str, FigurePlace, tuple[str, ...], tuple[Mesh, ...]]]:
     """Every character and instrument: the performer's name, the place, the bones and the meshes that the file holds."""
     for performer in cast.performers:
-        player, model = performer.player, performer.model
+        player = performer.player
         target = cast.targets[player.id].target
         meshes = written_meshes(performer.character, target)
         yield player.name, layout.characters[player.id], tuple(target.names), meshes
-        parts = tuple(bone.name for bone in instrument_bones(performer.instrument, model))
-        yield player.name, layout.instruments[player.id], parts, model.meshes
+        for one in (performer, *cast.doubles.get(player.id, ())):
+            parts = tuple(bone.name for bone in instrument_bones(one.instrument, one.model))
+            yield player.name, layout.instruments[one.player.id], parts, one.model.meshes
     for (dancer, _), dancing in zip(_dancers(request, cast), cast.dances, strict=True):
         target = cast.targets[dancer.id].target
         meshes = written_meshes(dancing.character, target)

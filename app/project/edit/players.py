@@ -4,6 +4,7 @@ Messages
 --------
 player.no_name(): a name must have at least one sign that can be seen.
 player.too_many(most): a project has no room for more players.
+doubling.posture, doubling.together: see `app.project.doubling`.
 """
 
 from __future__ import annotations
@@ -27,7 +28,8 @@ from app.project.casting import (
     stage_seats,
     usual_posture,
 )
-from app.project.footprint import footprint
+from app.project.doubling import TOGETHER_S, together_s, without_persons
+from app.project.footprint import footprint, together
 from app.project.ids import MADE_PART, fresh_note_ids, fresh_part_ids, fresh_player_ids
 from app.project.model import Player, Project, characters_for
 from app.project.names import clean_name
@@ -39,7 +41,7 @@ from instrument_maps.model import InstrumentMap, Posture
 
 def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap | None = None) -> PlayerParameters:
     """The parameters a player has before anybody changes them; with an instrument, in a posture it is played in."""
-    usual = usual_posture(len(project.players))
+    usual = usual_posture(len(project.bodies))
     return PlayerParameters(
         amplitude=amplitude(project.seed, player_id),
         seed=player_seed(project.seed, player_id),
@@ -68,14 +70,38 @@ def posture_of(player: Player) -> Posture:
 
 
 def change(project: Project, player_ids: Collection[str], **fields: object) -> Project:
-    """Set fields of `Player` (``instrument_id``, ``muted`` ...) for several players; see `rename` for names."""
-    return _with_players(
+    """Set fields of `Player` (``instrument_id``, ``muted`` ...) for several players; see `rename` for names.
+
+    A character is that of the whole person.
+
+    Raises
+    ------
+    AppError
+        ``doubling.posture``: one person would play instruments that no posture fits.
+    """
+    if "character_id" in fields:
+        player_ids = {*player_ids, *persons_of(project, player_ids)}
+    result = _with_players(
         project,
         (
             msgspec.structs.replace(player, **fields) if player.id in player_ids else player
             for player in project.players
         ),
     )
+    return _in_one_posture(result, player_ids) if "instrument_id" in fields else result
+
+
+def _in_one_posture(project: Project, player_ids: Collection[str]) -> Project:
+    """The persons of some players in a posture in which they can play everything they do."""
+    for person_id in sorted(persons_of(project, player_ids)):
+        first, *others = project.played_by(project.player(person_id))
+        for other in others:
+            if not set(postures_of(first)) & set(postures_of(other)):
+                raise AppError("doubling.posture", player=other.name, other=first.name)
+        possible = postures_of_person(project, first)
+        if others and first.parameters.posture not in possible:
+            project = set_parameters(project, (person_id,), posture=possible[0])
+    return project
 
 
 def rename(project: Project, player_id: str, name: str) -> Project:
@@ -87,7 +113,9 @@ def rename(project: Project, player_id: str, name: str) -> Project:
 
 
 def set_parameters(project: Project, player_ids: Collection[str], **values: Value) -> Project:
-    """Set parameters for several players; numbers are held within their bounds."""
+    """Set parameters for several players, and with them for the whole persons; numbers are held within their
+    bounds."""
+    player_ids = persons_of(project, player_ids)
     held = {name: PARAMETERS[name].held(value) for name, value in values.items()}
     return _with_players(
         project,
@@ -101,11 +129,15 @@ def set_parameters(project: Project, player_ids: Collection[str], **values: Valu
 
 
 def reset_parameters(project: Project, player_ids: Collection[str], names: Collection[str] | None = None) -> Project:
-    """Return parameters to what each player was cast with; all of them where no names are given."""
+    """Return parameters to what each person was cast with; all of them where no names are given."""
+    player_ids = persons_of(project, player_ids)
     result = []
     for player in project.players:
         if player.id in player_ids:
             cast = cast_parameters(project, player.id, instrument_of(player))
+            possible = postures_of_person(project, player)
+            if cast.posture not in possible:
+                cast = msgspec.structs.replace(cast, posture=possible[0])
             wanted = cast.__struct_fields__ if names is None else names
             values = {name: getattr(cast, name) for name in wanted}
             player = msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, **values))
@@ -121,7 +153,8 @@ def randomise(project: Project, player_ids: Collection[str], spread: float) -> P
     spread : float
         0: everyone the same; 1: as far apart as is sensible.
     """
-    chosen = [player for player in project.players if player.id in player_ids]
+    player_ids = persons_of(project, player_ids)
+    chosen = [player for player in project.bodies if player.id in player_ids]
     if not chosen:
         return project
     # The seeds of before are the dice of now: the same ensemble gives the same result, pressed again another.
@@ -148,7 +181,8 @@ def parameter_edit(parameter: str, count: int) -> Message:
 
 
 def place(project: Project, places: Mapping[str, StagePosition]) -> Project:
-    """Put players somewhere on the stage."""
+    """Put players somewhere on the stage, and with them the whole persons."""
+    places = {project.person(player).id: places[player.id] for player in project.players if player.id in places}
     return _with_players(
         project,
         (
@@ -162,7 +196,9 @@ def place(project: Project, places: Mapping[str, StagePosition]) -> Project:
 
 def arc_of(project: Project) -> tuple[StagePosition, ...]:
     """The places of the usual seating, in the order of the players."""
-    return stage_seats([footprint(instrument_of(player)) for player in project.players])
+    rooms = [together(footprint(instrument_of(one)) for one in project.played_by(person)) for person in project.bodies]
+    seats = dict(zip((person.id for person in project.bodies), stage_seats(rooms), strict=True))
+    return tuple(seats[project.person(player).id] for player in project.players)
 
 
 def arrange(project: Project) -> Project:
@@ -209,6 +245,7 @@ def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Proj
     new_ids = fresh_player_ids(project, len(originals))
     part_ids = fresh_part_ids(project, len(originals))
     note_ids = iter(fresh_note_ids(project, sum(len(project.part(player).notes) for player in originals)))
+    ids = dict(zip((player.id for player in originals), new_ids, strict=True))
     names = project.performer_names()
     copies: dict[str, Player] = {}
     parts: list[Part] = []
@@ -218,7 +255,14 @@ def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Proj
         names.append(name)
         parameters = msgspec.structs.replace(player.parameters, seed=player_seed(project.seed, new_id), cue_leader=None)
         copies[player.id] = msgspec.structs.replace(
-            player, id=new_id, name=name, part_id=part_id, colour="", soloed=False, parameters=parameters
+            player,
+            id=new_id,
+            name=name,
+            part_id=part_id,
+            colour="",
+            soloed=False,
+            parameters=parameters,
+            doubles=ids.get(player.doubles, ""),
         )
         part = project.part(player)
         notes = tuple(msgspec.structs.replace(note, id=next(note_ids)) for note in part.notes)
@@ -263,8 +307,11 @@ def assign(
     return replace(result, score=msgspec.structs.replace(result.score, parts=parts))
 
 
-def newcomer(project: Project, player_id: str, part: Part, name: str, playing: Sequence[InstrumentMap]) -> Player:
-    """A player for a part, cast as a new piece's are; ``playing`` are the maps of everyone, the player's own last."""
+def newcomer(
+    project: Project, player_id: str, part: Part, name: str, playing: Sequence[InstrumentMap], doubles: str = ""
+) -> Player:
+    """A player for a part, cast as a new piece's are; ``playing`` are the maps of everyone, the player's own last,
+    ``doubles`` whose body it has."""
     return Player(
         id=player_id,
         name=name,
@@ -273,14 +320,16 @@ def newcomer(project: Project, player_id: str, part: Part, name: str, playing: S
         character_id=characters_for(playing)[-1],
         parameters=cast_parameters(project, player_id, playing[-1]),
         stage=StagePosition(0.0, 0.0, 0.0),
+        doubles=doubles,
     )
 
 
 def remove_players(project: Project, player_ids: Collection[str]) -> Project:
     """Send players away, with their corrections. A file's part that nobody plays any more stays in the score, so that
-    somebody else may be given it; one that is empty or was made here goes too."""
+    somebody else may be given it; one that is empty or was made here goes too. The next instrument of a person whose
+    first one is gone is the person's first."""
     on_arc = _on_arc(project)
-    kept = tuple(player for player in project.players if player.id not in player_ids)
+    kept = without_persons(player for player in project.players if player.id not in player_ids)
     played = {player.part_id for player in kept}
     left = {player.part_id for player in project.players if player.id in player_ids} - played
     parts = tuple(
@@ -314,6 +363,72 @@ def _with_players(project: Project, players: Iterable[Player]) -> Project:
     return project if new == project.players else replace(project, players=new)
 
 
+def persons_of(project: Project, player_ids: Collection[str]) -> frozenset[str]:
+    """The persons who play for these players, by id."""
+    return frozenset(project.person(player).id for player in project.players if player.id in player_ids)
+
+
+def postures_of_person(project: Project, player: Player) -> tuple[Posture, ...]:
+    """In what everything is played that a player's person plays; where nothing fits all, what fits the first."""
+    played = [postures_of(one) for one in project.played_by(player)]
+    return tuple(one for one in played[0] if all(one in postures for postures in played)) or played[0]
+
+
+def join(project: Project, player_id: str, person_id: str) -> Project:
+    """Let the body of another player play this instrument too, and what this one's own body plays besides.
+
+    Raises
+    ------
+    AppError
+        ``doubling.posture``, ``doubling.together`` (see `app.project.doubling`).
+    """
+    joining, person = project.player(player_id), project.person(project.player(person_id))
+    coming = project.played_by(joining) if project.person(joining) is joining else (joining,)
+    if project.person(joining) is person:
+        return project
+    for other in project.played_by(person):
+        for player in coming:
+            if not set(postures_of(other)) & set(postures_of(player)):
+                raise AppError("doubling.posture", player=player.name, other=other.name)
+            clock = project.score.tempo_map
+            seconds = together_s([project.part(other).notes], project.part(player).notes, clock)
+            if seconds > TOGETHER_S:
+                raise AppError("doubling.together", player=player.name, other=other.name, seconds=round(seconds, 1))
+    on_arc, ids = _on_arc(project), {player.id for player in coming}
+    result = _with_players(
+        project,
+        (
+            msgspec.structs.replace(player, doubles=person.id) if player.id in ids else player
+            for player in project.players
+        ),
+    )
+    possible = postures_of_person(result, result.player(person.id))
+    if person.parameters.posture not in possible:
+        result = set_parameters(result, (person.id,), posture=possible[0])
+    return arrange(result) if on_arc else result
+
+
+def separate(project: Project, player_ids: Collection[str]) -> Project:
+    """Give players who double a body and a place of their own; the character stays."""
+    apart = [player for player in project.players if player.id in player_ids and player.doubles]
+    on_arc, order = _on_arc(project), [player.id for player in project.players]
+    alone = tuple(
+        msgspec.structs.replace(
+            player,
+            doubles="",
+            parameters=msgspec.structs.replace(player.parameters, seed=player_seed(project.seed, player.id)),
+        )
+        for player in apart
+    )
+    if not alone:
+        return project
+    gone = {player.id for player in alone}
+    left = replace(project, players=tuple(player for player in project.players if player.id not in gone))
+    there = with_newcomers(left, alone)
+    result = _with_players(there, [there.player(id) for id in order])
+    return arrange(result) if on_arc else result
+
+
 def with_newcomers(project: Project, newcomers: tuple[Player, ...]) -> Project:
     """The project with more players, of parts it has: on the arc if the others are, else each to the right of them and
     of dancers beside them."""
@@ -326,8 +441,10 @@ def with_newcomers(project: Project, newcomers: tuple[Player, ...]) -> Project:
     right_m = max((stage.x_m for stage in there), default=-SPACING_M)
     placed = [
         msgspec.structs.replace(player, stage=StagePosition(round(right_m + number * SPACING_M, 3), middle_m, 0.0))
-        for number, player in enumerate(newcomers, 1)
+        for number, player in enumerate(sorted(newcomers, key=lambda player: bool(player.doubles)), 1)
     ]
+    by_id = {player.id: player for player in placed}
+    placed = [by_id[player.id] for player in newcomers]
     result = replace(project, players=(*project.players, *placed))
     return arrange(result) if on_arc else result
 

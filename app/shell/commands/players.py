@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.errors import Message
 from app.project.edit import players as edit
-from app.project.model import Player
+from app.project.model import Player, Project
 from app.shell.action import QT_TRANSLATE_NOOP, Action
 from app.shell.editor import editor_of
 from instrument_maps.library import all_maps
@@ -37,6 +37,26 @@ def remove(session: Session) -> None:
     """Send the selected players away."""
     chosen = session.players
     session.attempt(_count("edit.remove_players", len(chosen)), lambda project: edit.remove_players(project, chosen))
+
+
+def join(session: Session) -> None:
+    """Let one person play what the selected players play, in turn: the first of them in the list."""
+    chosen = [player for player in session.project.players if player.id in session.players]
+    first, *others = chosen
+
+    def joined(project: Project) -> Project:
+        for player in others:
+            project = edit.join(project, player.id, first.id)
+        return project
+
+    session.attempt(_count("edit.join_players", len(chosen)), joined)
+
+
+def separate(session: Session) -> None:
+    """Give those of the selected who double somebody a body of their own."""
+    chosen = session.players
+    count = sum(bool(player.doubles) for player in _chosen(session))
+    session.attempt(_count("edit.separate_players", count), lambda project: edit.separate(project, chosen))
 
 
 def rename(session: Session) -> None:
@@ -88,7 +108,8 @@ def _step(session: Session, by: int) -> None:
 
 def toggle_posture(session: Session) -> None:
     """Let the selected players sit down, those whose instruments are played so; stand up where all of them sit."""
-    free = [player for player in _chosen(session) if len(edit.postures_of(player)) > 1]
+    project = session.project
+    free = [player for player in _chosen(session) if len(edit.postures_of_person(project, player)) > 1]
     chosen = tuple(player.id for player in free)
     seated = all(player.parameters.posture == "seated" for player in free)
     session.attempt(
@@ -131,7 +152,15 @@ def _has_players(session: Session) -> bool:
 
 
 def _may_sit_or_stand(session: Session) -> bool:
-    return any(len(edit.postures_of(player)) > 1 for player in _chosen(session))
+    return any(len(edit.postures_of_person(session.project, player)) > 1 for player in _chosen(session))
+
+
+def _are_several(session: Session) -> bool:
+    return len({session.project.person(player).id for player in _chosen(session)}) > 1
+
+
+def _double(session: Session) -> bool:
+    return any(player.doubles for player in _chosen(session))
 
 
 def _has_several(session: Session) -> bool:
@@ -171,6 +200,20 @@ ACTIONS: tuple[Action, ...] = (
         "players",
         enabled=_has_players,
         icon="duplicate",
+    ),
+    Action(
+        "players.join",
+        QT_TRANSLATE_NOOP("Action", "One person plays these in turn"),
+        join,
+        "Edit/Players",
+        enabled=_are_several,
+    ),
+    Action(
+        "players.separate",
+        QT_TRANSLATE_NOOP("Action", "Separate into players of their own"),
+        separate,
+        "Edit/Players",
+        enabled=_double,
     ),
     Action(
         "players.remove",

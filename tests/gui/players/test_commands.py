@@ -7,6 +7,7 @@ from dataclasses import replace
 from app.project.casting import StagePosition, stage_arc
 from app.project.edit.players import place
 from app.shell.commands import players as commands
+from tests.support.doubled import flutist
 from widgets.common.session import Session
 
 ROWS = {row.id: row for row in commands.ACTIONS}
@@ -77,3 +78,29 @@ def test_posture_dice_arc_and_reset(session: Session) -> None:
     session.document.open(place(session.project, {ids(session)[0]: StagePosition(4.0, 0.0, 0.0)}))
     ROWS["players.arrange"].run(session)
     assert tuple(player.stage for player in session.project.players) == stage_arc(4)
+
+
+def test_one_person_plays_several_and_is_taken_apart_again(session: Session) -> None:
+    session.document.open(flutist())
+    before = session.project
+    flute, piccolo, oboe = ids(session)
+    session.set_players((piccolo,))
+    enabled = ROWS["players.separate"].enabled
+    assert enabled is not None
+    assert enabled(session)
+    ROWS["players.separate"].run(session)
+    assert len(session.project.bodies) == 3
+    assert not enabled(session)
+    session.set_players((piccolo, flute))
+    ROWS["players.join"].run(session)
+    assert session.project.players == before.players
+    joins = ROWS["players.join"].enabled
+    assert joins is not None
+    assert not joins(session)
+    session.document.undo()
+    session.document.undo()
+    assert session.project is before
+    # An oboe sounds all the time: refused with a message, and nothing has changed.
+    session.set_players((flute, oboe))
+    ROWS["players.join"].run(session)
+    assert session.project is before

@@ -187,10 +187,12 @@ class ActingLane(RegionLane):
         """The cues that other players give."""
         performance, project = self.session.performance, self.session.project
         known = {player.id: player.name for player in project.players}
+        own = next((player for player in project.players if player.id == plan.player_id), None)
+        mine = set() if own is None else {one.id for one in project.played_by(own)}
         return [
             in_guest(cue_region(event, known[other.player_id], "← {name}"))
             for other in performance.plans.values()
-            if other.player_id != plan.player_id and other.player_id in known
+            if other.player_id not in mine and other.player_id in known
             for event in other.cues
         ]
 

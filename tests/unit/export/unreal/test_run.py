@@ -79,7 +79,7 @@ def test_what_is_there_and_what_it_says(unreal: UnrealProject, export: Export) -
     assert {path.as_posix() for path in written.plan.written} == set(tree) - THEIRS
     told = description(unreal)
     assert (told["schema"], told["frames"], told["rate"]) == (
-        2,
+        3,
         request.span.count,
         {"numerator": 12, "denominator": 1},
     )

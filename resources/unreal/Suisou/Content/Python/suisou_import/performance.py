@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from suisou_import.problem import problem
 
-SCHEMA = 2
+SCHEMA = 3
 DESCRIPTION = "performance.json"
 ROOT = "/Game/Suisou/"
 _ASSET = re.compile(r"/Game/Suisou(/[A-Za-z0-9_]+)+")
@@ -146,6 +146,11 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
         for name, content_of in (
             (str(player["name"]), player["character"]),
             ("{} ({})".format(player["name"], player["instrument_id"]), player["instrument"]),
+            # Of an export of an earlier Suisou there are none.
+            *(
+                ("{} ({})".format(player["name"], double["instrument_id"]), double["instrument"])
+                for double in player.get("doubles", ())
+            ),
         )
     ]
     # Of an export of an earlier Suisou there are none.

@@ -1,0 +1,201 @@
+"""One body that plays several instruments in turn: what each asks of it, one after the other.
+
+Of every instrument the whole motion is made as if the body had no other; at a change the instrument is lowered, put
+aside and left there. While nothing is in the hands the body goes over from one motion to the other, so nothing that is
+held or blown is ever blended.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from fractions import Fraction
+
+import numpy as np
+import numpy.typing as npt
+
+from app.motion.aside import Aside
+from app.motion.curve import EVERYWHERE, Curve, FloatArray, frame_times, moves
+from app.motion.model import Motion
+from app.motion.perform import Playing
+from app.motion.posture import solve_legs
+from app.plan.doubling import Change
+from app.rig import quaternion
+
+LOWERS = 0.85
+"""Share of the way aside in which the instrument leaves the lips, and of the way back in which it comes to them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Doubling(Playing):
+    """One of the instruments of a person who plays several.
+
+    Attributes
+    ----------
+    played : tuple of Playing
+        All of the person's, each with its ways aside and back.
+    shares : tuple of Curve
+        How much the body does what each of them asks: together 1.
+    number : int
+        Which of them this is.
+    """
+
+    played: tuple[Playing, ...] = ()
+    shares: tuple[Curve, ...] = ()
+    number: int = 0
+
+    def motion(self, fps: Fraction, first_frame: int, frames: int) -> Motion:
+        """Make some frames: the body as it plays whatever it does, and this instrument in the hands or aside."""
+        times_s = frame_times(self.start_s, fps, first_frame, frames)
+        shares = np.array([curve.sample(times_s) for curve in self.shares])
+        made = {
+            number: one.motion(fps, first_frame, frames)
+            for number, one in enumerate(self.played)
+            if number == self.number or np.any(shares[number] > 0.0)
+        }
+        own = made[self.number]
+        names = list(dict.fromkeys(name for motion in made.values() for name in motion.morphs))
+        nothing = np.zeros(frames, np.float32)
+        leading = np.argmax(shares, axis=0)
+        rotations, hips_m = np.empty_like(own.rotations), np.empty_like(own.hips_m)
+        morphs = {name: np.zeros(frames, np.float32) for name in names}
+        for number in np.unique(leading).tolist():
+            here = leading == number
+            rotations[here], hips_m[here] = made[number].rotations[here], made[number].hips_m[here]
+            for name in names:
+                morphs[name][here] = made[number].morphs.get(name, nothing)[here]
+        between = np.flatnonzero(np.max(shares, axis=0) < 1.0)
+        if len(between):
+            self._blend(shares[:, between], between, made, rotations, hips_m, morphs)
+        return replace(own, rotations=rotations, hips_m=hips_m, morphs=morphs)
+
+    def _blend(
+        self,
+        shares: FloatArray,
+        frames: npt.NDArray[np.intp],
+        made: Mapping[int, Motion],
+        rotations: npt.NDArray[np.float32],
+        hips_m: npt.NDArray[np.float32],
+        morphs: Mapping[str, npt.NDArray[np.float32]],
+    ) -> None:
+        """Fill in the frames in which the body goes over from one to another."""
+        order = np.argsort(shares, axis=0)
+        # Always from the lower number to the higher one, so that the way does not turn round half way.
+        pairs = np.sort(order[-2:], axis=0)
+        for one, other in {tuple(pair) for pair in pairs.T.tolist()}:
+            some = np.flatnonzero((pairs[0] == one) & (pairs[1] == other))
+            here, share = frames[some], shares[other, some]
+            a, b = made[one], made[other]
+            turned = quaternion.slerp(
+                a.rotations[here].astype(np.float64), b.rotations[here].astype(np.float64), share[:, None]
+            )
+            at_m = a.hips_m[here] + (b.hips_m[here] - a.hips_m[here]).astype(np.float64) * share[:, None]
+            player = self.player
+            hips = turned[:, player.skeleton.index("hips")]
+            for joint, leg in solve_legs(player.place, player.skeleton, at_m, hips).items():
+                turned[:, joint] = leg
+            rotations[here], hips_m[here] = turned, at_m
+            for name, values in morphs.items():
+                first, second = (
+                    motion.morphs[name][here] if name in motion.morphs else np.zeros(len(here)) for motion in (a, b)
+                )
+                values[here] = first + (second - first) * share
+
+    def changed_s(self, other: Playing) -> FloatArray:
+        """As of `Playing`, by all that the person plays."""
+        if not isinstance(other, Doubling):
+            return EVERYWHERE
+        if len(self.played) != len(other.played) or self.number != other.number:
+            return EVERYWHERE
+        spans = [mine.changed_s(theirs) for mine, theirs in zip(self.played, other.played, strict=True)]
+        spans += [mine.changed_s(theirs) for mine, theirs in zip(self.shares, other.shares, strict=True)]
+        return np.concatenate(spans)
+
+
+def doubled(played: Sequence[Playing], first: str, found: Sequence[Change]) -> tuple[Doubling, ...]:
+    """What each instrument of a person does beside the others.
+
+    Parameters
+    ----------
+    played : sequence of Playing
+        Of one body; each as if it had no other.
+    first : str
+        Id of the player whose instrument is in the hands at first.
+    found : sequence of Change
+        In order.
+    """
+    ready = tuple(_with_ways(one, number, first, found) for number, one in enumerate(played))
+    shares = tuple(_share(one.player_id, first, found) for one in played)
+    return tuple(_doubling(one, ready, shares, number) for number, one in enumerate(ready))
+
+
+def _doubling(own: Playing, played: tuple[Playing, ...], shares: tuple[Curve, ...], number: int) -> Doubling:
+    members = {member.name: getattr(own, member.name) for member in fields(Playing)}
+    return Doubling(**members, played=played, shares=shares, number=number)
+
+
+def _with_ways(playing: Playing, number: int, first: str, found: Sequence[Change]) -> Playing:
+    """A player's motion with the instrument put aside while another is played."""
+    ways = []
+    for change in found:
+        if change.before == playing.player_id:
+            ways.append((change.start_s, change.put_s, 1.0))
+        elif change.after == playing.player_id:
+            ways.append((change.taken_s, change.end_s, 0.0))
+    begins = 0.0 if playing.player_id == first else 1.0
+    lowered = _lowered(playing, ways, begins)
+    side = playing.instrument_map.hold.support_hand
+    return replace(
+        playing,
+        player=replace(playing.player, aside=Aside(side, number)),
+        layers=replace(playing.layers, lowered=lowered),
+        stowed=moves(ways, begins),
+    )
+
+
+def _lowered(playing: Playing, ways: Sequence[tuple[float, float, float]], begins: float) -> Curve:
+    """How far the instrument is lowered: as planned, and wholly while it is aside."""
+    bell = playing.body.bell
+    spans: list[tuple[float, float, float]] = []
+    away_s = float("-inf") if begins else None
+    for start_s, end_s, aside in ways:
+        if aside:
+            away_s = start_s
+        elif away_s is not None:
+            spans.append((away_s, end_s, end_s - start_s))
+            away_s = None
+    if away_s is not None:
+        spans.append((away_s, float("inf"), 0.0))
+    quick = {start_s: end_s - start_s for start_s, end_s, aside in ways if aside}
+    rows = [(start_s, end_s, quick.get(start_s, bell.lower_s), back_s, 1.0) for start_s, end_s, back_s in spans]
+    rows += [
+        (event.start_s, event.end_s, bell.lower_s / LOWERS, bell.raise_s / LOWERS, event.amount)
+        for event in playing.plan.gestures
+        if event.kind == "lower_instrument" and event.end_s > event.start_s
+    ]
+    united: list[tuple[float, float, float, float, float]] = []
+    for row in sorted(rows):
+        if united and row[0] < united[-1][1]:
+            before = united[-1]
+            last = before if before[1] >= row[1] else row
+            united[-1] = (before[0], last[1], before[2], last[3], max(before[4], row[4]))
+        else:
+            united.append(row)
+    segments: list[tuple[float, float, float]] = []
+    for start_s, end_s, down_s, up_s, amount in united:
+        share = min(LOWERS, (end_s - start_s) / (down_s + up_s))
+        if start_s > float("-inf"):
+            segments.append((start_s, start_s + share * down_s, amount))
+        if end_s < float("inf"):
+            segments.append((end_s - share * up_s, end_s, 0.0))
+    return moves(segments, 1.0 if united and united[0][0] == float("-inf") else 0.0)
+
+
+def _share(player_id: str, first: str, found: Sequence[Change]) -> Curve:
+    """How much a body does what one of its instruments asks."""
+    ways = [
+        (change.put_s, change.taken_s, 1.0 if change.after == player_id else 0.0)
+        for change in found
+        if player_id in (change.before, change.after)
+    ]
+    return moves(ways, 1.0 if player_id == first else 0.0)

@@ -1,0 +1,186 @@
+"""When one person who plays several instruments changes from one to the other, and what is left of each one's plan.
+
+The change is in the middle of the rest between the last note of one and the first of the next: the first is put aside,
+the hand goes over, the second is taken up. That players need about two seconds for it is assumed; so long the three
+parts take here at an unhurried pace and a little more.
+
+Messages
+--------
+doubling.rest_short(before, after, rest_s, needed_s): the rest is too short for the change.
+doubling.overlap(before, after, seconds): one still sounds when the other begins.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import pairwise
+from typing import Final, Protocol, TypeVar
+
+import msgspec
+
+from app.errors import Message
+from app.plan.model import GestureEvent, PlayerPlan, Problem
+
+NEEDED_S: Final = 2.0
+"""A shorter rest is told; assumed."""
+USUAL_S: Final = 3.4
+"""A change that has the time takes so long; assumed."""
+LEAST_S: Final = 0.8
+"""None takes less, however short the rest: the notes around it suffer."""
+AFTER_S, BEFORE_S = 0.12, 0.3
+"""From the end of the last note to the change, and from the change to the first one: the lips are there before."""
+BREATH_S: Final = 0.08
+"""From the change to the breath."""
+PUT, TAKEN = 0.42, 0.58
+"""Shares of the change at which the first lies aside, and the hand has the second."""
+
+
+class Change(msgspec.Struct, frozen=True):
+    """A person changes instruments.
+
+    Attributes
+    ----------
+    before, after : str
+        Ids of the players of the two.
+    start_s, put_s, taken_s, end_s : float
+        When the first leaves its place, when it lies aside, when the hand has the second, and when that is there.
+    rest_s : float
+        From the last note's end to the first one's beginning; negative where they sound at once.
+    note_id : str
+        Of that first one.
+    """
+
+    before: str
+    after: str
+    start_s: float
+    put_s: float
+    taken_s: float
+    end_s: float
+    rest_s: float
+    note_id: str
+
+
+def changes(played: Mapping[str, PlayerPlan]) -> tuple[Change, ...]:
+    """When a person changes: after a note, and where there is the time before the breath for the next one.
+
+    Parameters
+    ----------
+    played : mapping of str to PlayerPlan
+        By player, in order: everything the person plays.
+    """
+    rows = [
+        (event.start_s, event.end_s, place, player, event.note_id)
+        for place, (player, plan) in enumerate(played.items())
+        for event in plan.fingerings
+    ]
+    drawn = {
+        player: [breath.start_s for breath in plan.breaths if breath.kind == "breath"]
+        for player, plan in played.items()
+    }
+    notes = sorted(rows, key=lambda row: row[:3])
+    found: list[Change] = []
+    free_s = float("-inf")
+    for (_, end_s, _, before, _), (next_s, _, _, after, note_id) in pairwise(notes):
+        if before == after:
+            continue
+        rest_s = next_s - end_s
+        from_s, to_s = end_s + AFTER_S, next_s - BEFORE_S
+        breaths_s = drawn[after]
+        first = bisect_left(breaths_s, end_s)
+        if first < len(breaths_s) and from_s + NEEDED_S <= breaths_s[first] - BREATH_S < to_s:
+            to_s = breaths_s[first] - BREATH_S
+        length_s = min(max(to_s - from_s, LEAST_S), USUAL_S)
+        middle_s = 0.5 * (from_s + to_s)
+        begin_s = max(middle_s - 0.5 * length_s, free_s)
+        done_s = max(middle_s + 0.5 * length_s, begin_s + 0.1 * LEAST_S)
+        length_s = done_s - begin_s
+        put_s, taken_s = begin_s + PUT * length_s, begin_s + TAKEN * length_s
+        found.append(Change(before, after, begin_s, put_s, taken_s, done_s, rest_s, note_id))
+        free_s = done_s
+    return tuple(found)
+
+
+def in_hands(player_id: str, first: str, found: Sequence[Change]) -> tuple[tuple[float, float], ...]:
+    """When a player's instrument is in the hands of a person who begins with that of ``first``."""
+    spans, since_s = [], float("-inf") if player_id == first else None
+    for change in found:
+        if change.before == player_id and since_s is not None:
+            spans.append((since_s, change.put_s))
+            since_s = None
+        elif change.after == player_id:
+            since_s = change.taken_s
+    if since_s is not None:
+        spans.append((since_s, float("inf")))
+    return tuple(spans)
+
+
+def first_played(played: Mapping[str, PlayerPlan]) -> str:
+    """Whose instrument a person has in the hands at first."""
+    begun = [
+        (plan.fingerings[0].start_s, place, player)
+        for place, (player, plan) in enumerate(played.items())
+        if plan.fingerings
+    ]
+    return min(begun)[2] if begun else next(iter(played))
+
+
+class _Event(Protocol):
+    @property
+    def start_s(self) -> float: ...
+    @property
+    def end_s(self) -> float: ...
+    @property
+    def corrected(self) -> bool: ...
+
+
+E = TypeVar("E", bound=_Event)
+
+
+def held_plan(plan: PlayerPlan, first: str, found: Sequence[Change], names: Mapping[str, str]) -> PlayerPlan:
+    """What is left of a player's plan: nothing is done with an instrument that lies aside, but what was corrected by
+    hand stays to be seen.
+
+    Parameters
+    ----------
+    plan : PlayerPlan
+    first : str
+        See `first_played`.
+    found : sequence of Change
+        Of the person.
+    names : mapping of str to str
+        What players are called, by id.
+    """
+    spans = in_hands(plan.player_id, first, found)
+    lowered = [event for event in plan.gestures if event.kind == "lower_instrument"]
+    others = _within([event for event in plan.gestures if event.kind != "lower_instrument"], spans)
+    gestures: list[GestureEvent] = sorted((*lowered, *others), key=lambda event: event.start_s)
+    told = [_problem(change, names) for change in found if change.after == plan.player_id and change.rest_s < NEEDED_S]
+    return msgspec.structs.replace(
+        plan,
+        cues=_within(plan.cues, spans, at_end=True),
+        gestures=tuple(gestures),
+        expressions=_within(plan.expressions, spans),
+        problems=tuple(sorted((*plan.problems, *told), key=lambda problem: problem.start_s)),
+    )
+
+
+def _within(events: Iterable[E], spans: Sequence[tuple[float, float]], at_end: bool = False) -> tuple[E, ...]:
+    return tuple(
+        event
+        for event in events
+        if event.corrected
+        or any((event.end_s if at_end else event.start_s) < end_s and start_s < event.end_s for start_s, end_s in spans)
+    )
+
+
+def _problem(change: Change, names: Mapping[str, str]) -> Problem:
+    before, after = names[change.before], names[change.after]
+    if change.rest_s < 0.0:
+        message = Message("doubling.overlap", {"before": before, "after": after, "seconds": round(-change.rest_s, 1)})
+    else:
+        message = Message(
+            "doubling.rest_short",
+            {"before": before, "after": after, "rest_s": round(change.rest_s, 1), "needed_s": NEEDED_S},
+        )
+    return Problem(message, change.note_id, change.start_s, change.end_s)

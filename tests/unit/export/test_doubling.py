@@ -1,0 +1,103 @@
+"""Files of one person who plays two instruments, read back."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.export.report import Report, failures
+from app.export.request import Request
+from app.export.run import export
+from app.formats.fbx.read import read_scene
+from app.messages import text
+from app.performance.ensemble import Performance, changes_of
+from app.performance.span import whole_span
+from app.project.edit import players as edit
+from app.project.model import Project
+from tests.support.doubled import flutist
+
+FPS = Fraction(30)
+TOLD = {"limits of leftHand sideways"}
+"""Of a lowered flute with this body, whoever plays the piccolo: half a degree."""
+
+
+def exported(project: Project, folder: Path, asked: int, formats: frozenset[str] = frozenset(("fbx", "glb"))) -> Report:
+    performance = Performance(project)
+    request = Request(
+        performance=performance,
+        players=(project.players[asked],),
+        folder=folder,
+        formats=formats,  # type: ignore[arg-type]
+        span=whole_span(performance.time_frame, FPS),
+        bars=None,
+        source="changes.mid",
+        creator="Suisou test",
+    )
+    return export(request, text)
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Report]:
+    folder = tmp_path_factory.mktemp("changes") / "out"
+    return folder, exported(flutist(beside=False), folder, 1)
+
+
+def test_whoever_is_asked_for_one_character_and_both_instruments_are_written(written: tuple[Path, Report]) -> None:
+    folder, report = written
+    assert {path.name for path in folder.iterdir()} == {
+        *(f"{stem}.{suffix}" for stem in ("Flute", "Flute_flute", "Flute_piccolo") for suffix in ("fbx", "glb")),
+        "report.json",
+    }
+    (player,) = report.players
+    (double,) = player.doubles
+    assert (player.name, player.instrument, player.notes) == ("Flute", "flute", 8)
+    assert (double.name, double.instrument, double.notes) == ("Piccolo", "piccolo", 4)
+    told = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    assert told["players"][0]["doubles"][0]["files"]["instrument_fbx"] == "Flute_piccolo.fbx"
+
+
+def test_both_are_judged_with_that_character_and_keep_every_bound(written: tuple[Path, Report]) -> None:
+    (player,) = written[1].players
+    for one in (player, *player.doubles):
+        assert one.measures is not None
+        assert one.measures.sounding_frames > 40
+        assert one.measures.breaths.shown == one.measures.breaths.planned > 0
+        assert set(failures(one)) <= TOLD
+    # The body is one: what is measured of it alone is the same with both.
+    (double,) = player.doubles
+    assert double.measures is not None
+    assert player.measures is not None
+    assert double.measures.feet == player.measures.feet
+    assert double.measures.acceleration == player.measures.acceleration
+
+
+def test_what_is_not_played_lies_still_in_the_files(written: tuple[Path, Report]) -> None:
+    folder, _ = written
+    performance = Performance(flutist(beside=False))
+    _, (there, back) = changes_of(performance, performance.project.players[:2])
+    first_s = performance.time_frame.first_frame_s
+    for stem, start_s, end_s in (
+        ("Flute_flute", there.put_s, back.taken_s),
+        ("Flute_piccolo", first_s, there.taken_s),
+    ):
+        scene = read_scene(folder / f"{stem}.fbx")
+        assert scene.clip is not None
+        times_s = first_s + np.arange(scene.clip.frames) / float(FPS)
+        lies = (times_s >= start_s) & (times_s <= end_s)
+        place_cm, turns = scene.clip.translations_cm[0], scene.clip.rotations_xyzw[:, 0]
+        assert np.ptp(place_cm[lies], axis=0).max() < 1e-3
+        assert np.ptp(np.abs(turns[lies]), axis=0).max() < 1e-5
+        assert np.ptp(place_cm, axis=0).max() > 20.0
+
+
+def test_an_instrument_that_is_not_there_is_left_out_and_the_person_plays_on(tmp_path: Path) -> None:
+    project = flutist(beside=False)
+    project = edit.change(project, (project.players[1].id,), instrument_id="no_such_thing")
+    report = exported(project, tmp_path / "out", 0, frozenset(("glb",)))
+    assert [one.player for one in report.left_out] == ["Piccolo"]
+    assert [player.name for player in report.players] == ["Flute"]
+    assert report.players[0].doubles == ()
