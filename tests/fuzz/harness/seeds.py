@@ -215,12 +215,16 @@ def unreal_description() -> list[bytes]:
         return {"file": f"{kind}/{name}.fbx", "bones": ["root", "hips"], **assets}
 
     content = {
-        "schema": 2, "piece": "Piece", "title": "A piece", "content": root, "sequence": f"{root}/LS_Piece",
+        "schema": 3, "piece": "Piece", "title": "A piece", "content": root, "sequence": f"{root}/LS_Piece",
         "rate": {"numerator": 60, "denominator": 1}, "frames": 100,
         "sound": {"file": "Audio/S_Piece.wav", "asset": f"{root}/Audio/S_Piece", "offset_s": 0.0, "duration_s": 1.6},
         "players": [{
             "name": "Trumpet 1", "instrument_id": "trumpet_Bb", "place": place,
             "character": figure("Characters", "Trumpet_1"), "instrument": figure("Instruments", "Trumpet_1"),
+            "doubles": [{
+                "name": "Flugelhorn", "instrument_id": "flugelhorn_Bb",
+                "instrument": figure("Instruments", "Flugelhorn"),
+            }],
         }],
         "dancers": [{"name": "Dancer 1", "place": place, "character": figure("Characters", "Dancer_1")}],
         "bars": [{"number": 1, "frame": 0}, {"number": 2, "frame": 60}],
@@ -228,7 +232,8 @@ def unreal_description() -> list[bytes]:
         "files": {
             name: {"bytes": 10, "sha256": "0" * 64}
             for name in (
-                "Characters/Trumpet_1.fbx", "Instruments/Trumpet_1.fbx", "Characters/Dancer_1.fbx", "Audio/S_Piece.wav",
+                "Characters/Trumpet_1.fbx", "Instruments/Trumpet_1.fbx", "Instruments/Flugelhorn.fbx",
+                "Characters/Dancer_1.fbx", "Audio/S_Piece.wav",
             )
         },
     }  # fmt: skip

@@ -15,6 +15,7 @@ import pytest
 from app.project.casting import StagePosition
 from app.project.model import Project
 from app.score.model import Marker
+from tests.support.doubled import flutist
 from tests.unit.export.unreal.conftest import quartet, renamed
 from tests.unit.resources.unreal.conftest import Editor, exported
 
@@ -371,3 +372,13 @@ def test_names_never_become_code_or_paths(plugin: None, tmp_path: Path) -> None:
         "from suisou_import import menu; menu.import_performance()",
         "from suisou_import import menu; menu.update_performance()",
     }
+
+
+def test_who_changes_instruments_is_one_character_with_an_actor_for_each(plugin: None, tmp_path: Path) -> None:
+    exported(tmp_path / "Game", flutist(), ("Flute",), source="quartet.mid")
+    editor = Editor(tmp_path / "Game")
+    editor.import_performance()
+    found = bindings(editor)
+    assert set(found) == {"Flute", "Flute (flute)", "Flute (piccolo)"}
+    # All stand where the player does: the instruments move in the player's own space.
+    assert transform(found["Flute"]) == transform(found["Flute (flute)"]) == transform(found["Flute (piccolo)"])
