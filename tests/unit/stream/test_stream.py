@@ -37,8 +37,10 @@ from app.stream.unity import unity_bone
 from app.stream.vmc import Sent
 from instrument_maps.load import bundled_maps
 from metadata.load import load_skeleton
+from tests.support.doubled import flutist
 from tests.support.osc import Frame, Receiver, frames, read_packet
 from tests.unit.export.unreal.conftest import with_dancers
+from widgets.common.streaming import Streaming
 
 Floats = npt.NDArray[np.float64]
 _FINGERS = ("Thumb", "Index", "Middle", "Ring", "Little")
@@ -202,6 +204,26 @@ def test_unity_s_left_is_left_and_forward_is_forward() -> None:
     (place,) = frame.trackers.values()
     assert place[2] > 0.1
     assert frame.bones["Hips"][1] > 0.4
+
+
+def test_each_instrument_of_a_person_is_a_tracker_of_one_performer() -> None:
+    character, pose = pose_of(1, 5.0)
+    aside = dataclasses.replace(pose, instrument_position_m=pose.instrument_position_m + np.float32(0.5))
+    sent = Sent(character, "trumpet_Bb", doubles=("flugelhorn_Bb",)).datagrams(pose, 0.0, beside=[aside])
+    (frame,) = frames([(0.0, packet) for packet in sent])
+    assert set(frame.trackers) == {"trumpet_Bb", "flugelhorn_Bb"}
+    apart = np.abs(np.asarray(frame.trackers["flugelhorn_Bb"][:3]) - np.asarray(frame.trackers["trumpet_Bb"][:3]))
+    np.testing.assert_allclose(apart, 0.5, atol=1e-5)
+    (alone,) = frames([(0.0, packet) for packet in Sent(character, "trumpet_Bb").datagrams(pose, 0.0)])
+    assert frame.bones == alone.bones
+
+
+def test_everyone_on_the_stage_is_sent_once() -> None:
+    state, project = Streaming(), flutist()
+    state.set(everyone=True)
+    assert [line.player_id for line in state.planned(project, ())] == ["2.1.1", "3.1.1"]
+    state.set(everyone=False)
+    assert [line.player_id for line in state.planned(project, ("2.1.17",))] == ["2.1.1"]
 
 
 def test_the_instrument_is_a_tracker_where_it_is_held() -> None:
