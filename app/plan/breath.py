@@ -239,9 +239,9 @@ def _read(line: _Breather, air: Air | None, heard: Blown | None) -> _Score:
 
 
 def _rests(written: LineTimes, times: LineTimes, piece: Piece) -> IntArray:
-    """Rests are those of the score, also their lengths: who lets a note go early does not make the rest longer."""
+    """What is a rest is read from the score, how long it is from what sounds."""
     rests = rest_ticks(written, piece.beat_ticks_at(times.onset_tick))
-    return np.where((rests > 0) & (times.silence_tick > 0), written.silence_tick, 0)
+    return np.where(rests > 0, times.silence_tick, 0)
 
 
 def _given(

@@ -97,10 +97,13 @@ OTHER_PLACE_COST = 4.0
 """A note in another place of the slide than the same pitch two notes before, in hurried steps: nobody changes it within
 a figure for little."""
 
-REPEATED_COST = 8.0
-"""Another fingering for a note that is repeated: nobody changes it without a trill or a correction; ..."""
-REPEATED_REST_S = 1.0
-"""... after so long a silence it costs nothing, in proportion before."""
+REPEATED_COST, REPEATED_HOME_COST = 8.0, 0.8
+"""Another fingering for a note that is repeated: nobody changes it without a trill, a correction or a silence, but to
+come back to a better one where there is time."""
+REPEATED_HURRIED_S, REPEATED_EASY_S = 0.3, 0.4
+"""There is none in steps as short as the one, and enough from the other on."""
+REPEATED_REST_S = 0.5
+"""After so long a silence another fingering costs nothing, in proportion before."""
 
 PHRASE_SILENCE_S = 0.25
 """A silence this long divides phrases, for the comparison with the first choices."""
@@ -258,8 +261,9 @@ class FingeringProblem:
             still = (fingers.moves == 0.0) & (before != after)[:, None, None]
             more = LIP_TRILL_WEIGHT * still + LEVER_TRILL_WEIGHT * fingers.levers
             cost += more[pair] * np.where(self.in_trill, hurry, 0.0)[:, None, None]
-        again, rate = self._repeated(gap)
-        cost[again] += rate[:, None, None] * ~np.eye(cost.shape[1], dtype=bool)
+        again, away, home = self._repeated(gap)
+        other = np.ones(cost.shape[1:])
+        cost[again] += away[:, None, None] * np.triu(other, 1) + home[:, None, None] * np.tril(other, -1)
         moves = fingers.moves + KEY_TO_KEY_MOVES * fingers.apart
         nothing = np.zeros((len(pair), 1, 1))
         if not self.has_slide:
@@ -273,11 +277,17 @@ class FingeringProblem:
         cost += slide_cost * trill[:, None, None]
         return Motions(pair, moves, slide_m, needed_s, share, cost)
 
-    def _repeated(self, gap: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Steps to the same pitch again, and what another fingering costs there; not where a correction pins one."""
+    def _repeated(self, gap: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
+        """Steps to the same pitch again, and what a worse and a better fingering cost there; not where a correction
+        pins one."""
         alike = (self.allowed[1:] == self.allowed[:-1]).all(axis=1)
         again = np.flatnonzero((self.pitch_index[1:] == self.pitch_index[:-1]) & alike)
-        return again, REPEATED_COST * np.clip(1.0 - gap[again] / REPEATED_REST_S, 0.0, 1.0)
+        touching = np.clip(1.0 - gap[again] / REPEATED_REST_S, 0.0, 1.0)
+        easy = (REPEATED_HURRIED_S, REPEATED_EASY_S)
+        home = np.interp(np.diff(self.times.onset_s)[again], easy, (REPEATED_COST, REPEATED_HOME_COST))
+        # A slide leaves a good place in time too; who lets a key go and presses another could have done so at first.
+        away = home if self.has_slide else np.full(len(again), REPEATED_COST)
+        return again, away * touching, home * touching
 
     @cached_property
     def _pace(self) -> FloatArray:

@@ -96,13 +96,15 @@ def test_no_phrase_travels_further_or_faster_than_the_table(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_repeated_notes_keep_their_fingering(name: str) -> None:
+def test_repeated_notes_keep_their_fingering_unless_there_is_time_for_another(name: str) -> None:
     for line, plan in played(name):
         times = line_times(line, performance(name).piece.clock)
         silence_s = times.onset_s[1:] - times.played_end_s[:-1]
         again = (times.pitch[1:] == times.pitch[:-1]) & (silence_s < 0.25)
-        labels = [event.label for event in plan.fingerings]
-        assert [labels[at] for at in again.nonzero()[0]] == [labels[at + 1] for at in again.nonzero()[0]]
+        step_s = times.onset_s[1:] - times.onset_s[:-1]
+        for at in again.nonzero()[0]:
+            before, after = plan.fingerings[at], plan.fingerings[at + 1]
+            assert before.label == after.label or (step_s[at] > 0.35 and 1 in {before.rank, after.rank}), before
 
 
 @pytest.mark.parametrize("name", FILES)

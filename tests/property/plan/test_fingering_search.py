@@ -165,7 +165,9 @@ def naive_cost(notes: tuple[PlainNote, ...], choice: list[Fingering], instrument
         a, b = choice[index], choice[index + 1]
         gap = max(onset[index + 1] - end[index], 0.0)
         if notes[index].pitch == notes[index + 1].pitch and a != b:
-            cost += 8.0 * max(1.0 - gap, 0.0)
+            ways = instrument.fingerings_for(notes[index].pitch)
+            easy = min(max((step - 0.3) / 0.1, 0.0), 1.0) if slides or ways.index(b) < ways.index(a) else 0.0
+            cost += (8.0 - 7.2 * easy) * max(1.0 - gap / 0.5, 0.0)
         hurry = max(0.085 / step - 1.0, 0.0)
         if trill[index]:
             hurry = max(hurry, 3.0 * max(0.15 / step - 1.0, 0.0))
