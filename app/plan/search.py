@@ -272,8 +272,8 @@ class FingeringProblem:
         cost += SLIDE_METRE_COST * slide_m * pace[:, None, None]
         gliding = glissando_steps(times)
         if gliding.any():
-            away = (self._slide_change() * np.diff(times.pitch)[:, None, None] >= 0.0) | (moves[pair] > 0.0)
-            slide_cost = np.where(gliding[:, None, None], GLISSANDO_COST * away, slide_cost)
+            back = (self._slide_change() * np.diff(times.pitch)[:, None, None] >= 0.0) | (moves[pair] > 0.0)
+            slide_cost = np.where(gliding[:, None, None], GLISSANDO_COST * back, slide_cost)
         cost += slide_cost * trill[:, None, None]
         return Motions(pair, moves, slide_m, needed_s, share, cost)
 

@@ -153,4 +153,4 @@ def test_no_stretch_outlasts_the_lungs_without_a_word(durations: list[int], lung
     for breath in player["breaths"]:
         if breath["start_s"] >= 0.0:
             assert "catch breath after note" in breath["reason"] or "catch breath instead of" in breath["reason"]
-            assert "come out of that note's tail" in breath["reason"] or "is left out" in breath["reason"]
+            assert "come out of that note's tail" in breath["reason"] or "left out" in breath["reason"]
