@@ -1,6 +1,6 @@
-"""English wording of every message of the program: id -> template, filled with the message's arguments.
+"""Every message of the program: id -> templates in English and Japanese, filled with the message's arguments.
 
-The command line prints these; the editor translates them (context ``Message``). One module per subject.
+The command line prints the English ones. One module per subject.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from app.messages import (
     files,
     formats,
     notes,
+    parameters,
     picture,
     plan,
     project,
@@ -34,26 +35,27 @@ from app.messages import (
 )
 from app.messages.pitches import pitch_name
 
-TEMPLATES: Final[dict[str, str]] = {
-    **audio.TEMPLATES,
-    **capture.TEMPLATES,
-    **choreography.TEMPLATES,
-    **edit.TEMPLATES,
-    **files.TEMPLATES,
-    **formats.TEMPLATES,
-    **notes.TEMPLATES,
-    **picture.TEMPLATES,
-    **plan.TEMPLATES,
-    **project.TEMPLATES,
-    **record.TEMPLATES,
-    **request.TEMPLATES,
-    **score.TEMPLATES,
-    **skeletons.TEMPLATES,
-    **stream.TEMPLATES,
-    **tables.TEMPLATES,
-    **takes.TEMPLATES,
-    **unreal.TEMPLATES,
-    **work.TEMPLATES,
+WORDINGS: Final[dict[str, tuple[str, str]]] = {
+    **audio.WORDINGS,
+    **capture.WORDINGS,
+    **choreography.WORDINGS,
+    **edit.WORDINGS,
+    **files.WORDINGS,
+    **formats.WORDINGS,
+    **notes.WORDINGS,
+    **parameters.WORDINGS,
+    **picture.WORDINGS,
+    **plan.WORDINGS,
+    **project.WORDINGS,
+    **record.WORDINGS,
+    **request.WORDINGS,
+    **score.WORDINGS,
+    **skeletons.WORDINGS,
+    **stream.WORDINGS,
+    **tables.WORDINGS,
+    **takes.WORDINGS,
+    **unreal.WORDINGS,
+    **work.WORDINGS,
 }
 
 PITCHES: Final[dict[str, tuple[str, ...]]] = {
@@ -75,6 +77,10 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "score.doubling": ("pitch",),
 }
 """Arguments that are MIDI numbers of pitches: they are named, in the editor as its user chose."""
+
+
+TEXTS: Final = frozenset({"parameter"})
+"""Arguments that may be ids of texts themselves."""
 
 
 class _Filling(Formatter):
@@ -101,7 +107,9 @@ def text(message: Message) -> str:
     arguments = dict(message.arguments)
     for name in PITCHES.get(message.id, ()):
         arguments[name] = pitch_name(float(arguments[name]))
-    return filled(TEMPLATES[message.id], arguments)
+    for name in TEXTS & arguments.keys():
+        arguments[name] = WORDINGS.get(str(arguments[name]), (arguments[name],))[0]
+    return filled(WORDINGS[message.id][0], arguments)
 
 
 def error_text(error: AppError) -> str:

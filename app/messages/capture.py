@@ -4,39 +4,110 @@ from __future__ import annotations
 
 from typing import Final
 
-TEMPLATES: Final[dict[str, str]] = {
+WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "capture.no_library": (
-        "MIDI devices cannot be reached: {detail}; they need Python 3.11 or 3.12 and, on Linux, the package libasound2"
+        (
+            "MIDI devices are not available ({detail}); they require Python 3.11 or 3.12 and, on Linux, the "
+            "package libasound2"
+        ),
+        (
+            "MIDI デバイスを利用できません（{detail}）。Python 3.11 または 3.12 が必要です。Linux ではパッケージ "
+            "libasound2 も必要です"
+        ),
     ),
     "capture.no_system": (
-        "no MIDI system answers; on Linux, load the kernel's sequencer (sudo modprobe snd-seq) or start JACK"
+        ("the MIDI system does not respond; on Linux, load the kernel sequencer (sudo modprobe snd-seq) or start JACK"),
+        (
+            "MIDI システムが応答しません。Linux ではカーネルのシーケンサーを読み込むか（sudo modprobe snd-seq）、"
+            "JACK を起動してください"
+        ),
     ),
-    "capture.api_unknown": "there is no MIDI system {name!r} here; possible: {possible}",
-    "capture.no_ports": "no MIDI device is connected; plug one in and switch it on",
-    "capture.port_unknown": "no MIDI device is called {port!r}; there are: {possible}",
-    "capture.port_not_here": "{port} is not connected; it is used as soon as it is",
+    "capture.api_unknown": (
+        "the MIDI system {name!r} is not available here; choose one of: {possible}",
+        "MIDI システム {name!r} はここでは使えません。使えるもの: {possible}",
+    ),
+    "capture.no_ports": (
+        "no MIDI device is connected; connect one and switch it on",
+        "MIDI デバイスが接続されていません。接続して電源を入れてください",
+    ),
+    "capture.port_unknown": (
+        "MIDI device {port!r} was not found; connected devices: {possible}",
+        "MIDI デバイス {port!r} が見つかりません。接続中のデバイス: {possible}",
+    ),
+    "capture.port_not_here": (
+        "{port} is not connected; it will be used when it is connected",
+        "{port} は接続されていません。接続されしだい使用します",
+    ),
     "capture.port_refused": (
-        "{port} cannot be opened ({detail}): another program may be using it; close it there, and it is opened here"
+        (
+            "{port} cannot be opened ({detail}); another program may be using it; close it there and it opens here "
+            "automatically"
+        ),
+        (
+            "{port} を開けません（{detail}）。ほかのプログラムが使用している可能性があります。そちらで閉じると、"
+            "ここで自動的に開きます"
+        ),
     ),
     "capture.not_written": (
-        "{file} cannot be written: {reason}; recording goes on and is written as soon as there is room"
+        "{file} cannot be written: {reason}; recording continues and is written when space is available",
+        "{file} に書き込めません: {reason}。録音は続いており、空きができしだい書き込みます",
     ),
-    "capture.cut_short": "{file} cannot be written: {reason}; the end of the recording is missing in it",
-    "capture.recorder_ended": "the recorder ended unexpectedly and was started again; what it had heard is kept",
-    "capture.recorder_fails": "the recorder cannot be started ({detail})",
-    "record.no_port": "say with --port which device to record from; 'suisou ports' lists them",
-    "record.exists": "{file} is there already; choose another name, or delete it",
-    "record.running": "another recording into {file} is running; choose another name",
+    "capture.cut_short": (
+        "{file} cannot be written: {reason}; the end of the recording is missing",
+        "{file} に書き込めません: {reason}。録音の終わりの部分は保存されていません",
+    ),
+    "capture.recorder_ended": (
+        "the recorder stopped unexpectedly and was restarted; notes recorded before are kept",
+        "録音プロセスが予期せず終了したため、再起動しました。それまでの録音は残っています",
+    ),
+    "capture.recorder_fails": (
+        "the recorder cannot be started ({detail}); restart Suisou",
+        "録音プロセスを開始できません（{detail}）。Suisou を再起動してください",
+    ),
+    "record.no_port": (
+        "no device to record from is specified; add --port with a name from 'suisou ports'",
+        "録音するデバイスが指定されていません。'suisou ports' の一覧から --port で指定してください",
+    ),
+    "record.exists": (
+        "{file} already exists; choose another name or delete it",
+        "{file} は既に存在します。別の名前を選ぶか、削除してください",
+    ),
+    "record.running": (
+        "another recording to {file} is in progress; choose another name",
+        "{file} への別の録音が進行中です。別の名前を選んでください",
+    ),
     "record.journal_left": (
-        "{journal} is there already: a recording was not finished; write it with 'suisou record --rescue --to {file}'"
+        ("{journal} already exists from an unfinished recording; write it with 'suisou record --rescue --to {file}'"),
+        ("終了していない録音 {journal} が既に存在します。'suisou record --rescue --to {file}' で書き出してください"),
     ),
     "record.not_written": (
-        "{file} cannot be written: {reason}; the recording is kept in {journal}: make room, then write it with "
-        "'suisou record --rescue --to {file}'"
+        (
+            "{file} cannot be written: {reason}; the recording is kept in {journal}; free some space, then write "
+            "it with 'suisou record --rescue --to {file}'"
+        ),
+        (
+            "{file} に書き込めません: {reason}。録音は {journal} に残っています。空き容量を増やしてから 'suisou "
+            "record --rescue --to {file}' で書き出してください"
+        ),
     ),
-    "record.nothing_heard": "nothing was heard from {port}: no file was written",
-    "journal.exists": "{file} is there already: another recording is running, or one was not finished",
-    "journal.no_header": "{file} is no journal of a take: its first line does not say what it is",
-    "journal.newer": "{file} was written by a newer version of the program (journal {version}); use that one",
-    "journal.line": "{file}, line {line}: {detail}",
+    "record.nothing_heard": (
+        "nothing was received from {port}; no file was written",
+        "{port} から何も受信しませんでした。ファイルは書き出していません",
+    ),
+    "journal.exists": (
+        "{file} already exists: another recording is in progress, or one was not finished",
+        "{file} は既に存在します。別の録音が進行中か、終了していない録音が残っています",
+    ),
+    "journal.no_header": (
+        "{file} is not a take journal: its header line is missing",
+        "{file} はテイクのジャーナルではありません。ヘッダー行がありません",
+    ),
+    "journal.newer": (
+        "{file} was saved by a newer version of Suisou (journal {version}); use that version",
+        (
+            "{file} は新しいバージョンの Suisou で保存されています（ジャーナル {version}）。"
+            "そのバージョンを使ってください"
+        ),
+    ),
+    "journal.line": ("{file}, line {line}: {detail}", "{file}、{line} 行目: {detail}"),
 }

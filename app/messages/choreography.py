@@ -4,63 +4,142 @@ from __future__ import annotations
 
 from typing import Final
 
-TEMPLATES: Final[dict[str, str]] = {
-    "generate.no_source": "the choreography has no source {source}; --prefer one of {sources}",
+WORDINGS: Final[dict[str, tuple[str, str]]] = {
+    "generate.no_source": (
+        "the choreography has no source {source}; use --prefer with one of {sources}",
+        "振り付けにソース {source} はありません。--prefer には次のいずれかを指定してください: {sources}",
+    ),
     "choreography.damaged": (
-        "{file} is not a choreography file or is damaged ({place}: {detail}); copy it again from where it is whole, "
-        "or learn it again with 'suisou choreography learn'"
+        (
+            "{file} is not a choreography file or is damaged ({place}: {detail}); copy it again from an intact "
+            "source, or learn it again with 'suisou choreography learn'"
+        ),
+        (
+            "{file} は振り付けのファイルではないか、壊れています（{place}: {detail}）。"
+            "壊れていない元のファイルをコピーし直すか、'suisou choreography learn' で学習し直してください"
+        ),
     ),
     "choreography.newer": (
-        "{file} was written by a newer version of the program (its file version is {version}, this program knows up "
-        "to {known}); use the newer version"
+        (
+            "{file} was saved by a newer version of Suisou (file version {version}; this version reads up to "
+            "{known}); use the newer version"
+        ),
+        (
+            "{file} は新しいバージョンの Suisou で保存されています（ファイルのバージョン {version}、対応は {known} "
+            "まで）。新しいバージョンを使ってください"
+        ),
     ),
-    "cuts.line": "{file}, line {line}: {text!r} is no time; write one time in seconds in each line",
+    "cuts.line": (
+        "{file}, line {line}: {text!r} is not a time; write one time in seconds per line",
+        "{file}、{line} 行目: {text!r} は時刻ではありません。1 行に 1 つ、秒で時刻を書いてください",
+    ),
     "cuts.order": (
-        "{file}, line {line}: a motion needs a time at which it starts and a later one at which it ends; put the times "
-        "in order"
+        "{file}, line {line}: a motion needs a start time and a later end time; put the times in order",
+        "{file}、{line} 行目: 動きには開始時刻と、それより後の終了時刻が必要です。時刻を順に並べてください",
     ),
     "cuts.wrong": (
-        "{motion} cannot be cut into a motion from frame {start} to {end} with its accent at {accent}: cuts have to be "
-        "in order, with their accents between them, within the {frames} frames of the motion"
+        (
+            "{motion} cannot be cut into a motion from frame {start} to {end} with its accent at {accent}: put the "
+            "cuts in order, with accents between them, within the {frames} frames of the motion"
+        ),
+        (
+            "{motion} は、フレーム {start} から {end}、アクセント {accent} の動きに区切れません。区切りを順に並べ、"
+            "アクセントをその間に置き、モーションの {frames} フレームに収めてください"
+        ),
     ),
     "dance.no_percussion": (
-        "the piece has no percussion: dancers take their rhythm from its melody, its bass and its accents"
+        "the piece has no percussion; dancers follow its melody, bass and accents",
+        "曲に打楽器がないため、ダンサーは旋律、低音、アクセントに合わせます",
     ),
     "dance.state_not_held": (
-        "basic motion {number} is not danced here although it is pinned: the choreography does not have it, or another "
-        "correction is too near; unpin it or pin another one"
+        (
+            "the pinned basic motion {number} cannot be used here: the choreography does not contain it, or "
+            "another correction is too close; unpin it or pin another one"
+        ),
+        (
+            "固定された基本動作 {number} をここでは使えません。振り付けに含まれていないか、"
+            "別の手動修正が近すぎます。固定を解除するか、別の基本動作を固定してください"
+        ),
     ),
     "dance.segment_not_held": (
-        "segment {number} is not danced here although it is selected: the choreography does not have it, or another "
-        "correction is too near; unpin it or select another one"
+        (
+            "the selected segment {number} cannot be used here: the choreography does not contain it, or another "
+            "correction is too close; unpin it or select another one"
+        ),
+        (
+            "選択されたセグメント {number} をここでは使えません。振り付けに含まれていないか、"
+            "別の手動修正が近すぎます。固定を解除するか、別のセグメントを選んでください"
+        ),
     ),
     "dance.state_not_avoided": (
-        "basic motion {number} is danced here although it is forbidden: nothing else fits; forbid fewer basic motions, "
-        "or for a shorter time"
+        (
+            "the disabled basic motion {number} is used here because nothing else fits; disable fewer basic "
+            "motions, or a shorter span"
+        ),
+        (
+            "禁止された基本動作 {number} が、ほかに合う動作がないため、ここで使われています。"
+            "禁止する基本動作を減らすか、区間を短くしてください"
+        ),
     ),
     "dance.seam_shows": (
-        "the change from basic motion {before} to {after} can be seen: pin another motion here, or move this one"
+        "the change from basic motion {before} to {after} is visible; pin another motion here, or move this one",
+        (
+            "基本動作 {before} から {after} への切り替わりが目立ちます。ここに別の動作を固定するか、"
+            "この動作を移動してください"
+        ),
     ),
     "dance.foot_slides": (
-        "the {side} foot slides over the floor while it stands: pin another motion here, or move this one"
+        "the {side} foot slides while it is on the floor; pin another motion here, or move this one",
+        "{side}足が接地中に床の上を滑ります。ここに別の動作を固定するか、この動作を移動してください",
     ),
-    "learn.no_motion": "there is no motion to learn from in {motions}: the body is still, or the clips are too short",
-    "learn.states": "{states} basic motions cannot be learned from {segments} motions; ask for fewer states",
+    "learn.no_motion": (
+        (
+            "no motion to learn from was found in {motions}: the body does not move, or the clips are too short; "
+            "add other motion files"
+        ),
+        (
+            "{motions} には学習できる動きがありません。体が静止しているか、クリップが短すぎます。"
+            "別のモーションファイルを追加してください"
+        ),
+    ),
+    "learn.states": (
+        "{states} basic motions cannot be learned from {segments} motions; use a smaller number",
+        "{segments} 個の動きから {states} 個の基本動作は学習できません。数を小さくしてください",
+    ),
     "learn.no_overlap": (
-        "no percussion of {music} sounds during the motions of {motion}; correct the offset of this pair, or leave it "
-        "to be found"
+        ("no percussion of {music} sounds during {motion}; correct the offset of this pair, or set it to automatic"),
+        "{motion} の動きの間に {music} の打楽器が鳴りません。この組のオフセットを修正するか、自動にしてください",
     ),
     "learn.done": (
-        "{file}: {states} basic {states:motion|motions} (states) of {segments} {segments:segment|segments}, "
-        "{length_s:.1f} s ({frames} {frames:frame|frames})"
+        (
+            "{file}: {states} basic {states:motion|motions} from {segments} {segments:segment|segments}, "
+            "{length_s:.1f} s ({frames} {frames:frame|frames})"
+        ),
+        "{file}: 基本動作 {states} 個、セグメント {segments} 個、{length_s:.1f} 秒（{frames} フレーム）",
     ),
     "learn.no_percussion": (
-        "{file} has no percussion to learn from (notes on channel 10); pair the motion with a file that has a drum part"
+        (
+            "{file} has no percussion to learn from (notes on channel 10); pair the motion with a file that has a "
+            "drum part"
+        ),
+        (
+            "{file} には学習に使う打楽器（チャンネル 10 の音符）がありません。"
+            "ドラムパートのあるファイルと組み合わせてください"
+        ),
     ),
-    "motion.apart": "arms up to {apart_mm} mm from their place in the file: its collars move",
-    "motion.doubtful": "joints that are guessed: {joints}",
-    "motion.flips": "{n} {n:flip|flips} of the capture mended",
-    "motion.lead_in": "{n} {n:frame|frames} of a rest pose at its start left out",
-    "motion.no_unit": "its unit is not known: the body is made 1.7 m high",
-    "motion.rate": "{rate} frames/s (its file says {said})",
+    "motion.apart": (
+        "arms deviate by up to {apart_mm} mm from the file because its collar bones move",
+        "鎖骨が動くため、腕の位置がファイルから最大 {apart_mm} mm ずれます",
+    ),
+    "motion.doubtful": ("guessed joints: {joints}", "推測した関節: {joints}"),
+    "motion.flips": ("{n} {n:flip|flips} of the capture corrected", "キャプチャの反転を {n} か所修正しました"),
+    "motion.lead_in": (
+        "{n} {n:frame|frames} of rest pose at the start skipped",
+        "先頭のレストポーズ {n} フレームを除外しました",
+    ),
+    "motion.no_unit": (
+        "unknown unit; the body was scaled to a height of 1.7 m",
+        "単位が不明のため、身長を 1.7 m にしました",
+    ),
+    "motion.rate": ("{rate} frames/s (the file states {said})", "{rate} フレーム/秒（ファイルの値は {said}）"),
 }

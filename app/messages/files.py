@@ -4,17 +4,30 @@ from __future__ import annotations
 
 from typing import Final
 
-TEMPLATES: Final[dict[str, str]] = {
-    "file.cannot_read": "{file} cannot be read: {reason}",
-    "file.cannot_write": "{file} cannot be written: {reason}",
-    "file.not_regular": "{file} is not a file but a folder, a pipe or a device; choose a file",
-    "file.too_large": "{file} is too large ({size_mb} MB; at most {most_mb} MB are read); choose a smaller file",
-    "json.invalid": "{file} is damaged: {detail}",
-    "settings.value": "{file}: {place}: {detail}; the default is used",
-    "settings.set_aside": (
-        "{file} cannot be used: settings changed now last only until the editor ends; correct the file or remove it"
+WORDINGS: Final[dict[str, tuple[str, str]]] = {
+    "file.cannot_read": ("{file} cannot be read: {reason}", "{file} を読み込めません: {reason}"),
+    "file.cannot_write": ("{file} cannot be written: {reason}", "{file} に書き込めません: {reason}"),
+    "file.not_regular": (
+        "{file} is a folder, pipe or device; choose a file",
+        "{file} はフォルダー、パイプまたはデバイスです。ファイルを選んでください",
     ),
-    "export.done": "files written to {folder}: {count}",
-    "video.done": "the film is written: {file}",
-    "video.failed": "{file} cannot be written as a film: {detail}",
+    "file.too_large": (
+        "{file} is too large ({size_mb} MB; the maximum is {most_mb} MB); choose a smaller file",
+        "{file} は大きすぎます（{size_mb} MB、上限 {most_mb} MB）。もっと小さいファイルを選んでください",
+    ),
+    "json.invalid": ("{file} is damaged: {detail}", "{file} は壊れています: {detail}"),
+    "settings.value": (
+        "{file}: {place}: {detail}; the default value is used",
+        "{file}: {place}: {detail}。既定値を使用します",
+    ),
+    "settings.set_aside": (
+        ("{file} cannot be used, so settings changed now are lost when Suisou closes; correct the file or remove it"),
+        (
+            "{file} を使用できないため、変更した設定は Suisou を終了すると失われます。"
+            "ファイルを修正するか削除してください"
+        ),
+    ),
+    "export.done": ("files written to {folder}: {count}", "{folder} に書き出したファイル: {count} 個"),
+    "video.done": ("video saved: {file}", "動画を保存しました: {file}"),
+    "video.failed": ("the video {file} cannot be written: {detail}", "動画 {file} を書き出せません: {detail}"),
 }

@@ -4,28 +4,82 @@ from __future__ import annotations
 
 from typing import Final
 
-TEMPLATES: Final[dict[str, str]] = {
-    "fbx.not_binary": "{file} is not a binary FBX file",
-    "fbx.truncated": "{file} ends in the middle of a record (byte {offset})",
-    "fbx.bad_record": "{file}: the record at byte {offset} does not fit into its surroundings",
-    "fbx.bad_property": "{file}: the property at byte {offset} is of an unknown kind or too long for its record",
-    "fbx.bad_array": "{file}: the array at byte {offset} is damaged",
-    "fbx.too_deep": "{file}: the records at byte {offset} are nested too deeply",
-    "fbx.missing": "{file} has no {what}",
-    "fbx.unsupported": "{file}: {what} is not supported",
-    "fbx.not_fbx": "{file} is not an FBX file",
-    "fbx.foreign_damaged": "{file} is damaged ({detail}); export it again",
-    "fbx.too_large": "{file} describes far more data than a file of its size holds; export the character alone",
-    "fbx.contradiction": "{file} contradicts itself: {detail}",
-    "bvh.syntax": "{file}, line {line}: {found} does not belong here",
-    "bvh.truncated": "{file} ends too early",
-    "bvh.motion": "{file}: the motion does not fit the skeleton ({detail})",
-    "bvh.too_large": "{file} describes far more data than a file of its size holds; export the motion alone",
-    "bvh.unsupported": "{file}, line {line}: {what} is not supported",
-    "motion.incomplete": "{file}: no bone was found for {joints}; only the motion of a whole human body can be read",
-    "motion.far": "{file} is damaged: it has a joint farther away than any body goes; export it again",
-    "motion.format": "{file} is not a file of motion that can be read; export the motion as BVH, FBX or GLB",
-    "motion.no_animation": "{file} has no animation; export it with its animation baked",
-    "motion.too_long": "{file} has too much motion to be read at once; export it in shorter parts",
-    "usd.missing": "USD files need the package usd-core, which is not installed: pip install usd-core",
+WORDINGS: Final[dict[str, tuple[str, str]]] = {
+    "fbx.not_binary": (
+        "{file} is not a binary FBX file; export it as binary FBX",
+        "{file} はバイナリ形式の FBX ファイルではありません。バイナリ形式で書き出してください",
+    ),
+    "fbx.truncated": (
+        "{file} ends within a record (byte {offset}); copy or export it again",
+        "{file} がレコードの途中（バイト {offset}）で終わっています。コピーまたは書き出しをやり直してください",
+    ),
+    "fbx.bad_record": (
+        "{file}: the record at byte {offset} is inconsistent with the data around it",
+        "{file}: バイト {offset} のレコードが前後と整合しません",
+    ),
+    "fbx.bad_property": (
+        "{file}: the property at byte {offset} has an unknown type or is too long for its record",
+        "{file}: バイト {offset} のプロパティは型が不明か、レコードに対して長すぎます",
+    ),
+    "fbx.bad_array": ("{file}: the array at byte {offset} is damaged", "{file}: バイト {offset} の配列が壊れています"),
+    "fbx.too_deep": (
+        "{file}: the records at byte {offset} are nested too deeply",
+        "{file}: バイト {offset} のレコードの入れ子が深すぎます",
+    ),
+    "fbx.missing": ("{file} has no {what}", "{file} に {what} がありません"),
+    "fbx.unsupported": ("{file}: {what} is not supported", "{file}: {what} には対応していません"),
+    "fbx.not_fbx": ("{file} is not an FBX file", "{file} は FBX ファイルではありません"),
+    "fbx.foreign_damaged": (
+        "{file} is damaged ({detail}); export it again",
+        "{file} は壊れています（{detail}）。書き出し直してください",
+    ),
+    "fbx.too_large": (
+        "{file} declares far more data than its size allows; export only the character",
+        "{file} の内容がファイルのサイズに対して大きすぎます。キャラクターだけを書き出してください",
+    ),
+    "fbx.contradiction": ("{file} is inconsistent: {detail}", "{file} の内容が矛盾しています: {detail}"),
+    "bvh.syntax": ("{file}, line {line}: unexpected {found}", "{file}、{line} 行目: {found} は無効です"),
+    "bvh.truncated": (
+        "{file} ends unexpectedly; copy or export it again",
+        "{file} が途中で終わっています。コピーまたは書き出しをやり直してください",
+    ),
+    "bvh.motion": (
+        "{file}: the motion does not match the skeleton ({detail})",
+        "{file}: モーションがスケルトンに一致しません（{detail}）",
+    ),
+    "bvh.too_large": (
+        "{file} declares far more data than its size allows; export only the motion",
+        "{file} の内容がファイルのサイズに対して大きすぎます。モーションだけを書き出してください",
+    ),
+    "bvh.unsupported": (
+        "{file}, line {line}: {what} is not supported",
+        "{file}、{line} 行目: {what} には対応していません",
+    ),
+    "motion.incomplete": (
+        "{file}: bones were not found for {joints}; only motion of a complete human body is supported",
+        "{file}: {joints} のボーンが見つかりません。対応しているのは人体全身のモーションだけです",
+    ),
+    "motion.far": (
+        "{file} is damaged: a joint is impossibly far away; export it again",
+        "{file} は壊れています: 関節があり得ないほど遠くにあります。書き出し直してください",
+    ),
+    "motion.format": (
+        "{file} is not a supported motion file; export the motion as BVH, FBX or GLB",
+        "{file} は対応していないモーションファイルです。モーションを BVH、FBX または GLB で書き出してください",
+    ),
+    "motion.no_animation": (
+        "{file} has no animation; export it with baked animation",
+        "{file} にはアニメーションがありません。アニメーションをベイクして書き出してください",
+    ),
+    "motion.too_long": (
+        "{file} contains too much motion; export it in shorter parts",
+        "{file} のモーションは長すぎます。短く分けて書き出してください",
+    ),
+    "usd.missing": (
+        ("USD export requires the package usd-core, which is not installed; install it with: pip install usd-core"),
+        (
+            "USD の書き出しに必要なパッケージ usd-core がインストールされていません。"
+            "次のコマンドでインストールしてください: pip install usd-core"
+        ),
+    ),
 }

@@ -4,155 +4,365 @@ from __future__ import annotations
 
 from typing import Final
 
-TEMPLATES: Final[dict[str, str]] = {
+WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "doubling.rest_short": (
-        "the rest of {rest_s:g} s is too short to change from {before} to {after}: about {needed_s:g} s are needed"
+        ("the rest of {rest_s:g} s is too short to change from {before} to {after}: about {needed_s:g} s are needed"),
+        "{before}から{after}への持ち替えには休みが{rest_s:g}秒では短すぎます: 約{needed_s:g}秒必要です",
     ),
     "doubling.overlap": (
-        "{before} still sounds {seconds:g} s into {after}, but one person plays both: the change takes notes away"
+        ("{before} still sounds {seconds:g} s into {after}, but one person plays both: the change takes notes away"),
+        (
+            "一人で持ち替えますが、{after}の始まりから{seconds:g}秒間まだ{before}が鳴っています: "
+            "持ち替えの間の音は演奏できません"
+        ),
     ),
     # The plan: fingerings
-    "fingering.first_choice": "{label}: the first choice",
-    "fingering.trill": "{label} instead of {first}: less motion in a trill at {time_ms} ms a note",
-    "fingering.speed": "{label} instead of {first}: less motion where a note has {time_ms} ms",
-    "fingering.by_hand": "{label}: set by hand",
+    "fingering.first_choice": ("{label}: choice 1", "{label}: 第 1 候補"),
+    "fingering.trill": (
+        "{label} instead of {first}: less motion in a trill with {time_ms} ms per note",
+        "{first} の代わりに {label}: 1 音 {time_ms} ms のトリルで動きが少なくなります",
+    ),
+    "fingering.speed": (
+        "{label} instead of {first}: less motion where a note lasts {time_ms} ms",
+        "{first} の代わりに {label}: 1 音が {time_ms} ms のところで動きが少なくなります",
+    ),
+    "fingering.by_hand": ("{label}: set manually", "{label}: 手動で指定"),
     "fingering.out_of_range": (
-        "note {note}: {pitch} lies outside the range of this instrument, {low} to {high}; "
-        "shown with the fingering of {played_pitch}"
+        (
+            "note {note}: {pitch} is outside this instrument's range ({low} to {high}); the fingering of "
+            "{played_pitch} is shown"
+        ),
+        "音符 {note}: {pitch} はこの楽器の音域（{low}～{high}）の外です。{played_pitch} の運指を表示します",
     ),
     "fingering.starts_early": (
-        "the way to {label} takes {needed_ms} ms, but only {available_ms} ms are free before note {note}; "
-        "it starts earlier"
+        (
+            "the change to {label} takes {needed_ms} ms, but only {available_ms} ms are available before note "
+            "{note}, so it starts earlier"
+        ),
+        (
+            "{label} への移動には {needed_ms} ms かかりますが、音符 {note} の前には {available_ms} ms "
+            "しかないため、早めに動き始めます"
+        ),
     ),
     # The plan: notes that cannot sound together
     "note.struck_together": (
-        "note {note} is struck together with the higher note {other}: only one can sound, and it is left out"
+        (
+            "note {note} starts together with the higher note {other} and is excluded, as only one note can sound "
+            "at a time"
+        ),
+        "音符 {note} は、より高い音符 {other} と同時です。一度に鳴る音は 1 つのため、除外します",
     ),
-    "note.overlaps": "note {note} still sounds for {overlap_ms} ms when {other} begins: it ends there",
+    "note.overlaps": (
+        "note {note} overlaps {other} by {overlap_ms} ms and is shortened",
+        "音符 {note} は {other} と {overlap_ms} ms 重なるため、短くします",
+    ),
     "contact.out_of_reach": (
-        "{label} is out of this player's reach: {control} stops {gap_mm} mm short of it; "
-        "take another fingering, or a character with longer arms"
+        (
+            "{label} is out of reach for this player: {control} stops {gap_mm} mm short; choose another fingering, "
+            "or a character with longer arms"
+        ),
+        (
+            "{label} にはこの奏者の手が届かず、{control}が {gap_mm} mm 手前で止まります。別の運指か、"
+            "腕の長いキャラクターを選んでください"
+        ),
     ),
     # The body: what it lacks
-    "character.instrument_size": "plays an instrument of {percent} % of its size: so hands and arms reach it",
-    "character.no_fingers": (
-        "the {side} hand has fingers that do not bend: it lies on the instrument as a whole, and what they would press "
-        "moves by itself"
+    "character.instrument_size": (
+        "the instrument is scaled to {percent} % so that hands and arms can reach it",
+        "手と腕が届くように、楽器の大きさを {percent} % にします",
     ),
-    "character.no_hand": "the {side} hand has no skin to touch with: it hangs down while the other one plays",
-    "character.no_lips": "the head has no skin to find a mouth on: the instrument is held where lips would be",
-    "character.lips_still": "the mouth has no morph that opens it: breaths do not show on it, and lips stay shut",
+    "character.no_fingers": (
+        (
+            "the fingers of the {side} hand do not bend: the whole hand rests on the instrument, and keys and "
+            "valves move without fingers"
+        ),
+        "{side}手の指は曲がりません。手全体を楽器に添え、キーやピストンは指なしで動きます",
+    ),
+    "character.no_hand": (
+        "the {side} hand has no mesh and hangs down while the other hand plays",
+        "{side}手にはメッシュがありません。下ろしたまま、もう一方の手で演奏します",
+    ),
+    "character.no_lips": (
+        "the head has no mesh to find the mouth on; the instrument is held at the assumed lip position",
+        "頭に口を検出できるメッシュがありません。想定される唇の位置に楽器を構えます",
+    ),
+    "character.lips_still": (
+        "no morph opens the mouth: breaths are not visible and the lips stay closed",
+        "口を開くモーフがありません。ブレスは口に表れず、唇は閉じたままです",
+    ),
     "character.hold_failed": (
-        "{character} cannot be made to hold {instrument} ({detail}); correct the instrument's map, or take another "
-        "character"
+        ("{character} cannot hold {instrument} ({detail}); correct the instrument map, or choose another character"),
+        (
+            "{character} は {instrument} を持てません（{detail}）。インストゥルメントマップを修正するか、"
+            "別のキャラクターを選んでください"
+        ),
     ),
     "character.hold_waiting": (
-        "how the instrument is held is being found out; the player is seen as soon as that is known"
+        "the instrument hold is still being calculated; the player appears when it is finished",
+        "楽器の持ち方を計算中です。終わり次第、奏者が表示されます",
     ),
     "character.touches_missed": (
-        "{count} {count:touch does|touches do} not meet this instrument, the {touch} misses by {gap_mm} mm: hands "
-        "and instrument are of too different sizes or shapes"
+        (
+            "{count} {count:contact does|contacts do} not reach this instrument; the {touch} misses by {gap_mm} "
+            "mm: the hands and the instrument do not match in size or shape"
+        ),
+        (
+            "{count} か所の接触点がこの楽器に届きません（{touch}が {gap_mm} mm 外れます）。"
+            "手と楽器の大きさや形が合っていません"
+        ),
     ),
     # The motion: contacts
     "contact.hand_off": (
-        "the {side} hand comes off the instrument: it stays {gap_mm} mm from its place; "
-        "lessen the pose correction or the gesture here, or take a character of another size"
+        (
+            "the {side} hand is {gap_mm} mm off its position on the instrument; reduce the pose correction or "
+            "gesture here, or choose a character of another size"
+        ),
+        (
+            "{side}手が楽器上の位置から {gap_mm} mm 離れています。ここのポーズ修正やジェスチャーを弱めるか、"
+            "体格の違うキャラクターを選んでください"
+        ),
     ),
     "contact.stops_short": (
-        "{control} stops {gap_mm} mm short of its place: the {side} hand comes no farther; "
-        "lessen the pose correction or the gesture here, or take a character with longer arms"
+        (
+            "{control} stops {gap_mm} mm short of its position because the {side} hand cannot reach further; "
+            "reduce the pose correction or gesture here, or choose a character with longer arms"
+        ),
+        (
+            "{side}手がこれ以上届かず、{control}が本来の位置の {gap_mm} mm 手前で止まります。"
+            "ここのポーズ修正やジェスチャーを弱めるか、腕の長いキャラクターを選んでください"
+        ),
     ),
     "contact.finger_off": (
-        "the {touch} misses {control} by {gap_mm} mm; "
-        "lessen the pose correction here, or take a character of another size"
+        (
+            "the {touch} misses {control} by {gap_mm} mm; reduce the pose correction here, or choose a character "
+            "of another size"
+        ),
+        (
+            "{touch}が{control}から {gap_mm} mm 外れています。ここのポーズ修正を弱めるか、"
+            "体格の違うキャラクターを選んでください"
+        ),
     ),
     "contact.grip_off": (
-        "the {touch} does not touch the instrument: {gap_mm} mm are missing; "
-        "lessen the pose correction here, or take a character of another size"
+        (
+            "the {touch} is {gap_mm} mm off the instrument; reduce the pose correction here, or choose a character "
+            "of another size"
+        ),
+        (
+            "{touch}が楽器から {gap_mm} mm 離れています。ここのポーズ修正を弱めるか、"
+            "体格の違うキャラクターを選んでください"
+        ),
     ),
     "contact.lips_off": (
-        "the lips are {gap_mm} mm off the mouthpiece while a note sounds; "
-        "move or remove the gesture that lowers the instrument here"
+        (
+            "the lips are {gap_mm} mm off the mouthpiece while a note sounds; move or remove the gesture that "
+            "lowers the instrument here"
+        ),
+        (
+            "音が鳴っている間に唇がマウスピースから {gap_mm} mm 離れています。"
+            "ここで楽器を下ろすジェスチャーを移動するか削除してください"
+        ),
     ),
     "contact.foot_off": (
-        "the {side} foot leaves its place on the floor by {gap_mm} mm; lessen sway, weight shift or the pose correction"
+        "the {side} foot slides {gap_mm} mm on the floor; reduce sway, weight shift or the pose correction",
+        "{side}足が床の位置から {gap_mm} mm ずれています。揺れ・重心移動・ポーズ修正のいずれかを弱めてください",
     ),
     # The plan: breaths
-    "breath.first": "the first breath, in the {beats:g} beats before the entry",
+    "breath.first": (
+        "first breath, in the {beats:g} beats before the entry",
+        "最初のブレス。入りの前の {beats:g} 拍で吸います",
+    ),
     "breath.rest_whole": (
-        "a rest of {rest_beats:g} beats (from {min_beats:g} to below {last_beat_beats:g}): the breath takes all of it"
+        (
+            "rest of {rest_beats:g} beats (from {min_beats:g} to less than {last_beat_beats:g}): the breath takes "
+            "the whole rest"
+        ),
+        "{rest_beats:g} 拍の休符（{min_beats:g} 以上 {last_beat_beats:g} 未満）: 休符全体でブレスします",
     ),
-    "breath.heard": "heard in the breath: {gap_s:g} s without blowing",
-    "breath.heard_preparation": "heard in the breath: {gap_s:g} s without blowing; getting ready to breathe",
-    "breath.heard_short": "heard in the breath: {gap_s:g} s without blowing, taken because air was needed",
+    "breath.heard": (
+        "from the recorded breath: {gap_s:g} s without blowing",
+        "録音したブレスから: {gap_s:g} 秒間息が止まっています",
+    ),
+    "breath.heard_preparation": (
+        "from the recorded breath: {gap_s:g} s without blowing; breath preparation",
+        "録音したブレスから: {gap_s:g} 秒間息が止まっています。ブレスの準備動作です",
+    ),
+    "breath.heard_short": (
+        "from the recorded breath: {gap_s:g} s without blowing, used because air runs out",
+        "録音したブレスから: {gap_s:g} 秒間息が止まっています。息が足りないためここで吸います",
+    ),
     "breath.last_beat": (
-        "a rest of {rest_beats:g} beats (from {last_beat_beats:g} to below {prepare_beats:g}): "
-        "the breath takes its last beat"
+        (
+            "rest of {rest_beats:g} beats (from {last_beat_beats:g} to less than {prepare_beats:g}): the breath "
+            "takes the last beat"
+        ),
+        "{rest_beats:g} 拍の休符（{last_beat_beats:g} 以上 {prepare_beats:g} 未満）: 最後の拍でブレスします",
     ),
-    "breath.prepared": "a rest of {rest_beats:g} beats (from {prepare_beats:g}): prepared, then the last beat",
-    "breath.preparation": "a rest of {rest_beats:g} beats (from {prepare_beats:g}): getting ready to breathe",
+    "breath.prepared": (
+        "rest of {rest_beats:g} beats (at least {prepare_beats:g}): preparation, then breath on the last beat",
+        "{rest_beats:g} 拍の休符（{prepare_beats:g} 以上）: 準備動作をしてから最後の拍でブレスします",
+    ),
+    "breath.preparation": (
+        "rest of {rest_beats:g} beats (at least {prepare_beats:g}): breath preparation",
+        "{rest_beats:g} 拍の休符（{prepare_beats:g} 以上）: ブレスの準備動作",
+    ),
     "breath.catch": (
-        "a catch breath after note {after_note}: {phrase_s:g} s without a breath in a rest need more than the "
-        "{lung_s:g} s of air there are; {from_note_ms:g} ms come out of that note's tail"
+        (
+            "catch breath after note {after_note}: {phrase_s:g} s since the last breath in a rest exceed the "
+            "{lung_s:g} s of air; the note is shortened by {from_note_ms:g} ms"
+        ),
+        (
+            "音符 {after_note} の後の息継ぎ: 休符でのブレスから {phrase_s:g} 秒続き、{lung_s:g} "
+            "秒分の息では足りません。その音を {from_note_ms:g} ms 短くします"
+        ),
     ),
     "breath.catch_dropped": (
-        "a catch breath instead of note {after_note}, which is left out: {phrase_s:g} s without a breath in a rest "
-        "need more than the {lung_s:g} s of air there are, and no note is long enough to take it from"
+        (
+            "catch breath in place of note {after_note}, which is excluded: {phrase_s:g} s since the last breath "
+            "in a rest exceed the {lung_s:g} s of air, and no note is long enough to shorten"
+        ),
+        (
+            "音符 {after_note} を除外した息継ぎ: 休符でのブレスから {phrase_s:g} 秒続き、{lung_s:g} "
+            "秒分の息では足りません。短くできる長さの音もありません"
+        ),
     ),
     "breath.catch_dropped_two": (
-        "a catch breath instead of notes {first_note} and {after_note}, which are left out: {phrase_s:g} s without a "
-        "breath in a rest need more than the {lung_s:g} s of air there are, and no note is long enough to take it from"
+        (
+            "a catch breath instead of notes {first_note} and {after_note}, which are left out: {phrase_s:g} s "
+            "without a breath in a rest need more than the {lung_s:g} s of air there are, and no note is long "
+            "enough to take it from"
+        ),
+        (
+            "音符 {first_note} と {after_note} を省いた素早いブレス: 休符でブレスしないまま {phrase_s:g} 秒続き、"
+            "{lung_s:g} 秒分の息では足りません。息継ぎできる長さの音もありません"
+        ),
     ),
     "breath.staggered": (
-        "a breath within a note that others of the line hold on: it takes {air_s:g} s of air, and there are {lung_s:g}"
+        (
+            "staggered breath within a note that others of the line sustain: {air_s:g} s of air are needed, "
+            "{lung_s:g} s are available"
+        ),
+        (
+            "同じ声部のほかの奏者がのばしている音の途中のブレス: {air_s:g} 秒分の息が必要ですが、{lung_s:g} "
+            "秒分しかありません"
+        ),
     ),
     "breath.too_long": (
-        "from note {note} on, {phrase_s:g} s must be played on one breath; it takes {air_s:g} s of air, and there are "
-        "{lung_s:g}"
+        (
+            "from note {note}, {phrase_s:g} s must be played in one breath: {air_s:g} s of air are needed, "
+            "{lung_s:g} s are available; add a breath"
+        ),
+        (
+            "音符 {note} から {phrase_s:g} 秒を一息で吹く必要があります。{air_s:g} 秒分の息が必要ですが、"
+            "{lung_s:g} 秒分しかありません。ブレスを追加してください"
+        ),
     ),
-    "breath.inside_note": "this breath, placed by hand, lies inside the sounding note {note}",
+    "breath.inside_note": (
+        "this manually placed breath is inside the sounding note {note}; move or remove it",
+        "手動で置いたこのブレスは、鳴っている音符 {note} の途中にあります。移動するか削除してください",
+    ),
     # The plan: cues, gestures, faces
-    "cue.start": "starts the piece ({leader_reason}); the preparatory beat lasts {beat_s:g} s",
-    "cue.after_pause": (
-        "brings everyone in after a general pause of {rest_s:g} s ({leader_reason}); "
-        "the preparatory beat lasts {beat_s:g} s"
+    "cue.start": (
+        "cue to start the piece ({leader_reason}); preparatory beat {beat_s:g} s",
+        "曲を始める合図（{leader_reason}）。予備拍は {beat_s:g} 秒です",
     ),
-    "cue.after_fermata": "goes on after a fermata ({leader_reason}); the preparatory beat lasts {beat_s:g} s",
+    "cue.after_pause": (
+        ("cue for all players after a general pause of {rest_s:g} s ({leader_reason}); preparatory beat {beat_s:g} s"),
+        "{rest_s:g} 秒のゲネラルパウゼの後に全員を入れる合図（{leader_reason}）。予備拍は {beat_s:g} 秒です",
+    ),
+    "cue.after_fermata": (
+        "cue to continue after a fermata ({leader_reason}); preparatory beat {beat_s:g} s",
+        "フェルマータの後を続ける合図（{leader_reason}）。予備拍は {beat_s:g} 秒です",
+    ),
     "cue.tempo": (
-        "gives the new tempo of {bpm:g} beats a minute ({leader_reason}); the preparatory beat lasts {beat_s:g} s"
+        "cue for the new tempo of {bpm:g} beats per minute ({leader_reason}); preparatory beat {beat_s:g} s",
+        "毎分 {bpm:g} 拍の新しいテンポを示す合図（{leader_reason}）。予備拍は {beat_s:g} 秒です",
     ),
     "cue.section": (
-        "brings in {count} {count:player|players} after {rest_s:g} s of rest, while others play ({leader_reason}); "
-        "the preparatory beat lasts {beat_s:g} s"
+        (
+            "cue for {count} {count:player|players} after {rest_s:g} s of rest, while others play ({leader_reason})"
+            "; preparatory beat {beat_s:g} s"
+        ),
+        (
+            "ほかの奏者の演奏中、{rest_s:g} 秒休んだ奏者 {count} 人を入れる合図（{leader_reason}）。予備拍は "
+            "{beat_s:g} 秒です"
+        ),
     ),
-    "cue.joins": "comes in after {rest_s:g} s of rest, while others play; the preparatory beat lasts {beat_s:g} s",
+    "cue.joins": (
+        "entry cue after {rest_s:g} s of rest, while others play; preparatory beat {beat_s:g} s",
+        "ほかの奏者の演奏中、{rest_s:g} 秒休んだ後に入る合図。予備拍は {beat_s:g} 秒です",
+    ),
     "cue.after_rest": (
-        "brings everyone in after {rest_s:g} s of common rest ({leader_reason}); "
-        "the preparatory beat lasts {beat_s:g} s"
+        "cue for all players after {rest_s:g} s of common rest ({leader_reason}); preparatory beat {beat_s:g} s",
+        "{rest_s:g} 秒の全休の後に全員を入れる合図（{leader_reason}）。予備拍は {beat_s:g} 秒です",
     ),
-    "gesture.sway": "half a swing in {beats:g} beats of {beat_s:g} s",
-    "gesture.weight_shift": "a shift of weight to the {side} foot",
-    "gesture.bell_height": "the melody is around {pitch}; the line's mean is {mean_pitch}",
-    "gesture.bell_accent": "an accent, {more:g} louder than the notes around it",
-    "gesture.lower_instrument": "{rest_s:g} s of rest: the instrument comes down and is up again before the entry",
-    "gesture.lower_at_end": "{after_s:g} s after the last note the instrument comes down",
-    "gesture.lower_at_start": "the entry is {rest_s:g} s away: the instrument is still down",
-    "embouchure.register": "{pitch} in a range of {low} to {high}, loudness {loudness:g}",
-    "embouchure.heard": "{pitch} in a range of {low} to {high}; heard in the breath: loudness {loudness:g} on average",
-    "expression.default": "the face at rest",
-    "expression.effort": "effort {effort:g} (from {threshold:g}): high, loud or long",
-    "expression.low_loud": "{pitch} lies below {easy_low} and is loud ({loudness:g})",
-    "expression.gives_entry": "gives the entry",
-    "expression.takes_entry": "comes in after {rest_s:g} s of rest",
-    "expression.end": "the last note is over: a bright end, in major, {bpm:g} beats a minute and not soft",
+    "gesture.sway": ("half a swing in {beats:g} beats of {beat_s:g} s", "{beat_s:g} 秒の拍 {beats:g} つで半往復の揺れ"),
+    "gesture.weight_shift": ("weight shift to the {side} foot", "{side}足への重心移動"),
+    "gesture.bell_height": (
+        "the melody is around {pitch}; the mean of the part is {mean_pitch}",
+        "旋律は {pitch} のあたり。パートの平均は {mean_pitch}",
+    ),
+    "gesture.bell_accent": (
+        "accent, {more:g} louder than the notes around it",
+        "アクセント: 前後の音より {more:g} 大きい音",
+    ),
+    "gesture.lower_instrument": (
+        "{rest_s:g} s of rest: the instrument is lowered and raised again before the entry",
+        "{rest_s:g} 秒の休み: 楽器を下ろし、入りの前に構え直します",
+    ),
+    "gesture.lower_at_end": (
+        "the instrument is lowered {after_s:g} s after the last note",
+        "最後の音から {after_s:g} 秒後に楽器を下ろします",
+    ),
+    "gesture.lower_at_start": (
+        "{rest_s:g} s before the entry: the instrument is still lowered",
+        "入りまで {rest_s:g} 秒あるため、楽器はまだ下ろしています",
+    ),
+    "embouchure.register": (
+        "{pitch} in a range of {low} to {high}, loudness {loudness:g}",
+        "音域 {low}～{high} の中の {pitch}、音量 {loudness:g}",
+    ),
+    "embouchure.heard": (
+        "{pitch} in a range of {low} to {high}; from the recorded breath: average loudness {loudness:g}",
+        "音域 {low}～{high} の中の {pitch}、録音したブレスから: 平均音量 {loudness:g}",
+    ),
+    "expression.default": ("neutral face", "力を抜いた顔"),
+    "expression.effort": (
+        "effort {effort:g} (threshold {threshold:g}): high, loud or long",
+        "力の入り具合 {effort:g}（{threshold:g} 以上）: 高い・強い・長い音",
+    ),
+    "expression.low_loud": (
+        "{pitch} is below {easy_low} and loud ({loudness:g})",
+        "{pitch} は {easy_low} より低く、強い音です（{loudness:g}）",
+    ),
+    "expression.gives_entry": ("gives a cue", "合図を出す"),
+    "expression.takes_entry": ("enters after {rest_s:g} s of rest", "{rest_s:g} 秒の休みの後に入る"),
+    "expression.end": (
+        "after the last note: a bright ending (major, {bpm:g} beats per minute, not soft)",
+        "最後の音の後: 明るい終わり（長調、毎分 {bpm:g} 拍、弱くない）",
+    ),
     # Corrections
-    "correction.by_hand": "set by hand",
-    "correction.orphaned": "the correction ({kind}) for {anchor} has lost its place: it is kept, but does nothing",
-    "correction.unknown_expression": "there is no expression {name!r}; there are: {known}",
-    "correction.empty_span": "the correction ({kind}) for {anchor} ends before it begins: it is kept, but does nothing",
-    "pose.beyond_reach": (
-        "the {target} was to be held {asked_deg:g} degrees ({angle}), but a body or the instrument's hold goes no "
-        "further than {most_deg:g}"
+    "correction.by_hand": ("set manually", "手動で指定"),
+    "correction.orphaned": (
+        "correction ({kind}) for {anchor}: no matching note; it is kept but inactive; re-attach or revert it",
+        ("{anchor} への手動修正（{kind}）: 対応する音符がなく、無効です。残してあるので、付け直すか元に戻してください"),
     ),
-    "correction.no_such_fingering": "{label} is not a fingering of note {note} on this instrument; the search chose",
+    "correction.unknown_expression": (
+        "expression {name!r} was not found; choose one of: {known}",
+        "表情 {name!r} が見つかりません。使えるもの: {known}",
+    ),
+    "correction.empty_span": (
+        "correction ({kind}) for {anchor} ends before it starts; it is kept but inactive",
+        "{anchor} への手動修正（{kind}）は、始まる前に終わるため無効です。残してあります",
+    ),
+    "pose.beyond_reach": (
+        (
+            "the {target} is set to {asked_deg:g} degrees ({angle}), but the limit of the body or instrument hold "
+            "is {most_deg:g} degrees"
+        ),
+        "{target}の指定は {asked_deg:g} 度（{angle}）ですが、体や楽器の構えの限度は {most_deg:g} 度です",
+    ),
+    "correction.no_such_fingering": (
+        "{label} is not a fingering of note {note} on this instrument; the generated fingering is used",
+        "{label} はこの楽器での音符 {note} の運指ではないため、自動生成の運指を使います",
+    ),
 }

@@ -4,89 +4,222 @@ from __future__ import annotations
 
 from typing import Final
 
-TEMPLATES: Final[dict[str, str]] = {
+WORDINGS: Final[dict[str, tuple[str, str]]] = {
     # Files
     "project.damaged": (
-        "{file} is no project file or is damaged: {detail}; the version before it was last saved may be beside it, "
-        "with .bak at the end of its name"
+        (
+            "{file} is not a project file or is damaged: {detail}; look for the previously saved version next to "
+            "it, with .bak at the end of its name"
+        ),
+        (
+            "{file} はプロジェクトファイルではないか、壊れています: {detail}。同じフォルダーに、"
+            "前回保存したもの（名前の末尾が .bak）がないか確認してください"
+        ),
     ),
     "project.invalid": (
-        "{file} cannot be opened: {place}: {detail}; put it right there in a text editor, or open the version before "
-        "it was last saved, which has .bak at the end of its name"
+        (
+            "{file} cannot be opened: {place}: {detail}; correct it in a text editor, or open the previously saved "
+            "version, which has .bak at the end of its name"
+        ),
+        (
+            "{file} を開けません: {place}: {detail}。テキストエディターで修正するか、"
+            "前回保存したもの（名前の末尾が .bak）を開いてください"
+        ),
     ),
     "project.newer": (
-        "{file} was saved by a newer version of the program (its file version is {version}, this program knows up to "
-        "{known}); open it with the newer version"
+        (
+            "{file} was saved by a newer version of Suisou (file version {version}; this version reads up to "
+            "{known}); use the newer version"
+        ),
+        (
+            "{file} は新しいバージョンの Suisou で保存されています（ファイルのバージョンは {version}、対応は "
+            "{known} まで）。新しいバージョンを使ってください"
+        ),
     ),
     "project.cannot_save": (
-        "{file} was not saved, it could not be opened again: {place}: {detail}; undo the last edit, then save"
+        ("{file} was not saved because it could not be opened again: {place}: {detail}; undo the last edit, then save"),
+        (
+            "{file} は保存していません。保存すると開けなくなります: {place}: {detail}。"
+            "直前の編集を元に戻してから保存してください"
+        ),
     ),
-    "project.read_only": "{file} is write-protected; save it under another name or allow writing",
+    "project.read_only": (
+        "{file} is write-protected; save it under another name or allow writing",
+        "{file} は書き込み禁止です。別の名前で保存するか、書き込みを許可してください",
+    ),
     "project.open_elsewhere": (
-        "{file} is open in another window too; what is saved here and there replaces each other"
+        ("{file} is also open in another window; saving in both overwrites each other's changes; close one of them"),
+        "{file} は別のウィンドウでも開かれています。両方で保存すると互いに上書きされます。一方を閉じてください",
     ),
     "project.written": (
-        "--written says how the pitches of a MIDI file are read; {file} is a project, whose notes are "
-        "transposed in the editor"
+        (
+            "--written sets how the pitches of a MIDI file are read, but {file} is a project; transpose its notes "
+            "in the editor"
+        ),
+        (
+            "--written は MIDI ファイルの音高の読み方の指定ですが、{file} はプロジェクトです。"
+            "音符の移調はエディターで行ってください"
+        ),
     ),
     "project.assign": (
-        "--assign gives instruments to the parts of a MIDI file; {file} is a project; there use --set "
-        "'PLAYER.instrument=ID'"
+        (
+            "--assign sets the instruments of the parts of a MIDI file, but {file} is a project; use --set "
+            "'PLAYER.instrument=ID'"
+        ),
+        (
+            "--assign は MIDI ファイルのパートに楽器を割り当てますが、{file} はプロジェクトです。--set "
+            "'PLAYER.instrument=ID' を使ってください"
+        ),
     ),
-    "assign.malformed": "--assign: {assignment!r} is not PART=INSTRUMENT, for instance 'Lead=trumpet_Bb'",
-    "assign.instrument_unknown": "there is no instrument {instrument!r}; there are: {possible}",
-    "assign.needed": "{reason} with --assign '{part}=INSTRUMENT'",
-    "project.encoding": "--encoding says how the texts of a MIDI file are read; {file} is a project and needs none",
+    "assign.malformed": (
+        "--assign: {assignment!r} is not in the form PART=INSTRUMENT, e.g. 'Lead=trumpet_Bb'",
+        "--assign: {assignment!r} は「パート=楽器」の形ではありません（例: 'Lead=trumpet_Bb'）",
+    ),
+    "assign.instrument_unknown": (
+        "there is no instrument {instrument!r}; there are: {possible}",
+        "楽器 {instrument!r} はありません。使える楽器: {possible}",
+    ),
+    "assign.needed": (
+        "{reason} with --assign '{part}=INSTRUMENT'",
+        "{reason}。--assign '{part}=INSTRUMENT' で指定できます",
+    ),
+    "project.encoding": (
+        "--encoding sets how the texts of a MIDI file are read, but {file} is a project; leave it out",
+        "--encoding は MIDI ファイルの文字の読み方の指定ですが、{file} はプロジェクトです。指定は不要です",
+    ),
     "autosave.elsewhere": (
-        "{file} cannot be autosaved in its own folder ({reason}); for now it is autosaved in {folder} and offered from "
-        "there after a crash. Free some space or allow writing, or save the project in another folder"
+        (
+            "{file} cannot be autosaved in its folder ({reason}); it is autosaved in {folder} instead and can be "
+            "recovered from there after a crash; free some space, allow writing, or save the project in another "
+            "folder"
+        ),
+        (
+            "{file} は、そのフォルダーに自動保存できません（{reason}）。代わりに {folder} に自動保存し、"
+            "異常終了後はそこから復元できます。空き容量を増やすか、書き込みを許可するか、"
+            "プロジェクトを別のフォルダーに保存してください"
+        ),
     ),
     "autosave.refused": (
-        "unsaved work is at risk: {file} can be autosaved neither in its own folder ({reason}) nor in {folder} "
-        "({folder_reason}); save the project in another folder now"
+        (
+            "unsaved changes are at risk: {file} cannot be autosaved in its folder ({reason}) or in {folder} "
+            "({folder_reason}); save the project in another folder now"
+        ),
+        (
+            "未保存の変更が失われる恐れがあります。{file} は、そのフォルダー（{reason}）にも "
+            "{folder}（{folder_reason}）にも自動保存できません。"
+            "すぐにプロジェクトを別のフォルダーに保存してください"
+        ),
     ),
     "autosave.nowhere": (
-        "unsaved work is at risk: it cannot be autosaved in {folder} ({reason}); save the project in another folder now"
+        ("unsaved changes are at risk: autosave to {folder} failed ({reason}); save the project in another folder now"),
+        (
+            "未保存の変更が失われる恐れがあります。{folder} に自動保存できません（{reason}）。"
+            "すぐにプロジェクトを別のフォルダーに保存してください"
+        ),
     ),
     "presence.refused": (
-        "{file} cannot be written ({reason}): new pieces are not autosaved until they are saved to a file, and unsaved "
-        "work is offered only when its file is opened; allow writing there or free some space"
+        (
+            "{file} cannot be written ({reason}): new projects are not autosaved until they are saved, and unsaved "
+            "changes can be recovered only by opening their file; allow writing or free some space"
+        ),
+        (
+            "{file} に書き込めません（{reason}）。新規プロジェクトは保存するまで自動保存されず、"
+            "未保存の変更はそのファイルを開いたときにだけ復元できます。書き込みを許可するか、"
+            "空き容量を増やしてください"
+        ),
     ),
     "project.instrument_missing": (
-        "{player} plays the instrument {id!r}, which is not installed; choose another one or install it"
+        "the instrument {id!r} of {player} is not installed; choose another one or install it",
+        "{player} の楽器 {id!r} がインストールされていません。別の楽器を選ぶか、追加してください",
     ),
     "project.character_missing": (
-        "{player} is the character {id!r}, which is not installed; choose another one or install it"
+        "the character {id!r} of {player} is not installed; choose another one or install it",
+        ("{player} のキャラクター {id!r} がインストールされていません。別のキャラクターを選ぶか、追加してください"),
     ),
     "project.choreography_missing": (
-        "{dancer} dances the choreography {name!r}, which does not come with this version of the program; choose a "
-        "choreography file or one of: {known}"
+        (
+            "the choreography {name!r} of {dancer} is not included in this version of Suisou; choose a "
+            "choreography file or one of: {known}"
+        ),
+        (
+            "{dancer} の振り付け {name!r} は、このバージョンの Suisou に付属していません。振り付けのファイルか、"
+            "次のいずれかを選んでください: {known}"
+        ),
     ),
     "project.choreography_file_missing": (
-        "{dancer} dances the choreography {file}, which is not there; put the file back or choose another choreography"
+        "the choreography {file} of {dancer} was not found; put the file back or choose another choreography",
+        "{dancer} の振り付け {file} が見つかりません。ファイルを元の場所に戻すか、別の振り付けを選んでください",
     ),
-    "project.unknown_remark": "a remark of another version of the program ({remark})",
+    "project.unknown_remark": (
+        "warning from another version of Suisou ({remark})",
+        "別のバージョンの Suisou による警告（{remark}）",
+    ),
     # Edits of the piece
-    "tempo.outside": "a tempo must be from {low:g} to {high:g} quarters per minute",
-    "tempo.first_stays": "what holds from the beginning can be changed, but neither moved nor removed",
-    "tempo.none_here": "no tempo begins at tick {tick}",
-    "tempo.place_outside": "tick {tick} lies outside every piece",
-    "metre.none_here": "no metre begins at tick {tick}",
-    "metre.impossible": "{numerator}/{denominator} is no metre; the lower number must be 1, 2, 4, 8, 16, 32 or 64",
-    "metre.pickup_too_long": "a pickup is shorter than a whole bar: at most {most} ticks",
-    "metre.inside_pickup": "no metre can begin within the pickup; change the pickup first",
-    "piece.value_outside": "{what} must be from {low:g} to {high:g}",
-    "piece.no_recording": "there is no recording that an offset could belong to; choose one first",
-    "piece.path_unusable": "the path {path} cannot be kept in a project; rename the file or move it",
-    "expression.invalid": "the expression {name!r} cannot be kept: {place}: {detail}",
-    "expression.no_name": "an expression needs a name that can be seen",
-    "expression.name_taken": "there is an expression {name!r} already; choose another name",
-    "expression.none_of_name": "there is no expression {name!r} of your own in this project",
+    "tempo.outside": (
+        "the tempo must be between {low:g} and {high:g} quarter notes per minute",
+        "テンポは毎分 {low:g} から {high:g} 四分音符までです",
+    ),
+    "tempo.first_stays": (
+        "the initial tempo and time signature can be changed, but not moved or removed",
+        "曲頭のテンポと拍子は変更できますが、移動や削除はできません",
+    ),
+    "tempo.none_here": ("no tempo change starts at tick {tick}", "ティック {tick} から始まるテンポはありません"),
+    "tempo.place_outside": ("tick {tick} is outside the piece", "ティック {tick} は曲の範囲外です"),
+    "metre.none_here": ("no time signature starts at tick {tick}", "ティック {tick} から始まる拍子はありません"),
+    "metre.impossible": (
+        ("{numerator}/{denominator} is not a valid time signature; the lower number must be 1, 2, 4, 8, 16, 32 or 64"),
+        "{numerator}/{denominator} は拍子として使えません。分母は 1、2、4、8、16、32、64 のいずれかです",
+    ),
+    "metre.pickup_too_long": (
+        "a pickup must be shorter than a whole bar: at most {most} ticks",
+        "弱起は 1 小節より短く、最長 {most} ティックです",
+    ),
+    "metre.inside_pickup": (
+        "a time signature cannot start within the pickup; change the pickup first",
+        "弱起の途中から拍子は始められません。先に弱起を変更してください",
+    ),
+    "piece.value_outside": ("{what} must be between {low:g} and {high:g}", "{what} は {low:g} から {high:g} までです"),
+    "piece.no_recording": (
+        "there is no audio to offset; import an audio file first",
+        "オフセットを設定する音源がありません。先に音源を読み込んでください",
+    ),
+    "piece.path_unusable": (
+        "the path {path} cannot be stored in a project; rename or move the file",
+        "パス {path} はプロジェクトに保存できません。ファイルの名前を変えるか、移動してください",
+    ),
+    "expression.invalid": (
+        "the expression {name!r} cannot be saved: {place}: {detail}",
+        "表情 {name!r} を保存できません: {place}: {detail}",
+    ),
+    "expression.no_name": (
+        "an expression name must have at least one visible character",
+        "表情の名前には、表示できる文字が 1 つ以上必要です",
+    ),
+    "expression.name_taken": (
+        "an expression named {name!r} already exists; choose another name",
+        "表情 {name!r} は既に存在します。別の名前にしてください",
+    ),
+    "expression.none_of_name": (
+        "expression {name!r} was not found in this project",
+        "このプロジェクトに、表情 {name!r} が見つかりません",
+    ),
     # Presets
     # Re-import
-    "reimport.done": "the MIDI file is taken in; notes found again: {kept}, corrections without a note: {lost}",
-    "reimport.no_note": "a correction of this kind ({kind}) belongs to no note",
-    "reimport.not_played": "the player does not play the note {note}; choose one of theirs",
-    "preset.no_name": "a preset needs a name that can be seen",
-    "preset.none_of_name": "there is no preset {name!r}",
+    "reimport.done": (
+        "MIDI updated; notes matched: {kept}, corrections without a matching note: {lost}",
+        "MIDI を更新しました。引き継いだ音符: {kept}、対応する音符のない手動修正: {lost}",
+    ),
+    "reimport.no_note": (
+        "corrections of this kind ({kind}) are not attached to notes",
+        "この種類の手動修正（{kind}）は音符に付くものではありません",
+    ),
+    "reimport.not_played": (
+        "the player does not play note {note}; select one of this player's notes",
+        "この奏者は音符 {note} を演奏しません。この奏者の音符を選んでください",
+    ),
+    "preset.no_name": (
+        "a preset name must have at least one visible character",
+        "プリセットの名前には、表示できる文字が 1 つ以上必要です",
+    ),
+    "preset.none_of_name": ("preset {name!r} was not found", "プリセット {name!r} が見つかりません"),
 }

@@ -4,31 +4,76 @@ from __future__ import annotations
 
 from typing import Final
 
-TEMPLATES: Final[dict[str, str]] = {
-    "set.syntax": "--set {text}: expected PLAYER.parameter=value",
-    "set.player_unknown": "--set: there is no player {player!r}; there are: {possible}",
-    "set.parameter_unknown": "--set: there is no parameter {parameter!r}; there are: {possible}",
-    "set.posture_impossible": "--set: {player} plays {instrument}, which is not played {value}; possible: {possible}",
-    "set.value_invalid": "--set: {parameter} cannot be {value!r}; possible: {possible}",
-    "player.unknown": "there is no player {player!r}; there are: {possible}",
-    "bars.none": "there are no bars {first} to {last}; the piece has {lowest} to {highest}",
-    "export.nobody": "{file}: there is nobody to export; 'suisou inspect' says why each part is not played",
-    "player.left_out": "{player} is left out: {reason}",
-    "player.fault": "{player} cannot be seen because of a fault of the program: {detail}",
-    "player.not_seen": "these players cannot be seen: {players}; the list of problems says why",
-    "player.all_left_out": "{file}: none of the players can be seen: {reasons}",
+WORDINGS: Final[dict[str, tuple[str, str]]] = {
+    "set.syntax": (
+        "--set {text}: expected PLAYER.parameter=value",
+        "--set {text}: 「奏者.パラメーター=値」の形で指定してください",
+    ),
+    "set.player_unknown": (
+        "--set: player {player!r} was not found; choose one of: {possible}",
+        "--set: 奏者 {player!r} が見つかりません。指定できるもの: {possible}",
+    ),
+    "set.parameter_unknown": (
+        "--set: parameter {parameter!r} does not exist; choose one of: {possible}",
+        "--set: パラメーター {parameter!r} はありません。指定できるもの: {possible}",
+    ),
+    "set.posture_impossible": (
+        "--set: {player} plays {instrument}, which cannot be played {value}; choose one of: {possible}",
+        "--set: {player} の楽器 {instrument} は {value} では演奏できません。指定できるもの: {possible}",
+    ),
+    "set.value_invalid": (
+        "--set: {parameter} cannot be {value!r}; choose one of: {possible}",
+        "--set: {parameter} に {value!r} は指定できません。指定できる値: {possible}",
+    ),
+    "player.unknown": (
+        "player {player!r} was not found; choose one of: {possible}",
+        "奏者 {player!r} が見つかりません。指定できるもの: {possible}",
+    ),
+    "bars.none": (
+        "bars {first} to {last} do not exist; the piece has bars {lowest} to {highest}",
+        "{first} から {last} の小節はありません。この曲の小節は {lowest} から {highest} までです",
+    ),
+    "export.nobody": (
+        "{file}: there are no players to export; 'suisou inspect' shows why each part is not played",
+        "{file}: 書き出す奏者がいません。演奏されない理由は 'suisou inspect' で確認できます",
+    ),
+    "player.left_out": ("{player} is excluded: {reason}", "{player} は除外されました: {reason}"),
+    "player.fault": (
+        "{player} cannot be displayed because of an internal error: {detail}",
+        "{player} は内部エラーのため表示できません: {detail}",
+    ),
+    "player.not_seen": (
+        "players that cannot be displayed: {players}; see the problem list for reasons",
+        "表示できない奏者: {players}。理由は問題の一覧で確認できます",
+    ),
+    "player.all_left_out": (
+        "{file}: no player can be displayed: {reasons}",
+        "{file}: 表示できる奏者がいません: {reasons}",
+    ),
     "export.too_long": (
-        "{file}: {frames} frames are more than the {most} that one export holds; "
-        "take some bars with --from-bar and --to-bar"
+        ("{file}: {frames} frames exceed the maximum of {most} per export; select bars with --from-bar and --to-bar"),
+        (
+            "{file}: {frames} フレームは一度に書き出せる {most} を超えています。--from-bar と --to-bar "
+            "で小節を絞ってください"
+        ),
     ),
     "piece.too_long": (
-        "the piece would last {hours:g} hours, with {quarters} quarter notes and {bars} bars; at most {most_hours} "
-        "hours, {most_quarters} quarter notes and {most_bars} bars can be played; shorten it"
+        (
+            "the piece would last {hours:g} hours, with {quarters} quarter notes and {bars} bars; the maximum is "
+            "{most_hours} hours, {most_quarters} quarter notes and {most_bars} bars; shorten the piece"
+        ),
+        (
+            "曲の長さが {hours:g} 時間（四分音符 {quarters} 個、{bars} 小節）になります。上限は {most_hours} 時間、"
+            "四分音符 {most_quarters} 個、{most_bars} 小節です。曲を短くしてください"
+        ),
     ),
-    "open.audio_alone": "{file} is a recording; open the piece that it belongs to first, then drop it again",
+    "open.audio_alone": (
+        "{file} is an audio file; open its project or MIDI file first, then drop it again",
+        "{file} は音源です。先に曲を開いてから、もう一度ドロップしてください",
+    ),
     "program.fault": (
-        "something went wrong in the program: {detail}; your work was written down; please report this with the file "
-        "{log}"
+        "an internal error occurred: {detail}; your work was saved; please report this with the file {log}",
+        ("内部エラーが発生しました: {detail}。作業内容は保存されています。ファイル {log} を添えて報告してください"),
     ),
-    "work.stopped": "stopped; nothing was written",
+    "work.stopped": ("cancelled; nothing was written", "中止しました。何も書き込んでいません"),
 }

@@ -4,132 +4,304 @@ from __future__ import annotations
 
 from typing import Final
 
-TEMPLATES: Final[dict[str, str]] = {
+WORDINGS: Final[dict[str, tuple[str, str]]] = {
     # MIDI files that cannot be read
-    "midi.empty": "{file} is empty",
-    "midi.not_midi": "{file} is not a MIDI file: byte {byte} has {found} where the header MThd belongs",
-    "midi.header_truncated": "{file} ends within its header, at byte {byte}",
-    "midi.bad_division": "{file}: the time division at byte {byte} is 0, so the notes have no times",
-    "midi.no_tracks": "{file} has no track: byte {byte} has {found} where a track MTrk belongs",
-    "midi.unknown_encoding": "{file}: there is no text encoding {encoding!r}",
-    "midi.track_unreadable": "{file}: track {track}, which begins at byte {byte}, cannot be read: {detail}",
+    "midi.empty": ("{file} is empty; choose another file", "{file} は空です。別のファイルを選んでください"),
+    "midi.not_midi": (
+        "{file} is not a MIDI file: byte {byte} contains {found} instead of the header MThd",
+        "{file} は MIDI ファイルではありません: ヘッダー MThd があるべきバイト {byte} が {found} です",
+    ),
+    "midi.header_truncated": (
+        "{file} ends within its header, at byte {byte}; copy or export it again",
+        "{file} がヘッダーの途中（バイト {byte}）で終わっています。コピーまたは書き出しをやり直してください",
+    ),
+    "midi.bad_division": (
+        "{file}: the time division at byte {byte} is 0, so note times cannot be determined; export it again",
+        "{file}: バイト {byte} の分解能が 0 のため、音符の時間を決定できません。書き出し直してください",
+    ),
+    "midi.no_tracks": (
+        "{file} has no tracks: byte {byte} contains {found} instead of a track header MTrk",
+        "{file} にトラックがありません: トラック MTrk があるべきバイト {byte} が {found} です",
+    ),
+    "midi.unknown_encoding": (
+        "{file}: unknown text encoding {encoding!r}",
+        "{file}: 文字コード {encoding!r} は不明です",
+    ),
+    "midi.track_unreadable": (
+        "{file}: track {track}, starting at byte {byte}, cannot be read: {detail}",
+        "{file}: バイト {byte} から始まるトラック {track} を読み込めません: {detail}",
+    ),
     "midi.too_many_parts": (
-        "{file}: {parts} parts (channels of tracks) have notes; at most {most} can be read; delete those that no wind "
-        "player plays, in the program that the file comes from"
+        (
+            "{file}: {parts} parts (channels of tracks) contain notes, but at most {most} can be read; in the "
+            "source program, delete parts that no wind player plays"
+        ),
+        (
+            "{file}: 音符のあるパート（トラックごとのチャンネル）が {parts} あります。読み込めるのは {most} "
+            "までです。元のプログラムで、管楽器が演奏しないパートを削除してください"
+        ),
     ),
     "midi.too_long": (
-        "{file}: the last note of track {track} ends after {hours:g} hours, {quarters} quarter notes and {bars} bars; "
-        "at most {most_hours} hours, {most_quarters} quarter notes and {most_bars} bars can be played; delete what "
-        "lies far behind the music, or correct the tempo, in the program that the file comes from"
+        (
+            "{file}: the last note of track {track} ends after {hours:g} hours, {quarters} quarter notes and "
+            "{bars} bars; the maximum is {most_hours} hours, {most_quarters} quarter notes and {most_bars} bars; "
+            "in the source program, delete notes far behind the music, or correct the tempo"
+        ),
+        (
+            "{file}: トラック {track} の最後の音符が {hours:g} 時間後（四分音符 {quarters} 個、{bars} "
+            "小節）に終わります。上限は {most_hours} 時間、四分音符 {most_quarters} 個、{most_bars} 小節です。"
+            "元のプログラムで、曲から遠く離れた音符を削除するか、テンポを修正してください"
+        ),
     ),
     # MIDI files that can be read in part, or in an own way
     "midi.header_length": (
-        "the header says that it is {length} bytes long and is not (byte {byte}); its first 6 bytes were taken"
+        ("the header length is stated as {length} bytes, which is wrong (byte {byte}); its first 6 bytes were used"),
+        "ヘッダーの長さ {length} バイトは誤りです（バイト {byte}）。先頭の 6 バイトを使いました",
     ),
-    "midi.unknown_format": "the file says it has the unknown format {format}; its tracks were taken as simultaneous",
+    "midi.unknown_format": (
+        "unknown file format {format}; the tracks were treated as simultaneous",
+        "不明なフォーマット {format} です。トラックは同時に鳴るものとして読み込みました",
+    ),
     "midi.format_0_tracks": (
-        "the file says it has one track (format 0) and has {tracks}; they were taken as simultaneous"
+        "the file is format 0 (one track) but has {tracks} tracks; they were treated as simultaneous",
+        (
+            "フォーマット 0（1 トラック）のファイルですが、トラックが {tracks} あります。"
+            "同時に鳴るものとして読み込みました"
+        ),
     ),
-    "midi.track_length": "the length of track {track} (byte {byte}) is wrong; the track was read up to its real end",
-    "midi.tracks_missing": "the header promises {expected} tracks, the file has {found}",
+    "midi.track_length": (
+        "the length of track {track} (byte {byte}) is wrong; the track was read to its actual end",
+        "トラック {track} の長さ（バイト {byte}）が誤っています。実際の終わりまで読み込みました",
+    ),
+    "midi.tracks_missing": (
+        "the header states {expected} tracks, but the file has {found}",
+        "ヘッダーには {expected} トラックとありますが、実際は {found} です",
+    ),
     "midi.bytes_left_out": (
-        "{count} {count:byte|bytes} after the last track, from byte {byte}, {count:is|are} no part of a MIDI file "
-        "and {count:was|were} left out"
+        (
+            "{count} {count:byte|bytes} after the last track, from byte {byte}, {count:is|are} not MIDI data and "
+            "{count:was|were} skipped"
+        ),
+        "最後のトラックの後、バイト {byte} からの {count} バイトは MIDI データではないため、無視しました",
     ),
-    "midi.track_truncated": "track {track} breaks off within an event at byte {byte}; what came before was read",
+    "midi.track_truncated": (
+        "track {track} ends within an event at byte {byte}; the events before it were read",
+        "トラック {track} はバイト {byte} のイベントの途中で切れています。その前までを読み込みました",
+    ),
     "midi.bytes_not_understood": (
-        "{count} {count:byte|bytes} of track {track} {count:is no MIDI event and was|are no MIDI events and were} "
-        "left out, the first at byte {byte}"
+        (
+            "{count} {count:byte|bytes} of track {track} {count:is not a MIDI event and was|are not MIDI events "
+            "and were} skipped, the first at byte {byte}"
+        ),
+        "トラック {track} の {count} バイトは MIDI イベントではないため、無視しました（最初はバイト {byte}）",
     ),
-    "midi.smpte_rate": ("the file counts time in frames of 1/{rate} s, which is no SMPTE rate; it was taken literally"),
-    "midi.patterns": "the file has {patterns} independent patterns (format 2); they follow one another",
+    "midi.smpte_rate": (
+        "the file counts time in frames of 1/{rate} s, which is not an SMPTE rate; the value was used as it is",
+        "時間の単位 1/{rate} 秒は SMPTE にない値です。そのまま使いました",
+    ),
+    "midi.patterns": (
+        "the file has {patterns} independent patterns (format 2); they were placed one after another",
+        "独立した {patterns} 個のパターン（フォーマット 2）です。順に並べました",
+    ),
     "midi.hanging_notes": (
-        "{count} {count:note|notes} of track {track} never {count:ends; it ends|end; they end} where the next note of "
-        "the channel begins, and after four quarters at the latest"
+        (
+            "{count} {count:note|notes} of track {track} {count:has no note-off; it ends|have no note-off; they "
+            "end} at the next note of the channel, or after four quarter notes at most"
+        ),
+        (
+            "トラック {track} の {count} 音にノートオフがないため、同じチャンネルの次の音符まで（最長で四分音符 4 "
+            "個分）としました"
+        ),
     ),
     "midi.zero_length_notes": (
-        "{count} {count:note|notes} of track {track} {count:has no length; it lasts|have no length; they last} one tick"
+        (
+            "{count} {count:note|notes} of track {track} {count:has no length and was|have no length and were} set "
+            "to one tick"
+        ),
+        "トラック {track} の {count} 音には長さがないため、1 ティックとしました",
     ),
     "midi.beyond_all_music": (
-        "{count} {count:event|events} of track {track} {count:lies|lie} beyond the last possible tick and "
-        "{count:was|were} left out"
+        (
+            "{count} {count:event|events} of track {track} {count:is|are} beyond the last possible tick and "
+            "{count:was|were} skipped"
+        ),
+        "トラック {track} の {count} 個のイベントは最大のティックを超えているため、無視しました",
     ),
     "midi.impossible_metre": (
-        "track {track} has {count} impossible time {count:signature|signatures}, the first at tick {tick}; "
-        "{count:it was|they were} left out"
+        (
+            "track {track} has {count} invalid time {count:signature|signatures}, the first at tick {tick}; "
+            "{count:it was|they were} skipped"
+        ),
+        "トラック {track} に不正な拍子が {count} 個あるため（最初はティック {tick}）、無視しました",
     ),
     "midi.impossible_tempo": (
-        "track {track} has {count} impossible {count:tempo|tempos}, the first at tick {tick}; {count:it was|they were} "
-        "left out"
+        (
+            "track {track} has {count} invalid {count:tempo|tempos}, the first at tick {tick}; {count:it was|they "
+            "were} skipped"
+        ),
+        "トラック {track} に不正なテンポが {count} 個あるため（最初はティック {tick}）、無視しました",
     ),
     # MIDI files that were written, and what they cannot hold
-    "midi.written": "{file} is written: {count} {count:track|tracks}",
-    "midi.written_but": "{file} is written, but: {first} ({count} {count:remark|remarks} in all)",
+    "midi.written": ("{file} saved: {count} {count:track|tracks}", "{file} を保存しました（{count} トラック）"),
+    "midi.written_but": (
+        "{file} saved with {count} {count:warning|warnings}: {first}",
+        "{file} を保存しましたが、警告が {count} 件あります: {first}",
+    ),
     "midi.tempo_unwritable": (
-        "bar {bar}: a MIDI file cannot hold a tempo of {bpm:g} quarters per minute, only {low:g} to {high:g}; change "
-        "it and export again"
+        (
+            "bar {bar}: MIDI files support tempos of {low:g} to {high:g} quarter notes per minute, not {bpm:g}; "
+            "change the tempo and export again"
+        ),
+        (
+            "小節 {bar}: MIDI ファイルのテンポは毎分 {low:g} から {high:g} 四分音符までで、{bpm:g} "
+            "は保存できません。テンポを変更してからもう一度書き出してください"
+        ),
     ),
     "midi.nested_notes": (
-        "{part}: {count} {count:note sounds|notes sound} within another of the same pitch; in a MIDI file the two "
-        "exchange their ends"
+        (
+            "{part}: {count} overlapping same-pitch {count:note|notes} cannot be represented in a MIDI file: the "
+            "ends are swapped"
+        ),
+        "{part}: 同じ高さで重なる {count} 音は MIDI ファイルで表せないため、終わりが入れ替わります",
     ),
     "midi.name_says_other": (
-        "{part}: its name says {said}, so who reads the file takes it for that and not for {played}"
+        "{part}: the name indicates {said}, so it will be imported as that instead of {played}; rename the part",
+        (
+            "{part}: 名前が {said} を示すため、読み込むと {played} ではなくそちらとして扱われます。"
+            "パートの名前を変更してください"
+        ),
     ),
-    "midi.shared_again": "{part}: notes sound together; who reads the file shares them among players",
+    "midi.shared_again": (
+        "{part}: notes overlap, so an import splits them among several players",
+        "{part}: 同時に鳴る音があるため、読み込むと複数の奏者に分けられます",
+    ),
     "midi.onto_source": (
-        "{file} is what the piece was read from, and holds {count} {count:part|parts} more that nobody plays here; "
-        "write to another file"
+        (
+            "{file} is the source of this piece and contains {count} more {count:part|parts} that {count:is|are} "
+            "not played here; save to another file"
+        ),
+        (
+            "{file} はこの曲の読み込み元で、ここで演奏されないパートがほかに {count} 個あります。"
+            "別のファイルに保存してください"
+        ),
     ),
-    "midi.onto_itself": "{file} would be replaced by what was read from it; write to another file",
+    "midi.onto_itself": (
+        "{file} is the source file and cannot be replaced; save to another file",
+        "{file} は読み込み元なので上書きできません。別のファイルに保存してください",
+    ),
     # Parts and who plays them
-    "score.no_map": "there is no instrument map for {instrument} yet",
-    "score.left_out": "left out on import",
-    "score.percussion": "{instrument} is percussion",
-    "score.not_wind": "{instrument} is not a wind instrument",
-    "score.outside_ranges": (
-        "neither its name nor its program says what it is, and no instrument map reaches its notes "
-        "({lowest} to {highest})"
+    "score.no_map": (
+        "no instrument map for {instrument} is available; add a map and a model for it",
+        "{instrument} のインストゥルメントマップがありません。マップとモデルを追加してください",
     ),
-    "score.substituted": "{part}: there is no instrument map for {instrument}; {map} plays it instead",
+    "score.left_out": ("excluded on import", "読み込み時に除外"),
+    "score.percussion": ("{instrument} is percussion", "{instrument} は打楽器です"),
+    "score.not_wind": ("{instrument} is not a wind instrument", "{instrument} は管楽器ではありません"),
+    "score.outside_ranges": (
+        (
+            "the instrument cannot be determined from name or program, and no instrument map covers its range "
+            "({lowest} to {highest})"
+        ),
+        (
+            "名前やプログラム番号から楽器を判定できず、"
+            "音域（{lowest}～{highest}）に合うインストゥルメントマップもありません"
+        ),
+    ),
+    "score.substituted": (
+        "{part}: no instrument map for {instrument} is available; {map} is used instead",
+        "{part}: {instrument} のインストゥルメントマップがないため、{map} で代用します",
+    ),
     "score.told_by_file": (
-        "{part}: neither its name nor its program says what it is; the file's name does, so {map} plays it"
+        "{part}: the instrument cannot be determined from name or program; {map} was chosen from the file name",
+        "{part}: 名前やプログラム番号から楽器を判定できないため、ファイル名から {map} を選びました",
     ),
     "score.chosen_by_range": (
-        "{part}: neither its name nor its program says what it is; {map} plays it because the range fits"
+        "{part}: the instrument cannot be determined from name or program; {map} was chosen by range",
+        "{part}: 名前やプログラム番号から楽器を判定できないため、音域の合う {map} を選びました",
     ),
     "score.chosen_by_range_partly": (
-        "{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes "
-        "lie outside its range, the first at bar {bar}, beat {beat:g} ({pitch})"
+        (
+            "{part}: the instrument cannot be determined from name or program; {map} was chosen, but {outside} of "
+            "{total} notes are outside its range, the first at bar {bar}, beat {beat:g} ({pitch})"
+        ),
+        (
+            "{part}: 名前やプログラム番号から楽器を判定できないため、{map} を選びましたが、{total} 音のうち "
+            "{outside} 音が音域外です（最初は {bar} 小節 {beat:g} 拍の {pitch}）"
+        ),
     ),
     "score.looks_written": (
-        "{part}: {outside} of {total} notes lie outside the range of {map}, the first at bar {bar}, beat {beat:g} "
-        "({pitch}), but all fit as written pitches: the part looks untransposed; import its pitches as written"
+        (
+            "{part}: {outside} of {total} notes are outside the range of {map}, the first at bar {bar}, beat "
+            "{beat:g} ({pitch}), but all fit as written pitches; import this part as written pitch"
+        ),
+        (
+            "{part}: {total} 音のうち {outside} 音が {map} の音域外ですが（最初は {bar} 小節 {beat:g} 拍の "
+            "{pitch}）、記譜音と見なすとすべて収まります。このパートを「記譜音」として読み込んでください"
+        ),
     ),
-    "score.too_many_players": "the piece has {most} players already, and more cannot play",
-    "score.unknown_instrument": "nothing says which instrument plays it ({lowest} to {highest}); choose one",
+    "score.too_many_players": (
+        "the piece already has the maximum of {most} players",
+        "奏者が既に上限の {most} 人に達しています",
+    ),
+    "score.unknown_instrument": (
+        "the instrument cannot be determined ({lowest} to {highest}); select one",
+        "楽器を判定できません（{lowest}～{highest}）。楽器を選んでください",
+    ),
     "score.notes_left_out": (
-        "{part}: split between {most} players; {count} {count:note that sounds|notes that sound} together with theirs "
-        "{count:is|are} left out, the first at bar {bar}, beat {beat:g} ({pitch})"
+        (
+            "{part}: split among the maximum of {most} players; {count} further overlapping {count:note was|notes "
+            "were} excluded, the first at bar {bar}, beat {beat:g} ({pitch})"
+        ),
+        (
+            "{part}: 上限の {most} 人で分担し、それ以上に重なる {count} 音を除外しました（最初は {bar} 小節 "
+            "{beat:g} 拍の {pitch}）"
+        ),
     ),
     "score.doubling": (
-        "{part}: the player of this track changes to {instrument} for {count} {count:note|notes}, the first at bar "
-        "{bar}, beat {beat:g} ({pitch})"
+        (
+            "{part}: the player of this track changes to {instrument} for {count} {count:note|notes}, the first at "
+            "bar {bar}, beat {beat:g} ({pitch})"
+        ),
+        (
+            "{part}: このトラックのプレイヤーは{count}音を{instrument}に持ち替えて演奏します。"
+            "最初は{bar}小節{beat:g}拍目 ({pitch})"
+        ),
     ),
     "score.stray_notes": (
-        "{count} {count:note sounds|notes sound} together with others, the first at bar {bar}, beat {beat:g} "
-        "({pitch}); too few and too short for another player"
+        (
+            "{count} overlapping {count:note was|notes were} excluded, the first at bar {bar}, beat {beat:g} "
+            "({pitch}); too few and too short for another player"
+        ),
+        (
+            "ほかの音と重なる {count} 音を除外しました（最初は {bar} 小節 {beat:g} 拍の {pitch}）。"
+            "別の奏者に分けるには少なく短いためです"
+        ),
     ),
     "score.slurred": (
-        "{count} {count:note lasts|notes last} into the next one and {count:ends|end} there, slurred; the first in "
-        "{part} at bar {bar}, beat {beat:g} ({pitch})"
+        (
+            "{count} {count:note overlaps the next one and was|notes overlap the next ones and were} shortened as "
+            "slurred, the first in {part} at bar {bar}, beat {beat:g} ({pitch})"
+        ),
+        (
+            "{count} 音が次の音に重なるため、スラーとして次の音の始まりまで縮めました（最初は {part} の {bar} 小節 "
+            "{beat:g} 拍の {pitch}）"
+        ),
     ),
     "score.key_switches": (
-        "{count} {count:note|notes} far from the range of the instrument {count:is a key switch|are key switches}, "
-        "the first at bar {bar}, beat {beat:g} ({pitch})"
+        (
+            "{count} {count:note|notes} far outside the range of the instrument {count:was|were} treated as key "
+            "{count:switch|switches}, the first at bar {bar}, beat {beat:g} ({pitch})"
+        ),
+        "楽器の音域から遠い {count} 音をキースイッチと見なしました（最初は {bar} 小節 {beat:g} 拍の {pitch}）",
     ),
     "score.voices": (
-        "{part}: split between {voices} players, because {count} {count:note keeps|notes keep} sounding together with "
-        "others, the first at bar {bar}, beat {beat:g} ({pitch})"
+        (
+            "{part}: split among {voices} players because {count} {count:note keeps|notes keep} overlapping others,"
+            " the first at bar {bar}, beat {beat:g} ({pitch})"
+        ),
+        (
+            "{part}: {count} 音がほかの音と重なり続けるため、{voices} 人で分担します（最初は {bar} 小節 {beat:g} "
+            "拍の {pitch}）"
+        ),
     ),
 }

@@ -4,23 +4,68 @@ from __future__ import annotations
 
 from typing import Final
 
-TEMPLATES: Final[dict[str, str]] = {
-    "skeleton.root_added": "{file} has several root bones ({bones}); Unreal takes only one, so the bone {root} was put "
-    "above them",
-    "skeleton.armature_left_out": "{file}: {armature}, which Blender keeps the bones in, is no bone in Unreal and is "
-    "left out; the root bone is {root}",
-    "skeleton.other_root": "the root bone is {ours}, the asset's is {theirs}: Unreal would refuse the animation",
-    "skeleton.other_parent": "{bone} hangs from {ours}, in the asset from {theirs}",
-    "skeleton.other_unit": "lengths are {factor} times the asset's: it is in another unit",
-    "skeleton.not_in_asset": "{count} {count:bone that moves is|bones that move are} not in the asset, so that what "
-    "{count:it does|they do} would be lost: {bones}",
-    "skeleton.additional": "{count} {count:bone|bones} that nothing moves {count:is|are} not in the asset: {bones}",
-    "skeleton.missing": "{count} {count:bone|bones} of the asset {count:is|are} not in the file and "
-    "{count:keeps its|keep their} rest pose: {bones}",
-    "skeleton.rotation": "{count} {count:bone rests|bones rest} turned against the asset, at most by {most} degrees "
-    "({bone})",
-    "skeleton.position": "{count} {count:bone rests|bones rest} elsewhere than in the asset, at most by {most} mm "
-    "({bone})",
-    "skeleton.differs": "{file} has another skeleton than the one that {player} would be written on: {detail}",
+WORDINGS: Final[dict[str, tuple[str, str]]] = {
+    "skeleton.root_added": (
+        ("{file} has several root bones ({bones}); Unreal accepts only one, so the bone {root} was added above them"),
+        (
+            "{file} にはルートボーンが複数あります（{bones}）。Unreal はルートを 1 つしか受け付けないため、"
+            "その上にボーン {root} を追加しました"
+        ),
+    ),
+    "skeleton.armature_left_out": (
+        (
+            "{file}: {armature}, Blender's armature object, is not a bone in Unreal and is excluded; the root bone "
+            "is {root}"
+        ),
+        (
+            "{file}: Blender のアーマチュア {armature} は Unreal ではボーンにならないため、除外します。"
+            "ルートボーンは {root} です"
+        ),
+    ),
+    "skeleton.other_root": (
+        "the root bone is {ours}, but the asset's is {theirs}; Unreal will not accept the animation",
+        "ルートボーンは {ours} ですが、アセットでは {theirs} です。Unreal はこのアニメーションを受け付けません",
+    ),
+    "skeleton.other_parent": (
+        "the parent of {bone} is {ours}, but {theirs} in the asset",
+        "{bone} の親は {ours} ですが、アセットでは {theirs} です",
+    ),
+    "skeleton.other_unit": (
+        "lengths are {factor} times those of the asset: the units differ",
+        "長さがアセットの {factor} 倍です。単位が異なります",
+    ),
+    "skeleton.not_in_asset": (
+        (
+            "{count} {count:animated bone is|animated bones are} not in the asset, so {count:its|their} motion "
+            "would be lost: {bones}"
+        ),
+        "動くボーン {count} 個がアセットにないため、その動きは失われます: {bones}",
+    ),
+    "skeleton.additional": (
+        "{count} {count:static bone|static bones} {count:is|are} not in the asset: {bones}",
+        "動かないボーン {count} 個がアセットにありません: {bones}",
+    ),
+    "skeleton.missing": (
+        (
+            "{count} {count:bone|bones} of the asset {count:is|are} missing from the file and {count:keeps "
+            "its|keep their} rest pose: {bones}"
+        ),
+        "アセットのボーン {count} 個がファイルになく、レストポーズのままです: {bones}",
+    ),
+    "skeleton.rotation": (
+        (
+            "{count} {count:bone has|bones have} a different rest rotation from the asset, by up to {most} degrees "
+            "({bone})"
+        ),
+        "{count} 個のボーンのレスト回転がアセットと異なります（最大 {most} 度、{bone}）",
+    ),
+    "skeleton.position": (
+        ("{count} {count:bone has|bones have} a different rest position from the asset, by up to {most} mm ({bone})"),
+        "{count} 個のボーンのレスト位置がアセットと異なります（最大 {most} mm、{bone}）",
+    ),
+    "skeleton.differs": (
+        "{file} has a different skeleton from the export skeleton of {player}: {detail}",
+        "{file} のスケルトンは、{player} の書き出し用スケルトンと異なります: {detail}",
+    ),
 }
 """Message id -> English template."""

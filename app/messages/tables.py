@@ -4,48 +4,151 @@ from __future__ import annotations
 
 from typing import Final
 
-TEMPLATES: Final[dict[str, str]] = {
-    "table.syntax": "{file}, line {line}, column {column}: {detail}; correct it in a text editor",
-    "table.invalid": "{file}: {place}: {detail}",
-    "table.not_utf8": "{file} is not UTF-8 text (byte {byte}); save it as UTF-8 in a text editor",
-    "vocabulary.invalid": "{file}: {detail}",
-    "gltf.not_gltf": "{file} is not a glTF 2.0 file",
-    "gltf.damaged": "{file} is damaged: {what} is wrong",
-    "gltf.external": "{file} needs the file {uri} beside it; only files that hold everything themselves are read",
-    "gltf.unsupported": "{file} uses {what}, which is not supported",
-    "gltf.too_deep": "{file} nests its nodes more than {most} deep; export the character alone",
-    "gltf.too_large": "{file} describes far more data than a file of its size holds; export the character alone",
-    "figure.unknown_format": "{file} is neither VRM, glTF nor FBX",
-    "figure.too_large": "{file} describes more data than any character has; export the character alone",
-    "figure.no_bones": "{file} has no bones: a character needs a skeleton to play with",
-    "figure.scaled": "{file} makes its figure {height_m} m tall, so its unit is wrong: sizes are taken times {factor}",
-    "figure.odd_height": "{file} makes its figure {height_m} m tall; if that is not meant, export it in the right unit",
-    "character.incomplete": "{file} cannot play: no bone was found for {joints}; name those bones by hand",
-    "character.file_missing": "{file} names {name}, which is not beside it",
-    "character.odd_name": "the name of {file} has characters that cannot be shown; rename it",
-    "character.taken": "{file} describes {id!r}, which is one of our own characters; give it another name",
-    "character.cannot_play": "{file} cannot play; what it lacks is said above",
-    "characters.joint": "{text!r} names no joint and its bone; write e.g. leftHand=Wrist_L",
-    "characters.morph": "{text!r} names no shape and what makes it; write e.g. jawOpen=Mouth_A:0.8+Teeth_A:0.8",
-    "instruments.invalid": "{file} is not valid; problems: {count}",
-    "instruments.read_again": "read again: {maps}",
-    "map.unreadable": "{file}: cannot be read: {detail}",
-    "map.not_rewritten": (
-        "{file}: its table of fingerings is written in a way that cannot be changed here; change it in a text editor"
+WORDINGS: Final[dict[str, tuple[str, str]]] = {
+    "table.syntax": (
+        "{file}, line {line}, column {column}: {detail}; correct it in a text editor",
+        "{file}、{line} 行目 {column} 列目: {detail}。テキストエディターで修正してください",
     ),
-    "fingering.unknown_sign": "{text!r} says nothing on this instrument; its signs are: {signs}",
-    "fingering.unknown_place": "{text!r} is no place of the slide; there are: {places}",
-    "fingering.twice": "{text!r} is there already for this note",
-    "fingering.no_number": "{text!r} is no number of cents",
-    "fingering.last": "the only fingering of a note cannot be removed",
-    "map.unknown": "there is no instrument map named {id!r}",
-    "figure.no_joint": "{file}: there is no joint named {joint!r}; there are: {joints}",
-    "figure.no_bone": "{file} has no bone named {bone!r}, which is said to be {joint}",
-    "figure.no_shape": "{file}: there is no shape of the face named {shape!r} among ARKit's",
-    "figure.no_morph": "{file} has no morph named {morph!r}, which is said to make {shape}",
-    "metadata.missing": "there is no {kind} named {name!r}; there are: {known}",
-    "character.missing": "there is no character named {id!r}; there are: {known}",
-    "character.added": "{name} is there now: choose it for a player, under Character",
-    "character.landmarks_missing": "the character {id!r} lacks what playing needs: {missing}",
-    "model.invalid": "{file}: {detail}",
+    "table.invalid": ("{file}: {place}: {detail}", "{file}: {place}: {detail}"),
+    "table.not_utf8": (
+        "{file} is not UTF-8 text (byte {byte}); save it as UTF-8 in a text editor",
+        (
+            "{file} は UTF-8 のテキストではありません（バイト {byte}）。テキストエディターで UTF-8 "
+            "として保存してください"
+        ),
+    ),
+    "vocabulary.invalid": ("{file}: {detail}", "{file}: {detail}"),
+    "gltf.not_gltf": (
+        "{file} is not a glTF 2.0 file; export it as glTF 2.0",
+        "{file} は glTF 2.0 ファイルではありません。glTF 2.0 で書き出してください",
+    ),
+    "gltf.damaged": (
+        "{file} is damaged: invalid {what}; export it again",
+        "{file} は壊れています: {what} が正しくありません。書き出し直してください",
+    ),
+    "gltf.external": (
+        "{file} requires the separate file {uri}; export it as a single self-contained file",
+        "{file} には別ファイル {uri} が必要です。すべてを含む単独のファイルとして書き出してください",
+    ),
+    "gltf.unsupported": (
+        "{file} uses {what}, which is not supported; export it without",
+        "{file} は未対応の {what} を使っています。使わずに書き出してください",
+    ),
+    "gltf.too_deep": (
+        "{file} has nodes nested more than {most} levels deep; export only the character",
+        "{file} のノードの階層が {most} 段を超えています。キャラクターだけを書き出してください",
+    ),
+    "gltf.too_large": (
+        "{file} declares far more data than its size allows; export only the character",
+        "{file} の内容がファイルのサイズに対して大きすぎます。キャラクターだけを書き出してください",
+    ),
+    "figure.unknown_format": (
+        "{file} is not a VRM, glTF or FBX file; choose a character in one of these formats",
+        "{file} は VRM、glTF、FBX のいずれでもありません。いずれかの形式のキャラクターを選んでください",
+    ),
+    "figure.too_large": (
+        "{file} contains too much data for a character; export only the character",
+        "{file} はキャラクターとしてはデータが大きすぎます。キャラクターだけを書き出してください",
+    ),
+    "figure.no_bones": (
+        "{file} has no bones; choose a character with a skeleton",
+        "{file} にはボーンがありません。スケルトンのあるキャラクターを選んでください",
+    ),
+    "figure.scaled": (
+        (
+            "the character in {file} would be {height_m} m tall, so its unit seems wrong; sizes were multiplied by "
+            "{factor}"
+        ),
+        ("{file} のキャラクターの身長が {height_m} m になるため、単位の誤りとみなし、大きさを {factor} 倍にしました"),
+    ),
+    "figure.odd_height": (
+        ("the character in {file} is {height_m} m tall; if this is not intended, export it again in the right unit"),
+        ("{file} のキャラクターの身長は {height_m} m です。意図したものでなければ、正しい単位で書き出し直してください"),
+    ),
+    "character.incomplete": (
+        "{file} cannot play because bones were not found for {joints}; assign these bones manually",
+        "{file} は演奏できません。次の関節のボーンが見つかりません: {joints}。ボーンを手動で指定してください",
+    ),
+    "character.file_missing": (
+        "{name}, referenced in {file}, was not found in the same folder",
+        "{file} が参照する {name} が同じフォルダーに見つかりません",
+    ),
+    "character.odd_name": (
+        "the name of {file} contains characters that cannot be displayed; rename the file",
+        "{file} の名前に表示できない文字があります。名前を変更してください",
+    ),
+    "character.taken": (
+        "{file} defines {id!r}, which is the name of a bundled character; use another name",
+        "{file} は付属のキャラクター {id!r} と同じ名前です。別の名前にしてください",
+    ),
+    "character.cannot_play": (
+        "{file} cannot play; see the missing items above",
+        "{file} は演奏できません。足りないものは上に示しています",
+    ),
+    "characters.joint": (
+        "{text!r} does not assign a bone to a joint; write e.g. leftHand=Wrist_L",
+        "{text!r} は関節へのボーンの指定ではありません。leftHand=Wrist_L のように書いてください",
+    ),
+    "characters.morph": (
+        "{text!r} does not assign morphs to a blendshape; write e.g. jawOpen=Mouth_A:0.8+Teeth_A:0.8",
+        (
+            "{text!r} はブレンドシェイプへのモーフの指定ではありません。jawOpen=Mouth_A:0.8+Teeth_A:0.8 "
+            "のように書いてください"
+        ),
+    ),
+    "instruments.invalid": ("{file} is invalid; problems: {count}", "{file} に問題が {count} 件あります"),
+    "instruments.read_again": ("instruments reloaded: {maps}", "楽器を再読み込みしました: {maps}"),
+    "map.unreadable": ("{file} cannot be read: {detail}", "{file} を読み込めません: {detail}"),
+    "map.not_rewritten": (
+        "{file}: the format of its fingering table does not allow changes here; edit it in a text editor",
+        "{file}: 運指表がここでは変更できない書き方になっています。テキストエディターで変更してください",
+    ),
+    "fingering.unknown_sign": (
+        "{text!r} is not valid on this instrument; valid symbols: {signs}",
+        "{text!r} はこの楽器では使えません。使える記号: {signs}",
+    ),
+    "fingering.unknown_place": (
+        "{text!r} is not a slide position; valid positions: {places}",
+        "{text!r} はスライドポジションではありません。使えるもの: {places}",
+    ),
+    "fingering.twice": ("{text!r} already exists for this note", "{text!r} はこの音に既に登録されています"),
+    "fingering.no_number": ("{text!r} is not a number of cents", "{text!r} はセントの数値ではありません"),
+    "fingering.last": (
+        "the only fingering of a note cannot be removed; add another one first",
+        "音に残った唯一の運指は削除できません。先に別の運指を追加してください",
+    ),
+    "map.unknown": ("instrument map {id!r} was not found", "インストゥルメントマップ {id!r} が見つかりません"),
+    "figure.no_joint": (
+        "{file}: joint {joint!r} does not exist; choose one of: {joints}",
+        "{file}: 関節 {joint!r} はありません。使えるもの: {joints}",
+    ),
+    "figure.no_bone": (
+        "{file} has no bone {bone!r}, which is assigned to {joint}",
+        "{file} には、{joint} に指定されたボーン {bone!r} がありません",
+    ),
+    "figure.no_shape": (
+        "{file}: {shape!r} is not an ARKit blendshape",
+        "{file}: {shape!r} は ARKit のブレンドシェイプにありません",
+    ),
+    "figure.no_morph": (
+        "{file} has no morph {morph!r}, which is assigned to {shape}",
+        "{file} には、{shape} に指定されたモーフ {morph!r} がありません",
+    ),
+    "metadata.missing": (
+        "{kind} {name!r} was not found; choose one of: {known}",
+        "{kind} に {name!r} はありません。使えるもの: {known}",
+    ),
+    "character.missing": (
+        "character {id!r} was not found; choose one of: {known}",
+        "キャラクター {id!r} が見つかりません。使えるもの: {known}",
+    ),
+    "character.added": (
+        "{name} was added; select it for a player under Character",
+        "{name} を追加しました。奏者の「キャラクター」で選べます",
+    ),
+    "character.landmarks_missing": (
+        "character {id!r} lacks data required for playing: {missing}",
+        "キャラクター {id!r} には演奏に必要なデータがありません: {missing}",
+    ),
+    "model.invalid": ("{file}: {detail}", "{file}: {detail}"),
 }

@@ -2,7 +2,7 @@
 
 Its type, name and default are the field's; all else is said by the `Parameter` in its annotation. Sliders and lists of
 choices, ``--set``, checks, presets, randomising, the history, older files and what is made anew after a change follow
-from that. The words are English; the editor translates them (context ``Parameter``).
+from that. Its texts are ids of `app.messages.parameters`.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Parameter:
     Attributes
     ----------
     label, tip, unit : str
-        English.
+        Ids of texts; empty: none.
     bounds : (low, high) or None
         None: its type alone bounds it.
     usual : float or None
@@ -40,7 +40,7 @@ class Parameter:
         Of the control.
     decimals : int
     choices : tuple of (value, word)
-        A list instead of a slider; the words are English.
+        A list instead of a slider; the words are ids of texts.
     section : str
         Which part of the panel shows it; empty: something else than a slider or a plain list does.
     row : int
@@ -163,85 +163,83 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     # fmt: off
     amplitude: Annotated[float, Parameter(
-        "Amplitude", "How much the player moves: 0 still, 0.5 natural, 1 a lot",
+        "parameter.amplitude", "parameter.amplitude_tip",
         bounds=_SHARE, section="motion", spread=0.5,
     )] = 0.5
     breath_min_beats: Annotated[float, Parameter(
-        "Breathes in rests from", "In a shorter rest the player does not breathe", "beats",
+        "parameter.breath_min_beats", "parameter.breath_min_beats_tip", "unit.beats",
         bounds=_BEATS, usual=4.0, step=0.25, section="breath", decides=_BREATHS,
     )] = 0.5
     breath_last_beat_beats: Annotated[float, Parameter(
-        "On the last beat from",
-        "In a rest from this length on, the breath takes its last beat; in a shorter one all of it", "beats",
+        "parameter.breath_last_beat_beats",
+        "parameter.breath_last_beat_beats_tip", "unit.beats",
         bounds=_BEATS, usual=8.0, step=0.25, section="breath", decides=_BREATHS,
     )] = 1.0
     breath_prepare_beats: Annotated[float, Parameter(
-        "Prepared from",
-        "In a rest from this length on, the player gets ready, then breathes on the last beat", "beats",
+        "parameter.breath_prepare_beats",
+        "parameter.breath_prepare_beats_tip", "unit.beats",
         bounds=_BEATS, usual=8.0, step=0.25, section="breath", decides=_BREATHS,
     )] = 2.0
     lung_s: Annotated[float, Parameter(
-        "A full lung lasts",
-        "On a usual instrument; longer or shorter on one that takes less or more air. "
-        "Longer phrases get a catch breath", "s",
+        "parameter.lung_s",
+        "parameter.lung_s_tip", "unit.seconds",
         bounds=(1.0, 60.0), usual=20.0, step=0.5, decimals=1,
         section="breath", row=1, decides=_BREATHS, spread=4.0,
     )] = 9.0
     embouchure_tension: Annotated[float, Parameter(
-        "Embouchure tension", "How tight the lips look, times the natural amount", "×",
+        "parameter.embouchure_tension", "parameter.embouchure_tension_tip", "unit.times",
         bounds=_NATURAL, section="face", decides=frozenset({"lips", "motion"}), spread=0.5,
     )] = 1.0
     sway: Annotated[float, Parameter(
-        "Sway", "Swaying with the beat, times the natural amount", "×",
+        "parameter.sway", "parameter.sway_tip", "unit.times",
         bounds=_NATURAL, section="motion", spread=1.0,
     )] = 1.0
     weight_shift: Annotated[float, Parameter(
-        "Weight shift", "From foot to foot, times the natural amount", "×",
+        "parameter.weight_shift", "parameter.weight_shift_tip", "unit.times",
         bounds=_NATURAL, section="motion", spread=1.0,
     )] = 1.0
     bell_height: Annotated[float, Parameter(
-        "Bell height", "The bell follows the melody, times the natural amount", "×",
+        "parameter.bell_height", "parameter.bell_height_tip", "unit.times",
         bounds=_NATURAL, section="motion", spread=1.0,
     )] = 1.0
     posture: Annotated[Literal["standing", "seated"], Parameter(
-        "Posture", choices=(("standing", "Standing"), ("seated", "Seated")),
+        "parameter.posture", choices=(("standing", "choice.standing"), ("seated", "choice.seated")),
         section="player", decides=frozenset({"poses", "motion"}),
     )] = "standing"
     cue_leader: Annotated[bool | None, Parameter(
-        "Gives cues", choices=((None, "Automatic"), (True, "Yes"), (False, "Never")),
+        "parameter.cue_leader", choices=((None, "choice.automatic"), (True, "choice.yes"), (False, "choice.never")),
         section="player", decides=frozenset({"cues"}), is_own=True,
     )] = None
     """None: the piece decides (the highest part that plays first leads)."""
     seed: Annotated[int, Parameter(
-        "Seed", "Another seed is another performance of the same plan",
+        "parameter.seed", "parameter.seed_tip",
         bounds=SEED, section="motion", row=2, decides=frozenset({"breaths", "motion"}), is_own=True,
     )] = 0
     breath_need: Annotated[float, Parameter(
-        "Air spent first",
-        "Part of the lungs that is used up before the player breathes in a rest too short to prepare in: "
-        "0 every such rest, 1 only with empty lungs",
+        "parameter.breath_need",
+        "parameter.breath_need_tip",
         bounds=_SHARE, section="breath", decides=_BREATHS, since=6, before=0.0,
     )] = 0.35
     """Share of the lungs used up before a rest too short for a preparation is breathed in; 0: in every rest (T6)."""
     circular_breathing: Annotated[bool, Parameter(
-        "Circular breathing",
-        "Breathes in through the nose while playing, and never stops the line for a catch breath",
-        choices=((False, "No"), (True, "Yes")), section="breath", row=2, decides=_BREATHS,
+        "parameter.circular_breathing",
+        "parameter.circular_breathing_tip",
+        choices=((False, "choice.no"), (True, "choice.yes")), section="breath", row=2, decides=_BREATHS,
     )] = False
     choreography: Annotated[str, Parameter(
-        "Body motion", "How hips, trunk and head move while playing; hands, lips and feet keep their places",
+        "parameter.choreography", "parameter.choreography_tip",
         section="motion", row=1, since=8,
     )] = ""
     """What hips, trunk and head dance while playing: the name of a bundled choreography or the absolute path of a
     ``.choreography`` file; empty: they move as is generated."""
     dance_amount: Annotated[float, Parameter(
-        "Dance amount",
-        "How much of the dance: 0 none, 1 as much as a player can do; it takes the place of the sway",
+        "parameter.dance_amount",
+        "parameter.dance_amount_tip",
         bounds=_SHARE, section="dance", since=8,
     )] = 0.5
     dance_variation: Annotated[int, Parameter(
-        "Variation",
-        "0: a dance of the player's own; who has the same other number moves in unison, dancers too",
+        "parameter.dance_variation",
+        "parameter.dance_variation_tip",
         bounds=SEED, section="dance", is_own=True, since=8,
     )] = 0
     """Another one is another dance to the same music, the same for everyone who has it; 0: a dance of the player's own,

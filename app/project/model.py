@@ -105,23 +105,23 @@ class Dancer(msgspec.Struct, frozen=True):
     stage: StagePosition
     # fmt: off
     seed: Annotated[int, Parameter(
-        "Variation", "Another number is another dance to the same music",
+        "dancer_parameter.seed", "dancer_parameter.seed_tip",
         section="dancer", bounds=SEED, is_own=True,
     )] = 0
     delay_beats: Annotated[float, Parameter(
-        "Delay", "In a canon: so much later than the music", "beats",
+        "dancer_parameter.delay_beats", "dancer_parameter.delay_beats_tip", "unit.beats",
         bounds=(0.0, 10_000.0), usual=32.0, step=1.0, decimals=1, section="dancer", row=1,
     )] = 0.0
     mirrored: bool = False
     source: Annotated[int, Parameter(
-        "Preferred source", "The capture whose motion is danced where it suits the music about as well",
+        "dancer_parameter.source", "dancer_parameter.source_tip",
         bounds=(-1, limits.CHOREOGRAPHY_INDEX[1]),
     )] = -1
-    size: Annotated[
-        float, Parameter("Size of motion", "Of trunk and arms: 1 as captured", "×", section="dancer", bounds=(0.0, 1.5))
-    ] = 1.0
+    size: Annotated[float, Parameter(
+        "dancer_parameter.size", "dancer_parameter.size_tip", "unit.times", section="dancer", bounds=(0.0, 1.5),
+    )] = 1.0
     weight: Annotated[float, Parameter(
-        "Weight", "From light to heavy: how deep the knees bend; 0 as captured",
+        "dancer_parameter.weight", "dancer_parameter.weight_tip",
         section="dancer", bounds=(-1.0, 1.0), since=8,
     )] = 0.0
     # fmt: on

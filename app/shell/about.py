@@ -48,17 +48,17 @@ class AboutDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set the texts."""
-        self.setWindowTitle(self.tr("About Suisou"))
-        self._licences.setText(self.tr("Licences..."))
+        self.setWindowTitle(self.tr("about_dialog.about_suisou"))
+        self._licences.setText(self.tr("about_dialog.licences"))
         versions = f"Python {platform.python_version()}, Qt {qVersion()}, PySide6 {PySide6.__version__}"
         self._text.setText(
             "\n\n".join(
                 (
-                    self.tr("The performance of a wind ensemble, from its MIDI, for animation."),
-                    self.tr("Version {version}, under the Apache License 2.0.").format(version=program_version()),
+                    self.tr("about_dialog.performance_of_wind_ensemble_from"),
+                    self.tr("about_dialog.version_under_apache_license_2").format(version=program_version()),
                     versions,
-                    self.tr("Settings: {path}").format(path=self._settings_path()),
-                    self.tr("Faults are noted in: {path}").format(path=log_path()),
+                    self.tr("about_dialog.settings").format(path=self._settings_path()),
+                    self.tr("about_dialog.faults_are_noted_in").format(path=log_path()),
                 )
             )
         )

@@ -9,14 +9,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from widgets.common.session import Session
 
-    def QT_TRANSLATE_NOOP(context: str, text: str) -> str:
-        """Marks a text for the translators; PySide6 declares its result as an object."""
-
-else:
-    from PySide6.QtCore import QT_TRANSLATE_NOOP
-
-__all__ = ["QT_TRANSLATE_NOOP", "Action"]
-
 
 @dataclass(frozen=True)
 class Action:
@@ -25,9 +17,8 @@ class Action:
     Attributes
     ----------
     id : str
-        ``"notes.split"``; settings keep shortcuts by it.
-    text : str
-        English, with ``QT_TRANSLATE_NOOP("Action", ...)``; a trailing ``...`` where a dialog follows.
+        ``"notes.split"``; settings keep shortcuts by it. Its text is ``"action.notes.split"`` of `app.shell.texts`,
+        with a trailing ``...`` where a dialog follows.
     run : callable
         Takes the session (and the checked state, where ``checked`` is given).
     menu : str
@@ -45,7 +36,6 @@ class Action:
     """
 
     id: str
-    text: str
     run: Callable[..., None]
     menu: str = ""
     shortcut: str = ""

@@ -7,17 +7,18 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Final
 
-from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QFocusEvent, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QApplication, QMenu, QMenuBar, QWidget
 from shiboken6 import isValid
 
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from app.shell.settings import Settings
 from widgets.common.icons import icon
 from widgets.common.plain import verbatim
 from widgets.common.session import Session
 from widgets.common.text import message_text
+from widgets.common.translated import tr
 
 SUBJECTS: Final = (
     "file",
@@ -43,35 +44,35 @@ SUBJECTS: Final = (
 """Modules of `app.shell.commands`, in the order in which their rows stand in a menu."""
 
 MENUS: Final = {
-    "File": QT_TRANSLATE_NOOP("Menu", "&File"),
-    "Edit": QT_TRANSLATE_NOOP("Menu", "&Edit"),
-    "View": QT_TRANSLATE_NOOP("Menu", "&View"),
-    "Play": QT_TRANSLATE_NOOP("Menu", "&Play"),
-    "Record": QT_TRANSLATE_NOOP("Menu", "Re&cord"),
-    "Counting": QT_TRANSLATE_NOOP("Menu", "Count-in"),
-    "Generate": QT_TRANSLATE_NOOP("Menu", "&Generate"),
-    "Export": QT_TRANSLATE_NOOP("Menu", "E&xport"),
-    "Help": QT_TRANSLATE_NOOP("Menu", "&Help"),
-    "Notes": QT_TRANSLATE_NOOP("Menu", "Notes"),
-    "Fingering": QT_TRANSLATE_NOOP("Menu", "Fingering"),
-    "Events": QT_TRANSLATE_NOOP("Menu", "Breaths and Acting"),
-    "Beat": QT_TRANSLATE_NOOP("Menu", "Felt Beat"),
-    "Gesture": QT_TRANSLATE_NOOP("Menu", "Add a Gesture"),
-    "Select": QT_TRANSLATE_NOOP("Menu", "Select"),
-    "Tool": QT_TRANSLATE_NOOP("Menu", "Tool"),
-    "Players": QT_TRANSLATE_NOOP("Menu", "Players"),
-    "Takes": QT_TRANSLATE_NOOP("Menu", "Takes"),
-    "Go": QT_TRANSLATE_NOOP("Menu", "Go"),
-    "Recording": QT_TRANSLATE_NOOP("Menu", "Recording"),
-    "Sound": QT_TRANSLATE_NOOP("Menu", "Sound"),
-    "Speed": QT_TRANSLATE_NOOP("Menu", "Speed"),
-    "Viewport": QT_TRANSLATE_NOOP("Menu", "Viewport"),
-    "Panels": QT_TRANSLATE_NOOP("Menu", "Panels"),
-    "Theme": QT_TRANSLATE_NOOP("Menu", "Theme"),
-    "Language": QT_TRANSLATE_NOOP("Menu", "Language"),
-    "Pitch": QT_TRANSLATE_NOOP("Menu", "Pitch"),
-    "Time": QT_TRANSLATE_NOOP("Menu", "Time"),
-    "Recent": QT_TRANSLATE_NOOP("Menu", "Open Recent"),
+    "File": "menu.file",
+    "Edit": "menu.edit",
+    "View": "menu.view",
+    "Play": "menu.play",
+    "Record": "menu.record",
+    "Counting": "menu.count_in",
+    "Generate": "menu.generate",
+    "Export": "menu.export",
+    "Help": "menu.help",
+    "Notes": "menu.notes",
+    "Fingering": "menu.fingering",
+    "Events": "menu.breaths_and_acting",
+    "Beat": "menu.felt_beat",
+    "Gesture": "menu.add_gesture",
+    "Select": "menu.select",
+    "Tool": "menu.tool",
+    "Players": "menu.players",
+    "Takes": "menu.takes",
+    "Go": "menu.go",
+    "Recording": "menu.recording",
+    "Sound": "menu.sound",
+    "Speed": "menu.speed",
+    "Viewport": "menu.viewport",
+    "Panels": "menu.panels",
+    "Theme": "menu.theme",
+    "Language": "menu.language",
+    "Pitch": "menu.pitch",
+    "Time": "menu.time",
+    "Recent": "menu.open_recent",
 }
 """Names of menus and of those within them; a path such as ``Edit/Notes`` is made of the keys."""
 
@@ -103,12 +104,12 @@ FILE_ORDER: Final = (
 """How the rows of the first menu stand, whichever module they are from."""
 
 CONTEXTS: Final = {
-    "window": QT_TRANSLATE_NOOP("Context", "everywhere"),
-    "timeline": QT_TRANSLATE_NOOP("Context", "in the timeline"),
-    "viewport": QT_TRANSLATE_NOOP("Context", "in the viewport"),
-    "players": QT_TRANSLATE_NOOP("Context", "in the players"),
-    "dancers": QT_TRANSLATE_NOOP("Context", "in the dancers"),
-    "inspector": QT_TRANSLATE_NOOP("Context", "in the inspector"),
+    "window": "context.everywhere",
+    "timeline": "context.in_timeline",
+    "viewport": "context.in_viewport",
+    "players": "context.in_players",
+    "dancers": "context.in_dancers",
+    "inspector": "context.in_inspector",
 }
 
 
@@ -305,12 +306,12 @@ class ActionTable(QObject):
             text = self.text(action_id)
             if steps:
                 step = verbatim(message_text(steps[-1].name))
-                text = QCoreApplication.translate("ActionTable", "{action}: {step}").format(action=text, step=step)
+                text = tr("action_table.text").format(action=text, step=step)
             self.actions[action_id].setText(text)
 
     def text(self, action_id: str) -> str:
         """An action's text in the language of the editor."""
-        return QCoreApplication.translate("Action", self.rows[action_id].text)
+        return tr(f"action.{action_id}")
 
     def place(self, action_id: str) -> str:
         """Where an action stands in the menus, in the language of the editor; empty: nowhere."""
@@ -335,7 +336,7 @@ class ActionTable(QObject):
 
 def menu_text(key: str) -> str:
     """Name of a menu in the language of the editor."""
-    return QCoreApplication.translate("Menu", MENUS.get(key, key))
+    return tr(MENUS[key])
 
 
 def plain_menu(text: str) -> str:

@@ -84,7 +84,7 @@ class Banner(QFrame):
         self.setStyleSheet(f"#banner {{ background: {tokens.raised}; border-bottom: 1px solid {tokens.warning}; }}")
         self._mark.setPixmap(pixmap("warning", 18, tokens.warning, self.devicePixelRatioF()))
         self._close.setIcon(icon("close", tokens))
-        self._close.setToolTip(self.tr("Not now"))
+        self._close.setToolTip(self.tr("banner.not_now"))
         if self._texts is not None:
             text, answers = self._texts()
             # Names of files may break where a person would break them.

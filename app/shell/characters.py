@@ -6,7 +6,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import msgspec
-from PySide6.QtCore import QCoreApplication
 
 from app.encoding import shown
 from app.errors import AppError, Message, shortened
@@ -26,6 +25,7 @@ from app.shell.editor import Editor
 from widgets.common.instrument_name import character_name
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted
+from widgets.common.translated import tr
 from widgets.dialogs.character import CharacterDialog
 from widgets.dialogs.character_draft import Draft
 from widgets.dialogs.characters import CharactersDialog
@@ -47,10 +47,9 @@ def show_characters(editor: Editor) -> None:
 
 def ask_for_character(editor: Editor) -> None:
     """Ask for a character's file, and bring it."""
-    translate = QCoreApplication.translate
-    name = translate("Files", "Characters")
+    name = tr("files.characters")
     kinds = f"{name} ({' '.join(f'*{suffix}' for suffix in SUFFIXES)})"
-    path = editor.questions.open_file(translate("Files", "Add Character"), editor.files.folder, kinds)
+    path = editor.questions.open_file(tr("files.add_character"), editor.files.folder, kinds)
     if path is not None:
         editor.settings.folder = str(path.parent)
         bring_character(editor, path)

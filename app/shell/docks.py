@@ -64,8 +64,8 @@ class Dock(QDockWidget):
 
     def retranslate(self) -> None:
         """Set the tool tips."""
-        self._float.setToolTip(self.tr("Float or dock this panel"))
-        self._close.setToolTip(self.tr("Close this panel; View › Panels brings it back"))
+        self._float.setToolTip(self.tr("dock.float_or_dock_this_panel"))
+        self._close.setToolTip(self.tr("dock.close_this_panel_view_panels"))
 
     def changeEvent(self, event: QEvent) -> None:
         """Another language."""

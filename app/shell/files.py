@@ -10,7 +10,7 @@ from importlib.resources import as_file, files
 from pathlib import Path
 from typing import Final
 
-from PySide6.QtCore import QCoreApplication, QObject, Qt, QTimer, Signal
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
 from app.choreography.library import bundled_choreographies
 from app.encoding import shown
@@ -30,6 +30,7 @@ from app.shell.questions import Questions
 from app.shell.settings import Settings
 from instrument_maps.library import all_maps, reload
 from widgets.common.session import Session, Severity
+from widgets.common.translated import tr
 
 MIDI_SUFFIXES: Final = (".mid", ".midi", ".smf", ".kar", ".rmi")
 AUDIO_SUFFIXES: Final = (".wav", ".flac", ".mp3", ".ogg", ".aif", ".aiff")
@@ -110,7 +111,7 @@ class Files(QObject):
         score, source = self.session.project.score, self.session.project.source
         if source:
             return shown(Path(source).stem)
-        return score.title or QCoreApplication.translate("Files", "Untitled")
+        return score.title or tr("files.untitled")
 
     @property
     def stem(self) -> str:
@@ -178,7 +179,7 @@ class Files(QObject):
 
     def open_danced_example(self) -> None:
         """The bundled piece with drums, and somebody who dances the bundled choreography to it."""
-        name = QCoreApplication.translate("Action", "Dancer")
+        name = tr("action.dancer")
 
         def danced(project: Project) -> Project:
             result, dancer_id = add_dancer(project, bundled_choreographies()[0], name)
@@ -238,7 +239,7 @@ class Files(QObject):
             wish = self.questions.import_midi(contents, self.session.tokens, self.session.tasks) if ask else None
             if ask and wish is None:
                 return
-            called = QCoreApplication.translate("Action", "Dancer")
+            called = tr("action.dancer")
 
             def build(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Project:
                 maps = all_maps()
@@ -342,9 +343,9 @@ class Files(QObject):
         """Save to another file, which is the project's from now on."""
         proposal = str(Path(self.folder) / f"{self.stem}{storage.SUFFIX}")
         path = self.questions.save_file(
-            QCoreApplication.translate("Files", "Save project"),
+            tr("files.save_project"),
             proposal,
-            QCoreApplication.translate("Files", "Suisou project (*{suffix})").format(suffix=storage.SUFFIX),
+            tr("files.suisou_project").format(suffix=storage.SUFFIX),
             (storage.SUFFIX,),
         )
         if path is not None:

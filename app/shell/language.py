@@ -2,13 +2,27 @@
 
 from __future__ import annotations
 
-from importlib.resources import files
+from collections.abc import Mapping
 from typing import Final
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QObject, QTranslator, Signal
 
+from app.messages import WORDINGS
+from app.shell.texts import TEXTS as SHELL
+from widgets.common.texts import TEXTS as COMMON
+from widgets.dialogs.texts import TEXTS as DIALOGS
+from widgets.inspector.texts import TEXTS as INSPECTOR
+from widgets.players.texts import TEXTS as PLAYERS
+from widgets.timeline.texts import TEXTS as TIMELINE
+from widgets.transport.texts import TEXTS as TRANSPORT
+from widgets.viewport.texts import TEXTS as VIEWPORT
+
 LANGUAGES: Final[dict[str, str]] = {"en": "English", "ja": "日本語"}
 """By code: the name in the language itself."""
+ROOMS: Final[tuple[Mapping[str, tuple[str, str]], ...]] = (
+    *(WORDINGS, SHELL, COMMON, DIALOGS, INSPECTOR, PLAYERS, TIMELINE, TRANSPORT, VIEWPORT),
+)
+"""All texts: id -> one for each of `LANGUAGES`, in their order."""
 
 
 def system_language() -> str:
@@ -33,8 +47,8 @@ class Language(QObject):
 
     def __init__(self) -> None:
         super().__init__()
-        self._installed: list[QTranslator] = []
-        self._code = "en"
+        self._code = ""
+        self.set("en")
 
     @property
     def code(self) -> str:
@@ -46,34 +60,47 @@ class Language(QObject):
         code = code if code in LANGUAGES else system_language()
         if code == self._code:
             return
-        wanted = [] if code == "en" else _translators(code)
-        for old in self._installed:
+        for old in _INSTALLED:
             QCoreApplication.removeTranslator(old)
-        self._installed = wanted
+        _INSTALLED[:] = _translators(code)
         self._code = code
         QLocale.setDefault(QLocale(code))
-        for new in wanted:
+        for new in _INSTALLED:
             QCoreApplication.installTranslator(new)
         self.changed.emit()
 
 
+_INSTALLED: Final[list[QTranslator]] = []
+"""The application's translators, whichever `Language` set them."""
+
+
 def _translators(code: str) -> list[QTranslator]:
-    """Qt's own texts first: whoever is installed last is asked first."""
+    """Qt's own texts and those of the editor."""
     found: list[QTranslator] = []
     of_qt = QTranslator()
     if of_qt.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)):
         found.append(of_qt)
-    own = _Translator((files("resources") / "translations" / f"suisou_{code}.qm").read_bytes())
-    if own.is_read:
-        found.append(own)
-    return found
+    return [*found, Texts(code)]
 
 
-class _Translator(QTranslator):
-    """Reads from memory: Qt would map the file, and crash when an update rewrites it under a running editor."""
+class Texts(QTranslator):
+    """The texts of the editor in one language, by their ids.
 
-    def __init__(self, content: bytes) -> None:
+    Parameters
+    ----------
+    code : str
+        One of `LANGUAGES`.
+    """
+
+    def __init__(self, code: str) -> None:
         super().__init__()
-        # Qt keeps no copy.
-        self._content = content
-        self.is_read = self.load(content)
+        place = list(LANGUAGES).index(code)
+        self._texts = {id: wording[place] for room in ROOMS for id, wording in room.items()}
+
+    def isEmpty(self) -> bool:
+        """Qt asks before it announces another language."""
+        return False
+
+    def translate(self, context: str, source: str, disambiguation: str | None = None, count: int = -1) -> str | None:
+        """The text of an id; None for what others translate, as Qt's own texts."""
+        return self._texts.get(source)

@@ -53,26 +53,25 @@ class LicencesDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set the texts."""
-        self.setWindowTitle(self.tr("Licences"))
+        self.setWindowTitle(self.tr("licences_dialog.licences"))
         self._text.setText(
             "\n\n".join(
                 (
-                    self.tr(
-                        "Suisou is under the Apache License 2.0. The packages below were installed with it, each under"
-                        " its own licence."
-                    ),
-                    self.tr(
-                        "Qt, PySide6, soxr and libsndfile are under the LGPL: libraries in files of their own, which"
-                        " you may replace with your own builds."
-                    ),
-                    self.tr(
-                        "FFmpeg is under the GPL: a separate program, started as a process of its own to write films."
-                    ),
+                    self.tr("licences_dialog.suisou_is_under_apache_license"),
+                    self.tr("licences_dialog.qt_pyside6_soxr_and_libsndfile"),
+                    self.tr("licences_dialog.ffmpeg_is_under_gpl_separate"),
                 )
             )
         )
-        self._list.setHeaderLabels([self.tr("Work"), self.tr("Version"), self.tr("Licence"), self.tr("Source")])
-        self._data.setText(0, self.tr("Suisou's own files"))
+        self._list.setHeaderLabels(
+            [
+                self.tr("licences_dialog.work"),
+                self.tr("licences_dialog.version"),
+                self.tr("licences_dialog.licence"),
+                self.tr("licences_dialog.source"),
+            ]
+        )
+        self._data.setText(0, self.tr("licences_dialog.suisous_own_files"))
 
     def changeEvent(self, event: QEvent) -> None:
         """Another language."""

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from app.shell.actions import ActionTable, plain, sequences
 from app.shell.fuzzy import fitness
+from app.shell.texts import TEXTS
 from widgets.common.plain import Label
 from widgets.common.session import Session
 
@@ -73,10 +74,10 @@ class Palette(QFrame):
 
     def retranslate(self) -> None:
         """Set the texts."""
-        self.field.setPlaceholderText(self.tr("What do you want to do?"))
-        self.field.setAccessibleName(self.tr("Search commands"))
-        self.list.setAccessibleName(self.tr("Commands"))
-        self.nothing.setText(self.tr("No command is called that."))
+        self.field.setPlaceholderText(self.tr("palette.what_do_you_want_to"))
+        self.field.setAccessibleName(self.tr("palette.search_commands"))
+        self.list.setAccessibleName(self.tr("palette.commands"))
+        self.nothing.setText(self.tr("palette.no_command_is_called_that"))
 
     def open_at(self, corner: QPoint) -> None:
         """Show it with its top right corner here (of the screen)."""
@@ -127,9 +128,9 @@ class Palette(QFrame):
                 recent = self._ran.index(action_id) if action_id in self._ran else len(self._ran)
                 scored.append((False, not action.isEnabled(), float(recent), order, action_id))
                 continue
-            menu = row.menu.replace("/", " ")
-            names = (plain(action.text()), plain(row.text), f"{self._table.place(action_id)} {action.text()}", menu)
-            values = [fitness(query, name) for name in (*names[:3], f"{menu} {row.text}")]
+            menu, english = row.menu.replace("/", " "), plain(TEXTS[f"action.{action_id}"][0])
+            names = (plain(action.text()), english, f"{self._table.place(action_id)} {action.text()}", menu)
+            values = [fitness(query, name) for name in (*names[:3], f"{menu} {english}")]
             fits = [value - 0.5 * (place > 1) for place, value in enumerate(values) if value is not None]
             if fits:
                 scored.append((max(fits) < whole, not action.isEnabled(), -max(fits), order, action_id))

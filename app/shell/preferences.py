@@ -5,11 +5,10 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from PySide6.QtCore import QCoreApplication
-
 from app.shell.actions import CONTEXTS, menu_with_keys, plain
 from app.shell.editor import Editor
 from app.shell.settings import SETTINGS, Setting
+from widgets.common.translated import tr
 from widgets.dialogs.preferences import Choice, PreferencesDialog
 from widgets.dialogs.shortcuts import ShortcutRow
 
@@ -62,7 +61,7 @@ def shortcut_rows(editor: Editor) -> tuple[ShortcutRow, ...]:
             id=row.id,
             text=plain(table.text(row.id)),
             place=table.place(row.id),
-            context=QCoreApplication.translate("Context", CONTEXTS.get(row.context, row.context)),
+            context=tr(CONTEXTS[row.context]),
             keys=table.keys(row.id),
             default=row.shortcut,
         )

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
-from PySide6.QtCore import QCoreApplication
 from PySide6.QtWidgets import QApplication, QDialog, QWidget
 
 from app.encoding import shown
@@ -18,6 +17,7 @@ from widgets.common.paths import ask_for_file, ask_where_to_save
 from widgets.common.plain import MessageBox
 from widgets.common.tasks import Tasks
 from widgets.common.tokens import Tokens
+from widgets.common.translated import tr
 
 Answer = Literal["save", "discard", "cancel"]
 
@@ -43,16 +43,15 @@ class Questions:
 
     def unsaved(self, name: str) -> Answer:
         """What becomes of the changes that are in no file."""
-        translate = QCoreApplication.translate
         box = MessageBox(_parent())
         box.setObjectName("unsaved")
         box.setIcon(MessageBox.Icon.NoIcon)
-        box.setWindowTitle(translate("Questions", "Unsaved changes"))
-        box.setText(translate("Questions", "Save the changes to {name}?").format(name=name))
-        box.setInformativeText(translate("Questions", "They are lost if you do not save them."))
-        save = box.addButton(translate("Questions", "Save"), MessageBox.ButtonRole.AcceptRole)
-        discard = box.addButton(translate("Questions", "Don't Save"), MessageBox.ButtonRole.DestructiveRole)
-        cancel = box.addButton(translate("Questions", "Cancel"), MessageBox.ButtonRole.RejectRole)
+        box.setWindowTitle(tr("questions.unsaved_changes"))
+        box.setText(tr("questions.save_changes_to").format(name=name))
+        box.setInformativeText(tr("questions.they_are_lost_if_you"))
+        save = box.addButton(tr("questions.save"), MessageBox.ButtonRole.AcceptRole)
+        discard = box.addButton(tr("questions.dont_save"), MessageBox.ButtonRole.DestructiveRole)
+        cancel = box.addButton(tr("questions.cancel"), MessageBox.ButtonRole.RejectRole)
         box.setDefaultButton(save)
         box.setEscapeButton(cancel)
         box.exec()
@@ -72,17 +71,16 @@ class Questions:
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
         """Whether a character goes for good, which these players are."""
-        translate = QCoreApplication.translate
         box = MessageBox(_parent())
         box.setObjectName("remove_character")
         box.setIcon(MessageBox.Icon.NoIcon)
-        box.setWindowTitle(translate("Questions", "Remove character"))
-        box.setText(translate("Questions", "Remove {name} and its file for good?").format(name=name))
+        box.setWindowTitle(tr("questions.remove_character"))
+        box.setText(tr("questions.remove_and_its_file_for").format(name=name))
         if players:
-            told = translate("Questions", "These players are this character and will not be seen: {players}")
+            told = tr("questions.these_players_are_this_character")
             box.setInformativeText(told.format(players=", ".join(players)))
-        remove = box.addButton(translate("Questions", "Remove"), MessageBox.ButtonRole.DestructiveRole)
-        cancel = box.addButton(translate("Questions", "Cancel"), MessageBox.ButtonRole.RejectRole)
+        remove = box.addButton(tr("questions.remove"), MessageBox.ButtonRole.DestructiveRole)
+        cancel = box.addButton(tr("questions.cancel"), MessageBox.ButtonRole.RejectRole)
         box.setDefaultButton(cancel)
         box.setEscapeButton(cancel)
         box.exec()
@@ -97,15 +95,14 @@ def with_suffix(path: Path, suffixes: Sequence[str]) -> Path:
 
 
 def _may_replace(title: str, path: Path) -> bool:
-    translate = QCoreApplication.translate
     box = MessageBox(_parent())
     box.setObjectName("replace")
     box.setIcon(MessageBox.Icon.NoIcon)
     box.setWindowTitle(title)
-    box.setText(translate("Questions", "Replace {name}?").format(name=shown(path.name)))
-    box.setInformativeText(translate("Questions", "The folder has a file of this name. What it holds is lost."))
-    replace = box.addButton(translate("Questions", "Replace"), MessageBox.ButtonRole.DestructiveRole)
-    cancel = box.addButton(translate("Questions", "Cancel"), MessageBox.ButtonRole.RejectRole)
+    box.setText(tr("questions.replace").format(name=shown(path.name)))
+    box.setInformativeText(tr("questions.folder_has_file_of_this"))
+    replace = box.addButton(tr("questions.replace_2"), MessageBox.ButtonRole.DestructiveRole)
+    cancel = box.addButton(tr("questions.cancel"), MessageBox.ButtonRole.RejectRole)
     box.setDefaultButton(cancel)
     box.setEscapeButton(cancel)
     box.exec()

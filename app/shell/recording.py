@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Final
 
 import msgspec
-from PySide6.QtCore import QCoreApplication, QObject, Qt, QTimer
+from PySide6.QtCore import QObject, Qt, QTimer
 
 from app.audio.playback import Playback
 from app.capture.adopt import takes_of
@@ -50,6 +50,7 @@ from app.shell.sound import sound_of
 from metadata.load import load_controllers, recognised_controller
 from metadata.model import Controller
 from widgets.common.session import Session, Severity
+from widgets.common.translated import tr
 
 EARLY_S: Final = 0.12
 """So much before the beginning of a take a note may be struck that is meant for it."""
@@ -431,7 +432,7 @@ class Recorder(QObject):
             journal,
             running.project.score.tempo_map,
             running.wiring,
-            QCoreApplication.translate("Recorder", "Take {number}"),
+            tr("recorder.take"),
             running.start_s,
             taken=_names(self._session.project, running.player_id),
         )
@@ -499,7 +500,7 @@ class Recorder(QObject):
         known = {take.recorded for recorded in project.takes.values() for take in recorded.takes}
         controller = load_controllers().get(journal.header.controller) or recognised_controller(journal.header.port)
         wiring = Wiring(controller.channel, controller.breath[0], controller.bite)
-        name = QCoreApplication.translate("Recorder", "Recovered take {number}")
+        name = tr("recorder.recovered_take")
         takes = takes_of(journal, project.score.tempo_map, wiring, name, taken=_names(project, journal.header.player))
         if not takes or journal.header.started in known:
             path.unlink(missing_ok=True)

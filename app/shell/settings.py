@@ -59,7 +59,7 @@ class Setting(Generic[T]):
     label : str
         In the preferences; empty: it is not there.
     options : tuple of (value, word)
-        What is possible, if not all of a kind. Like the label in English, to be translated (context ``Setting``).
+        What is possible, if not all of a kind. The words are ids of texts, like the label.
     """
 
     def __init__(
@@ -154,37 +154,47 @@ class Settings(QObject):
 
     failed = Signal(object)
 
-    language = Setting("interface/language", "", label="Language", options=(("", "The system's"), *LANGUAGES.items()))
+    language = Setting(
+        "interface/language", "", label="setting.language", options=(("", "setting_choice.systems"), *LANGUAGES.items())
+    )
     theme = Setting(
-        "interface/theme", "dark", held=THEME, label="Theme", options=(("dark", "Dark"), ("light", "Light"))
+        "interface/theme",
+        "dark",
+        held=THEME,
+        label="setting.theme",
+        options=(("dark", "setting_choice.dark"), ("light", "setting_choice.light")),
     )
     written_pitch = Setting(
         "pitch/written",
         False,
         held=in_pitches("written"),
-        label="Pitches",
-        options=((False, "As they sound (concert)"), (True, "As written for the instrument")),
+        label="setting.written_pitch",
+        options=((False, "setting_choice.as_they_sound_concert"), (True, "setting_choice.as_written_for_instrument")),
     )
     middle_c_octave = Setting(
         "pitch/middle_c_octave",
         4,
         held=in_pitches("middle_c_octave"),
-        label="Middle C",
-        options=((4, "C4"), (3, "C3")),
+        label="setting.middle_c_octave",
+        options=((4, "setting_choice.c4"), (3, "setting_choice.c3")),
     )
     syllables = Setting(
         "pitch/syllables",
         False,
         held=in_pitches("syllables"),
-        label="Names of notes",
-        options=((False, "C D E"), (True, "Do Re Mi")),
+        label="setting.syllables",
+        options=((False, "setting_choice.c_d_e"), (True, "setting_choice.do_re_mi")),
     )
     time_display = Setting(
         "interface/time_display",
         "bars",
         held=TIME,
-        label="Time",
-        options=(("bars", "Bars and beats"), ("seconds", "Seconds"), ("frames", "Frames")),
+        label="setting.time_display",
+        options=(
+            ("bars", "setting_choice.bars_and_beats"),
+            ("seconds", "setting_choice.seconds"),
+            ("frames", "setting_choice.frames"),
+        ),
     )
     folded = Setting("interface/folded", dict[str, bool](), dict[str, bool], held=FOLDED)
     """Which parts of panels are folded, by name."""

@@ -113,27 +113,27 @@ class StartPage(QScrollArea):
         tokens = self._session.tokens
         dim = f"color: {tokens.text_dim};"
         self._title.setText("Suisou")
-        self._about.setText(self.tr("The performance of a wind ensemble, from its MIDI, for animation."))
+        self._about.setText(self.tr("start_page.performance_of_wind_ensemble_from"))
         self._about.setStyleSheet(dim)
-        self._begin_heading.setText(self.tr("Begin"))
-        self._teaching_heading.setText(self.tr("How it works"))
-        self._recent_heading.setText(self.tr("Recent files"))
+        self._begin_heading.setText(self.tr("start_page.begin"))
+        self._teaching_heading.setText(self.tr("start_page.how_it_works"))
+        self._recent_heading.setText(self.tr("start_page.recent_files"))
         for heading in (self._begin_heading, self._teaching_heading, self._recent_heading):
             heading.setStyleSheet(f"{dim} font-weight: 600;")
         for action_id, text, drawing in (
-            ("file.open", self.tr("Open a MIDI file or project"), "open"),
-            ("file.new", self.tr("New piece"), "new"),
-            ("file.open_example", self.tr("Try the example quartet"), "players"),
-            ("file.open_danced_example", self.tr("Try the example with a dancer"), "pose"),
+            ("file.open", self.tr("start_page.open_midi_file_or_project"), "open"),
+            ("file.new", self.tr("start_page.new_piece"), "new"),
+            ("file.open_example", self.tr("start_page.try_example_quartet"), "players"),
+            ("file.open_danced_example", self.tr("start_page.try_example_with_dancer"), "pose"),
         ):
             self._buttons[action_id].setText(f"  {text}")
             self._buttons[action_id].setIcon(icon(drawing, tokens))
         for lesson, text in zip(
             self._lessons,
             (
-                self.tr("1. Open the MIDI of a piece: every part gets a player, with fingerings, breaths and cues."),
-                self.tr("2. Change what you would do differently. What you set by hand stays, whatever is generated."),
-                self.tr("3. Export players and instruments as FBX and BVH. Files can also be dropped onto the window."),
+                self.tr("start_page.1_open_midi_of_piece"),
+                self.tr("start_page.2_change_what_you_would"),
+                self.tr("start_page.3_export_players_and_instruments"),
             ),
             strict=True,
         ):
@@ -154,15 +154,15 @@ class StartPage(QScrollArea):
             line.setContentsMargins(12, 8, 8, 8)
             changed = QDateTime.fromSecsSinceEpoch(round(item.changed_s))
             when = QLocale().toString(changed, QLocale.FormatType.ShortFormat)
-            name = item.name or self.tr("a piece that was never saved")
-            told = self.tr("Unsaved work was found: {name}, {when}").format(name=name, when=when)
+            name = item.name or self.tr("start_page.piece_that_was_never_saved")
+            told = self.tr("start_page.unsaved_work_was_found").format(name=name, when=when)
             if item.is_file_missing:
-                told = "\n".join((told, self.tr("The project's file no longer exists.")))
+                told = "\n".join((told, self.tr("start_page.projects_file_no_longer_exists")))
             elif item.is_file_changed:
-                told = "\n".join((told, self.tr("The project's file has changed since.")))
+                told = "\n".join((told, self.tr("start_page.projects_file_has_changed_since")))
             text = Label(told)
             text.setWordWrap(True)
-            go_on, throw = QPushButton(self.tr("Recover")), QPushButton(self.tr("Discard"))
+            go_on, throw = QPushButton(self.tr("start_page.recover")), QPushButton(self.tr("start_page.discard"))
             go_on.setObjectName("recover")
             throw.setObjectName("discard")
             throw.setFlat(True)
@@ -180,7 +180,7 @@ class StartPage(QScrollArea):
         tokens = self._session.tokens
         paths = self._settings.recent
         if not paths:
-            nothing = Label(self.tr("Files you open appear here."))
+            nothing = Label(self.tr("start_page.files_you_open_appear_here"))
             nothing.setStyleSheet(f"color: {tokens.text_dim};")
             self._recent.addWidget(nothing)
         for path in paths:
@@ -197,7 +197,7 @@ class StartPage(QScrollArea):
         name = metrics.elidedText(shown(path.name), Qt.TextElideMode.ElideMiddle, RECENT_PX - LEAST_FOLDER_PX)
         room = RECENT_PX - metrics.horizontalAdvance(name)
         where = metrics.elidedText(shown(path.parent), Qt.TextElideMode.ElideMiddle, room)
-        button.setText(verbatim(f"  {name}    {where if there else self.tr('not found')}"))
+        button.setText(verbatim(f"  {name}    {where if there else self.tr('start_page.not_found')}"))
         button.setIcon(icon("piece", tokens))
         button.setToolTip(shown(path))
         button.setEnabled(there)
@@ -206,7 +206,7 @@ class StartPage(QScrollArea):
         forget.setObjectName("forget_recent")
         forget.setIcon(icon("close", tokens))
         forget.setFixedSize(26, 26)
-        forget.setToolTip(self.tr("Remove from this list"))
+        forget.setToolTip(self.tr("start_page.remove_from_this_list"))
         forget.clicked.connect(partial(self._forget, str(path)))
         line.addWidget(button, 1)
         line.addWidget(forget)

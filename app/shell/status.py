@@ -210,7 +210,7 @@ class StatusLine(QStatusBar):
         self._notice.setIcon(
             icon(severity.value, self._session.tokens, severity_colour(severity, self._session.tokens))
         )
-        self._notice.setToolTip(self.tr("Show everything that was said"))
+        self._notice.setToolTip(self.tr("status_line.show_everything_that_was_said"))
         self._notice.show()
         self._dismiss.show()
 
@@ -242,7 +242,7 @@ class StatusLine(QStatusBar):
         tokens = self._session.tokens
         self._problems.setVisible(self._files.is_open)
         self._problems.setIcon(icon("warning" if count else "check", tokens, tokens.warning if count else tokens.good))
-        text = self.tr("problems: {count}").format(count=count) if count else self.tr("no problems")
+        text = self.tr("status_line.problems").format(count=count) if count else self.tr("status_line.no_problems")
         self._problems.setText(f" {text}")
 
     def _tell_instruments(self) -> None:
@@ -251,9 +251,9 @@ class StatusLine(QStatusBar):
         tokens = self._session.tokens
         self._instruments.setVisible(bool(wrong))
         self._instruments.setIcon(icon("error", tokens, tokens.error))
-        self._instruments.setText(" " + self.tr("faulty instruments: {count}").format(count=len(wrong)))
+        self._instruments.setText(" " + self.tr("status_line.faulty_instruments").format(count=len(wrong)))
         told = "\n".join(sentence(problems[0], self._session) for problems in wrong.values())
-        self._instruments.setToolTip(told + "\n\n" + self.tr("Show the instruments"))
+        self._instruments.setToolTip(told + "\n\n" + self.tr("status_line.show_instruments"))
 
     def _tell_device(self) -> None:
         """Which device is recorded from, and whether it is there; nothing where nobody has one."""
@@ -264,17 +264,17 @@ class StatusLine(QStatusBar):
         self._told_device = told
         self._device.setVisible(bool(recording.port or recording.ports))
         text, name, colour = {
-            "none": (self.tr("choose a MIDI device"), "record", tokens.text_dim),
-            "waiting": (self.tr("waiting for {device}"), "record", tokens.text_dim),
-            "open": (self.tr("{device} connected"), "record", tokens.good),
-            "lost": (self.tr("{device} unplugged"), "warning", tokens.warning),
-            "refused": (self.tr("{device} cannot be opened"), "error", tokens.error),
+            "none": (self.tr("status_line.choose_midi_device"), "record", tokens.text_dim),
+            "waiting": (self.tr("status_line.waiting_for"), "record", tokens.text_dim),
+            "open": (self.tr("status_line.connected"), "record", tokens.good),
+            "lost": (self.tr("status_line.unplugged"), "warning", tokens.warning),
+            "refused": (self.tr("status_line.cannot_be_opened"), "error", tokens.error),
         }[recording.connection]
         self._device.setIcon(icon(name, tokens, colour))
         room_px = max(self.width() // 6, 120)
         device = QFontMetrics(self._device.font()).elidedText(recording.port, Qt.TextElideMode.ElideMiddle, room_px)
         self._device.setText(verbatim(" " + text.format(device=device)))
-        self._device.setToolTip(self.tr("MIDI devices: choose, watch what comes in"))
+        self._device.setToolTip(self.tr("status_line.midi_devices_choose_watch_what"))
 
     def _tell_stream(self) -> None:
         """What is streamed, and how fast; nothing where nothing is."""
@@ -284,10 +284,10 @@ class StatusLine(QStatusBar):
         ports = f"{lines[0].port}–{lines[-1].port}" if len(lines) > 1 else str(streaming.port)
         text, colour = {
             "off": ("", tokens.text_dim),
-            "looking": (self.tr("looking for {host}"), tokens.text_dim),
-            "sending": (self.tr("VMC to {host}:{ports}, {rate}/s"), tokens.good),
-            "unheard": (self.tr("VMC: nobody listens at {host}:{ports}"), tokens.warning),
-            "failed": (self.tr("VMC: {host} cannot be reached"), tokens.error),
+            "looking": (self.tr("status_line.looking_for"), tokens.text_dim),
+            "sending": (self.tr("status_line.vmc_to_s"), tokens.good),
+            "unheard": (self.tr("status_line.vmc_nobody_listens_at"), tokens.warning),
+            "failed": (self.tr("status_line.vmc_cannot_be_reached"), tokens.error),
         }[streaming.state]
         room_px = max(self.width() // 8, 100)
         host = QFontMetrics(self._stream.font()).elidedText(streaming.host, Qt.TextElideMode.ElideMiddle, room_px)
@@ -295,7 +295,7 @@ class StatusLine(QStatusBar):
         self._stream.setText(verbatim(" " + text.format(host=host, ports=ports, rate=streaming.sent_hz)))
         names = {one.id: one.name for one in self._session.project.performers}
         who = [f"{names[line.player_id]}: {line.port}" for line in lines if line.player_id in names]
-        self._stream.setToolTip("\n".join([*who, "", self.tr("Live stream: what is sent, and where")]).strip())
+        self._stream.setToolTip("\n".join([*who, "", self.tr("status_line.live_stream_what_is_sent")]).strip())
 
     def _tell_risk(self) -> None:
         """For as long as unsaved work is in no file."""
@@ -303,7 +303,7 @@ class StatusLine(QStatusBar):
         self._risk.setVisible(risk is not None)
         if risk is not None:
             self._risk.setIcon(icon("error", tokens, tokens.error))
-            self._risk.setText(" " + self.tr("Unsaved work at risk: Save As..."))
+            self._risk.setText(" " + self.tr("status_line.unsaved_work_at_risk_save"))
             self._risk.setToolTip(sentence(risk, self._session))
 
     def _tell_saved(self) -> None:
@@ -313,19 +313,21 @@ class StatusLine(QStatusBar):
             self._saved.clear()
             return
         if files.saved_s is None:
-            self._saved.setText(self.tr("saved") if files.path and files.is_saved else self.tr("not saved yet"))
+            self._saved.setText(
+                self.tr("status_line.saved") if files.path and files.is_saved else self.tr("status_line.not_saved_yet")
+            )
             return
         passed = max(time.monotonic() - files.saved_s, 0.0)
         if passed < 60.0:
-            ago = self.tr("{count} s ago").format(count=5 * math.floor(passed / 5.0) or 1)
+            ago = self.tr("status_line.s_ago").format(count=5 * math.floor(passed / 5.0) or 1)
         elif passed < 3600.0:
-            ago = self.tr("{count} min ago").format(count=int(passed // 60))
+            ago = self.tr("status_line.min_ago").format(count=int(passed // 60))
         else:
-            ago = self.tr("{count} h ago").format(count=int(passed // 3600))
+            ago = self.tr("status_line.h_ago").format(count=int(passed // 3600))
         if files.autosaved:
-            self._saved.setText(self.tr("autosaved {ago}").format(ago=ago))
+            self._saved.setText(self.tr("status_line.autosaved").format(ago=ago))
         else:
-            self._saved.setText(self.tr("saved {ago}").format(ago=ago))
+            self._saved.setText(self.tr("status_line.saved_2").format(ago=ago))
 
     def painted(self) -> None:
         """The viewport drew a picture."""
@@ -335,7 +337,7 @@ class StatusLine(QStatusBar):
             recent = [at for at in self._frames if now_s - at <= 1.0]
             if len(recent) > 1:
                 rate = round((len(recent) - 1) / (recent[-1] - recent[0]))
-                self._rate.setText(self.tr("{rate} fps").format(rate=rate))
+                self._rate.setText(self.tr("status_line.fps").format(rate=rate))
 
     def _played(self, playing: bool) -> None:
         self._frames.clear()
@@ -353,9 +355,9 @@ class StatusLine(QStatusBar):
         _show_value(self._motion_bar, int(MOTION_PX * self._ready))
         self._motion.setVisible(self._files.is_open)
         if busy:
-            self._motion.setText(self.tr("making motion"))
+            self._motion.setText(self.tr("status_line.making_motion"))
         else:
-            self._motion.setText(self.tr("motion ready"))
+            self._motion.setText(self.tr("status_line.motion_ready"))
 
     def retranslate(self) -> None:
         """Set all texts, and what the theme colours."""
@@ -363,9 +365,9 @@ class StatusLine(QStatusBar):
         for label in (self._saved, self._rate, self._motion):
             label.setStyleSheet(f"color: {tokens.text_dim}; padding: 0 4px;")
         self._dismiss.setIcon(icon("close", tokens))
-        self._dismiss.setToolTip(self.tr("Close this notice"))
-        self._problems.setToolTip(self.tr("Go to the next problem"))
-        self._motion.setToolTip(self.tr("How much of the players' motion is made"))
+        self._dismiss.setToolTip(self.tr("status_line.close_this_notice"))
+        self._problems.setToolTip(self.tr("status_line.go_to_next_problem"))
+        self._motion.setToolTip(self.tr("status_line.how_much_of_players_motion"))
         self._details.retranslate()
         if not self._notice.isHidden():
             self._show_notice()
@@ -434,7 +436,7 @@ class _TaskRow(QWidget):
         self._name.setText(name[:1].upper() + name[1:])
         self._name.setToolTip(self._name.text())
         self.stop.setIcon(icon("close", tokens))
-        self.stop.setToolTip(self.tr("Stop"))
+        self.stop.setToolTip(self.tr("task_row.stop"))
 
     def set_share(self, share: float) -> None:
         """0..1; what says nothing of how far it is moves to and fro."""
@@ -467,7 +469,7 @@ class _Details(QFrame):
 
     def retranslate(self) -> None:
         """Set the texts."""
-        self._copy.setText(self.tr("Copy"))
+        self._copy.setText(self.tr("details.copy"))
 
     def open_over(self, anchor: QWidget, log: tuple[tuple[Message, Severity], ...]) -> None:
         """Show the newest notices above a widget."""

@@ -369,7 +369,7 @@ class Window(QMainWindow):
             row.setEnabled(os.path.isfile(path))
             row.triggered.connect(partial(self._open_recent, path))
         if menu.isEmpty():
-            menu.addAction(self.tr("Nothing yet")).setEnabled(False)
+            menu.addAction(self.tr("window.nothing_yet")).setEnabled(False)
 
     def _open_recent(self, path: Path) -> None:
         self._files.open(path)
@@ -385,10 +385,10 @@ class Window(QMainWindow):
     def _offer_recovery(self, item: Recoverable) -> None:
         def texts() -> tuple[str, tuple[str, ...]]:
             if item.is_file_changed:
-                told = self.tr("There is unsaved work on an earlier version of this file; the file has changed since.")
+                told = self.tr("window.there_is_unsaved_work_on")
             else:
-                told = self.tr("There is unsaved work on this project.")
-            return told, (self.tr("Recover"), self.tr("Discard"))
+                told = self.tr("window.there_is_unsaved_work_on_this_project")
+            return told, (self.tr("window.recover"), self.tr("window.discard"))
 
         self.banner.ask(
             texts,
@@ -398,10 +398,8 @@ class Window(QMainWindow):
     def _ask_for_media(self, path: Path) -> None:
         self.banner.ask(
             lambda: (
-                self.tr("The recording {name} is not where it was. Without it the synthesiser is heard.").format(
-                    name=shown(path.name)
-                ),
-                (self.tr("Find It..."), self.tr("Remove It")),
+                self.tr("window.recording_is_not_where_it").format(name=shown(path.name)),
+                (self.tr("window.find_it"), self.tr("window.remove_it")),
             ),
             (partial(self._find_media, path), self._remove_media),
         )
@@ -409,10 +407,8 @@ class Window(QMainWindow):
     def _ask_to_save_over(self, path: Path, then: Callable[[], None] | None) -> None:
         self.banner.ask(
             lambda: (
-                self.tr("{name} was changed by somebody else since it was opened. It was not saved.").format(
-                    name=shown(path.name)
-                ),
-                (self.tr("Save As..."), self.tr("Replace It")),
+                self.tr("window.was_changed_by_somebody_else").format(name=shown(path.name)),
+                (self.tr("window.save_as"), self.tr("window.replace_it")),
             ),
             (partial(self._files.save_as, then), partial(self._files.save_over, then)),
         )
@@ -421,7 +417,7 @@ class Window(QMainWindow):
         kinds = f"({' '.join(f'*{suffix}' for suffix in AUDIO_SUFFIXES)})"
         if is_text(path.name):
             kinds = f"{path.name} ({path.name});;{kinds}"
-        title = self.tr("Find {name}").format(name=shown(path.name))
+        title = self.tr("window.find").format(name=shown(path.name))
         found = self.editor.questions.open_file(title, self._files.folder, kinds)
         if found is not None:
             self._files.replace_audio(found)
@@ -452,12 +448,12 @@ class Window(QMainWindow):
         """Set all texts."""
         self.menus.retranslate()
         self._table.retranslate()
-        self.docks["players"].setWindowTitle(self.tr("Players"))
-        self.docks["inspector"].setWindowTitle(self.tr("Inspector"))
-        self.docks["timeline"].setWindowTitle(self.tr("Timeline"))
+        self.docks["players"].setWindowTitle(self.tr("window.players"))
+        self.docks["inspector"].setWindowTitle(self.tr("window.inspector"))
+        self.docks["timeline"].setWindowTitle(self.tr("window.timeline"))
         keys = self._table.actions["application.palette"].shortcut().toString(QKeySequence.SequenceFormat.NativeText)
-        self.palette_field.setText(self.tr("Search...   {keys}").format(keys=keys))
-        self.palette_field.setAccessibleName(self.tr("Search commands"))
+        self.palette_field.setText(self.tr("window.search").format(keys=keys))
+        self.palette_field.setAccessibleName(self.tr("window.search_commands"))
         self._tell_title()
 
     # Qt

@@ -85,11 +85,6 @@ STEPS = (
         "--soundfont: FluidR3_GM.sf2",
     ),
     Step("icons", ("resources/icons/*.svg",), _modules("resources.build.build_icons")),
-    Step(
-        "translations",
-        ("resources/translations/*.ts", "resources/translations/*.qm"),
-        _modules("resources.build.build_translations"),
-    ),
     Step("licences", ("docs/licences.md",), _modules("resources.build.build_licences")),
     Step(
         "pictures",

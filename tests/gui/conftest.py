@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.project.model import Project, map_choices, project_from_score
 from app.score.read import read_midi
+from app.shell.language import Language
 from app.shell.theme import apply_font, apply_theme
 from instrument_maps.load import bundled_maps
 from tests.support.tasks import ImmediateTasks
@@ -44,6 +45,13 @@ def delete_now() -> None:
     """Whatever is to be deleted later is deleted now."""
     QCoreApplication.processEvents()
     QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
+
+
+@pytest.fixture(scope="session")
+def qapp(qapp: QApplication) -> QApplication:
+    """The application, in English."""
+    Language()
+    return qapp
 
 
 @pytest.fixture

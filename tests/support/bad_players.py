@@ -73,19 +73,19 @@ def _figure() -> bytes:
 
 
 BAD_CHARACTERS: dict[str, tuple[Callable[[OwnFolders], str], str]] = {
-    "not installed": (lambda own: "nobody", "'nobody', which is not installed"),
-    "file gone": (lambda own: own.add_character(None), "mori.glb, which is not beside it"),
+    "not installed": (lambda own: "nobody", "the character 'nobody' of trumpet is not installed"),
+    "file gone": (lambda own: own.add_character(None), "mori.glb, referenced in "),
     "description damaged": (lambda own: own.add_character(_figure(), "file = "), "mori.toml"),
     "file damaged": (lambda own: own.add_character(_truncated(_figure())), "mori.glb is damaged"),
     "no body": (
         lambda own: own.add_character((WHISTLE / "tin_whistle_D.glb").read_bytes()),
-        "mori.glb cannot play: no bone was found",
+        "mori.glb cannot play because bones were not found",
     ),
 }
 """What makes a character bad, which then has the id that comes back, and what has to be said of it."""
 
 BAD_INSTRUMENTS: dict[str, tuple[Callable[[OwnFolders], str], str]] = {
-    "not installed": (lambda own: "ophicleide", "'ophicleide', which is not installed"),
+    "not installed": (lambda own: "ophicleide", "the instrument 'ophicleide' of trumpet is not installed"),
     "map damaged": (lambda own: own.add_instrument(_half), "tin_whistle_D.toml"),
     "control missing": (
         lambda own: own.add_instrument(lambda text: text.replace('control = "hole_L1"', 'control = "hole_X9"')),

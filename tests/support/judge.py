@@ -202,7 +202,7 @@ def _cues(
     reach = spans[0][1]
     cues = [cue for player in found["players"] for cue in player["cues"]]
     ends = [cue["end_s"] for cue in cues]
-    common = [cue["end_s"] for cue in cues if cue["reason"].startswith("brings everyone in")]
+    common = [cue["end_s"] for cue in cues if cue["reason"].startswith("cue for all players after")]
     for onset, end in spans[1:]:
         if onset > reach:
             rest_s = slow_seconds(onset, changes, quarter) - slow_seconds(reach, changes, quarter)
@@ -320,7 +320,7 @@ CATCH_BREATH_S, SHORTEST_NOTE_S = 0.2, 1.0 / 24.0
 
 def leaves_out(breath: Mapping[str, Any], note: Mapping[str, Any], following: Mapping[str, Any]) -> bool:
     """Whether a breath says that it takes the place of a note, of which nothing would be left but for a gasp."""
-    named = re.search(r"instead of notes? (\S+?)(?: and (\S+?))?,", breath["reason"])
+    named = re.search(r"(?:instead|in place) of notes? (\S+?)(?: and (\S+?))?,", breath["reason"])
     step_s = following["onset_s"] - note["onset_s"]
     return named is not None and note["id"] in named.groups() and step_s < CATCH_BREATH_S + SHORTEST_NOTE_S
 
@@ -407,7 +407,10 @@ def _breaths(
             most_s = 0.0
             if following is not None and event["kind"] == "breath":
                 out = leaves_out(event, note, following)
-                before_out = "instead of note" in event["reason"] and event["start_s"] < following["onset_s"]
+                before_out = (
+                    re.search("(?:instead|in place) of note", event["reason"])
+                    and event["start_s"] < following["onset_s"]
+                )
                 if out or before_out or abs(following["onset_s"] - event["end_s"]) <= 0.05:
                     most_s = end_s - note["onset_s"] if out else _given_up_s(end_s - note["onset_s"])
             if inside_s > most_s + 1e-6:

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from app.errors import Message
-from app.messages import TEMPLATES, text
+from app.messages import WORDINGS, text
 
 ROOT = Path(__file__).parents[2]
 FOLDERS = ("app", "widgets", "instrument_maps", "metadata")
@@ -86,7 +86,7 @@ def action_ids() -> set[str]:
     return ids
 
 
-ROOMS = {id.split(".")[0] for id in TEMPLATES}
+ROOMS = {id.split(".")[0] for id in WORDINGS}
 
 
 def fields(template: str) -> set[str]:
@@ -104,7 +104,7 @@ def test_every_id_has_a_template() -> None:
         for string in strings("app", "widgets") - action_ids()
         if ID.fullmatch(string) and string.split(".")[0] in ROOMS and not string.endswith("_")
     }
-    assert sorted(({id for _, _, id, _ in found()} | handed_on) - TEMPLATES.keys()) == []
+    assert sorted(({id for _, _, id, _ in found()} | handed_on) - WORDINGS.keys()) == []
 
 
 def test_no_template_is_left_over() -> None:
@@ -114,7 +114,7 @@ def test_no_template_is_left_over() -> None:
     written = strings(*FOLDERS)
     left_over = [
         id
-        for id in TEMPLATES
+        for id in WORDINGS
         if id not in written and id.split(".", 1)[1] not in written and not (begun and id.startswith(begun))
     ]
     assert left_over == []
@@ -122,15 +122,15 @@ def test_no_template_is_left_over() -> None:
 
 def test_the_arguments_fill_the_templates() -> None:
     missing = [
-        f"{path}:{call.lineno} {id}: {sorted(fields(TEMPLATES[id]) - names)}"
+        f"{path}:{call.lineno} {id}: {sorted(fields(WORDINGS[id][0]) - names)}"
         for path, call, id, names in found()
-        if names is not None and id in TEMPLATES and not fields(TEMPLATES[id]) <= names
+        if names is not None and id in WORDINGS and not fields(WORDINGS[id][0]) <= names
     ]
     assert missing == []
 
 
 @pytest.mark.parametrize(
-    ("count", "told"), [(0, "move 0 notes"), (1, "move 1 note"), (2, "move 2 notes"), (21, "move 21 notes")]
+    ("count", "told"), [(0, "Move 0 Notes"), (1, "Move 1 Note"), (2, "Move 2 Notes"), (21, "Move 21 Notes")]
 )
 def test_one_is_not_many(count: int, told: str) -> None:
     assert text(Message("edit.move_notes", {"count": count})) == told
@@ -138,7 +138,7 @@ def test_one_is_not_many(count: int, told: str) -> None:
 
 def test_no_template_counts_one_of_many() -> None:
     """Told of one thing, no message says "1 notes"."""
-    for id, template in TEMPLATES.items():
+    for id, (template, _) in WORDINGS.items():
         if "count" in fields(template):
             arguments = dict.fromkeys(fields(template), 2) | {"count": 1}
             assert not re.search(r"\b1 (?!ms\b)\w+s\b", text(Message(id, arguments))), id

@@ -2,32 +2,32 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication
+from widgets.common.translated import tr
 
 
 def kind_name(kind: str) -> str:
     """The name of a kind of event: the first part of its id."""
     match kind:
         case "breath" | "within":
-            return QCoreApplication.translate("Event", "Breath")
+            return tr("event.breath")
         case "preparation":
-            return QCoreApplication.translate("Event", "Preparation")
+            return tr("event.preparation")
         case "cue":
-            return QCoreApplication.translate("Event", "Cue")
+            return tr("event.cue")
         case "expression":
-            return QCoreApplication.translate("Event", "Expression")
+            return tr("event.expression")
         case "sway":
-            return QCoreApplication.translate("Event", "Sway")
+            return tr("event.sway")
         case "weight_shift":
-            return QCoreApplication.translate("Event", "Weight shift")
+            return tr("event.weight_shift")
         case "bell_height":
-            return QCoreApplication.translate("Event", "Bell height")
+            return tr("event.bell_height")
         case "lower_instrument":
-            return QCoreApplication.translate("Event", "Instrument lowered")
+            return tr("event.instrument_lowered")
         case "pose":
-            return QCoreApplication.translate("Event", "Pose")
+            return tr("event.pose")
         case "vary":
-            return QCoreApplication.translate("Event", "Performed anew")
+            return tr("event.performed_anew")
     return kind
 
 
@@ -35,15 +35,15 @@ def expression_name(name: str) -> str:
     """The name of a bundled expression; one's own are called what they are called."""
     match name:
         case "neutral":
-            return QCoreApplication.translate("Expression", "Neutral")
+            return tr("expression_name.neutral")
         case "strained":
-            return QCoreApplication.translate("Expression", "Strained")
+            return tr("expression_name.strained")
         case "puffed":
-            return QCoreApplication.translate("Expression", "Puffed")
+            return tr("expression_name.puffed")
         case "brows_up":
-            return QCoreApplication.translate("Expression", "Brows up")
+            return tr("expression_name.brows_up")
         case "smile":
-            return QCoreApplication.translate("Expression", "Smile")
+            return tr("expression_name.smile")
     return name
 
 
@@ -51,13 +51,13 @@ def pose_name(target: str) -> str:
     """The name of what is held differently."""
     match target:
         case "bell":
-            return QCoreApplication.translate("Pose", "Bell")
+            return tr("pose_name.bell")
         case "head":
-            return QCoreApplication.translate("Pose", "Head")
+            return tr("pose_name.head")
         case "left_elbow":
-            return QCoreApplication.translate("Pose", "Left elbow")
+            return tr("pose_name.left_elbow")
         case "right_elbow":
-            return QCoreApplication.translate("Pose", "Right elbow")
+            return tr("pose_name.right_elbow")
         case "torso":
-            return QCoreApplication.translate("Pose", "Torso")
+            return tr("pose_name.torso")
     return target

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from PySide6.QtCore import QCoreApplication, QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QColor,
     QFont,
@@ -24,6 +24,7 @@ from instrument_maps.model import Control, InstrumentMap
 from widgets.common.key_chart import Chart, chart
 from widgets.common.session import Session
 from widgets.common.tokens import Tokens
+from widgets.common.translated import tr
 
 DOWN = 0.5
 """A key further than this counts as down."""
@@ -42,8 +43,8 @@ class Slot:
 def hand_text(hand: str) -> str:
     """``"left"`` or ``"right"`` as one sign."""
     hands = {
-        "left": QCoreApplication.translate("Fingering", "L"),
-        "right": QCoreApplication.translate("Fingering", "R"),
+        "left": tr("fingering_name.l"),
+        "right": tr("fingering_name.r"),
     }
     return hands.get(hand, hand)
 
@@ -51,12 +52,12 @@ def hand_text(hand: str) -> str:
 def part_text(part: str) -> str:
     """A finger, or the hand as a whole."""
     parts = {
-        "thumb": QCoreApplication.translate("Fingering", "thumb"),
-        "index": QCoreApplication.translate("Fingering", "index"),
-        "middle": QCoreApplication.translate("Fingering", "middle"),
-        "ring": QCoreApplication.translate("Fingering", "ring"),
-        "little": QCoreApplication.translate("Fingering", "little"),
-        "hand": QCoreApplication.translate("Fingering", "hand"),
+        "thumb": tr("fingering_name.thumb"),
+        "index": tr("fingering_name.index"),
+        "middle": tr("fingering_name.middle"),
+        "ring": tr("fingering_name.ring"),
+        "little": tr("fingering_name.little"),
+        "hand": tr("fingering_name.hand"),
     }
     return parts.get(part, part)
 
@@ -64,7 +65,7 @@ def part_text(part: str) -> str:
 def finger_text(mover: str) -> str:
     """Which part of which hand moves a control, in the language of the editor: ``"right.index"``."""
     hand, _, part = mover.partition(".")
-    return QCoreApplication.translate("Fingering", "{hand} {part}").format(hand=hand_text(hand), part=part_text(part))
+    return tr("fingering_name.text").format(hand=hand_text(hand), part=part_text(part))
 
 
 def slide_slots(instrument: InstrumentMap, control: Control) -> tuple[Slot, ...]:
@@ -272,7 +273,7 @@ class FingeringDiagram(QWidget):
         painter.drawText(below, Qt.AlignmentFlag.AlignLeft, finger_text(control.finger))
         travel_m = control.travel_m
         if travel_m:
-            length = QCoreApplication.translate("Fingering", "{cm} cm").format(cm=f"{value * travel_m * 100.0:.1f}")
+            length = tr("fingering_name.cm").format(cm=f"{value * travel_m * 100.0:.1f}")
             painter.setPen(QColor(tokens.text))
             painter.drawText(below, Qt.AlignmentFlag.AlignRight, length)
 

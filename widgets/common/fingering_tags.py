@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from PySide6.QtCore import QCoreApplication
+from widgets.common.translated import tr
 
 _BETWEEN = re.compile("[,、，]")
 
@@ -13,18 +13,18 @@ _BETWEEN = re.compile("[,、，]")
 def tag_words() -> dict[str, str]:
     """The words for what the bundled maps say, by their tag."""
     return {
-        "alternate": QCoreApplication.translate("FingeringTag", "alternate"),
-        "trill": QCoreApplication.translate("FingeringTag", "trill"),
-        "fast": QCoreApplication.translate("FingeringTag", "fast"),
-        "chromatic": QCoreApplication.translate("FingeringTag", "chromatic"),
-        "attack": QCoreApplication.translate("FingeringTag", "attack"),
-        "held": QCoreApplication.translate("FingeringTag", "held"),
-        "rare": QCoreApplication.translate("FingeringTag", "rare"),
-        "forked": QCoreApplication.translate("FingeringTag", "forked"),
-        "raised": QCoreApplication.translate("FingeringTag", "raised"),
-        "forte": QCoreApplication.translate("FingeringTag", "forte"),
-        "piano": QCoreApplication.translate("FingeringTag", "piano"),
-        "obsolete": QCoreApplication.translate("FingeringTag", "obsolete"),
+        "alternate": tr("fingering_tag.alternate"),
+        "trill": tr("fingering_tag.trill"),
+        "fast": tr("fingering_tag.fast"),
+        "chromatic": tr("fingering_tag.chromatic"),
+        "attack": tr("fingering_tag.attack"),
+        "held": tr("fingering_tag.held"),
+        "rare": tr("fingering_tag.rare"),
+        "forked": tr("fingering_tag.forked"),
+        "raised": tr("fingering_tag.raised"),
+        "forte": tr("fingering_tag.forte"),
+        "piano": tr("fingering_tag.piano"),
+        "obsolete": tr("fingering_tag.obsolete"),
     }
 
 

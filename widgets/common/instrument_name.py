@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication
-
 from app.rig.character_library import character_library
 from instrument_maps.model import InstrumentMap
+from widgets.common.translated import tr
 
 
 def language() -> str:
     """The language the editor speaks now: ``"en"`` or ``"ja"``."""
     # The translation of this word is the language's own tag, so that it always agrees with the texts around.
-    return QCoreApplication.translate("Language", "en")
+    return tr("language.en")
 
 
 def instrument_name(instrument: InstrumentMap) -> str:
@@ -22,8 +21,8 @@ def instrument_name(instrument: InstrumentMap) -> str:
 def character_name(character_id: str) -> str:
     """The name of a character: the bundled ones have one in every language, others their file's."""
     names = {
-        "woman_adult": QCoreApplication.translate("Character", "Woman"),
-        "man_adult": QCoreApplication.translate("Character", "Man"),
+        "woman_adult": tr("character_name.woman"),
+        "man_adult": tr("character_name.man"),
     }
     own = character_library().own.get(character_id)
     return names.get(character_id, (own.title if own is not None else "") or character_id)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication
+from widgets.common.translated import tr
 
 _WHOLE = frozenset({"jawLeft", "jawRight", "mouthLeft", "mouthRight"})
 """Their side is where they move, not where they are."""
@@ -13,46 +13,46 @@ def morph_name(morph: str) -> str:
     stem, side = morph, ""
     if morph not in _WHOLE:
         for ending, sign in (
-            ("Left", QCoreApplication.translate("Morph", "L", "left side")),
-            ("Right", QCoreApplication.translate("Morph", "R", "right side")),
+            ("Left", tr("morph.left_side")),
+            ("Right", tr("morph.right_side")),
         ):
             if morph.endswith(ending):
                 stem, side = morph.removesuffix(ending), sign
     words = {
-        "browDown": QCoreApplication.translate("Morph", "Brow down"),
-        "browInnerUp": QCoreApplication.translate("Morph", "Inner brows up"),
-        "browOuterUp": QCoreApplication.translate("Morph", "Outer brow up"),
-        "cheekPuff": QCoreApplication.translate("Morph", "Cheeks puffed"),
-        "cheekSquint": QCoreApplication.translate("Morph", "Cheek raised"),
-        "eyeBlink": QCoreApplication.translate("Morph", "Eye closed"),
-        "eyeLookDown": QCoreApplication.translate("Morph", "Looks down"),
-        "eyeLookIn": QCoreApplication.translate("Morph", "Looks in"),
-        "eyeLookOut": QCoreApplication.translate("Morph", "Looks out"),
-        "eyeLookUp": QCoreApplication.translate("Morph", "Looks up"),
-        "eyeSquint": QCoreApplication.translate("Morph", "Eye narrowed"),
-        "eyeWide": QCoreApplication.translate("Morph", "Eye wide"),
-        "jawForward": QCoreApplication.translate("Morph", "Jaw forward"),
-        "jawLeft": QCoreApplication.translate("Morph", "Jaw to the left"),
-        "jawOpen": QCoreApplication.translate("Morph", "Jaw open"),
-        "jawRight": QCoreApplication.translate("Morph", "Jaw to the right"),
-        "mouthClose": QCoreApplication.translate("Morph", "Lips closed"),
-        "mouthDimple": QCoreApplication.translate("Morph", "Dimple"),
-        "mouthFrown": QCoreApplication.translate("Morph", "Corner down"),
-        "mouthFunnel": QCoreApplication.translate("Morph", "Funnel"),
-        "mouthLeft": QCoreApplication.translate("Morph", "Mouth to the left"),
-        "mouthLowerDown": QCoreApplication.translate("Morph", "Lower lip down"),
-        "mouthPress": QCoreApplication.translate("Morph", "Lips pressed"),
-        "mouthPucker": QCoreApplication.translate("Morph", "Pucker"),
-        "mouthRight": QCoreApplication.translate("Morph", "Mouth to the right"),
-        "mouthRollLower": QCoreApplication.translate("Morph", "Lower lip rolled in"),
-        "mouthRollUpper": QCoreApplication.translate("Morph", "Upper lip rolled in"),
-        "mouthShrugLower": QCoreApplication.translate("Morph", "Lower lip pushed up"),
-        "mouthShrugUpper": QCoreApplication.translate("Morph", "Upper lip pushed up"),
-        "mouthSmile": QCoreApplication.translate("Morph", "Smile"),
-        "mouthStretch": QCoreApplication.translate("Morph", "Corner stretched"),
-        "mouthUpperUp": QCoreApplication.translate("Morph", "Upper lip up"),
-        "noseSneer": QCoreApplication.translate("Morph", "Nose wrinkled"),
-        "tongueOut": QCoreApplication.translate("Morph", "Tongue out"),
+        "browDown": tr("morph.brow_down"),
+        "browInnerUp": tr("morph.inner_brows_up"),
+        "browOuterUp": tr("morph.outer_brow_up"),
+        "cheekPuff": tr("morph.cheeks_puffed"),
+        "cheekSquint": tr("morph.cheek_raised"),
+        "eyeBlink": tr("morph.eye_closed"),
+        "eyeLookDown": tr("morph.looks_down"),
+        "eyeLookIn": tr("morph.looks_in"),
+        "eyeLookOut": tr("morph.looks_out"),
+        "eyeLookUp": tr("morph.looks_up"),
+        "eyeSquint": tr("morph.eye_narrowed"),
+        "eyeWide": tr("morph.eye_wide"),
+        "jawForward": tr("morph.jaw_forward"),
+        "jawLeft": tr("morph.jaw_to_left"),
+        "jawOpen": tr("morph.jaw_open"),
+        "jawRight": tr("morph.jaw_to_right"),
+        "mouthClose": tr("morph.lips_closed"),
+        "mouthDimple": tr("morph.dimple"),
+        "mouthFrown": tr("morph.corner_down"),
+        "mouthFunnel": tr("morph.funnel"),
+        "mouthLeft": tr("morph.mouth_to_left"),
+        "mouthLowerDown": tr("morph.lower_lip_down"),
+        "mouthPress": tr("morph.lips_pressed"),
+        "mouthPucker": tr("morph.pucker"),
+        "mouthRight": tr("morph.mouth_to_right"),
+        "mouthRollLower": tr("morph.lower_lip_rolled_in"),
+        "mouthRollUpper": tr("morph.upper_lip_rolled_in"),
+        "mouthShrugLower": tr("morph.lower_lip_pushed_up"),
+        "mouthShrugUpper": tr("morph.upper_lip_pushed_up"),
+        "mouthSmile": tr("morph.smile"),
+        "mouthStretch": tr("morph.corner_stretched"),
+        "mouthUpperUp": tr("morph.upper_lip_up"),
+        "noseSneer": tr("morph.nose_wrinkled"),
+        "tongueOut": tr("morph.tongue_out"),
     }
     name = words.get(stem, stem)
     return f"{name} {side}" if side else name

@@ -319,13 +319,13 @@ class NumberSlider(QWidget):
         menu = QMenu(self)
         menu.setObjectName("number_menu")
         for text, slot in (
-            (self.tr("Type a value"), lambda: self.type_value()),
-            (self.tr("Copy value"), self.copy),
-            (self.tr("Paste value"), self.paste),
+            (self.tr("number_slider.type_value"), lambda: self.type_value()),
+            (self.tr("number_slider.copy_value"), self.copy),
+            (self.tr("number_slider.paste_value"), self.paste),
         ):
             menu.addAction(text, slot)
         if self._resets:
-            menu.addAction(self.tr("Reset"), self.reset_value)
+            menu.addAction(self.tr("number_slider.reset"), self.reset_value)
         return menu
 
     # Drawing

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication
-
 from app.messages.pitches import LETTERS, pitch_name
 from widgets.common.session import PitchDisplay
+from widgets.common.translated import tr
 
 BLACK = frozenset({1, 3, 6, 8, 10})
 
 
 def syllables() -> tuple[str, ...]:
     """What C to B are called in syllables, in the language of the editor."""
-    return tuple(QCoreApplication.translate("Pitch", "Do Re Mi Fa So La Ti").split())
+    return tuple(tr("pitch.do_re_mi_fa_so").split())
 
 
 def pitch_text(display: PitchDisplay, concert_pitch: int, transposition_semitones: int = 0) -> str:

@@ -41,28 +41,28 @@ class ColourSwatch(QPushButton):
         menu = QMenu(self)
         menu.setObjectName("colour_menu")
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        menu.addAction(self.tr("Automatic"), lambda: self.chosen.emit(""))
+        menu.addAction(self.tr("colour_swatch.automatic"), lambda: self.chosen.emit(""))
         menu.addSeparator()
         names = (
-            self.tr("Sky blue"),
-            self.tr("Orange"),
-            self.tr("Green"),
-            self.tr("Pink"),
-            self.tr("Yellow"),
-            self.tr("Blue"),
-            self.tr("Vermilion"),
-            self.tr("Grey"),
+            self.tr("colour_swatch.sky_blue"),
+            self.tr("colour_swatch.orange"),
+            self.tr("colour_swatch.green"),
+            self.tr("colour_swatch.pink"),
+            self.tr("colour_swatch.yellow"),
+            self.tr("colour_swatch.blue"),
+            self.tr("colour_swatch.vermilion"),
+            self.tr("colour_swatch.grey"),
         )
         for name, colour in zip(names, self._session.tokens.players, strict=False):
             action = menu.addAction(_spot(colour), name)
             action.triggered.connect(lambda _=False, colour=colour: self.chosen.emit(colour))
         menu.addSeparator()
-        menu.addAction(self.tr("Other colour..."), self._ask)
+        menu.addAction(self.tr("colour_swatch.other_colour"), self._ask)
         menu.popup(self.mapToGlobal(self.rect().bottomLeft()))
 
     def _ask(self) -> None:
         before = QColor(self._colours[0]) if self._colours else QColor(self._session.tokens.accent)
-        colour = QColorDialog.getColor(before, self, self.tr("Colour of the player"))
+        colour = QColorDialog.getColor(before, self, self.tr("colour_swatch.colour_of_player"))
         if colour.isValid():
             self.chosen.emit(colour.name())
 

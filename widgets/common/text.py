@@ -5,10 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 
-from PySide6.QtCore import QCoreApplication
-
 from app.errors import Argument, Message
-from app.messages import PITCHES, TEMPLATES, filled
+from app.messages import PITCHES, WORDINGS, filled
 from app.messages.pitches import pitch_name
 from app.project.model import Player
 from app.score.model import Note, Score
@@ -18,6 +16,7 @@ from widgets.common.event_names import kind_name, pose_name
 from widgets.common.instrument_name import instrument_name
 from widgets.common.pitch import pitch_text
 from widgets.common.session import Session
+from widgets.common.translated import tr
 
 NOTES = frozenset({"note", "other", "first_note", "after_note", "anchor"})
 """Arguments that name a note by its id; an anchor may also be an event or a name."""
@@ -34,7 +33,7 @@ def message_text(message: Message, session: Session | None = None, player_id: st
     player_id : str or None
         Whose message it is; None: that of the player in front.
     """
-    template = QCoreApplication.translate("Message", TEMPLATES[message.id])
+    template = tr(message.id)
     arguments = {name: _told(message, name, session, player_id) for name in message.arguments}
     if session is None:
         named = PITCHES.get(message.id, ())
@@ -45,14 +44,14 @@ def message_text(message: Message, session: Session | None = None, player_id: st
 def sentence(message: Message, session: Session | None = None, player_id: str | None = None) -> str:
     """A message that stands alone begins with a capital, unless with a name."""
     text = message_text(message, session, player_id)
-    return text if TEMPLATES[message.id].startswith("{") else text[:1].upper() + text[1:]
+    return text if WORDINGS[message.id][0].startswith("{") else text[:1].upper() + text[1:]
 
 
 def note_text(session: Session, note: Note, player: Player | None) -> str:
     """A note as a person finds it: its pitch, and bar and beat."""
     score = session.project.score
     bar, beat = score.metre_map.bar_of_tick(note.onset_tick), score.metre_map.beat_of_tick(note.onset_tick)
-    return QCoreApplication.translate("Told", "{pitch} (bar {bar}, beat {beat})").format(
+    return tr("word.bar_beat").format(
         pitch=_pitch(session, note.pitch, player), bar=bar, beat=f"{beat:.2f}".rstrip("0").rstrip(".")
     )
 
@@ -88,7 +87,7 @@ def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -
     if note is not None:
         return note_text(session, note, player)
     if is_anchor and _NOTE_ID.fullmatch(id):
-        return QCoreApplication.translate("Told", "a note that is gone")
+        return tr("word.note_that_is_gone")
     kind, colon, rest = id.partition(":")
     if not colon or kind_name(kind) == kind:
         return id
@@ -121,13 +120,13 @@ def _note(score: Score, id: str, player: Player | None) -> Note | None:
 
 def _corrections() -> dict[str, str]:
     return {
-        "pin_fingering": QCoreApplication.translate("Event", "Fingering"),
-        "remove": QCoreApplication.translate("Event", "Removal"),
+        "pin_fingering": tr("event.fingering"),
+        "remove": tr("event.removal"),
         "set_breath": kind_name("breath"),
         "set_cue": kind_name("cue"),
-        "set_embouchure": QCoreApplication.translate("Event", "Embouchure"),
-        "change_gesture": QCoreApplication.translate("Event", "Gesture"),
-        "add_gesture": QCoreApplication.translate("Event", "Gesture"),
+        "set_embouchure": tr("event.embouchure"),
+        "change_gesture": tr("event.gesture"),
+        "add_gesture": tr("event.gesture"),
         "change_expression": kind_name("expression"),
         "add_expression": kind_name("expression"),
         "pose": kind_name("pose"),
@@ -142,13 +141,13 @@ def _targets() -> dict[str, str]:
 def _touches() -> dict[str, str]:
     """Parts of a hand; of a finger it does not matter which side of it touches."""
     templates = {
-        "thumb": QCoreApplication.translate("Told", "{side} thumb"),
-        "index": QCoreApplication.translate("Told", "{side} index finger"),
-        "middle": QCoreApplication.translate("Told", "{side} middle finger"),
-        "ring": QCoreApplication.translate("Told", "{side} ring finger"),
-        "little": QCoreApplication.translate("Told", "{side} little finger"),
-        "palm": QCoreApplication.translate("Told", "{side} palm"),
-        "thumb_web": QCoreApplication.translate("Told", "web of the {side} thumb"),
+        "thumb": tr("word.thumb"),
+        "index": tr("word.index_finger"),
+        "middle": tr("word.middle_finger"),
+        "ring": tr("word.ring_finger"),
+        "little": tr("word.little_finger"),
+        "palm": tr("word.palm"),
+        "thumb_web": tr("word.web_of_thumb"),
     }
     sides = _WORDS["side"]()
     return {part: templates[part.split(".")[1]].format(side=sides[part.split(".")[0]]) for part in PARTS}
@@ -156,41 +155,41 @@ def _touches() -> dict[str, str]:
 
 def _controls() -> dict[str, str]:
     """Controls of instruments as people call them; one that is not here is called what its map calls it."""
-    valve = QCoreApplication.translate("Told", "valve {number}")
-    slide = QCoreApplication.translate("Told", "the slide of valve {number}")
+    valve = tr("word.valve")
+    slide = tr("word.slide_of_valve")
     names = {f"valve_{number}": valve.format(number=number) for number in range(1, 7)}
     names |= {
         f"{word}_slide": slide.format(number=1 + index) for index, word in enumerate(("first", "second", "third"))
     }
     return names | {
-        "slide": QCoreApplication.translate("Told", "the slide"),
-        "trigger": QCoreApplication.translate("Told", "the trigger"),
+        "slide": tr("word.slide"),
+        "trigger": tr("word.trigger"),
     }
 
 
-def parameter_text(english: str) -> str:
-    """A word of a parameter (`app.plan.parameters`) in the language of the editor."""
-    return QCoreApplication.translate("Parameter", english) if english else ""
+def parameter_text(text_id: str) -> str:
+    """A text of a parameter (`app.plan.parameters`) in the language of the editor; empty where it has none."""
+    return tr(text_id) if text_id else ""
 
 
 _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
     "kind": lambda: {tag: word.lower() for tag, word in _corrections().items()},
     "target": _targets,
     "side": lambda: {
-        "left": QCoreApplication.translate("Told", "left"),
-        "right": QCoreApplication.translate("Told", "right"),
+        "left": tr("word.left"),
+        "right": tr("word.right"),
     },
     "touch": _touches,
     "map": lambda: {id: instrument_name(instrument) for id, instrument in all_maps().items()},
     "control": _controls,
     "angle": lambda: {
-        "up": QCoreApplication.translate("Told", "up and down"),
-        "left": QCoreApplication.translate("Told", "to the side"),
-        "roll": QCoreApplication.translate("Told", "leaning"),
+        "up": tr("word.up_and_down"),
+        "left": tr("word.to_side"),
+        "roll": tr("word.leaning"),
     },
     "leader_reason": lambda: {
-        "chosen": QCoreApplication.translate("Told", "chosen as leader"),
-        "melody": QCoreApplication.translate("Told", "leads the melody"),
+        "chosen": tr("word.chosen_as_leader"),
+        "melody": tr("word.leads_melody"),
     },
 }
 """Arguments that are one of a few words."""

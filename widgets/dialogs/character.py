@@ -328,16 +328,18 @@ class CharacterDialog(QDialog):
         self.bones.show_used({bone: joint_name(joint) for joint, bone in made.joints.bones.items()})
         self.faces.show_parts(made.faces.morphs, frozenset(self.draft.morphs))
         told = not_played(made)
-        self._told.setText("\n".join(f"• {text}" for text in told) if told else self.tr("Everything will be played."))
+        self._told.setText(
+            "\n".join(f"• {text}" for text in told) if told else self.tr("character_dialog.everything_will_be_played")
+        )
         self._told.setStyleSheet(f"color: {tokens.error if made.lacking else tokens.text};")
         self._picture.setStyleSheet(
             f"#character_picture {{ background: {tokens.sunken}; border: 1px solid {tokens.line};"
             " border-radius: 6px; }"
         )
         states = (
-            (tokens.good, self.tr("found")),
-            (tokens.warning, self.tr("a guess")),
-            (tokens.text_dim, self.tr("none")),
+            (tokens.good, self.tr("character_dialog.found")),
+            (tokens.warning, self.tr("character_dialog.guess")),
+            (tokens.text_dim, self.tr("character_dialog.none")),
         )
         for (sign, text), (colour, word) in zip(self._legend, states, strict=True):
             sign.setStyleSheet(f"color: {colour};")
@@ -359,9 +361,9 @@ class CharacterDialog(QDialog):
         state, bone = self._made.state(joint), self._made.joints.bones.get(joint)
         bone_name = "" if bone is None else self._figure.bone_names[bone]
         words = {
-            "mapped": self.tr("{joint}: {bone}"),
-            "doubtful": self.tr("{joint}: {bone}, a guess; please look"),
-            "missing": self.tr("{joint}: the file has no such bone"),
+            "mapped": self.tr("character_dialog.text"),
+            "doubtful": self.tr("character_dialog.guess_please_look"),
+            "missing": self.tr("character_dialog.file_has_no_such_bone"),
         }[state]
         return words.format(joint=joint_name(joint), bone=bone_name)
 
@@ -376,7 +378,7 @@ class CharacterDialog(QDialog):
             self._wants_picture = True
             return
         if self._made.lacking:
-            self._picture.setText(self.tr("No picture yet"))
+            self._picture.setText(self.tr("character_dialog.no_picture_yet"))
             return
         figure, made, known = self._figure, self._made, self._seen
         key = (made.joints.bones, made.faces.morphs)
@@ -412,28 +414,28 @@ class CharacterDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set all texts."""
-        self.setWindowTitle(verbatim_title(self.tr("Character: {file}").format(file=shown(self._path.name))))
-        self._title_name.setText(self.tr("Name"))
+        self.setWindowTitle(verbatim_title(self.tr("character_dialog.character").format(file=shown(self._path.name))))
+        self._title_name.setText(self.tr("character_dialog.name"))
         self._source.setText(
-            self.tr("{file}\nBones: {bones}, morphs: {morphs}").format(
+            self.tr("character_dialog.bones_morphs").format(
                 file=shown(self._path.name), bones=len(self._figure.bone_names), morphs=len(self._figure.morph_names)
             )
         )
-        self.tabs.setTabText(0, self.tr("Body"))
-        self.tabs.setTabText(1, self.tr("Face"))
-        self.rows.setHeaderLabels([self.tr("Joint"), self.tr("Bone")])
-        self.bones.set_headers([self.tr("Bone of the file"), self.tr("Joint")])
-        self.bones.search.setPlaceholderText(self.tr("Search bones"))
-        self.body.setAccessibleName(self.tr("Joints of the body"))
-        self._none.setText(self.tr("No Bone"))
-        self._automatic.setText(self.tr("Automatic"))
-        self._undo.setText(self.tr("Undo"))
-        self._redo.setText(self.tr("Redo"))
-        self._reset.setText(self.tr("Reset All"))
-        self.give.setText(verbatim(self.tr("Give it to {players}").format(players=self._offered)))
+        self.tabs.setTabText(0, self.tr("character_dialog.body"))
+        self.tabs.setTabText(1, self.tr("character_dialog.face"))
+        self.rows.setHeaderLabels([self.tr("character_dialog.joint"), self.tr("character_dialog.bone")])
+        self.bones.set_headers([self.tr("character_dialog.bone_of_file"), self.tr("character_dialog.joint")])
+        self.bones.search.setPlaceholderText(self.tr("character_dialog.search_bones"))
+        self.body.setAccessibleName(self.tr("character_dialog.joints_of_body"))
+        self._none.setText(self.tr("character_dialog.no_bone"))
+        self._automatic.setText(self.tr("character_dialog.automatic"))
+        self._undo.setText(self.tr("character_dialog.undo"))
+        self._redo.setText(self.tr("character_dialog.redo"))
+        self._reset.setText(self.tr("character_dialog.reset_all"))
+        self.give.setText(verbatim(self.tr("character_dialog.give_it_to").format(players=self._offered)))
         self.give.setVisible(bool(self._offered))
-        self._buttons.button(QDialogButtonBox.StandardButton.Ok).setText(self.tr("Keep Character"))
-        self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("Cancel"))
+        self._buttons.button(QDialogButtonBox.StandardButton.Ok).setText(self.tr("character_dialog.keep_character"))
+        self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("character_dialog.cancel"))
         self.faces.retranslate()
         self._show()
 

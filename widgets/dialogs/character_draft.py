@@ -14,6 +14,7 @@ from app.rig.figure_character import figure_character
 from app.rig.humanoid import JointMapping, map_joints
 from app.rig.model import Character
 from metadata.model import REQUIRED_JOINTS
+from widgets.common.translated import tr
 
 State = Literal["mapped", "doubtful", "missing"]
 
@@ -150,11 +151,11 @@ class Steps:
 
 def not_played(made: Mapped) -> tuple[str, ...]:
     """What a character will not do, in words, the gravest first."""
-    translate, told = QCoreApplication.translate, list[str]()
+    _translate, told = QCoreApplication.translate, list[str]()
     bones, faces = made.joints.bones, made.faces.morphs
     if made.lacking:
         told.append(
-            translate("CharacterWords", "It cannot play yet. Choose the bones of: {joints}").format(
+            tr("character_words.it_cannot_play_yet_choose").format(
                 joints=", ".join(joint_name(joint) for joint in made.lacking)
             )
         )
@@ -165,70 +166,67 @@ def not_played(made: Mapped) -> tuple[str, ...]:
         if not any(joint.startswith(side + finger) for joint in bones)
     ]
     if len(without) == 2 * len(_FINGERS):
-        told.append(
-            translate("CharacterWords", "It has no finger bones: the hands hold the instrument, the fingers rest.")
-        )
+        told.append(tr("character_words.it_has_no_finger_bones"))
     elif without:
         told.append(
-            translate("CharacterWords", "These fingers do not move: {fingers}").format(
+            tr("character_words.these_fingers_do_not_move").format(
                 fingers=", ".join(joint_name(side + finger) for side, finger in without)
             )
         )
     if "leftEye" not in bones and "rightEye" not in bones and not any(name.startswith("eyeLook") for name in faces):
-        told.append(translate("CharacterWords", "The eyes do not look around: it has no bones or morphs for them."))
+        told.append(tr("character_words.eyes_do_not_look_around"))
     if "jaw" not in bones and "jawOpen" not in faces:
-        told.append(translate("CharacterWords", "The mouth does not open: it has no jaw and no such morph."))
+        told.append(tr("character_words.mouth_does_not_open_it"))
     if not any(name in faces for name in _LIPS):
-        told.append(translate("CharacterWords", "The lips do not form an embouchure: it has no such morphs."))
+        told.append(tr("character_words.lips_do_not_form_embouchure"))
     if not any(name.startswith("eyeBlink") for name in faces):
-        told.append(translate("CharacterWords", "It does not blink: it has no such morph."))
+        told.append(tr("character_words.it_does_not_blink_it"))
     if "cheekPuff" not in faces:
-        told.append(translate("CharacterWords", "The cheeks do not fill: it has no such morph."))
+        told.append(tr("character_words.cheeks_do_not_fill_it"))
     return tuple(told)
 
 
 def joint_name(joint: str) -> str:
     """A joint in the person's language."""
-    translate = QCoreApplication.translate
-    for side, sign in (("left", translate("Joint", "{part} L")), ("right", translate("Joint", "{part} R"))):
+    for side, sign in (("left", tr("joint.l")), ("right", tr("joint.r"))):
         if joint.startswith(side):
             return sign.format(part=joint_name(joint.removeprefix(side)))
     words = {
-        "hips": translate("Joint", "Hips"),
-        "spine": translate("Joint", "Spine"),
-        "chest": translate("Joint", "Chest"),
-        "upperChest": translate("Joint", "Upper chest"),
-        "neck": translate("Joint", "Neck"),
-        "head": translate("Joint", "Head"),
-        "jaw": translate("Joint", "Jaw"),
-        "Eye": translate("Joint", "Eye"),
-        "Shoulder": translate("Joint", "Shoulder"),
-        "UpperArm": translate("Joint", "Upper arm"),
-        "LowerArm": translate("Joint", "Lower arm"),
-        "Hand": translate("Joint", "Hand"),
-        "UpperLeg": translate("Joint", "Upper leg"),
-        "LowerLeg": translate("Joint", "Lower leg"),
-        "Foot": translate("Joint", "Foot"),
-        "Toes": translate("Joint", "Toes"),
-        "Thumb": translate("Joint", "Thumb"),
-        "Index": translate("Joint", "Index finger"),
-        "Middle": translate("Joint", "Middle finger"),
-        "Ring": translate("Joint", "Ring finger"),
-        "Little": translate("Joint", "Little finger"),
-        "ThumbMetacarpal": translate("Joint", "Thumb, base"),
-        "ThumbProximal": translate("Joint", "Thumb, middle"),
-        "ThumbDistal": translate("Joint", "Thumb, tip"),
-        "IndexProximal": translate("Joint", "Index finger, base"),
-        "IndexIntermediate": translate("Joint", "Index finger, middle"),
-        "IndexDistal": translate("Joint", "Index finger, tip"),
-        "MiddleProximal": translate("Joint", "Middle finger, base"),
-        "MiddleIntermediate": translate("Joint", "Middle finger, middle"),
-        "MiddleDistal": translate("Joint", "Middle finger, tip"),
-        "RingProximal": translate("Joint", "Ring finger, base"),
-        "RingIntermediate": translate("Joint", "Ring finger, middle"),
-        "RingDistal": translate("Joint", "Ring finger, tip"),
-        "LittleProximal": translate("Joint", "Little finger, base"),
-        "LittleIntermediate": translate("Joint", "Little finger, middle"),
-        "LittleDistal": translate("Joint", "Little finger, tip"),
+        "hips": tr("joint.hips"),
+        "spine": tr("joint.spine"),
+        "chest": tr("joint.chest"),
+        "upperChest": tr("joint.upper_chest"),
+        "neck": tr("joint.neck"),
+        "head": tr("joint.head"),
+        "jaw": tr("joint.jaw"),
+        "Eye": tr("joint.eye"),
+        "Shoulder": tr("joint.shoulder"),
+        "UpperArm": tr("joint.upper_arm"),
+        "LowerArm": tr("joint.lower_arm"),
+        "Hand": tr("joint.hand"),
+        "UpperLeg": tr("joint.upper_leg"),
+        "LowerLeg": tr("joint.lower_leg"),
+        "Foot": tr("joint.foot"),
+        "Toes": tr("joint.toes"),
+        "Thumb": tr("joint.thumb"),
+        "Index": tr("joint.index_finger"),
+        "Middle": tr("joint.middle_finger"),
+        "Ring": tr("joint.ring_finger"),
+        "Little": tr("joint.little_finger"),
+        "ThumbMetacarpal": tr("joint.thumb_base"),
+        "ThumbProximal": tr("joint.thumb_middle"),
+        "ThumbDistal": tr("joint.thumb_tip"),
+        "IndexProximal": tr("joint.index_finger_base"),
+        "IndexIntermediate": tr("joint.index_finger_middle"),
+        "IndexDistal": tr("joint.index_finger_tip"),
+        "MiddleProximal": tr("joint.middle_finger_base"),
+        "MiddleIntermediate": tr("joint.middle_finger_middle"),
+        "MiddleDistal": tr("joint.middle_finger_tip"),
+        "RingProximal": tr("joint.ring_finger_base"),
+        "RingIntermediate": tr("joint.ring_finger_middle"),
+        "RingDistal": tr("joint.ring_finger_tip"),
+        "LittleProximal": tr("joint.little_finger_base"),
+        "LittleIntermediate": tr("joint.little_finger_middle"),
+        "LittleDistal": tr("joint.little_finger_tip"),
     }
     return words.get(joint, joint)

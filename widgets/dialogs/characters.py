@@ -152,17 +152,12 @@ class CharactersDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set all texts."""
-        self.setWindowTitle(self.tr("Characters"))
-        self._explained.setText(
-            self.tr(
-                "Your own characters, from VRM, glTF or FBX files; drop a file here. Every player can become one of "
-                "them."
-            )
-        )
-        self._add.setText(self.tr("Add..."))
-        self._edit.setText(self.tr("Edit..."))
-        self._remove.setText(self.tr("Remove..."))
-        self._close.setText(self.tr("Close"))
+        self.setWindowTitle(self.tr("characters_dialog.characters"))
+        self._explained.setText(self.tr("characters_dialog.your_own_characters_from_vrm"))
+        self._add.setText(self.tr("characters_dialog.add"))
+        self._edit.setText(self.tr("characters_dialog.edit"))
+        self._remove.setText(self.tr("characters_dialog.remove"))
+        self._close.setText(self.tr("characters_dialog.close"))
         self.refresh()
 
     # Qt's own names

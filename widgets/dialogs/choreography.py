@@ -209,18 +209,21 @@ class ChoreographyDialog(QDialog):
         self.tabs.setVisible(shown is not None)
         self._use.setVisible(shown is not None)
         if shown is None:
-            self.setWindowTitle(self.tr("Choreography"))
-            no_dancer = self.tr("No dancer is selected.") if self._asked is None else self.tr("Reading ...")
+            self.setWindowTitle(self.tr("choreography_dialog.choreography"))
+            no_dancer = (
+                self.tr("choreography_dialog.no_dancer_is_selected")
+                if self._asked is None
+                else self.tr("choreography_dialog.reading")
+            )
             self._heading.setText(sentence(self._error.message) if self._error is not None else no_dancer)
             return
         model = shown.model
-        self.setWindowTitle(verbatim_title(self.tr("Choreography of {dancer}").format(dancer=shown.dancer.name)))
+        self.setWindowTitle(
+            verbatim_title(self.tr("choreography_dialog.choreography_of").format(dancer=shown.dancer.name))
+        )
         length_s = sum((one.end - one.start) / float(model.clips[one.clip].fps) for one in model.segments)
         self._heading.setText(
-            self.tr(
-                "{name} · Basic motions: {motions} · Segments: {segments}, {minutes}:{seconds:02d} min · "
-                "Sources: {sources}"
-            ).format(
+            self.tr("choreography_dialog.basic_motions_segments_min_sources").format(
                 name=model.name,
                 motions=model.states,
                 segments=len(model.segments),
@@ -238,7 +241,7 @@ class ChoreographyDialog(QDialog):
     def _use_text(self, shown: Shown) -> str:
         if shown.error is not None:
             return sentence(shown.error, self._session, shown.dancer.id)
-        return self.tr("{dancer} dances {used} of {count} basic motions in this piece.").format(
+        return self.tr("choreography_dialog.dances_of_basic_motions_in").format(
             dancer=shown.dancer.name, used=len(shown.used), count=shown.model.states
         )
 
@@ -250,7 +253,7 @@ class ChoreographyDialog(QDialog):
         states = Side(
             tuple(str(state + 1) for state in range(model.states)),
             frozenset(shown.used),
-            {state: self.tr("{count}×").format(count=count) for state, count in shown.used.items()},
+            {state: self.tr("choreography_dialog.text").format(count=count) for state, count in shown.used.items()},
             figures,
         )
         self.transitions.show_table(model.transition, states, states, self._followed(model.transition))
@@ -265,9 +268,9 @@ class ChoreographyDialog(QDialog):
     def _followed(self, transition: Floats) -> Callable[[int, int], str]:
         def text(row: int, column: int) -> str:
             words = (
-                self.tr("Basic motion {number} is danced again with a probability of {share} %.")
+                self.tr("choreography_dialog.basic_motion_is_danced_again")
                 if row == column
-                else self.tr("Basic motion {number} is followed by {next} with a probability of {share} %.")
+                else self.tr("choreography_dialog.basic_motion_is_followed_by")
             )
             return words.format(number=row + 1, next=column + 1, share=_percent(transition[row, column]))
 
@@ -275,7 +278,7 @@ class ChoreographyDialog(QDialog):
 
     def _struck(self, shares: Floats, names: tuple[str, ...]) -> Callable[[int, int], str]:
         def text(row: int, column: int) -> str:
-            return self.tr("{share} % of the strokes during basic motion {number} are: {sound}").format(
+            return self.tr("choreography_dialog.of_strokes_during_basic_motion").format(
                 share=_percent(shares[row, column]), number=column + 1, sound=names[row]
             )
 
@@ -291,12 +294,12 @@ class ChoreographyDialog(QDialog):
             f"{_stem(model.sources[source].motion_name)} ({count})" for source, count in shown.motions[state].sources
         )
         parts = [
-            self.tr("Basic motion {number}").format(number=state + 1),
-            self.tr("from {sources}").format(sources=sources),
-            self.tr("followed by {motions}").format(
+            self.tr("choreography_dialog.basic_motion").format(number=state + 1),
+            self.tr("choreography_dialog.from").format(sources=sources),
+            self.tr("choreography_dialog.followed_by").format(
                 motions=_most(model.transition[state], [str(number + 1) for number in range(model.states)])
             ),
-            self.tr("danced to {sounds}").format(sounds=_most(model.emission[state], names)),
+            self.tr("choreography_dialog.danced_to").format(sounds=_most(model.emission[state], names)),
         ]
         return " · ".join(parts)
 
@@ -304,9 +307,9 @@ class ChoreographyDialog(QDialog):
         """Sources with the same credits together."""
         together: dict[str, list[str]] = {}
         for source in model.sources:
-            names = self.tr("{motion} with {music}").format(motion=source.motion_name, music=source.music_name)
+            names = self.tr("choreography_dialog.with").format(motion=source.motion_name, music=source.music_name)
             together.setdefault(source.credits.strip(), []).append(names)
-        none = self.tr("No credits are given for these sources.")
+        none = self.tr("choreography_dialog.no_credits_are_given_for")
         return "\n\n".join("\n".join((*names, "", credits or none)) for credits, names in together.items())
 
     # Words
@@ -314,42 +317,28 @@ class ChoreographyDialog(QDialog):
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
         titles = (
-            self.tr("Basic Motions"),
-            self.tr("Transitions"),
-            self.tr("Graph"),
-            self.tr("Percussion"),
-            self.tr("Credits"),
+            self.tr("choreography_dialog.basic_motions"),
+            self.tr("choreography_dialog.transitions"),
+            self.tr("choreography_dialog.graph"),
+            self.tr("choreography_dialog.percussion"),
+            self.tr("choreography_dialog.credits"),
         )
         for number, title in enumerate(titles):
             self.tabs.setTabText(number, title)
         views: tuple[QWidget, ...] = (self.gallery, self.transitions, self.graph, self.percussion, self.credits)
         for view, title in zip(views, titles, strict=True):
             view.setAccessibleName(title)
-        self._hints["motions"].setText(
-            self.tr("The most typical segment of each basic motion: its start, its accent, its end.")
-        )
-        self._hints["transitions"].setText(
-            self.tr(
-                "What follows what, in percent: a row is what is danced, a column what comes next. "
-                "Basic motions in colour are danced in this piece, so many times."
-            )
-        )
-        self._hints["graph"].setText(
-            self.tr("An arrow for each transition that was learned, the wider the likelier. Point at a basic motion.")
-        )
+        self._hints["motions"].setText(self.tr("choreography_dialog.most_typical_segment_of_each"))
+        self._hints["transitions"].setText(self.tr("choreography_dialog.what_follows_what_in_percent"))
+        self._hints["graph"].setText(self.tr("choreography_dialog.arrow_for_each_transition_that"))
         self._hints["percussion"].setText(self._percussion_hint(self._shown is not None and self._shown.derived))
-        self._close.setText(self.tr("Close"))
+        self._close.setText(self.tr("choreography_dialog.close"))
         self._show()
 
     def _percussion_hint(self, derived: bool) -> str:
         if derived:
-            return self.tr(
-                "What is struck during each basic motion, in percent of its strokes. This piece has no percussion: "
-                "sounds with a dot stand for its melody, its bass and its accents."
-            )
-        return self.tr(
-            "What is struck during each basic motion, in percent of its strokes. Sounds with a dot occur in this piece."
-        )
+            return self.tr("choreography_dialog.what_is_struck_during_each")
+        return self.tr("choreography_dialog.what_is_struck_during_each_basic_motion_in")
 
     # Qt's own names
 

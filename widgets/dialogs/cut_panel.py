@@ -155,7 +155,7 @@ class CutPanel(QWidget):
             self.figure.show_pose(pose_of(analysis.clip, frame))
             time_s = float(self.plot.time_s(frame))
             self._place.setText(
-                self.tr("{time} s, {acceleration} rad/s²").format(
+                self.tr("cut_panel.s_rad_s").format(
                     time=f"{time_s:.3f}", acceleration=f"{analysis.segmentation.curve_rad_s2[frame]:.1f}"
                 )
             )
@@ -173,9 +173,9 @@ class CutPanel(QWidget):
         self._title.setText(
             ""
             if self._found.analysis is None
-            else self.tr("Segments: {n}, found").format(n=count)
+            else self.tr("cut_panel.segments_found").format(n=count)
             if self._draft.cuts is None
-            else self.tr("Segments: {n}, set by hand").format(n=count)
+            else self.tr("cut_panel.segments_set_by_hand").format(n=count)
         )
 
     def _apply_theme(self) -> None:
@@ -184,20 +184,14 @@ class CutPanel(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self.plot.plot.setAccessibleName(self.tr("Cuts of the motion"))
-        self._buttons["undo"].setToolTip(self.tr("Undo (Ctrl+Z)"))
-        self._buttons["redo"].setToolTip(self.tr("Redo (Ctrl+Shift+Z)"))
-        self._buttons["fit"].setToolTip(self.tr("Whole motion (F)"))
-        self._snap.setText(self.tr("Snap"))
-        self._snap.setToolTip(self.tr("Cuts stop at minima, accents at maxima; not while Alt is held"))
-        self._reset.setText(self.tr("Reset to Automatic"))
-        self._hint.setText(
-            self.tr(
-                "Angular acceleration (rad/s²) over the time of the motion (s). Blue: cuts; orange: accents; green: "
-                "percussion of the music. Drag a line to move it, double-click to cut, Delete deletes. Ctrl+wheel "
-                "zooms."
-            )
-        )
+        self.plot.plot.setAccessibleName(self.tr("cut_panel.cuts_of_motion"))
+        self._buttons["undo"].setToolTip(self.tr("cut_panel.undo_ctrl_z"))
+        self._buttons["redo"].setToolTip(self.tr("cut_panel.redo_ctrl_shift_z"))
+        self._buttons["fit"].setToolTip(self.tr("cut_panel.whole_motion_f"))
+        self._snap.setText(self.tr("cut_panel.snap"))
+        self._snap.setToolTip(self.tr("cut_panel.cuts_stop_at_minima_accents"))
+        self._reset.setText(self.tr("cut_panel.reset_to_automatic"))
+        self._hint.setText(self.tr("cut_panel.angular_acceleration_rad_s_over"))
         self._show_tools()
 
     # Qt's own names

@@ -273,15 +273,14 @@ class ExportDialog(QDialog):
 
     def _done(self, done: Done) -> None:
         if done.project is None:
-            text = self.tr("Files written to {folder}: {count}").format(folder=shown(done.folder), count=done.count)
+            text = self.tr("export_dialog.files_written_to").format(folder=shown(done.folder), count=done.count)
             told = Message("export.done", {"count": done.count, "folder": str(done.folder)})
         else:
-            text = self.tr(
-                "Files written into the project {name}: {count}\n"
-                "In Unreal choose Suisou > Import Performance; if it was imported before, Update Performance."
-            ).format(name=done.project.name, count=done.count)
+            text = self.tr("export_dialog.files_written_into_project_in").format(
+                name=done.project.name, count=done.count
+            )
             if done.new_plugin:
-                text += "\n" + self.tr("If Unreal has the project open, start it again: the menu is new.")
+                text += "\n" + self.tr("export_dialog.if_unreal_has_project_open")
             told = Message("unreal.done", {"count": done.count, "project": done.project.name})
         # Whoever is left out comes first, all of them.
         lines = [sentence(message) for message in done.left_out] + list(done.warnings[:6])
@@ -336,9 +335,9 @@ class ExportDialog(QDialog):
         self._form.setRowVisible(self._labels["bvh_names"], into_folder and "bvh" in self._formats.formats)
         problem = ""
         if not self.player_ids:
-            problem = self.tr("Tick at least one player.")
+            problem = self.tr("export_dialog.tick_at_least_one_player")
         elif not self._formats.formats and into_folder:
-            problem = self.tr("Tick at least one kind of file.")
+            problem = self.tr("export_dialog.tick_at_least_one_kind")
         else:
             problem = self._range.problem or self._place.problem or self._skeleton.problem
         text = problem
@@ -364,41 +363,43 @@ class ExportDialog(QDialog):
         )
         lines = []
         if seen.project is not None:
-            engine = self.tr("version not told") if seen.project.version is None else seen.project.engine
-            lines.append(self.tr("{name} (Unreal Engine {engine})").format(name=seen.project.name, engine=engine))
-        lines.append(self.tr("Files that will be written: {count}").format(count=seen.count))
+            engine = self.tr("export_dialog.version_not_told") if seen.project.version is None else seen.project.engine
+            lines.append(self.tr("export_dialog.unreal_engine").format(name=seen.project.name, engine=engine))
+        lines.append(self.tr("export_dialog.files_that_will_be_written").format(count=seen.count))
         if seen.replaced:
-            replaced = self.tr("Of these, {count} will be replaced: {names}")
+            replaced = self.tr("export_dialog.of_these_will_be_replaced")
             lines.append(replaced.format(count=len(seen.replaced), names=_some(seen.replaced)))
         if seen.removed:
-            removed = self.tr("No longer needed, {count} will be removed: {names}")
+            removed = self.tr("export_dialog.no_longer_needed_will_be")
             lines.append(removed.format(count=len(seen.removed), names=_some(seen.removed)))
         lines += [f"⚠ {message_text(message)}" for message in seen.kept]
         return "\n".join(lines)
 
     def retranslate(self) -> None:
         """Set every text anew."""
-        self.setWindowTitle(self.tr("Export"))
+        self.setWindowTitle(self.tr("export_dialog.export"))
         texts = {
-            "players": self.tr("Performers") if self._project.dancers else self.tr("Players"),
-            "into": self.tr("Into"),
-            "files": self.tr("Files"),
-            "bvh_names": self.tr("Bone names in BVH"),
-            "skeleton": self.tr("Skeleton"),
-            "range": self.tr("Range"),
-            "preroll": self.tr("Pre-roll"),
-            "rate": self.tr("Frames per second"),
+            "players": self.tr("export_dialog.performers")
+            if self._project.dancers
+            else self.tr("export_dialog.players"),
+            "into": self.tr("export_dialog.into"),
+            "files": self.tr("export_dialog.files"),
+            "bvh_names": self.tr("export_dialog.bone_names_in_bvh"),
+            "skeleton": self.tr("export_dialog.skeleton"),
+            "range": self.tr("export_dialog.range"),
+            "preroll": self.tr("export_dialog.pre_roll"),
+            "rate": self.tr("export_dialog.frames_per_second"),
             "outcome": "",
         }
         for name, text in texts.items():
             self._labels[name].setText(text)
-        self._everybody.setText(self.tr("All or none"))
-        self._bvh_names.setItemText(0, self.tr("Those of the skeleton"))
-        self._preroll.setSuffix(self.tr(" beats"))
+        self._everybody.setText(self.tr("export_dialog.all_or_none"))
+        self._bvh_names.setItemText(0, self.tr("export_dialog.those_of_skeleton"))
+        self._preroll.setSuffix(self.tr("export_dialog.beats"))
         self._range.retranslate()
-        self._export.setText(self.tr("Export"))
-        self._show.setText(self.tr("Show in folder"))
-        self._close.setText(self.tr("Cancel") if self._running else self.tr("Close"))
+        self._export.setText(self.tr("export_dialog.export"))
+        self._show.setText(self.tr("export_dialog.show_in_folder"))
+        self._close.setText(self.tr("export_dialog.cancel") if self._running else self.tr("export_dialog.close"))
         if not self._running and not self._show.isVisible():
             self._show_outcome()
 

@@ -59,15 +59,15 @@ class FormatChooser(QWidget):
 
     def retranslate(self) -> None:
         """Set every text anew."""
-        self._boxes["fbx"].setText(self.tr("FBX (characters and instruments)"))
-        self._boxes["bvh"].setText(self.tr("BVH (body motion)"))
-        self._boxes["glb"].setText(self.tr("GLB (characters and instruments)"))
+        self._boxes["fbx"].setText(self.tr("format_chooser.fbx_characters_and_instruments"))
+        self._boxes["bvh"].setText(self.tr("format_chooser.bvh_body_motion"))
+        self._boxes["glb"].setText(self.tr("format_chooser.glb_characters_and_instruments"))
         self._boxes["usd"].setText(
-            self.tr("USD (the package usd-core is missing)")
+            self.tr("format_chooser.usd_package_usd_core_is")
             if "usd" in self._missing
-            else self.tr("USD (characters and instruments)")
+            else self.tr("format_chooser.usd_characters_and_instruments")
         )
-        self._sound.setText(self.tr("Sound (WAV)"))
+        self._sound.setText(self.tr("format_chooser.sound_wav"))
         for name, message in self._missing.items():
             self._boxes[name].setToolTip(message_text(message))
 

@@ -72,8 +72,8 @@ class PlaceChooser(QWidget):
         if self._path.path is not None:
             return ""
         if self.destination == "unreal":
-            return self.tr("Choose the .uproject file of your Unreal project.")
-        return self.tr("Choose a folder.")
+            return self.tr("place_chooser.choose_uproject_file_of_your")
+        return self.tr("place_chooser.choose_folder")
 
     def _remember(self, text: str) -> None:
         self._paths[self.destination] = text
@@ -89,20 +89,22 @@ class PlaceChooser(QWidget):
 
     def _choose_path(self) -> None:
         if self.destination == "unreal":
-            title = self.tr("Unreal project")
+            title = self.tr("place_chooser.unreal_project")
             chosen = ask_for_file(self, title, self._path.path, f"{title} (*.uproject)")
         else:
-            chosen = ask_for_folder(self, self.tr("Folder for the files"), self._path.path)
+            chosen = ask_for_folder(self, self.tr("place_chooser.folder_for_files"), self._path.path)
         if chosen is not None:
             self._path.set_path(chosen)
 
     def retranslate(self) -> None:
         """Set every text anew."""
-        self._box.setItemText(0, self.tr("A folder of files"))
-        self._box.setItemText(1, self.tr("An Unreal project"))
+        self._box.setItemText(0, self.tr("place_chooser.folder_of_files"))
+        self._box.setItemText(1, self.tr("place_chooser.unreal_project_2"))
         unreal = self.destination == "unreal"
-        self._path.setPlaceholderText(self.tr(".uproject file") if unreal else self.tr("Folder"))
-        self._choose.setText(self.tr("Choose..."))
+        self._path.setPlaceholderText(
+            self.tr("place_chooser.uproject_file") if unreal else self.tr("place_chooser.folder")
+        )
+        self._choose.setText(self.tr("place_chooser.choose"))
 
     def changeEvent(self, event: QEvent) -> None:
         if event.type() == QEvent.Type.LanguageChange:

@@ -67,7 +67,7 @@ class RangeChooser(QWidget):
     def problem(self) -> str:
         """Why these bars cannot be exported; empty: they can."""
         first, last = self.bars or (0, 0)
-        return self.tr("The last bar comes before the first one.") if first > last else ""
+        return self.tr("range_chooser.last_bar_comes_before_first") if first > last else ""
 
     def _change(self) -> None:
         self._show_bars()
@@ -82,10 +82,10 @@ class RangeChooser(QWidget):
         choice = self._choice.currentData() or _WHOLE
         self._choice.blockSignals(True)
         self._choice.clear()
-        self._choice.addItem(self.tr("Whole piece"), _WHOLE)
-        self._choice.addItem(self.tr("Bars"), _BARS)
+        self._choice.addItem(self.tr("range_chooser.whole_piece"), _WHOLE)
+        self._choice.addItem(self.tr("range_chooser.bars"), _BARS)
         if self._session.selection.span is not None:
-            self._choice.addItem(self.tr("Bars of the selection"), _SELECTION)
+            self._choice.addItem(self.tr("range_chooser.bars_of_selection"), _SELECTION)
         self._choice.setCurrentIndex(max(self._choice.findData(choice), 0))
         self._choice.blockSignals(False)
         self._show_bars()

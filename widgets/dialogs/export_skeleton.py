@@ -100,13 +100,13 @@ class SkeletonChooser(QWidget):
     def problem(self) -> str:
         """Why nothing can be written yet; empty where nothing is in the way."""
         if self._comparing:
-            return self.tr("The skeletons are being compared.")
+            return self.tr("skeleton_chooser.skeletons_are_being_compared")
         if self._error is not None:
             return sentence(self._error.message)
         if self.asset is not None and not os.path.isfile(self.asset):
-            return self.tr("There is no file of this name to compare with.")
+            return self.tr("skeleton_chooser.there_is_no_file_of")
         if self._checked and not any(map(_fits, self._checked.values())):
-            return self.tr("The asset has another skeleton: its animation would be lost or spoilt.")
+            return self.tr("skeleton_chooser.asset_has_another_skeleton_its")
         return ""
 
     def compare(self) -> None:
@@ -132,18 +132,16 @@ class SkeletonChooser(QWidget):
     def _show(self) -> None:
         lines: list[str] = []
         if self._comparing:
-            lines = [self.tr("Comparing...")]
+            lines = [self.tr("skeleton_chooser.comparing")]
         elif self.asset is not None and self._checked:
-            lines = self._differences() or [self.tr("✓ Every bone is as in the asset.")]
+            lines = self._differences() or [self.tr("skeleton_chooser.every_bone_is_as_in")]
         elif self.asset is None and self.choice == "ue5":
-            lines = [
-                self.tr(
-                    "With an FBX of the mannequin exported from Unreal, its rest rotations are taken. Without one the "
-                    "axes are the usual ones: use Unreal's IK retargeter."
-                )
-            ]
+            lines = [self.tr("skeleton_chooser.with_fbx_of_mannequin_exported")]
         if len(lines) > MOST_LINES:
-            lines = [*lines[: MOST_LINES - 1], self.tr("and {count} more").format(count=len(lines) - MOST_LINES + 1)]
+            lines = [
+                *lines[: MOST_LINES - 1],
+                self.tr("skeleton_chooser.and_more").format(count=len(lines) - MOST_LINES + 1),
+            ]
         self._told.setText("\n".join(lines))
         self._told.setVisible(bool(lines))
         self._fit()
@@ -172,22 +170,22 @@ class SkeletonChooser(QWidget):
 
     def _choose_asset(self) -> None:
         patterns = " ".join(f"*{suffix}" for suffix in SUFFIXES)
-        kinds = self.tr("Characters") + f" ({patterns})"
-        chosen = ask_for_file(self, self.tr("File of the asset"), self.asset and self.asset.parent, kinds)
+        kinds = self.tr("skeleton_chooser.characters") + f" ({patterns})"
+        chosen = ask_for_file(self, self.tr("skeleton_chooser.file_of_asset"), self.asset and self.asset.parent, kinds)
         if chosen is not None:
             self._asset.set_path(chosen)
 
     def retranslate(self) -> None:
         """Set every text anew."""
         texts: dict[SkeletonChoice, str] = {
-            "own": self.tr("Of the character's own file"),
-            "ue5": self.tr("Unreal Engine 5 mannequin"),
-            "suisou": self.tr("Suisou (VRM 1.0)"),
+            "own": self.tr("skeleton_chooser.of_characters_own_file"),
+            "ue5": self.tr("skeleton_chooser.unreal_engine_5_mannequin"),
+            "suisou": self.tr("skeleton_chooser.suisou_vrm_1_0"),
         }
         for index, choice in enumerate(CHOICES):
             self._box.setItemText(index, texts[choice])
-        self._asset.setPlaceholderText(self.tr("FBX of the asset to compare with (optional)"))
-        self._choose.setText(self.tr("Choose..."))
+        self._asset.setPlaceholderText(self.tr("skeleton_chooser.fbx_of_asset_to_compare"))
+        self._choose.setText(self.tr("skeleton_chooser.choose"))
         self._show()
 
     def sizeHint(self) -> QSize:

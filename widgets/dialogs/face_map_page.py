@@ -149,7 +149,7 @@ class FaceMapPage(QWidget):
 
     def _show_editor(self) -> None:
         parts = self._parts.get(self._face, {})
-        self._title.setText(self.tr("{face} ({name}) is made of:").format(face=morph_name(self._face), name=self._face))
+        self._title.setText(self.tr("face_map_page.is_made_of").format(face=morph_name(self._face), name=self._face))
         self._none.setVisible(not parts)
         self._none.setStyleSheet(f"color: {self._session.tokens.text_dim};")
         names = tuple(parts)
@@ -172,7 +172,7 @@ class FaceMapPage(QWidget):
             row.slider.changed.connect(partial(self._set_part, row.morph))
             row.slider.released.connect(self.released)
             row.remove.clicked.connect(partial(self._remove_clicked, row.morph))
-            row.remove.setToolTip(self.tr("Take this morph out"))
+            row.remove.setToolTip(self.tr("face_map_page.take_this_morph_out"))
             self._column.addWidget(row)
 
     def _remove_clicked(self, morph: str, *_: object) -> None:
@@ -180,17 +180,17 @@ class FaceMapPage(QWidget):
 
     def retranslate(self) -> None:
         """Set all texts."""
-        self.list.setHeaderLabels([self.tr("Face"), self.tr("Made of")])
+        self.list.setHeaderLabels([self.tr("face_map_page.face"), self.tr("face_map_page.made_of")])
         self._none.setText(
-            self.tr("Nothing: the character does not do this.")
+            self.tr("face_map_page.nothing_character_does_not_do")
             if self._morphs
-            else self.tr("The file has no morphs: the face stays as it is.")
+            else self.tr("face_map_page.file_has_no_morphs_face")
         )
-        self._add.setPlaceholderText(self.tr("Add a morph of the file..."))
-        self._add.setAccessibleName(self.tr("Add a morph of the file..."))
-        self._reset.setText(self.tr("Automatic"))
+        self._add.setPlaceholderText(self.tr("face_map_page.add_morph_of_file"))
+        self._add.setAccessibleName(self.tr("face_map_page.add_morph_of_file"))
+        self._reset.setText(self.tr("face_map_page.automatic"))
         for row in self._rows:
-            row.remove.setToolTip(self.tr("Take this morph out"))
+            row.remove.setToolTip(self.tr("face_map_page.take_this_morph_out"))
         self._show()
 
 

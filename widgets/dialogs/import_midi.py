@@ -195,11 +195,11 @@ class ImportDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set every text anew."""
-        self.setWindowTitle(self.tr("Import MIDI"))
+        self.setWindowTitle(self.tr("import_dialog.import_midi"))
         contents = self._contents
         length_s, metrics = contents.tempo_map.seconds(float(self._end_tick)), self._heading.fontMetrics()
         self._heading.setText(
-            self.tr("{title} · {minutes}:{seconds:02d} · ♩= {tempo:g} · {metre}").format(
+            self.tr("import_dialog.text").format(
                 title=metrics.elidedText(contents.title, Qt.TextElideMode.ElideRight, _TITLE_PX),
                 minutes=int(length_s) // 60,
                 seconds=int(length_s) % 60,
@@ -209,26 +209,24 @@ class ImportDialog(QDialog):
         )
         self._table.setHorizontalHeaderLabels(
             [
-                self.tr("Play"),
-                self.tr("Name"),
-                self.tr("Notes"),
-                self.tr("Number, range"),
-                self.tr("Notes together"),
-                self.tr("Instrument"),
-                self.tr("Pitches"),
-                self.tr("Character"),
+                self.tr("import_dialog.play"),
+                self.tr("import_dialog.name"),
+                self.tr("import_dialog.notes"),
+                self.tr("import_dialog.number_range"),
+                self.tr("import_dialog.notes_together"),
+                self.tr("import_dialog.instrument"),
+                self.tr("import_dialog.pitches"),
+                self.tr("import_dialog.character"),
             ]
         )
-        self._merge.setText(self.tr("Merge into one part"))
-        self._merge.setToolTip(self.tr("Make one part of the selected tracks"))
-        self._separate.setText(self.tr("Take apart"))
-        self._separate.setToolTip(self.tr("Make a part of each merged track again"))
-        self._dancer.setText(self.tr("Add a dancer"))
-        self._dancer.setToolTip(
-            self.tr("A dancer who moves to the percussion comes onto the stage in front of the players")
-        )
-        self._buttons.button(QDialogButtonBox.StandardButton.Ok).setText(self.tr("Import"))
-        self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("Cancel"))
+        self._merge.setText(self.tr("import_dialog.merge_into_one_part"))
+        self._merge.setToolTip(self.tr("import_dialog.make_one_part_of_selected"))
+        self._separate.setText(self.tr("import_dialog.take_apart"))
+        self._separate.setToolTip(self.tr("import_dialog.make_part_of_each_merged"))
+        self._dancer.setText(self.tr("import_dialog.add_dancer"))
+        self._dancer.setToolTip(self.tr("import_dialog.dancer_who_moves_to_percussion"))
+        self._buttons.button(QDialogButtonBox.StandardButton.Ok).setText(self.tr("import_dialog.import"))
+        self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("import_dialog.cancel"))
         self._fill()
 
     def _selected(self) -> list[int]:
@@ -285,7 +283,7 @@ class ImportDialog(QDialog):
         self._show_outcome()
 
     def _show_slow(self) -> None:
-        self._summary.setText(self.tr("Finding out who plays what ..."))
+        self._summary.setText(self.tr("import_dialog.finding_out_who_plays_what"))
 
     def _fill_row(self, place: int, row: ImportRow) -> None:
         use = _Tick()
@@ -303,7 +301,7 @@ class ImportDialog(QDialog):
         streams = [self._contents.streams[stream] for stream in row.wish.streams]
         self._table.setCellWidget(place, _PREVIEW, NotesPreview(streams, self._end_tick, self._tokens))
         count = Label(
-            self.tr("Notes: {count}\n{low} to {high}").format(
+            self.tr("import_dialog.notes_to").format(
                 count=sum(len(stream.pitches) for stream in streams),
                 low=pitch_name(min(min(stream.pitches) for stream in streams)),
                 high=pitch_name(max(max(stream.pitches) for stream in streams)),
@@ -314,15 +312,11 @@ class ImportDialog(QDialog):
 
         split = ComboBox()
         split.setObjectName(f"split_{place}")
-        split.addItem(self.tr("Automatic"), "sustained")
-        split.addItem(self.tr("Share among players"), "every")
-        split.addItem(self.tr("One player"), "never")
+        split.addItem(self.tr("import_dialog.automatic"), "sustained")
+        split.addItem(self.tr("import_dialog.share_among_players"), "every")
+        split.addItem(self.tr("import_dialog.one_player"), "never")
         split.setCurrentIndex(split.findData(row.wish.split))
-        split.setToolTip(
-            self.tr(
-                "Automatic: another player for notes that go on sounding together; overlaps of one player are slurs"
-            )
-        )
+        split.setToolTip(self.tr("import_dialog.automatic_another_player_for_notes"))
         split.currentIndexChanged.connect(lambda _, box=split: self._wish(place, split=box.currentData()))
         self._table.setCellWidget(place, _SPLIT, split)
 
@@ -330,7 +324,7 @@ class ImportDialog(QDialog):
         instrument.setObjectName(f"instrument_{place}")
         instrument.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         instrument.setMinimumContentsLength(_INSTRUMENT_LETTERS)
-        instrument.addItem(self.tr("Automatic"), None)
+        instrument.addItem(self.tr("import_dialog.automatic"), None)
         for text, id_ in self._instruments:
             instrument.addItem(text, id_)
         instrument.setCurrentIndex(max(instrument.findData(row.wish.map_id), 0))
@@ -340,18 +334,16 @@ class ImportDialog(QDialog):
 
         pitches = ComboBox()
         pitches.setObjectName(f"pitches_{place}")
-        pitches.addItem(self.tr("Sounding"), False)
-        pitches.addItem(self.tr("Written"), True)
+        pitches.addItem(self.tr("import_dialog.sounding"), False)
+        pitches.addItem(self.tr("import_dialog.written"), True)
         pitches.setCurrentIndex(1 if row.wish.written else 0)
         pitches.currentIndexChanged.connect(lambda _, box=pitches: self._wish(place, written=bool(box.currentData())))
-        pitches.setToolTip(
-            self.tr("Which pitches the file has of an instrument whose part is not written as it sounds")
-        )
+        pitches.setToolTip(self.tr("import_dialog.which_pitches_file_has_of"))
         self._table.setCellWidget(place, _PITCHES, pitches)
 
         character = ComboBox()
         character.setObjectName(f"character_{place}")
-        character.addItem(self.tr("Automatic"), None)
+        character.addItem(self.tr("import_dialog.automatic"), None)
         for text, id_ in self._characters:
             character.addItem(text, id_)
         character.setCurrentIndex(max(character.findData(row.character_id), 0))
@@ -376,11 +368,11 @@ class ImportDialog(QDialog):
         assert pitches is not None
         names = dict.fromkeys(map(instrument_name, self._played_on(automatic(row.wish))))
         if names:
-            instrument.setItemText(0, self.tr("Automatic: {name}").format(name=" + ".join(names)))
+            instrument.setItemText(0, self.tr("import_dialog.automatic_2").format(name=" + ".join(names)))
         elif self._is_percussion(row):
-            instrument.setItemText(0, self.tr("Percussion, for dancers"))
+            instrument.setItemText(0, self.tr("import_dialog.percussion_for_dancers"))
         elif self._outcome is not None and not row.wish.map_id:
-            instrument.setItemText(0, self.tr("Choose an instrument"))
+            instrument.setItemText(0, self.tr("import_dialog.choose_instrument"))
         tip = self._tip(place)
         instrument.setToolTip(tip or instrument.currentText())
         for column in (_USE, _PREVIEW, _NOTES):
@@ -399,9 +391,7 @@ class ImportDialog(QDialog):
         """What there is to know of a row; empty for most."""
         if not self._is_percussion(self._rows[place]):
             return ""
-        return self.tr(
-            "A percussion track: no player plays it, but dancers dance to it. It is kept for them, ticked or not"
-        )
+        return self.tr("import_dialog.percussion_track_no_player_plays")
 
     def _name(self, row: ImportRow) -> str:
         return " + ".join(stream_name(self._contents.streams[stream]) for stream in row.wish.streams)
@@ -445,14 +435,14 @@ class ImportDialog(QDialog):
         self._warnings.clear()
         if outcome is not None:
             if asking:
-                self._summary.setText(self.tr("Choose an instrument for {name}").format(name=self._name(asking[0])))
+                self._summary.setText(self.tr("import_dialog.choose_instrument_for").format(name=self._name(asking[0])))
             elif outcome.players:
-                self._summary.setText(self.tr("Players: {count}").format(count=outcome.players))
+                self._summary.setText(self.tr("import_dialog.players").format(count=outcome.players))
             else:
-                self._summary.setText(self.tr("Nobody plays: tick a track, or import an empty stage"))
+                self._summary.setText(self.tr("import_dialog.nobody_plays_tick_track_or"))
             self._warnings.addItems([message_text(message) for message in outcome.warnings])
             self._warnings.addItems([self._unplayed(part) for part in outcome.unplayed])
-        self._warning_title.setText(self.tr("What the reader noticed"))
+        self._warning_title.setText(self.tr("import_dialog.what_reader_noticed"))
         self._warning_title.setVisible(self._warnings.count() > 0)
         self._warnings.setVisible(self._warnings.count() > 0)
 
@@ -461,8 +451,8 @@ class ImportDialog(QDialog):
         reason = message_text(part.reason)
         percussion = {stream_name(self._contents.streams[stream]) for stream in self._percussion}
         if part.reason.id == "score.percussion" and part.name in percussion:
-            return self.tr("{name} is not played: {reason}; dancers dance to it").format(name=part.name, reason=reason)
-        return self.tr("{name} is not played: {reason}").format(name=part.name, reason=reason)
+            return self.tr("import_dialog.is_not_played_dancers_dance").format(name=part.name, reason=reason)
+        return self.tr("import_dialog.is_not_played").format(name=part.name, reason=reason)
 
     def sizeHint(self) -> QSize:
         return _SIZE

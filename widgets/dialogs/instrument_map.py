@@ -242,7 +242,9 @@ class InstrumentsDialog(QDialog):
         self._id.setText(draft.instrument.id)
         self._facts.setText(self._facts_of(draft.instrument))
         self._file.setText(
-            self.tr("Your own version: {file}").format(file=str(own)) if own is not None else self.tr("Bundled")
+            self.tr("instruments_dialog.your_own_version").format(file=str(own))
+            if own is not None
+            else self.tr("instruments_dialog.bundled")
         )
         self._show_wrong()
         self._fill_table(draft)
@@ -251,10 +253,10 @@ class InstrumentsDialog(QDialog):
     def _show_wrong(self) -> None:
         """What keeps files of the person's own from being used; there may be no instrument of theirs to show it at."""
         told = [problem for problems in library().problems.values() for problem in problems]
-        lines = [self.tr("Files of your own that are wrong; what was good before stays in use:")]
+        lines = [self.tr("instruments_dialog.files_of_your_own_that")]
         lines += [message_text(problem, self._session) for problem in told[:MOST_WRONG]]
         if len(told) > MOST_WRONG:
-            lines.append(self.tr("and {count} more").format(count=len(told) - MOST_WRONG))
+            lines.append(self.tr("instruments_dialog.and_more").format(count=len(told) - MOST_WRONG))
         self._wrong.setText("\n".join(lines))
         self._wrong.setStyleSheet(f"color: {self._session.tokens.error};")
         self._wrong.setVisible(bool(told))
@@ -262,30 +264,30 @@ class InstrumentsDialog(QDialog):
     def _facts_of(self, instrument: InstrumentMap) -> str:
         low, high, shift = instrument.range.low, instrument.range.high, instrument.transposition_semitones
         pitch = self._name
-        facts = [self.tr("sounds {low} to {high}").format(low=pitch(low), high=pitch(high))]
+        facts = [self.tr("instruments_dialog.sounds_to").format(low=pitch(low), high=pitch(high))]
         if shift:
-            written = self.tr("written {low} to {high} ({semitones} semitones)")
+            written = self.tr("instruments_dialog.written_to_semitones")
             facts.append(written.format(low=pitch(low + shift), high=pitch(high + shift), semitones=f"{shift:+d}"))
         kinds = {
-            "cup": self.tr("cup mouthpiece"),
-            "single_reed": self.tr("single reed"),
-            "double_reed": self.tr("double reed"),
-            "air_jet": self.tr("lip plate"),
-            "fipple": self.tr("beak"),
+            "cup": self.tr("instruments_dialog.cup_mouthpiece"),
+            "single_reed": self.tr("instruments_dialog.single_reed"),
+            "double_reed": self.tr("instruments_dialog.double_reed"),
+            "air_jet": self.tr("instruments_dialog.lip_plate"),
+            "fipple": self.tr("instruments_dialog.beak"),
         }
         clefs = {
-            "treble": self.tr("treble clef"),
-            "bass": self.tr("bass clef"),
-            "alto": self.tr("alto clef"),
-            "tenor": self.tr("tenor clef"),
+            "treble": self.tr("instruments_dialog.treble_clef"),
+            "bass": self.tr("instruments_dialog.bass_clef"),
+            "alto": self.tr("instruments_dialog.alto_clef"),
+            "tenor": self.tr("instruments_dialog.tenor_clef"),
         }
-        postures = {"standing": self.tr("standing"), "seated": self.tr("seated")}
+        postures = {"standing": self.tr("instruments_dialog.standing"), "seated": self.tr("instruments_dialog.seated")}
         facts += [clefs[instrument.clef], kinds[instrument.embouchure.kind]]
         facts.append(" / ".join(postures[posture] for posture in instrument.hold.postures))
         air = instrument.air
         if air is not None:
-            facts.append(self.tr("a breath lasts {soft} to {loud} s").format(soft=air.piano_s, loud=air.forte_s))
-        facts.append(self.tr("model {file}").format(file=instrument.model))
+            facts.append(self.tr("instruments_dialog.breath_lasts_to_s").format(soft=air.piano_s, loud=air.forte_s))
+        facts.append(self.tr("instruments_dialog.model").format(file=instrument.model))
         return " · ".join(facts)
 
     def _name(self, pitch: int) -> str:
@@ -437,7 +439,7 @@ class InstrumentsDialog(QDialog):
             return
         label, written = edit.free_label(draft.instrument, draft.table, one.written_pitch), one.written_pitch
         if label is None:
-            self._tell(self.tr("Every fingering that is right for this note is there already."))
+            self._tell(self.tr("instruments_dialog.every_fingering_that_is_right"))
             return
         place = (written, len(edit.of_pitch(draft.table, written)) + 1)
         if self._do(lambda draft: edit.added(draft.instrument, draft.table, written, label), place):
@@ -506,33 +508,33 @@ class InstrumentsDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set every text."""
-        self.setWindowTitle(self.tr("Instruments"))
+        self.setWindowTitle(self.tr("instruments_dialog.instruments"))
         texts = {
-            "up": self.tr("Higher Choice"),
-            "down": self.tr("Lower Choice"),
-            "add": self.tr("Add Alternate"),
-            "remove": self.tr("Remove"),
-            "revert": self.tr("Revert This Note"),
-            "revert_all": self.tr("Revert All Notes"),
-            "undo": self.tr("Undo"),
-            "redo": self.tr("Redo"),
-            "folder": self.tr("Show My Folder"),
-            "save": self.tr("Save as My Own"),
-            "close": self.tr("Close"),
+            "up": self.tr("instruments_dialog.higher_choice"),
+            "down": self.tr("instruments_dialog.lower_choice"),
+            "add": self.tr("instruments_dialog.add_alternate"),
+            "remove": self.tr("instruments_dialog.remove"),
+            "revert": self.tr("instruments_dialog.revert_this_note"),
+            "revert_all": self.tr("instruments_dialog.revert_all_notes"),
+            "undo": self.tr("instruments_dialog.undo"),
+            "redo": self.tr("instruments_dialog.redo"),
+            "folder": self.tr("instruments_dialog.show_my_folder"),
+            "save": self.tr("instruments_dialog.save_as_my_own"),
+            "close": self.tr("instruments_dialog.close"),
         }
         for name, text in texts.items():
             self._buttons[name].setText(text)
         self._table.setHorizontalHeaderLabels(
             [
-                self.tr("Written"),
-                self.tr("Sounds"),
-                self.tr("Choice"),
-                self.tr("Fingering"),
-                self.tr("Cents"),
-                self.tr("For"),
+                self.tr("instruments_dialog.written"),
+                self.tr("instruments_dialog.sounds"),
+                self.tr("instruments_dialog.choice"),
+                self.tr("instruments_dialog.fingering"),
+                self.tr("instruments_dialog.cents"),
+                self.tr("instruments_dialog.for"),
             ]
         )
-        self._hint.setText(self.tr("Click keys to change the fingering, or type it in the table."))
+        self._hint.setText(self.tr("instruments_dialog.click_keys_to_change_fingering"))
         if self._list.count():
             self._show()
 
@@ -563,11 +565,11 @@ class InstrumentsDialog(QDialog):
     def ask(self, count: int) -> str:
         """``"save"``, ``"discard"`` or ``"cancel"``."""
         box = MessageBox(self)
-        box.setWindowTitle(self.tr("Instruments"))
-        box.setText(self.tr("Instruments with fingerings that are not saved: {count}.").format(count=count))
-        save = box.addButton(self.tr("Save"), MessageBox.ButtonRole.AcceptRole)
-        discard = box.addButton(self.tr("Discard"), MessageBox.ButtonRole.DestructiveRole)
-        box.setEscapeButton(box.addButton(self.tr("Cancel"), MessageBox.ButtonRole.RejectRole))
+        box.setWindowTitle(self.tr("instruments_dialog.instruments"))
+        box.setText(self.tr("instruments_dialog.instruments_with_fingerings_that_are").format(count=count))
+        save = box.addButton(self.tr("instruments_dialog.save"), MessageBox.ButtonRole.AcceptRole)
+        discard = box.addButton(self.tr("instruments_dialog.discard"), MessageBox.ButtonRole.DestructiveRole)
+        box.setEscapeButton(box.addButton(self.tr("instruments_dialog.cancel"), MessageBox.ButtonRole.RejectRole))
         box.exec()
         clicked = box.clickedButton()
         return "save" if clicked is save else "discard" if clicked is discard else "cancel"

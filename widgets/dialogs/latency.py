@@ -186,7 +186,7 @@ class LatencyDialog(QDialog):
     def _changed(self) -> None:
         recording = self._session.recording
         if self._running and (recording.connection != "open" or recording.running):
-            self._stopped_why = self.tr("The device has gone, or a take is recorded: measuring was ended.")
+            self._stopped_why = self.tr("latency_dialog.device_has_gone_or_take")
             self._stop()
         if recording.port != self._port:
             self._port, self._found = recording.port, None
@@ -204,7 +204,7 @@ class LatencyDialog(QDialog):
         recording, tokens = self._session.recording, self._session.tokens
         is_open = recording.connection == "open" and not recording.running
         self._start.setEnabled(is_open)
-        self._start.setText(self.tr("Stop") if self._running else self.tr("Start"))
+        self._start.setText(self.tr("latency_dialog.stop") if self._running else self.tr("latency_dialog.start"))
         is_new = round(self.value.value()) != round(1000.0 * recording.latency_s)
         self._take.setEnabled(bool(recording.port) and is_new and not self._running)
         text, colour = self._words()
@@ -218,54 +218,46 @@ class LatencyDialog(QDialog):
         if self._running:
             beat = sum(click_s <= self._playback.position_s() for click_s in CLICKS_S)
             if self._playback.is_silent:
-                text = self.tr(
-                    "There is no audio device: blow when the light flashes. Measure again when there is one."
-                )
+                text = self.tr("latency_dialog.there_is_no_audio_device")
                 return text, "warning"
             if beat <= LEAD:
-                return self.tr("Listen, and play along: the first {count} do not count.").format(count=LEAD), "text"
-            text = self.tr("Blow a short note on every click: {count} of {all}")
+                return self.tr("latency_dialog.listen_and_play_along_first").format(count=LEAD), "text"
+            text = self.tr("latency_dialog.blow_short_note_on_every")
             return text.format(count=beat - LEAD, all=COUNTED), "text"
         if self._stopped_why:
             return self._stopped_why, "warning"
         found = self._found
         if found is None:
             if not recording.port or recording.connection != "open":
-                return self.tr("No device is connected: choose one in Record > Devices, or type a number."), "warning"
-            text = self.tr("{device}: {count} ms are taken off now.")
+                return self.tr("latency_dialog.no_device_is_connected_choose"), "warning"
+            text = self.tr("latency_dialog.ms_are_taken_off_now")
             return text.format(device=recording.port, count=f"{1000 * recording.latency_s:.0f}"), "text_dim"
         used = sum(found.used)
         if found.fault == "too_few":
-            text = self.tr("Only {count} of {all} clicks were hit ({least} are needed). Try again.")
+            text = self.tr("latency_dialog.only_of_clicks_were_hit")
             return text.format(count=used, all=COUNTED, least=LEAST_HITS), "warning"
         spread = f"{1000 * found.spread_s:.0f}"
         if found.fault == "too_uneven":
-            text = self.tr("The hits differ by ±{spread} ms, too much to tell. Try again, shorter and harder.")
+            text = self.tr("latency_dialog.hits_differ_by_ms_too")
             return text.format(spread=spread), "warning"
-        text = self.tr("{device} comes {count} ms late; {used} of {all} hits counted, they differ by ±{spread} ms.")
+        text = self.tr("latency_dialog.comes_ms_late_of_hits")
         told = text.format(
             device=recording.port, count=f"{1000 * found.latency_s:.0f}", used=used, all=COUNTED, spread=spread
         )
         if round(self.value.value()) == round(1000.0 * recording.latency_s):
-            told += " " + self.tr("It is taken off from now on.")
+            told += " " + self.tr("latency_dialog.it_is_taken_off_from")
         return told, "good"
 
     def retranslate(self) -> None:
         """Set every text anew."""
-        self.setWindowTitle(self.tr("Latency"))
-        self._explained.setText(
-            self.tr(
-                "Blow a short note on every click. What is found is how late the sound and the device come together; "
-                "it also contains your own anticipation, as most people blow a little early or late. What you know "
-                "better you can type."
-            )
-        )
-        self._value_name.setText(self.tr("Latency"))
-        self.value.setAccessibleName(self.tr("Latency"))
-        self.value.setSuffix(" " + self.tr("ms"))
-        self.value.setToolTip(self.tr("Taken off the time of everything that this device sends"))
-        self._take.setText(self.tr("Use"))
-        self._close.setText(self.tr("Close"))
+        self.setWindowTitle(self.tr("latency_dialog.latency"))
+        self._explained.setText(self.tr("latency_dialog.blow_short_note_on_every_click_what_is"))
+        self._value_name.setText(self.tr("latency_dialog.latency"))
+        self.value.setAccessibleName(self.tr("latency_dialog.latency"))
+        self.value.setSuffix(" " + self.tr("latency_dialog.ms"))
+        self.value.setToolTip(self.tr("latency_dialog.taken_off_time_of_everything"))
+        self._take.setText(self.tr("latency_dialog.use"))
+        self._close.setText(self.tr("latency_dialog.close"))
         self.chart.retranslate()
         self._show()
 
@@ -307,7 +299,7 @@ class HitChart(QWidget):
 
     def retranslate(self) -> None:
         """Set the texts."""
-        self.setAccessibleName(self.tr("How late every hit came"))
+        self.setAccessibleName(self.tr("hit_chart.how_late_every_hit_came"))
         self.update()
 
     def sizeHint(self) -> QSize:
@@ -340,7 +332,7 @@ class HitChart(QWidget):
             painter.drawLine(QPointF(room.left(), y), QPointF(room.right(), y))
             painter.setPen(QColor(tokens.text_dim))
             label = QRectF(room.left() - 66.0, y - 9.0, 60.0, 18.0)
-            text = self.tr("{count} ms").format(count=str(ms).replace("-", "−"))
+            text = self.tr("hit_chart.ms").format(count=str(ms).replace("-", "−"))
             painter.drawText(label, int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter), text)
 
     def _paint_hits(self, painter: QPainter, room: QRectF, found: Measured) -> None:

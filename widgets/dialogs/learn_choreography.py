@@ -265,8 +265,8 @@ class LearnDialog(QDialog):
 
     def _ask_for_files(self) -> None:
         suffixes = (*MOTION_SUFFIXES, *MIDI_SUFFIXES, CREDITS_SUFFIX)
-        filters = f"{self.tr('Motion and MIDI files')} ({' '.join(f'*{suffix}' for suffix in suffixes)})"
-        paths = ask_for_files(self, self.tr("Add Motion and Music"), self._folder, filters)
+        filters = f"{self.tr('learn_dialog.motion_and_midi_files')} ({' '.join(f'*{suffix}' for suffix in suffixes)})"
+        paths = ask_for_files(self, self.tr("learn_dialog.add_motion_and_music"), self._folder, filters)
         if paths:
             self._folder = paths[0].parent
             self.add_files(paths)
@@ -397,24 +397,24 @@ class LearnDialog(QDialog):
     def _missing(self) -> str:
         """What is to be done before anything can be learned; empty: nothing."""
         if not self._rows:
-            return self.tr("Add motion files and the MIDI files that they were danced to, or drop them here.")
+            return self.tr("learn_dialog.add_motion_files_and_midi")
         for at, row in enumerate(self._rows):
             if row.draft.motion is None:
-                return self.tr("Pair {n}: choose its motion.").format(n=at + 1)
+                return self.tr("learn_dialog.pair_choose_its_motion").format(n=at + 1)
             if row.draft.music is None:
-                return self.tr("Pair {n}: choose its music.").format(n=at + 1)
+                return self.tr("learn_dialog.pair_choose_its_music").format(n=at + 1)
             if row.found.error is not None:
-                return self.tr("Pair {n}: {error}").format(n=at + 1, error=message_text(row.found.error))
+                return self.tr("learn_dialog.pair").format(n=at + 1, error=message_text(row.found.error))
         if any(row.reading for row in self._rows):
-            return self.tr("Reading the files …")
+            return self.tr("learn_dialog.reading_files")
         if self._target is None:
-            return self.tr("Choose where to save the choreography.")
+            return self.tr("learn_dialog.choose_where_to_save_choreography")
         return ""
 
     def _ask_where(self) -> None:
         proposal = self._target or self._folder / f"choreography{SUFFIX}"
-        kinds = f"{self.tr('Choreographies')} (*{SUFFIX})"
-        path = ask_where_to_save(self, self.tr("Save Choreography"), proposal, kinds)
+        kinds = f"{self.tr('learn_dialog.choreographies')} (*{SUFFIX})"
+        path = ask_where_to_save(self, self.tr("learn_dialog.save_choreography"), proposal, kinds)
         if path is not None:
             self._file.set_path(_with_suffix(path))
 
@@ -437,7 +437,7 @@ class LearnDialog(QDialog):
         for widget in (self.list, self._add, self._states, self._seed, self._file, self._choose):
             widget.setEnabled(not self._running)
         self._progress.setVisible(self._running)
-        self._close.setText(self.tr("Cancel") if self._running else self.tr("Close"))
+        self._close.setText(self.tr("learn_dialog.cancel") if self._running else self.tr("learn_dialog.close"))
         self._show_list()
         self._show_pair()
         self._show_state()
@@ -492,11 +492,13 @@ class LearnDialog(QDialog):
             text = message_text(summary(result.model, result.path))
         elif self._unknown:
             names = ", ".join(shown(path.name) for path in self._unknown)
-            text = "\n".join(filter(None, (self.tr("Neither motion nor MIDI: {files}").format(files=names), missing)))
+            text = "\n".join(
+                filter(None, (self.tr("learn_dialog.neither_motion_nor_midi").format(files=names), missing))
+            )
         elif missing:
             text = missing
         elif path is not None and os.path.isfile(path):
-            text = self.tr("This file is there and will be replaced.")
+            text = self.tr("learn_dialog.this_file_is_there_and")
         else:
             text = ""
         self._state.setText(text)
@@ -506,9 +508,9 @@ class LearnDialog(QDialog):
         dancer = self._session.dancer
         self._use.setVisible(self._result is not None)
         self._use.setText(
-            self.tr("Add a Dancer with It")
+            self.tr("learn_dialog.add_dancer_with_it")
             if dancer is None
-            else self.tr("Use for {dancer}").format(dancer=dancer.name.replace("&", "&&"))
+            else self.tr("learn_dialog.use_for").format(dancer=dancer.name.replace("&", "&&"))
         )
 
     def _show_progress(self) -> None:
@@ -516,30 +518,28 @@ class LearnDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self.setWindowTitle(self.tr("Learn Choreography"))
+        self.setWindowTitle(self.tr("learn_dialog.learn_choreography"))
         texts = {
-            "motion": self.tr("Motion"),
-            "music": self.tr("Music"),
-            "length": self.tr("Seconds"),
-            "segments": self.tr("Segments"),
-            "states": self.tr("States"),
-            "offset": self.tr("Offset s"),
-            "confidence": self.tr("Confidence"),
+            "motion": self.tr("learn_dialog.motion"),
+            "music": self.tr("learn_dialog.music"),
+            "length": self.tr("learn_dialog.seconds"),
+            "segments": self.tr("learn_dialog.segments"),
+            "states": self.tr("learn_dialog.states"),
+            "offset": self.tr("learn_dialog.offset_s"),
+            "confidence": self.tr("learn_dialog.confidence"),
         }
         self.list.setHeaderLabels([texts[name] for name in _COLUMNS])
-        self.list.setAccessibleName(self.tr("Pairs of motion and music"))
-        self._add.setText(self.tr("Add..."))
-        self._remove.setText(self.tr("Remove"))
-        self._labels["states"].setText(self.tr("States"))
-        self._labels["seed"].setText(self.tr("Seed"))
-        self._labels["file"].setText(self.tr("Save to"))
-        self._states.check.setText(self.tr("Automatic"))
-        self._states.setToolTip(
-            self.tr("Number of basic motions; automatic: as many as are needed for those of one kind to look alike")
-        )
-        self._seed.setToolTip(self.tr("Of the classification: the same pairs and seed give the same choreography"))
-        self._choose.setText(self.tr("Choose..."))
-        self._learn.setText(self.tr("Learn"))
+        self.list.setAccessibleName(self.tr("learn_dialog.pairs_of_motion_and_music"))
+        self._add.setText(self.tr("learn_dialog.add"))
+        self._remove.setText(self.tr("learn_dialog.remove"))
+        self._labels["states"].setText(self.tr("learn_dialog.states"))
+        self._labels["seed"].setText(self.tr("learn_dialog.seed"))
+        self._labels["file"].setText(self.tr("learn_dialog.save_to"))
+        self._states.check.setText(self.tr("learn_dialog.automatic"))
+        self._states.setToolTip(self.tr("learn_dialog.number_of_basic_motions_automatic"))
+        self._seed.setToolTip(self.tr("learn_dialog.of_classification_same_pairs_and"))
+        self._choose.setText(self.tr("learn_dialog.choose"))
+        self._learn.setText(self.tr("learn_dialog.learn"))
         self._show_all()
 
     # Qt's own names

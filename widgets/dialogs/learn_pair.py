@@ -101,25 +101,22 @@ class PairForm(QWidget):
         if self._found.error is not None:
             notes.append(sentence(self._found.error))
         elif self._busy:
-            notes.append(self.tr("Reading the files …"))
+            notes.append(self.tr("pair_form.reading_files"))
         elif self._draft.motion is None or self._draft.music is None:
-            notes.append(self.tr("A pair is a motion and the MIDI file that it was danced to."))
+            notes.append(self.tr("pair_form.pair_is_motion_and_midi"))
         elif read is not None and analysis is not None:
             if self._draft.offset_s is None:
                 confidence = f"{analysis.offset.confidence:.2f}"
                 notes.append(
-                    self.tr("Offset found with confidence {confidence}.").format(confidence=confidence)
+                    self.tr("pair_form.offset_found_with_confidence").format(confidence=confidence)
                     if analysis.offset.confidence >= CONFIDENT
-                    else self.tr(
-                        "Offset found with confidence {confidence}: another one fits nearly as well. If the music "
-                        "begins elsewhere, type where."
-                    ).format(confidence=confidence)
+                    else self.tr("pair_form.offset_found_with_confidence_another").format(confidence=confidence)
                 )
             guessed = [message_text(message) for message in guesses(read.motion)]
             if guessed:
-                notes.append(self.tr("To check: {notes}").format(notes="; ".join(guessed)))
+                notes.append(self.tr("pair_form.to_check").format(notes="; ".join(guessed)))
             if not read.pair.credits:
-                notes.append(self.tr("No credits: say where the motion is from and on what terms."))
+                notes.append(self.tr("pair_form.no_credits_say_where_motion"))
         self._notes.setText("\n".join(notes))
 
     def _typed(self, name: str) -> None:
@@ -151,33 +148,33 @@ class PairForm(QWidget):
 
     def _kind(self, name: str) -> str:
         return {
-            "motion": self.tr("Motion files"),
-            "music": self.tr("MIDI files"),
-            "credits": self.tr("Text files"),
+            "motion": self.tr("pair_form.motion_files"),
+            "music": self.tr("pair_form.midi_files"),
+            "credits": self.tr("pair_form.text_files"),
         }[name]
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
         texts = {
-            "motion": self.tr("Motion"),
-            "music": self.tr("Music"),
-            "credits": self.tr("Credits"),
-            "offset": self.tr("Offset"),
-            "fps": self.tr("Frame rate"),
+            "motion": self.tr("pair_form.motion"),
+            "music": self.tr("pair_form.music"),
+            "credits": self.tr("pair_form.credits"),
+            "offset": self.tr("pair_form.offset"),
+            "fps": self.tr("pair_form.frame_rate"),
         }
         for name, text in texts.items():
             self._labels[name].setText(text)
         for button in self._choose.values():
-            button.setText(self.tr("Choose..."))
-        self._paths["motion"].setPlaceholderText(self.tr("BVH, FBX or GLB"))
-        self._paths["music"].setPlaceholderText(self.tr("MIDI with percussion"))
-        self._paths["credits"].setPlaceholderText(self.tr("The .txt file beside the motion"))
-        self._offset.check.setText(self.tr("Automatic"))
-        self._offset.setToolTip(self.tr("Time of the motion at which the music begins"))
-        self._offset.number.setSuffix(self.tr(" s", "seconds"))
-        self._fps.check.setText(self.tr("As in the file"))
-        self._fps.setToolTip(self.tr("The true frame rate of the motion, where its file says a wrong one"))
-        self._fps.number.setSuffix(self.tr(" frames/s"))
+            button.setText(self.tr("pair_form.choose"))
+        self._paths["motion"].setPlaceholderText(self.tr("pair_form.bvh_fbx_or_glb"))
+        self._paths["music"].setPlaceholderText(self.tr("pair_form.midi_with_percussion"))
+        self._paths["credits"].setPlaceholderText(self.tr("pair_form.txt_file_beside_motion"))
+        self._offset.check.setText(self.tr("pair_form.automatic"))
+        self._offset.setToolTip(self.tr("pair_form.time_of_motion_at_which"))
+        self._offset.number.setSuffix(self.tr("pair_form.seconds"))
+        self._fps.check.setText(self.tr("pair_form.as_in_file"))
+        self._fps.setToolTip(self.tr("pair_form.true_frame_rate_of_motion"))
+        self._fps.number.setSuffix(self.tr("pair_form.frames_s"))
         self._show_notes()
 
     # Qt's own names

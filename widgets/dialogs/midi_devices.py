@@ -192,11 +192,11 @@ class MidiDevicesDialog(QDialog):
         playback.set_span(0.0, BEEP_S)
         playback.play(0.0)
         if playback.is_silent:
-            self._tell(self._heard, self.tr("There is no audio device: connect one and try again."), wrong=True)
+            self._tell(self._heard, self.tr("midi_devices_dialog.there_is_no_audio_device"), wrong=True)
         elif volume == 0.0:
-            self._tell(self._heard, self.tr("The volume of the transport is 0."), wrong=True)
+            self._tell(self._heard, self.tr("midi_devices_dialog.volume_of_transport_is_0"), wrong=True)
         else:
-            self._tell(self._heard, self.tr("You should hear a short tone."))
+            self._tell(self._heard, self.tr("midi_devices_dialog.you_should_hear_short_tone"))
 
     # Learning
 
@@ -233,9 +233,9 @@ class MidiDevicesDialog(QDialog):
             return
         found = learned(events, load_controllers()[recording.controller].breath)
         if found is None:
-            why = self.tr("No breath came in. Blow harder, or turn breath sending on in the device, and try again.")
+            why = self.tr("midi_devices_dialog.no_breath_came_in_blow")
             if not events:
-                why = self.tr("Nothing came in from the device. Is it switched on?")
+                why = self.tr("midi_devices_dialog.nothing_came_in_from_device")
             self._tell(self._told, why, wrong=True)
             return
         self._wire(breath=found.source, channel=found.channel)
@@ -246,9 +246,9 @@ class MidiDevicesDialog(QDialog):
         """Say what was found; who has bitten nothing keeps what was known of the bite."""
         if bite is not None:
             self._wire(bite=bite)
-            text = self.tr("Found: breath {source}, bite {bite}, channel {number}.")
+            text = self.tr("midi_devices_dialog.found_breath_bite_channel")
         else:
-            text = self.tr("Found: breath {source}, channel {number}. No bite came in.")
+            text = self.tr("midi_devices_dialog.found_breath_channel_no_bite")
         names = {"source": source_name(breath.source), "bite": source_name(bite or "none")}
         self._tell(self._told, text.format(**names, number=breath.channel))
 
@@ -271,13 +271,15 @@ class MidiDevicesDialog(QDialog):
         self._show_kind()
         is_open, is_learning = recording.connection == "open", self._learning is not None
         self._learn.setEnabled(is_open)
-        self._learn.setText(self.tr("Cancel") if is_learning else self.tr("Learn by Blowing"))
+        self._learn.setText(
+            self.tr("midi_devices_dialog.cancel") if is_learning else self.tr("midi_devices_dialog.learn_by_blowing")
+        )
         if is_learning:
-            text = self.tr("Blow now: soft, loud and soft again. {count} s")
+            text = self.tr("midi_devices_dialog.blow_now_soft_loud_and")
             if self._blown is not None:
-                text = self.tr("Now blow evenly, bite and let go, several times. {count} s")
+                text = self.tr("midi_devices_dialog.now_blow_evenly_bite_and")
             self._tell(self._told, text.format(count=self._left_s))
-        self._late.setText(self.tr("{count} ms").format(count=f"{1000 * recording.latency_s:.0f}"))
+        self._late.setText(self.tr("midi_devices_dialog.ms").format(count=f"{1000 * recording.latency_s:.0f}"))
 
     def _show_devices(self) -> None:
         recording, tokens = self._session.recording, self._session.tokens
@@ -286,7 +288,7 @@ class MidiDevicesDialog(QDialog):
             names.append(recording.port)
         current = self._list.currentItem()
         at = recording.port if current is None else current.data(0, Qt.ItemDataRole.UserRole)
-        wanted = [("", self.tr("No device"), "")]
+        wanted = [("", self.tr("midi_devices_dialog.no_device"), "")]
         wanted += [(name, name, self._state(name)) for name in names]
         shown = (wanted, recording.port, tokens.name)
         if shown != self._listed:
@@ -320,10 +322,10 @@ class MidiDevicesDialog(QDialog):
             return ""
         return {
             "none": "",
-            "waiting": self.tr("waiting for it"),
-            "open": self.tr("connected"),
-            "lost": self.tr("unplugged"),
-            "refused": self.tr("cannot be opened"),
+            "waiting": self.tr("midi_devices_dialog.waiting_for_it"),
+            "open": self.tr("midi_devices_dialog.connected"),
+            "lost": self.tr("midi_devices_dialog.unplugged"),
+            "refused": self.tr("midi_devices_dialog.cannot_be_opened"),
         }[recording.connection]
 
     def _advice(self) -> str:
@@ -332,10 +334,8 @@ class MidiDevicesDialog(QDialog):
         if recording.refusal is not None:
             return sentence(recording.refusal, self._session)
         if not recording.ports:
-            return self.tr(
-                "Connect a wind controller by USB, or by a MIDI interface, and switch it on: it appears here by itself."
-            )
-        return "" if recording.port else self.tr("Click the device that you play.")
+            return self.tr("midi_devices_dialog.connect_wind_controller_by_usb")
+        return "" if recording.port else self.tr("midi_devices_dialog.click_device_that_you_play")
 
     def _show_kind(self) -> None:
         recording = self._session.recording
@@ -346,7 +346,10 @@ class MidiDevicesDialog(QDialog):
         )
         self._kind.show_option(recording.controller)
         self._channel.set_options(
-            [Option("0", self.tr("Any")), *(Option(str(n), str(n)) for n in range(1, _CHANNELS + 1))]
+            [
+                Option("0", self.tr("midi_devices_dialog.any")),
+                *(Option(str(n), str(n)) for n in range(1, _CHANNELS + 1)),
+            ]
         )
         self._channel.show_option(str(wiring.channel))
         self._breath.set_options([Option(source, source_name(source)) for source in _BREATHS])
@@ -358,26 +361,26 @@ class MidiDevicesDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set every text anew."""
-        self.setWindowTitle(self.tr("MIDI Devices"))
-        self._list.setHeaderLabels([self.tr("Device"), self.tr("State")])
-        self._list.setAccessibleName(self.tr("Devices"))
-        self._device.setTitle(self.tr("The chosen device"))
-        self._incoming.setTitle(self.tr("What comes in"))
-        names = {self._kind: self.tr("Kind"), self._channel: self.tr("Channel"), self._breath: self.tr("Breath")}
-        names |= {self._bite: self.tr("Bite")}
+        self.setWindowTitle(self.tr("midi_devices_dialog.midi_devices"))
+        self._list.setHeaderLabels([self.tr("midi_devices_dialog.device"), self.tr("midi_devices_dialog.state")])
+        self._list.setAccessibleName(self.tr("midi_devices_dialog.devices"))
+        self._device.setTitle(self.tr("midi_devices_dialog.chosen_device"))
+        self._incoming.setTitle(self.tr("midi_devices_dialog.what_comes_in"))
+        names = {
+            self._kind: self.tr("midi_devices_dialog.kind"),
+            self._channel: self.tr("midi_devices_dialog.channel"),
+            self._breath: self.tr("midi_devices_dialog.breath"),
+        }
+        names |= {self._bite: self.tr("midi_devices_dialog.bite")}
         for widget, text in names.items():
             self._rows[widget].setText(text)
             widget.setAccessibleName(text)
-        self._late_name.setText(self.tr("Latency"))
-        self._measure.setText(self.tr("Measure..."))
-        self._learn.setToolTip(
-            self.tr("Finds with what breath and bite are sent, from {count} s each. Escape cancels.").format(
-                count=LEARN_S
-            )
-        )
-        self._beep.setText(self.tr("Test Beep"))
-        self._beep.setToolTip(self.tr("A short tone on the audio device"))
-        self._close.setText(self.tr("Close"))
+        self._late_name.setText(self.tr("midi_devices_dialog.latency"))
+        self._measure.setText(self.tr("midi_devices_dialog.measure"))
+        self._learn.setToolTip(self.tr("midi_devices_dialog.finds_with_what_breath_and").format(count=LEARN_S))
+        self._beep.setText(self.tr("midi_devices_dialog.test_beep"))
+        self._beep.setToolTip(self.tr("midi_devices_dialog.short_tone_on_audio_device"))
+        self._close.setText(self.tr("midi_devices_dialog.close"))
         self._show()
 
     # Qt's own names

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication, QEvent, Qt, QTimer
+from PySide6.QtCore import QEvent, Qt, QTimer
 from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QListWidget, QProgressBar, QVBoxLayout, QWidget
 
@@ -13,6 +13,7 @@ from instrument_maps.library import all_maps
 from widgets.common.pitch import pitch_text
 from widgets.common.plain import Label
 from widgets.common.session import Session
+from widgets.common.translated import tr
 
 SHOW_MS = 40
 """The list is shown anew at most so often, however much comes in."""
@@ -105,9 +106,9 @@ class MidiMonitor(QWidget):
         wanted = recording.wiring.channel
         is_other = bool(self._channel and wanted and self._channel != wanted)
         if is_other:
-            text = self.tr("Plays on channel {number}, but only channel {wanted} is listened to.")
+            text = self.tr("midi_monitor.plays_on_channel_but_only")
         else:
-            text = self.tr("Channel {number}") if self._channel else self.tr("Nothing has come in yet.")
+            text = self.tr("midi_monitor.channel") if self._channel else self.tr("midi_monitor.nothing_has_come_in_yet")
         self._from.setText(text.format(number=self._channel, wanted=wanted))
         style = f"color: {tokens.warning if is_other else tokens.text_dim};"
         if style != self._from.styleSheet():
@@ -134,29 +135,27 @@ class MidiMonitor(QWidget):
     def _text(self, line: Line) -> str:
         match line.kind:
             case "note_on":
-                text = self.tr("{pitch} begins, velocity {value}").format(
-                    pitch=self._pitch(line.number), value=line.value
-                )
+                text = self.tr("midi_monitor.begins_velocity").format(pitch=self._pitch(line.number), value=line.value)
             case "note_off":
-                text = self.tr("{pitch} ends").format(pitch=self._pitch(line.number))
+                text = self.tr("midi_monitor.ends").format(pitch=self._pitch(line.number))
             case "key_pressure":
-                text = self.tr("Pressure on {pitch}: {value}").format(pitch=self._pitch(line.number), value=line.value)
+                text = self.tr("midi_monitor.pressure_on").format(pitch=self._pitch(line.number), value=line.value)
             case "program":
-                text = self.tr("Program {value}").format(value=line.value + 1)
+                text = self.tr("midi_monitor.program").format(value=line.value + 1)
             case "control":
                 text = f"{source_name(f'cc{line.number}')}: {line.value}"
             case kind:
                 text = f"{source_name(kind)}: {line.value}"
         if line.count > 1:
             text += f"  ×{line.count}"
-        return self.tr("{text}   (channel {number})").format(text=text, number=line.channel)
+        return self.tr("midi_monitor.channel_2").format(text=text, number=line.channel)
 
     def retranslate(self) -> None:
         """Set every text anew."""
-        for meter, text in ((self._breath, self.tr("Breath")), (self._bite, self.tr("Bite"))):
+        for meter, text in ((self._breath, self.tr("midi_monitor.breath")), (self._bite, self.tr("midi_monitor.bite"))):
             self._names[meter].setText(text)
             meter.setAccessibleName(text)
-        self._list.setAccessibleName(self.tr("The last messages"))
+        self._list.setAccessibleName(self.tr("midi_monitor.last_messages"))
         self._show()
 
     def changeEvent(self, event: QEvent) -> None:
@@ -169,13 +168,13 @@ class MidiMonitor(QWidget):
 def source_name(source: str) -> str:
     """With what a device sends something, in words."""
     named = {
-        "none": QCoreApplication.translate("MidiSource", "Nothing"),
-        "cc1": QCoreApplication.translate("MidiSource", "CC 1 (modulation)"),
-        "cc2": QCoreApplication.translate("MidiSource", "CC 2 (breath)"),
-        "cc7": QCoreApplication.translate("MidiSource", "CC 7 (volume)"),
-        "cc11": QCoreApplication.translate("MidiSource", "CC 11 (expression)"),
-        "channel_pressure": QCoreApplication.translate("MidiSource", "Aftertouch"),
-        "pitch_bend": QCoreApplication.translate("MidiSource", "Pitch bend"),
+        "none": tr("midi_source.nothing"),
+        "cc1": tr("midi_source.cc_1_modulation"),
+        "cc2": tr("midi_source.cc_2_breath"),
+        "cc7": tr("midi_source.cc_7_volume"),
+        "cc11": tr("midi_source.cc_11_expression"),
+        "channel_pressure": tr("midi_source.aftertouch"),
+        "pitch_bend": tr("midi_source.pitch_bend"),
     }
     return named.get(source) or f"CC {source.removeprefix('cc')}"
 

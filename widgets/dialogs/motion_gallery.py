@@ -69,18 +69,16 @@ class MotionModel(QAbstractListModel):
     def segments_text(self, state: int) -> str:
         """Number and mean length of the segments."""
         motion = self.motions[state]
-        return self.tr("Segments: {count}, {seconds:.2f} s on average").format(
-            count=motion.segments, seconds=motion.mean_s
-        )
+        return self.tr("motion_model.segments_s_on_average").format(count=motion.segments, seconds=motion.mean_s)
 
     def sources_text(self, state: int) -> str:
         """From how many of the sources they are."""
-        return self.tr("Sources: {count} of {all}").format(count=len(self.motions[state].sources), all=self.sources)
+        return self.tr("motion_model.sources_of").format(count=len(self.motions[state].sources), all=self.sources)
 
     def used_text(self, state: int) -> str:
         """How often it is danced in the piece."""
         count = self.used.get(state, 0)
-        return self.tr("danced {count}×").format(count=count) if count else self.tr("not danced")
+        return self.tr("motion_model.danced").format(count=count) if count else self.tr("motion_model.not_danced")
 
     # Qt's own names
 
@@ -94,7 +92,7 @@ class MotionModel(QAbstractListModel):
         if role == Qt.ItemDataRole.DisplayRole:
             return str(state + 1)
         if role == Qt.ItemDataRole.AccessibleTextRole:
-            name = self.tr("Basic motion {number}").format(number=state + 1)
+            name = self.tr("motion_model.basic_motion").format(number=state + 1)
             return ", ".join((name, self.segments_text(state), self.sources_text(state), self.used_text(state)))
         return state if role == _STATE else None
 

@@ -183,10 +183,10 @@ class PieceSettingsDialog(QDialog):
         rate, seed = self._typed_rate(), self._typed_seed()
         problems = []
         if rate is None:
-            text = self.tr("Frame rate: type a number from {low} to {high}, such as 24, 29.97 or 30000/1001.")
+            text = self.tr("piece_settings_dialog.frame_rate_type_number_from")
             problems.append(text.format(low=limits.FPS[0], high=limits.FPS[1]))
         if seed is None:
-            text = self.tr("Seed: type a whole number from {low} to {high}.")
+            text = self.tr("piece_settings_dialog.seed_type_whole_number_from")
             problems.append(text.format(low=limits.SEED[0], high=limits.SEED[1]))
         self._problem.setText("\n".join(problems))
         self._ok.setEnabled(not problems)
@@ -203,19 +203,19 @@ class PieceSettingsDialog(QDialog):
 
     def _beat_names(self) -> dict[float | None, str]:
         names: dict[float | None, str] = {
-            None: self.tr("Automatic, by metre and tempo"),
-            0.25: self.tr("Sixteenth"),
-            0.5: self.tr("Eighth"),
-            0.75: self.tr("Dotted eighth"),
-            1.0: self.tr("Quarter"),
-            1.5: self.tr("Dotted quarter"),
-            2.0: self.tr("Half"),
-            3.0: self.tr("Dotted half"),
-            4.0: self.tr("Whole"),
+            None: self.tr("piece_settings_dialog.automatic_by_metre_and_tempo"),
+            0.25: self.tr("piece_settings_dialog.sixteenth"),
+            0.5: self.tr("piece_settings_dialog.eighth"),
+            0.75: self.tr("piece_settings_dialog.dotted_eighth"),
+            1.0: self.tr("piece_settings_dialog.quarter"),
+            1.5: self.tr("piece_settings_dialog.dotted_quarter"),
+            2.0: self.tr("piece_settings_dialog.half"),
+            3.0: self.tr("piece_settings_dialog.dotted_half"),
+            4.0: self.tr("piece_settings_dialog.whole"),
         }
         beat = self._before.felt_beat_quarters
         if beat not in names:
-            names[beat] = self.tr("{count} quarters").format(count=f"{beat:.6g}")
+            names[beat] = self.tr("piece_settings_dialog.quarters").format(count=f"{beat:.6g}")
         return names
 
     def _fill_beats(self) -> None:
@@ -224,33 +224,42 @@ class PieceSettingsDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set every text anew."""
-        self.setWindowTitle(self.tr("Piece Settings"))
+        self.setWindowTitle(self.tr("piece_settings_dialog.piece_settings"))
         rows = {
-            "title": (self.tr("Title"), self.tr("Names the piece in a MIDI file and in Unreal")),
-            "rate": (
-                self.tr("Frame rate"),
-                self.tr("Of the ruler and of steps by a frame; exports start from it"),
+            "title": (
+                self.tr("piece_settings_dialog.title"),
+                self.tr("piece_settings_dialog.names_piece_in_midi_file"),
             ),
-            "preroll": (self.tr("Pre-roll"), self.tr("Felt beats before the first note, at least one second")),
-            "felt_beat": (self.tr("Felt beat"), self.tr("Breaths, cues, sway and the pre-roll count in it")),
+            "rate": (
+                self.tr("piece_settings_dialog.frame_rate"),
+                self.tr("piece_settings_dialog.of_ruler_and_of_steps"),
+            ),
+            "preroll": (
+                self.tr("piece_settings_dialog.pre_roll"),
+                self.tr("piece_settings_dialog.felt_beats_before_first_note"),
+            ),
+            "felt_beat": (
+                self.tr("piece_settings_dialog.felt_beat"),
+                self.tr("piece_settings_dialog.breaths_cues_sway_and_pre"),
+            ),
             "seed": (
-                self.tr("Seed"),
-                self.tr("Another seed is another performance: other sways and glances"),
+                self.tr("piece_settings_dialog.seed"),
+                self.tr("piece_settings_dialog.another_seed_is_another_performance"),
             ),
         }
         for name, (text, tip) in rows.items():
             self._labels[name].setText(text)
             for widget in (self._labels[name], self._labels[name].buddy()):
                 widget.setToolTip(tip)
-        self._preroll.setSuffix(self.tr(" beats"))
+        self._preroll.setSuffix(self.tr("piece_settings_dialog.beats"))
         for index, text in enumerate(self._beat_names().values()):
             self._felt.setItemText(index, text)
-        self._randomise.setText(self.tr("Randomise"))
+        self._randomise.setText(self.tr("piece_settings_dialog.randomise"))
         self._randomise.setIcon(icon("dice", self._session.tokens))
-        self._ok.setText(self.tr("OK"))
-        self._cancel.setText(self.tr("Cancel"))
-        self._reset.setText(self.tr("Reset to Defaults"))
-        self._reset.setToolTip(self.tr("All but the title as in a new piece"))
+        self._ok.setText(self.tr("piece_settings_dialog.ok"))
+        self._cancel.setText(self.tr("piece_settings_dialog.cancel"))
+        self._reset.setText(self.tr("piece_settings_dialog.reset_to_defaults"))
+        self._reset.setToolTip(self.tr("piece_settings_dialog.all_but_title_as_in"))
         self._judge()
 
     def sizeHint(self) -> QSize:

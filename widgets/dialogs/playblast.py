@@ -210,7 +210,7 @@ class PlayblastDialog(QDialog):
         self._progress.setValue(round(1000 * self._drawn / span.count))
 
     def _done(self, path: Path) -> None:
-        self._state.setText(self.tr("The film is written: {file}").format(file=shown(path)))
+        self._state.setText(self.tr("playblast_dialog.film_is_written").format(file=shown(path)))
         self._show.show()
         self._session.notice(Message("video.done", {"file": str(path)}))
         self.filmed.emit(path)
@@ -251,7 +251,9 @@ class PlayblastDialog(QDialog):
 
     def _choose_file(self) -> None:
         proposal = self._file.path or Path("film.mp4")
-        chosen = ask_where_to_save(self, self.tr("Film"), proposal, self.tr("Films (*.mp4)"))
+        chosen = ask_where_to_save(
+            self, self.tr("playblast_dialog.film"), proposal, self.tr("playblast_dialog.films_mp4")
+        )
         if chosen is not None:
             self._file.set_path(chosen if chosen.suffix.lower() == ".mp4" else chosen.with_name(f"{chosen.name}.mp4"))
 
@@ -263,40 +265,40 @@ class PlayblastDialog(QDialog):
         path = self._file.path
         self._start.setEnabled(path is not None and not self._running)
         exists = path is not None and os.path.isfile(path)
-        self._state.setText(self.tr("This file is there and will be replaced.") if exists else "")
+        self._state.setText(self.tr("playblast_dialog.this_file_is_there_and") if exists else "")
 
     def retranslate(self) -> None:
         """Set every text anew."""
-        self.setWindowTitle(self.tr("Playblast"))
+        self.setWindowTitle(self.tr("playblast_dialog.playblast"))
         for name, text in {
-            "size": self.tr("Size"),
-            "rate": self.tr("Frames per second"),
-            "range": self.tr("Range"),
-            "view": self.tr("View"),
-            "sound": self.tr("Sound"),
-            "file": self.tr("File"),
+            "size": self.tr("playblast_dialog.size"),
+            "rate": self.tr("playblast_dialog.frames_per_second"),
+            "range": self.tr("playblast_dialog.range"),
+            "view": self.tr("playblast_dialog.view"),
+            "sound": self.tr("playblast_dialog.sound"),
+            "file": self.tr("playblast_dialog.file"),
         }.items():
             self._labels[name].setText(text)
-        self._with_sound.setText(self.tr("With what is heard"))
-        self._choose.setText(self.tr("Choose..."))
-        self._start.setText(self.tr("Make the film"))
-        self._show.setText(self.tr("Show in folder"))
-        self._close.setText(self.tr("Cancel") if self._running else self.tr("Close"))
-        ranges = [(self.tr("Whole piece"), _WHOLE)]
+        self._with_sound.setText(self.tr("playblast_dialog.with_what_is_heard"))
+        self._choose.setText(self.tr("playblast_dialog.choose"))
+        self._start.setText(self.tr("playblast_dialog.make_film"))
+        self._show.setText(self.tr("playblast_dialog.show_in_folder"))
+        self._close.setText(self.tr("playblast_dialog.cancel") if self._running else self.tr("playblast_dialog.close"))
+        ranges = [(self.tr("playblast_dialog.whole_piece"), _WHOLE)]
         if self._session.loop_s is not None:
-            ranges.append((self.tr("Loop"), _LOOP))
+            ranges.append((self.tr("playblast_dialog.loop"), _LOOP))
         if self._session.selection.span is not None:
-            ranges.append((self.tr("Selection"), _SELECTION))
+            ranges.append((self.tr("playblast_dialog.selection"), _SELECTION))
         _refill(self._range, ranges)
         views: list[tuple[str, object]] = [
-            (self.tr("As the viewport shows it"), None),
-            (self.tr("Ensemble"), "ensemble"),
-            (self.tr("Front"), "front"),
-            (self.tr("Side"), "side"),
-            (self.tr("Top"), "top"),
-            (self.tr("Hands"), "hands"),
-            (self.tr("Mouth"), "mouth"),
-            (self.tr("Feet"), "feet"),
+            (self.tr("playblast_dialog.as_viewport_shows_it"), None),
+            (self.tr("playblast_dialog.ensemble"), "ensemble"),
+            (self.tr("playblast_dialog.front"), "front"),
+            (self.tr("playblast_dialog.side"), "side"),
+            (self.tr("playblast_dialog.top"), "top"),
+            (self.tr("playblast_dialog.hands"), "hands"),
+            (self.tr("playblast_dialog.mouth"), "mouth"),
+            (self.tr("playblast_dialog.feet"), "feet"),
         ]
         _refill(self._view, views)
         if not self._running and not self._show.isVisible():

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from PySide6.QtCore import QCoreApplication, QEvent, QSize, Qt, Signal, SignalInstance
+from PySide6.QtCore import QEvent, QSize, Qt, Signal, SignalInstance
 from PySide6.QtWidgets import (
     QButtonGroup,
     QDialog,
@@ -28,6 +28,7 @@ from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
 from widgets.common.text import message_text
+from widgets.common.translated import tr
 from widgets.dialogs.shortcuts import ShortcutRow, ShortcutsPage
 
 
@@ -181,7 +182,7 @@ class PreferencesDialog(QDialog):
     def _show_instruments(self) -> None:
         known = library()
         wrong = [message_text(problems[0], self._session) for problems in known.problems.values()]
-        found = [self.tr("Your own: {maps}").format(maps=", ".join(known.own))] if known.own else []
+        found = [self.tr("preferences_dialog.your_own").format(maps=", ".join(known.own))] if known.own else []
         self._found.setText("\n\n".join([*found, *(f"⚠ {text}" for text in wrong)]))
 
     def show_page(self, page: str) -> None:
@@ -203,24 +204,19 @@ class PreferencesDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set the texts."""
-        self.setWindowTitle(self.tr("Preferences"))
-        self.tabs.setTabText(0, self.tr("General"))
-        self.tabs.setTabText(1, self.tr("Keyboard Shortcuts"))
-        self.tabs.setTabText(2, self.tr("Instruments"))
-        self._open.setText(self.tr("Show Folder"))
-        self._own.setText(
-            self.tr(
-                "Your own instruments: a map (.toml) and a model (.glb) in this folder. They are read again as soon as "
-                "they change."
-            )
-        )
+        self.setWindowTitle(self.tr("preferences_dialog.preferences"))
+        self.tabs.setTabText(0, self.tr("preferences_dialog.general"))
+        self.tabs.setTabText(1, self.tr("preferences_dialog.keyboard_shortcuts"))
+        self.tabs.setTabText(2, self.tr("preferences_dialog.instruments"))
+        self._open.setText(self.tr("preferences_dialog.show_folder"))
+        self._own.setText(self.tr("preferences_dialog.your_own_instruments_map_toml"))
         for choice in self._choices:
-            self._labels[choice.name].setText(_word(choice.label))
+            self._labels[choice.name].setText(tr(choice.label))
             for index, (_, word) in enumerate(choice.options):
                 if choice.is_list:
-                    self._lists[choice.name].setItemText(index, _word(word))
+                    self._lists[choice.name].setItemText(index, tr(word))
                 else:
-                    self._radios[choice.name][index].setText(_word(word))
+                    self._radios[choice.name][index].setText(tr(word))
 
     def sizeHint(self) -> QSize:
         """Room for the list of shortcuts."""
@@ -231,10 +227,6 @@ class PreferencesDialog(QDialog):
         if event.type() == QEvent.Type.LanguageChange:
             self.retranslate()
         super().changeEvent(event)
-
-
-def _word(english: str) -> str:
-    return QCoreApplication.translate("Setting", english)
 
 
 def _call(choose: Callable[[Any], object], value: object, *_: object) -> None:

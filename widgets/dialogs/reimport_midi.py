@@ -105,16 +105,19 @@ class ReimportDialog(QDialog):
     def retranslate(self) -> None:
         """Set every text anew."""
         outcome = self._outcome
-        self.setWindowTitle(self.tr("Re-import MIDI"))
+        self.setWindowTitle(self.tr("reimport_dialog.re_import_midi"))
         self._heading.setText(
-            self.tr("{file} says nothing new.").format(file=self._file)
+            self.tr("reimport_dialog.says_nothing_new").format(file=self._file)
             if outcome.project is self._before
-            else self.tr(
-                "What {file} changes. Fingerings, breaths and all else set by hand stay with their notes; notes "
-                "changed by hand stay as they are where the file has not changed them. Undo takes it all back."
-            ).format(file=self._file)
+            else self.tr("reimport_dialog.what_changes_fingerings_breaths_and").format(file=self._file)
         )
-        titles = (self.tr("Part"), self.tr("Kept"), self.tr("New"), self.tr("Gone"), self.tr("Changed by hand"))
+        titles = (
+            self.tr("reimport_dialog.part"),
+            self.tr("reimport_dialog.kept"),
+            self.tr("reimport_dialog.new"),
+            self.tr("reimport_dialog.gone"),
+            self.tr("reimport_dialog.changed_by_hand"),
+        )
         for column, title in enumerate(titles):
             heading = QTableWidgetItem(title)
             side = Qt.AlignmentFlag.AlignRight if column else Qt.AlignmentFlag.AlignLeft
@@ -140,9 +143,7 @@ class ReimportDialog(QDialog):
         self._players.setText("\n".join(self._about_players()))
         self._players.setVisible(bool(self._players.text()))
         self._conflict_title.setText(
-            self.tr("Changed here and in the file: these notes become as the file has them now ({count})").format(
-                count=len(outcome.conflicts)
-            )
+            self.tr("reimport_dialog.changed_here_and_in_file").format(count=len(outcome.conflicts))
         )
         self._conflicts.clear()
         names = {part.id: part.name for part in self._before.score.parts}
@@ -150,9 +151,7 @@ class ReimportDialog(QDialog):
             self._conflicts.addItem(f"{names[conflict.part_id]}: {self._about_note(conflict)}")
         for widget in (self._conflict_title, self._conflicts):
             widget.setVisible(bool(outcome.conflicts))
-        self._orphan_title.setText(
-            self.tr("These corrections have lost their note. They are kept; the inspector can give them another note:")
-        )
+        self._orphan_title.setText(self.tr("reimport_dialog.these_corrections_have_lost_their"))
         self._orphans.clear()
         for orphan in outcome.orphans:
             player = outcome.project.player(orphan.player_id)
@@ -160,15 +159,19 @@ class ReimportDialog(QDialog):
         for widget in (self._orphan_title, self._orphans):
             widget.setVisible(bool(outcome.orphans))
         ok = self._buttons.button(QDialogButtonBox.StandardButton.Ok)
-        ok.setText(self.tr("Re-import"))
+        ok.setText(self.tr("reimport_dialog.re_import"))
         ok.setEnabled(outcome.project is not self._before)
-        self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("Cancel"))
+        self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("reimport_dialog.cancel"))
 
     def _about_note(self, conflict: Conflict) -> str:
         """What happens to a note: as the person has it → as the file has it."""
         mine, file = conflict.by_hand, conflict.file
-        here = self.tr("erased") if mine is None else self._note_title(conflict.part_id, mine)
-        there = self.tr("not in the file any more") if file is None else self._note_title(conflict.part_id, file)
+        here = self.tr("reimport_dialog.erased") if mine is None else self._note_title(conflict.part_id, mine)
+        there = (
+            self.tr("reimport_dialog.not_in_file_any_more")
+            if file is None
+            else self._note_title(conflict.part_id, file)
+        )
         return f"{here} → {there}"
 
     def _about_players(self) -> list[str]:
@@ -176,10 +179,10 @@ class ReimportDialog(QDialog):
         after = {player.id: player.name for player in outcome.project.players}
         before = {player.id: player.name for player in self._before.players}
         told = (
-            (self.tr("New players: {names}"), outcome.new_players, after),
-            (self.tr("Players whose part is gone: {names}"), outcome.gone_players, before),
+            (self.tr("reimport_dialog.new_players"), outcome.new_players, after),
+            (self.tr("reimport_dialog.players_whose_part_is_gone"), outcome.gone_players, before),
             (
-                self.tr("Players whose part is gone, kept for what was done by hand: {names}"),
+                self.tr("reimport_dialog.players_whose_part_is_gone_kept_for_what"),
                 outcome.idle_players,
                 after,
             ),

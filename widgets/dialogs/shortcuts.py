@@ -136,14 +136,21 @@ class ShortcutsPage(QWidget):
 
     def retranslate(self) -> None:
         """Set the texts and the rows anew."""
-        self.search.setPlaceholderText(self.tr("Search actions or keys"))
-        self.list.setHeaderLabels([self.tr("Action"), self.tr("Menu"), self.tr("Keys"), self.tr("Works")])
-        self._label.setText(self.tr("New keys"))
-        self.edit.setAccessibleName(self.tr("New keys"))
-        self.give.setText(self.tr("Assign"))
-        self.take.setText(self.tr("Remove Keys"))
-        self.back.setText(self.tr("Default"))
-        self.all_back.setText(self.tr("All Back to Default"))
+        self.search.setPlaceholderText(self.tr("shortcuts_page.search_actions_or_keys"))
+        self.list.setHeaderLabels(
+            [
+                self.tr("shortcuts_page.action"),
+                self.tr("shortcuts_page.menu"),
+                self.tr("shortcuts_page.keys"),
+                self.tr("shortcuts_page.works"),
+            ]
+        )
+        self._label.setText(self.tr("shortcuts_page.new_keys"))
+        self.edit.setAccessibleName(self.tr("shortcuts_page.new_keys"))
+        self.give.setText(self.tr("shortcuts_page.assign"))
+        self.take.setText(self.tr("shortcuts_page.remove_keys"))
+        self.back.setText(self.tr("shortcuts_page.default"))
+        self.all_back.setText(self.tr("shortcuts_page.all_back_to_default"))
         self._fill()
 
     def _fill(self) -> None:
@@ -207,9 +214,9 @@ class ShortcutsPage(QWidget):
         names = ", ".join(self._rows[other].text for other in taken if other in self._rows)
         self.told.setStyleSheet(f"color: {self._session.tokens.warning};")
         if menu:
-            self.told.setText(self.tr("Opens the menu {menu}. Choose other keys.").format(menu=menu))
+            self.told.setText(self.tr("shortcuts_page.opens_menu_choose_other_keys").format(menu=menu))
         elif names:
-            self.told.setText(self.tr("Used by: {names}. Assigning takes it away there.").format(names=names))
+            self.told.setText(self.tr("shortcuts_page.used_by_assigning_takes_it").format(names=names))
         else:
             self.told.clear()
 

@@ -143,7 +143,9 @@ class StreamDialog(QDialog):
         self._here.setEnabled(not here)
         self._warning.setVisible(not here)
         self._warning.setStyleSheet(f"color: {tokens.warning};")
-        self._toggle.setText(self.tr("Stop Streaming") if state.on else self.tr("Start Streaming"))
+        self._toggle.setText(
+            self.tr("stream_dialog.stop_streaming") if state.on else self.tr("stream_dialog.start_streaming")
+        )
         self._show_lines()
         self._anyway.setVisible(state.trouble is not None and state.trouble.id == TO_MANY)
         text, colour = self._state_text()
@@ -167,7 +169,7 @@ class StreamDialog(QDialog):
                 reason = unseen.get(line.player_id)
                 if reason is not None:
                     text = sentence(reason, self._session, line.player_id)
-                    item.setText(0, self.tr("{name}: not sent. {reason}").format(name=item.text(0), reason=text))
+                    item.setText(0, self.tr("stream_dialog.not_sent").format(name=item.text(0), reason=text))
                     for column in (0, 1):
                         item.setToolTip(column, item.text(0))
                         item.setForeground(column, QColor(self._session.tokens.warning))
@@ -178,47 +180,36 @@ class StreamDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set all texts."""
-        self.setWindowTitle(self.tr("Live Stream"))
-        self._explained.setText(
-            self.tr(
-                "Sends the performers' poses, faces and instruments by the VMC protocol, while you play, scrub or "
-                "record. Unreal (VMC4UE), VSeeFace, Warudo and add-ons for Blender receive it; one character for each "
-                "port."
-            )
-        )
+        self.setWindowTitle(self.tr("stream_dialog.live_stream"))
+        self._explained.setText(self.tr("stream_dialog.sends_performers_poses_faces_and"))
         for field, text in (
-            (self._host, self.tr("Computer")),
-            (self._port, self.tr("Port")),
-            (self._who, self.tr("Performers")),
-            (self._faces, self.tr("Names of the face")),
-            (self._rate, self.tr("Frames per second")),
+            (self._host, self.tr("stream_dialog.computer")),
+            (self._port, self.tr("stream_dialog.port")),
+            (self._who, self.tr("stream_dialog.performers")),
+            (self._faces, self.tr("stream_dialog.names_of_face")),
+            (self._rate, self.tr("stream_dialog.frames_per_second")),
         ):
             self._names[field].setText(text)
             field.setAccessibleName(text)
-        self._here.setText(self.tr("This Computer"))
-        self._warning.setText(
-            self.tr(
-                "What is sent leaves this computer, and anyone on the network can read it. Let the other computer's "
-                "firewall through for this port."
-            )
-        )
+        self._here.setText(self.tr("stream_dialog.this_computer"))
+        self._warning.setText(self.tr("stream_dialog.what_is_sent_leaves_this"))
         self._who.set_options(
             [
-                Option("front", self.tr("The selected player, in the middle")),
-                Option("everyone", self.tr("Everyone on the stage, each on a port of their own")),
+                Option("front", self.tr("stream_dialog.selected_player_in_middle")),
+                Option("everyone", self.tr("stream_dialog.everyone_on_stage_each_on")),
             ]
         )
         self._faces.set_options(
             [
-                Option("arkit", self.tr("ARKit: jawOpen")),
-                Option("arkit_capital", self.tr("ARKit with capitals: JawOpen (perfect sync)")),
-                Option("vrm", self.tr("VRM presets: A, Blink_L, Joy")),
+                Option("arkit", self.tr("stream_dialog.arkit_jawopen")),
+                Option("arkit_capital", self.tr("stream_dialog.arkit_with_capitals_jawopen_perfect")),
+                Option("vrm", self.tr("stream_dialog.vrm_presets_blink_l_joy")),
             ]
         )
         self._rate.set_options([Option(str(rate), str(rate)) for rate in RATES_HZ])
-        self._list.setHeaderLabels([self.tr("Performer"), self.tr("Port")])
-        self._close.setText(self.tr("Close"))
-        self._anyway.setText(self.tr("Send Anyway"))
+        self._list.setHeaderLabels([self.tr("stream_dialog.performer"), self.tr("stream_dialog.port")])
+        self._close.setText(self.tr("stream_dialog.close"))
+        self._anyway.setText(self.tr("stream_dialog.send_anyway"))
         self._listed = ()
         self._show()
 
@@ -234,14 +225,12 @@ class StreamDialog(QDialog):
         if state.trouble is not None:
             return sentence(state.trouble, self._session), tokens.error
         if state.state == "looking":
-            return self.tr("Looking for {host}...").format(host=state.host), tokens.text_dim
+            return self.tr("stream_dialog.looking_for").format(host=state.host), tokens.text_dim
         if state.state == "unheard":
             return (
-                self.tr("Nobody listens there yet: start receiving in the other program, on the same port."),
+                self.tr("stream_dialog.nobody_listens_there_yet_start"),
                 tokens.warning,
             )
         if state.state == "sending":
-            return self.tr("Sending {count} frames per second; fewer while nothing moves.").format(
-                count=state.sent_hz
-            ), tokens.good
-        return self.tr("Nothing is sent."), tokens.text_dim
+            return self.tr("stream_dialog.sending_frames_per_second_fewer").format(count=state.sent_hz), tokens.good
+        return self.tr("stream_dialog.nothing_is_sent"), tokens.text_dim

@@ -54,13 +54,13 @@ class ByHandLine(QWidget):
 
     def _retranslate(self) -> None:
         if self._generated is None:
-            text = self.tr("yours {yours}").format(yours=self._yours)
+            text = self.tr("by_hand_line.yours").format(yours=self._yours)
         elif not self._generated:
-            text = self.tr("added by hand")
+            text = self.tr("by_hand_line.added_by_hand")
         else:
-            text = self.tr("generated {generated} · yours {yours}").format(generated=self._generated, yours=self._yours)
+            text = self.tr("by_hand_line.generated_yours").format(generated=self._generated, yours=self._yours)
         self._text.setText(text)
-        self._button.setToolTip(self.tr("Back to the generator's"))
+        self._button.setToolTip(self.tr("by_hand_line.back_to_generators"))
 
     def _dress(self) -> None:
         self._button.setIcon(icon("reset", self._session.tokens, self._session.tokens.by_hand))

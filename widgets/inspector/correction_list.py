@@ -115,9 +115,12 @@ class CorrectionList(QWidget):
             moved_from = getattr(item, "moved_from", None)
             former = f"{id.split(':')[0]}:{moved_from}" if moved_from is not None else id
             orphan = (player.id, item) in lost or (
-                plan is not None and hasattr(item, "event_id") and id not in known and former not in before
+                plan is not None
+                and hasattr(item, "event_id")
+                and id not in known
+                and former not in before
                 and bare is not None
-            )  # fmt: skip
+            )
             places.append(Place(player.id, item, events.get(id), before.get(former), orphan))
         return places
 
@@ -141,26 +144,36 @@ class CorrectionList(QWidget):
         if several:
             title = f"{player.name}: {title}"
         if place.orphan:
-            detail = self.tr("Lost its place: it does nothing. Select a note and re-attach it, or revert it.")
+            detail = self.tr("correction_list.lost_its_place_it_does")
             return Line(place, title, "", detail, self._session.colour(player), "warning")
         if isinstance(place.correction, Vary):
             start, end = (
                 score.metre_map.label(tick) for tick in (place.correction.start_tick, place.correction.end_tick)
             )
-            return Line(place, title, start, self.tr("with other chances, up to {end}").format(end=end),
-                        self._session.colour(player), "by_hand")  # fmt: skip
+            return Line(
+                place,
+                title,
+                start,
+                self.tr("correction_list.with_other_chances_up_to").format(end=end),
+                self._session.colour(player),
+                "by_hand",
+            )
         now, before = self._value(place.correction, place.event), self._value(place.correction, place.generated)
         if place.generated is None:
-            detail = self.tr("added by hand: {yours}").format(yours=now) if now else self.tr("added by hand")
+            detail = (
+                self.tr("correction_list.added_by_hand").format(yours=now)
+                if now
+                else self.tr("correction_list.added_by_hand_2")
+            )
         else:
             reason = (
                 message_text(place.generated.reason, self._session, player.id)
                 if hasattr(place.generated, "reason")
                 else ""
             )
-            detail = self.tr("generated {before} ({reason})").format(before=before, reason=reason)
+            detail = self.tr("correction_list.generated").format(before=before, reason=reason)
             if now and now != before:
-                detail = self.tr("yours {now} · {generated}").format(now=now, generated=detail)
+                detail = self.tr("correction_list.yours").format(now=now, generated=detail)
         tick = self._tick(place)
         where = score.metre_map.label(tick) if tick != LATE_TICK else ""
         return Line(place, title, where, detail, self._session.colour(player), "by_hand")
@@ -230,18 +243,13 @@ class CorrectionList(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._revert.setText(self.tr("Revert"))
-        self._revert.setToolTip(self.tr("Back to the generator's: the selected lines"))
-        self._revert_all.setText(self.tr("Revert all"))
-        self._revert_all.setToolTip(self.tr("Back to the generator's: everything of the selected players"))
-        self._attach.setText(self.tr("Re-attach to the selected note"))
-        self._attach.setToolTip(self.tr("Let the selected line be about the selected note"))
-        self._empty.setText(
-            self.tr(
-                "Nothing was changed by hand for the selected players. Pin a fingering, drag a breath or lift a bell: "
-                "it is listed here and stays when the performance is generated again."
-            )
-        )
+        self._revert.setText(self.tr("correction_list.revert"))
+        self._revert.setToolTip(self.tr("correction_list.back_to_generators_selected_lines"))
+        self._revert_all.setText(self.tr("correction_list.revert_all"))
+        self._revert_all.setToolTip(self.tr("correction_list.back_to_generators_everything_of"))
+        self._attach.setText(self.tr("correction_list.re_attach_to_selected_note"))
+        self._attach.setToolTip(self.tr("correction_list.let_selected_line_be_about"))
+        self._empty.setText(self.tr("correction_list.nothing_was_changed_by_hand"))
         for button in (self._revert, self._revert_all):
             button.setIcon(icon("reset", self._session.tokens))
         self.show_corrections()

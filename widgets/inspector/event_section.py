@@ -120,7 +120,9 @@ class EventSection(QWidget):
         player = self._session.project.player(self._plan.player_id)
         title = event_title(first)
         if len(self._events) > 1:
-            title = self.tr("{count} × {what}").format(count=len(self._events), what=kind_name(first.id.split(":")[0]))
+            title = self.tr("event_section.text").format(
+                count=len(self._events), what=kind_name(first.id.split(":")[0])
+            )
         self._section.header.set_texts(title, player.name)
         self._show_places(first, made)
         self._show_amounts(first, made)
@@ -144,13 +146,15 @@ class EventSection(QWidget):
                 slider.setVisible(not isinstance(first, CueEvent) or side == "end")
                 slider.setEnabled(not isinstance(first, CueEvent))
         self._numbers["end_tick"].set_texts(
-            self.tr("Entry") if isinstance(first, CueEvent) else self.tr("End"), "", self.tr("Bar.beat.ticks")
+            self.tr("event_section.entry") if isinstance(first, CueEvent) else self.tr("event_section.end"),
+            "",
+            self.tr("event_section.bar_beat_ticks"),
         )
         length_s = first.end_s - first.start_s
         self._length.setText(
-            self.tr("{seconds} s long").format(seconds=f"{length_s:.2f}")
+            self.tr("event_section.s_long").format(seconds=f"{length_s:.2f}")
             if not isinstance(first, CueEvent)
-            else self.tr("the preparatory beat lasts {seconds} s").format(seconds=f"{first.beat_s:.2f}")
+            else self.tr("event_section.preparatory_beat_lasts_s").format(seconds=f"{first.beat_s:.2f}")
         )
 
     def _show_amounts(self, first: Placed, made: Placed | None) -> None:
@@ -193,7 +197,7 @@ class EventSection(QWidget):
     def _show_reason(self, first: Placed, made: Placed | None) -> None:
         corrected = [event for event in self._events if event.corrected]
         reason = made if made is not None and first.corrected else first
-        template = self.tr("The generator: {reason}") if reason is not first else self.tr("Why: {reason}")
+        template = self.tr("event_section.generator") if reason is not first else self.tr("event_section.why")
         self._why.setText(
             template.format(
                 reason=message_text(reason.reason, self._session, self._plan.player_id if self._plan else None)
@@ -306,7 +310,11 @@ class EventSection(QWidget):
         return None if tick is None else float(tick)
 
     def _amount_word(self, field: str) -> str:
-        return {"depth": self.tr("Depth"), "amount": self.tr("Amount"), "strength": self.tr("Strength")}[field]
+        return {
+            "depth": self.tr("event_section.depth"),
+            "amount": self.tr("event_section.amount"),
+            "strength": self.tr("event_section.strength"),
+        }[field]
 
     def _dress(self) -> None:
         for label in (self._why, self._length):
@@ -314,25 +322,31 @@ class EventSection(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        seconds, degrees = self.tr("s", "seconds"), "°"
+        seconds, degrees = self.tr("event_section.seconds"), "°"
         texts = {
-            "start_tick": (self.tr("Start"), "", self.tr("Bar.beat.ticks")),
-            "end_tick": (self.tr("End"), "", self.tr("Bar.beat.ticks")),
-            "start_s": ("", seconds, self.tr("Start in seconds of the performance")),
-            "end_s": ("", seconds, self.tr("End in seconds of the performance")),
-            "amount": (self.tr("Amount"), "", ""),
+            "start_tick": (self.tr("event_section.start"), "", self.tr("event_section.bar_beat_ticks")),
+            "end_tick": (self.tr("event_section.end"), "", self.tr("event_section.bar_beat_ticks")),
+            "start_s": ("", seconds, self.tr("event_section.start_in_seconds_of_performance")),
+            "end_s": ("", seconds, self.tr("event_section.end_in_seconds_of_performance")),
+            "amount": (self.tr("event_section.amount"), "", ""),
             "beats": (
-                self.tr("Preparatory beat"), self.tr("beats"), self.tr("How long before the entry the cue's beat is"),
+                self.tr("event_section.preparatory_beat"),
+                self.tr("event_section.beats"),
+                self.tr("event_section.how_long_before_entry_cues"),
             ),
-            "up_deg": (self.tr("Up"), degrees, self.tr("Raised, leaning back, or an elbow outwards")),
-            "left_deg": (self.tr("Left"), degrees, self.tr("Turned to the player's left")),
-            "roll_deg": (self.tr("Roll"), degrees, self.tr("Leaning to the player's left")),
-            "fade_in_s": (self.tr("Fade in"), seconds, self.tr("How long it takes to come")),
-            "fade_out_s": (self.tr("Fade out"), seconds, self.tr("How long it takes to go")),
-        }  # fmt: skip
+            "up_deg": (self.tr("event_section.up"), degrees, self.tr("event_section.raised_leaning_back_or_elbow")),
+            "left_deg": (self.tr("event_section.left"), degrees, self.tr("event_section.turned_to_players_left")),
+            "roll_deg": (self.tr("event_section.roll"), degrees, self.tr("event_section.leaning_to_players_left")),
+            "fade_in_s": (self.tr("event_section.fade_in"), seconds, self.tr("event_section.how_long_it_takes_to")),
+            "fade_out_s": (
+                self.tr("event_section.fade_out"),
+                seconds,
+                self.tr("event_section.how_long_it_takes_to_go"),
+            ),
+        }
         for name, (label, unit, tip) in texts.items():
             self._numbers[name].set_texts(label, unit, tip)
-        self._expression.setToolTip(self.tr("The face that is shown"))
+        self._expression.setToolTip(self.tr("event_section.face_that_is_shown"))
         self.show_events()
 
     # Qt's own names

@@ -190,16 +190,16 @@ class ExpressionMaker(QWidget):
         kept = [name for name in self._kept if name not in own and name not in bundled]
         options = [Option(name, f"● {name}") for name in own]
         options += [Option(name, expression_name(name)) for name in bundled]
-        options += [Option(name, self.tr("{name} (kept)").format(name=name)) for name in kept]
+        options += [Option(name, self.tr("expression_maker.kept").format(name=name)) for name in kept]
         self._choice.set_options(options)
         expression, editable, from_folder = self.expression, self.editable, self._name in kept
         self._choice.show_option(self._name if expression is not None else None)
         self._hint.setText(
             ""
             if editable
-            else self.tr("Comes from your folder: use it in this project to change it.")
+            else self.tr("expression_maker.comes_from_your_folder_use")
             if from_folder
-            else self.tr("Comes with the program: duplicate it to make your own.")
+            else self.tr("expression_maker.comes_with_program_duplicate_it")
         )
         self._hint.setVisible(not editable)
         self._title.setVisible(editable)
@@ -208,7 +208,9 @@ class ExpressionMaker(QWidget):
         self._tools["keep"].setEnabled(editable)
         self._tools["remove"].setEnabled(editable or from_folder)
         self._tools["remove"].setToolTip(
-            self.tr("Delete it from your folder") if from_folder else self.tr("Remove it from the project")
+            self.tr("expression_maker.delete_it_from_your_folder")
+            if from_folder
+            else self.tr("expression_maker.remove_it_from_project")
         )
         if expression is not None:
             if not self._title.hasFocus():
@@ -333,11 +335,11 @@ class ExpressionMaker(QWidget):
 
     def _group_title(self, group: str) -> str:
         return {
-            "brows": self.tr("Brows"),
-            "eyes": self.tr("Eyes"),
-            "jaw": self.tr("Jaw"),
-            "mouth": self.tr("Mouth"),
-            "rest": self.tr("Cheeks, nose, tongue"),
+            "brows": self.tr("expression_maker.brows"),
+            "eyes": self.tr("expression_maker.eyes"),
+            "jaw": self.tr("expression_maker.jaw"),
+            "mouth": self.tr("expression_maker.mouth"),
+            "rest": self.tr("expression_maker.cheeks_nose_tongue"),
         }[group]
 
     def _name_sliders(self) -> None:
@@ -354,20 +356,20 @@ class ExpressionMaker(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._section.header.set_texts(self.tr("Expressions"))
+        self._section.header.set_texts(self.tr("expression_maker.expressions"))
         tips = {
-            "duplicate": self.tr("Make one of your own from it"),
-            "keep": self.tr("Keep it for other projects"),
-            "both": self.tr("Move both sides of the face together"),
-            "preview": self.tr("Show it on the player in front"),
+            "duplicate": self.tr("expression_maker.make_one_of_your_own"),
+            "keep": self.tr("expression_maker.keep_it_for_other_projects"),
+            "both": self.tr("expression_maker.move_both_sides_of_face"),
+            "preview": self.tr("expression_maker.show_it_on_player_in"),
         }
         for name, tip in tips.items():
             self._tools[name].setToolTip(tip)
-        self._title.setPlaceholderText(self.tr("Name"))
-        self._playing.setText(self.tr("May show while playing"))
-        self._playing.setToolTip(self.tr("What moves the lips must not: they belong to the embouchure"))
-        self._fades["fade_in_s"].set_texts(self.tr("Fade in"), self.tr("s", "seconds"))
-        self._fades["fade_out_s"].set_texts(self.tr("Fade out"), self.tr("s", "seconds"))
+        self._title.setPlaceholderText(self.tr("expression_maker.name"))
+        self._playing.setText(self.tr("expression_maker.may_show_while_playing"))
+        self._playing.setToolTip(self.tr("expression_maker.what_moves_lips_must_not"))
+        self._fades["fade_in_s"].set_texts(self.tr("expression_maker.fade_in"), self.tr("expression_maker.seconds"))
+        self._fades["fade_out_s"].set_texts(self.tr("expression_maker.fade_out"), self.tr("expression_maker.seconds"))
         self._name_sliders()
         self.show_expression()
 

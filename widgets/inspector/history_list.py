@@ -31,7 +31,7 @@ class HistoryList(QWidget):
             return
         document = self._session.document
         done, undone = document.done, document.undone[::-1]
-        texts = [self.tr("As opened"), *(_sentence(message_text(step.name)) for step in (*done, *undone))]
+        texts = [self.tr("history_list.as_opened"), *(_sentence(message_text(step.name)) for step in (*done, *undone))]
         lines = []
         for number, text in enumerate(texts):
             tone = "current" if number == len(done) else "faint" if number > len(done) else ""

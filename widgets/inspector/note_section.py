@@ -133,7 +133,7 @@ class NoteSection(QWidget):
     def _show_numbers(self, shown: SelectedNotes) -> None:
         note, notes, score = shown.note, shown.notes, self._session.project.score
         several = len(shown.note_ids)
-        title = self.tr("Note") if several == 1 else self.tr("{count} notes").format(count=several)
+        title = self.tr("note_section.note") if several == 1 else self.tr("note_section.notes").format(count=several)
         owner = shown.player.name if shown.player is not None else ""
         self._section.header.set_texts(title, owner)
         grid = self._session.grid.step_ticks(score)
@@ -187,7 +187,9 @@ class NoteSection(QWidget):
         self._diagram.show_fingering(instrument, event.controls)
         pinned = self._pin_label(shown)
         by_whom = (
-            self.tr("The generator: {reason}") if pinned is not None and made is not None else self.tr("Why: {reason}")
+            self.tr("note_section.generator")
+            if pinned is not None and made is not None
+            else self.tr("note_section.why")
         )
         reason = made.reason if pinned is not None and made is not None else event.reason
         self._why.setText(by_whom.format(reason=message_text(reason, self._session, plan.player_id)))
@@ -222,15 +224,15 @@ class NoteSection(QWidget):
     def _chip_tip(self, fingering: Fingering, made: FingeringEvent | None) -> str:
         lines = [
             *([fingering.label] if " " in fingering.label else []),
-            self.tr("first choice")
+            self.tr("note_section.first_choice")
             if fingering.rank == 1
-            else self.tr("choice no. {rank}").format(rank=fingering.rank),
+            else self.tr("note_section.choice_no").format(rank=fingering.rank),
         ]
         lines += words_of_tags(fingering.tags)
         if round(fingering.cents):
-            lines.append(self.tr("{cents} cents when simply blown").format(cents=f"{fingering.cents:+.0f}"))
+            lines.append(self.tr("note_section.cents_when_simply_blown").format(cents=f"{fingering.cents:+.0f}"))
         if made is not None and made.label == fingering.label:
-            lines.append(self.tr("what the generator chose"))
+            lines.append(self.tr("note_section.what_generator_chose"))
         return "\n".join(lines)
 
     def _show_lips(self, shown: SelectedNotes, plan: PlayerPlan, bare: PlayerPlan | None) -> None:
@@ -384,23 +386,27 @@ class NoteSection(QWidget):
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
         texts = {
-            "pitch": (self.tr("Pitch"), "", self.tr("A name or a MIDI number; several notes move together")),
-            "onset": (self.tr("Bar"), "", self.tr("Bar.beat.ticks; several notes move together")),
-            "length": (self.tr("Length"), self.tr("beats"), self.tr("In beats of the metre")),
-            "velocity": (self.tr("Velocity"), "", self.tr("How hard the note is struck, 1 to 127")),
+            "pitch": (self.tr("note_section.pitch"), "", self.tr("note_section.name_or_midi_number_several")),
+            "onset": (self.tr("note_section.bar"), "", self.tr("note_section.bar_beat_ticks_several_notes")),
+            "length": (
+                self.tr("note_section.length"),
+                self.tr("note_section.beats"),
+                self.tr("note_section.in_beats_of_metre"),
+            ),
+            "velocity": (self.tr("note_section.velocity"), "", self.tr("note_section.how_hard_note_is_struck")),
         }
         for name, (label, unit, tip) in texts.items():
             self._numbers[name].set_texts(label, unit, tip)
         lips = {
-            "tension": (self.tr("Tension"), self.tr("Lips: 0 relaxed for the low register, 1 drawn tight")),
-            "effort": (self.tr("Effort"), self.tr("How much the face works: height, loudness, length")),
-            "air": (self.tr("Air"), self.tr("How much air flows")),
+            "tension": (self.tr("note_section.tension"), self.tr("note_section.lips_0_relaxed_for_low")),
+            "effort": (self.tr("note_section.effort"), self.tr("note_section.how_much_face_works_height")),
+            "air": (self.tr("note_section.air"), self.tr("note_section.how_much_air_flows")),
         }
         for name, (label, tip) in lips.items():
             self._lips[name].set_texts(label, "", tip)
-        self._fingering_title.setText(self.tr("Fingering"))
-        self._lips_title.setText(self.tr("Embouchure"))
-        self._diagram.setAccessibleName(self.tr("Fingering diagram"))
+        self._fingering_title.setText(self.tr("note_section.fingering"))
+        self._lips_title.setText(self.tr("note_section.embouchure"))
+        self._diagram.setAccessibleName(self.tr("note_section.fingering_diagram"))
         self.show_notes()
 
     # Qt's own names

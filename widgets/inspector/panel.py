@@ -99,16 +99,10 @@ class InspectorPanel(QWidget):
         self._empty.setText(self._varied_text() if varied else self._empty_text())
 
     def _varied_text(self) -> str:
-        return self.tr(
-            "These bars are performed anew, with other chances. Ctrl+G on the selected bars chooses again; Backspace "
-            "brings the first performance back."
-        )
+        return self.tr("inspector_panel.these_bars_are_performed_anew")
 
     def _empty_text(self) -> str:
-        return self.tr(
-            "Click a note in the timeline to see and change its fingering, or a breath, a cue, a gesture or an "
-            "expression to see why it is there."
-        )
+        return self.tr("inspector_panel.click_note_in_timeline_to")
 
     def _changed(self, change: Change) -> None:
         if change.before.score.parts is not change.after.score.parts or change.opened:
@@ -131,9 +125,13 @@ class InspectorPanel(QWidget):
         by_hand = sum(len(items) for items in self._session.project.corrections.values())
         problems = self._problem_count
         texts = (
-            self.tr("Problems ({count})").format(count=_short(problems)) if problems else self.tr("Problems"),
-            self.tr("By hand ({count})").format(count=_short(by_hand)) if by_hand else self.tr("By hand"),
-            self.tr("History"),
+            self.tr("inspector_panel.problems").format(count=_short(problems))
+            if problems
+            else self.tr("inspector_panel.problems_2"),
+            self.tr("inspector_panel.by_hand").format(count=_short(by_hand))
+            if by_hand
+            else self.tr("inspector_panel.by_hand_2"),
+            self.tr("inspector_panel.history"),
         )
         for number, text in enumerate(texts):
             self._tabs.setTabText(number, text)

@@ -112,12 +112,12 @@ class ProblemList(QWidget):
         more = len(wanted) - len(lines)
         self._empty.setVisible(not lines or more > 0)
         if more > 0:
-            self._empty.setText(self.tr("And {count} more: choose players or a kind above.").format(count=more))
+            self._empty.setText(self.tr("problem_list.and_more_choose_players_or").format(count=more))
         else:
             self._empty.setText(
-                self.tr("No problems: everything can be played as it is planned.")
+                self.tr("problem_list.no_problems_everything_can_be")
                 if not found
-                else self.tr("None of these. Choose other players or kinds above.")
+                else self.tr("problem_list.none_of_these_choose_other")
             )
 
     def _line(self, player: Player | Dancer, problem: Problem, colour: str, score: Score) -> Line:
@@ -148,23 +148,31 @@ class ProblemList(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._who.setAccessibleName(self.tr("Whose problems"))
-        self._kind.setAccessibleName(self.tr("Problems of which kind"))
+        self._who.setAccessibleName(self.tr("problem_list.whose_problems"))
+        self._kind.setAccessibleName(self.tr("problem_list.problems_of_which_kind"))
         for combo in (self._who, self._kind):
             combo.setToolTip(combo.accessibleName())
         who, kind = self._who.shown or EVERYONE, self._kind.shown or ALL
-        self._who.set_options([Option(EVERYONE, self.tr("All players")), Option(SELECTED, self.tr("Selected players"))])
+        self._who.set_options(
+            [
+                Option(EVERYONE, self.tr("problem_list.all_players")),
+                Option(SELECTED, self.tr("problem_list.selected_players")),
+            ]
+        )
         words = {
-            "fingering": self.tr("Fingerings"),
-            "breath": self.tr("Breaths"),
-            "note": self.tr("Notes"),
-            "correction": self.tr("Corrections"),
-            "contact": self.tr("Contacts"),
-            "dance": self.tr("Dances"),
-            "project": self.tr("Instruments and characters"),
+            "fingering": self.tr("problem_list.fingerings"),
+            "breath": self.tr("problem_list.breaths"),
+            "note": self.tr("problem_list.notes"),
+            "correction": self.tr("problem_list.corrections"),
+            "contact": self.tr("problem_list.contacts"),
+            "dance": self.tr("problem_list.dances"),
+            "project": self.tr("problem_list.instruments_and_characters"),
         }
         self._kind.set_options(
-            [Option(ALL, self.tr("All kinds")), *(Option(name, words[name]) for name in dict.fromkeys(_KINDS.values()))]
+            [
+                Option(ALL, self.tr("problem_list.all_kinds")),
+                *(Option(name, words[name]) for name in dict.fromkeys(_KINDS.values())),
+            ]
         )
         self._who.show_option(who)
         self._kind.show_option(kind)

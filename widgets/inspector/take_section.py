@@ -153,7 +153,7 @@ class TakeSection(QWidget):
         if self._take is None or player is None or recorded is None:
             return False
         take = self._take
-        self._section.header.set_texts(self.tr("Take"), player.name)
+        self._section.header.set_texts(self.tr("take_section.take"), player.name)
         if not self._name.hasFocus() or not self._name.isModified():
             self._name.setText(take.name)
         self._swatch.show_colours((take.colour or self._session.colour(player),))
@@ -167,7 +167,7 @@ class TakeSection(QWidget):
 
     def _about_text(self, take: Take) -> str:
         seconds = (take.end_us - take.start_us) / 1e6
-        lasts = self.tr("{seconds:.1f} s, {count:,} events").format(seconds=seconds, count=len(take.times_us))
+        lasts = self.tr("take_section.s_events").format(seconds=seconds, count=len(take.times_us))
         return " · ".join(text for text in (when_text(take.recorded), take.device, lasts) if text)
 
     def _show_cleaning(self, take: Take, has_score: bool) -> None:
@@ -178,7 +178,7 @@ class TakeSection(QWidget):
         quarters = Fraction(cleaning.grid_quarters).limit_denominator(960)
         options = [Option(str(step), name) for name, step in GRIDS.items()]
         if quarters not in GRIDS.values():
-            options.append(Option(str(quarters), self.tr("{count} quarters").format(count=quarters)))
+            options.append(Option(str(quarters), self.tr("take_section.quarters").format(count=quarters)))
         self._grid.set_options(options)
         self._grid.show_option(str(quarters))
         self._grid.setEnabled(cleaning.quantise > 0.0)
@@ -193,16 +193,16 @@ class TakeSection(QWidget):
         found: Counter[str] = Counter(fault for fault in clean.faults if fault)
         kept = len(clean.faults) - sum(found.values())
         names = {
-            "ghost": self.tr("ghost notes: {count}"),
-            "silent": self.tr("unheard: {count}"),
-            "slip": self.tr("late fingers: {count}"),
-            "double": self.tr("struck twice: {count}"),
+            "ghost": self.tr("take_section.ghost_notes"),
+            "silent": self.tr("take_section.unheard"),
+            "slip": self.tr("take_section.late_fingers"),
+            "double": self.tr("take_section.struck_twice"),
         }
         left_out = [text.format(count=found[fault]) for fault, text in names.items() if fault in found]
         if not left_out:
-            return self.tr("Notes: {count}; nothing is left out.").format(count=kept)
-        faults = self.tr(", ", "between what is left out").join(left_out)
-        return self.tr("Notes: {count}. Left out: {faults}.").format(count=kept, faults=faults)
+            return self.tr("take_section.notes_nothing_is_left_out").format(count=kept)
+        faults = self.tr("take_section.between_what_is_left").join(left_out)
+        return self.tr("take_section.notes_left_out").format(count=kept, faults=faults)
 
     # Edits
 
@@ -242,49 +242,47 @@ class TakeSection(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._name.setAccessibleName(self.tr("Name of the take"))
-        self._swatch.setAccessibleName(self.tr("Colour of the take"))
-        self._swatch.setToolTip(self.tr("Colour of the take"))
-        self._cleaning.header.set_texts(self.tr("Cleaning"))
-        ms, percent = self.tr("ms", "milliseconds"), "%"
+        self._name.setAccessibleName(self.tr("take_section.name_of_take"))
+        self._swatch.setAccessibleName(self.tr("take_section.colour_of_take"))
+        self._swatch.setToolTip(self.tr("take_section.colour_of_take"))
+        self._cleaning.header.set_texts(self.tr("take_section.cleaning"))
+        ms, percent = self.tr("take_section.milliseconds"), "%"
         texts = {
             "ghost_s": (
-                self.tr("Ghost notes shorter than"),
+                self.tr("take_section.ghost_notes_shorter_than"),
                 ms,
-                self.tr("Soft notes shorter than this are left out, and short ones between two of a legato. 0: none"),
+                self.tr("take_section.soft_notes_shorter_than_this"),
             ),
             "ghost_loudness": (
-                self.tr("and softer than"),
+                self.tr("take_section.and_softer_than"),
                 percent,
-                self.tr("Soft: the breath stays below this; without breath the velocity"),
+                self.tr("take_section.soft_breath_stays_below_this"),
             ),
             "double_s": (
-                self.tr("Doubled notes within"),
+                self.tr("take_section.doubled_notes_within"),
                 ms,
-                self.tr("The same note struck again within this time is one note. 0: never"),
+                self.tr("take_section.same_note_struck_again_within"),
             ),
             "overlap_s": (
-                self.tr("Legato overlap at most"),
+                self.tr("take_section.legato_overlap_at_most"),
                 ms,
-                self.tr("A note that sounds longer into the next is cut there"),
+                self.tr("take_section.note_that_sounds_longer_into"),
             ),
-            "quantise": (self.tr("Quantise"), percent, self.tr("How far notes are drawn to the grid")),
+            "quantise": (self.tr("take_section.quantise"), percent, self.tr("take_section.how_far_notes_are_drawn")),
             "align": (
-                self.tr("Draw to the score"),
+                self.tr("take_section.draw_to_score"),
                 percent,
-                self.tr("How far notes are drawn to those of the part from before the first take, by pitch and time"),
+                self.tr("take_section.how_far_notes_are_drawn_to_those_of"),
             ),
         }
         for field, (label, unit, tip) in texts.items():
             self._sliders[field].set_texts(label, unit, tip)
-        self._grid.setAccessibleName(self.tr("Grid of the quantising"))
-        self._grid.setToolTip(self.tr("Grid of the quantising"))
-        self._usual.setText(self.tr("As Usual"))
-        self._usual.setToolTip(self.tr("Clean this take as every take is cleaned at first"))
-        self._beats.setText(self.tr("Find the Beats"))
-        self._beats.setToolTip(
-            self.tr("For a take without a click: the piece gets the tempo it was played in. Nobody else may have notes")
-        )
+        self._grid.setAccessibleName(self.tr("take_section.grid_of_quantising"))
+        self._grid.setToolTip(self.tr("take_section.grid_of_quantising"))
+        self._usual.setText(self.tr("take_section.as_usual"))
+        self._usual.setToolTip(self.tr("take_section.clean_this_take_as_every"))
+        self._beats.setText(self.tr("take_section.find_beats"))
+        self._beats.setToolTip(self.tr("take_section.for_take_without_click_piece"))
         self.show_take()
 
     # Qt's own names

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication
-
 from app.plan.corrections import (
     AddExpression,
     AddGesture,
@@ -23,6 +21,7 @@ from app.plan.model import FingeringEvent as Fingered
 from app.project.edit.events import Placed
 from app.score.model import Score
 from widgets.common.event_names import expression_name, kind_name, pose_name
+from widgets.common.translated import tr
 
 
 def amount_field(event: Placed) -> str | None:
@@ -37,11 +36,9 @@ def amount_field(event: Placed) -> str | None:
 def event_title(event: Event) -> str:
     """What an event is."""
     if isinstance(event, ExpressionEvent):
-        return QCoreApplication.translate("Inspector", "Expression: {name}").format(
-            name=expression_name(event.expression)
-        )
+        return tr("inspector.expression").format(name=expression_name(event.expression))
     if isinstance(event, PoseEvent):
-        return QCoreApplication.translate("Inspector", "Pose: {name}").format(name=pose_name(event.target))
+        return tr("inspector.pose").format(name=pose_name(event.target))
     return kind_name(event.id.split(":")[0])
 
 
@@ -55,7 +52,7 @@ def event_text(score: Score, event: Event | None) -> str:
         case EmbouchureEvent():
             return " ".join(f"{value:.2f}" for value in (event.tension, event.effort, event.air))
         case CueEvent():
-            return QCoreApplication.translate("Inspector", "entry {place}, beat {seconds} s").format(
+            return tr("inspector.entry_beat_s").format(
                 place=score.metre_map.label(event.end_tick), seconds=f"{event.beat_s:.2f}"
             )
         case BreathEvent() | GestureEvent() | ExpressionEvent() | PoseEvent():
@@ -74,9 +71,9 @@ def event_text(score: Score, event: Event | None) -> str:
 def embouchure_text(correction: SetEmbouchure, event: Event) -> str:
     """The values of an embouchure that were set by hand."""
     names = {
-        "tension": QCoreApplication.translate("Inspector", "tension"),
-        "effort": QCoreApplication.translate("Inspector", "effort"),
-        "air": QCoreApplication.translate("Inspector", "air"),
+        "tension": tr("inspector.tension"),
+        "effort": tr("inspector.effort"),
+        "air": tr("inspector.air"),
     }
     return ", ".join(
         f"{word} {getattr(event, name):.2f}" for name, word in names.items() if getattr(correction, name) is not None
@@ -87,17 +84,15 @@ def correction_title(item: Correction) -> str:
     """What was done by hand."""
     match item:
         case PinFingering():
-            return QCoreApplication.translate("Inspector", "Fingering {label}").format(label=item.label)
+            return tr("inspector.fingering").format(label=item.label)
         case RemoveEvent():
-            return QCoreApplication.translate("Inspector", "{what} removed").format(
-                what=kind_name(item.event_id.split(":")[0])
-            )
+            return tr("inspector.removed").format(what=kind_name(item.event_id.split(":")[0]))
         case SetBreath():
             return kind_name(item.kind)
         case SetCue():
             return kind_name("cue")
         case SetEmbouchure():
-            return QCoreApplication.translate("Inspector", "Embouchure")
+            return tr("inspector.embouchure")
         case ChangeGesture():
             return kind_name(item.event_id.split(":")[0])
         case AddGesture():
@@ -111,4 +106,4 @@ def correction_title(item: Correction) -> str:
         case Vary():
             return kind_name("vary")
         case PoseCorrection():
-            return QCoreApplication.translate("Inspector", "Pose: {name}").format(name=pose_name(item.target))
+            return tr("inspector.pose").format(name=pose_name(item.target))

@@ -81,11 +81,11 @@ class BodyDanceRows(QWidget):
     def show_players(self, players: Sequence[Player]) -> None:
         """Show what these players dance, of whom there is at least one."""
         dances = list(dict.fromkeys(player.parameters.choreography for player in players))
-        options = [Option(_GENERATED, self.tr("Generated"))]
+        options = [Option(_GENERATED, self.tr("body_dance_rows.generated"))]
         options += [Option(name, name) for name in bundled_choreographies()]
         known = {option.id for option in options}
         options += [Option(path, shown(Path(path).stem)) for path in dances if path not in known]
-        self._choreography.set_options([*options, Option(_FROM_FILE, self.tr("From File …"))])
+        self._choreography.set_options([*options, Option(_FROM_FILE, self.tr("body_dance_rows.from_file"))])
         self._show_choreography(dances)
         for widget in (*self._sliders.values(), self._dice):
             widget.setVisible(any(dances))
@@ -106,9 +106,9 @@ class BodyDanceRows(QWidget):
         choreography: str | os.PathLike[str] | None = id
         if id == _FROM_FILE:
             source = self._session.project.source
-            kind = self.tr("Choreographies")
+            kind = self.tr("body_dance_rows.choreographies")
             start = Path(source).parent if source else None
-            choreography = ask_for_file(self, self.tr("Choreography"), start, f"{kind} (*{SUFFIX})")
+            choreography = ask_for_file(self, self.tr("body_dance_rows.choreography"), start, f"{kind} (*{SUFFIX})")
         chosen = self._session.players
         if choreography is not None:
             self._edit(_DANCED.name, lambda project: edit.set_body_dance(project, chosen, choreography))
@@ -140,7 +140,7 @@ class BodyDanceRows(QWidget):
     def retranslate(self) -> None:
         """Set every text in the language of the editor; what is shown of players follows with `show_players`."""
         self._label.setText(parameter_text(_DANCED.label))
-        self._dice.setToolTip(self.tr("Another dance for each"))
+        self._dice.setToolTip(self.tr("body_dance_rows.another_dance_for_each"))
         for slider in self._sliders.values():
             slider.retranslate()
 

@@ -170,6 +170,6 @@ class _RowDelegate(QStyledItemDelegate):
         lines = [str(index.data())]
         count = int(index.data(_PROBLEMS) or 0)
         if count:
-            lines.append(self.tr("Problems: {count}").format(count=count))
+            lines.append(self.tr("row_delegate.problems").format(count=count))
         QToolTip.showText(event.globalPos(), "\n".join(lines), view)
         return True

@@ -173,7 +173,7 @@ class DancersSection(QWidget):
     def _show(self) -> None:
         dancers = self._session.project.dancers
         self._show_list()
-        self._section.header.set_texts(self.tr("Dancers"), str(len(dancers)) if dancers else "")
+        self._section.header.set_texts(self.tr("dancers_section.dancers"), str(len(dancers)) if dancers else "")
         self._show_form()
 
     def _show_list(self) -> None:
@@ -193,15 +193,15 @@ class DancersSection(QWidget):
         options = [Option(name, name) for name in bundled_choreographies()]
         if dancer.choreography not in {option.id for option in options}:
             options.append(Option(dancer.choreography, shown(Path(dancer.choreography).stem)))
-        more = [Option(_FROM_FILE, self.tr("From File …"))]
+        more = [Option(_FROM_FILE, self.tr("dancers_section.from_file"))]
         if "dancers.learn" in self._session.actions:
-            more.append(Option(_LEARN, self.tr("Learn …")))
+            more.append(Option(_LEARN, self.tr("dancers_section.learn")))
         self._choreography.set_options([*options, *more])
         self._choreography.show_option(dancer.choreography)
         self._choreography.setToolTip(shown(dancer.choreography))
         self._character.set_options([Option(id, character_name(id)) for id in characters()])
         self._character.show_option(dancer.character_id)
-        self._source.set_options([Option("-1", self.tr("None")), *self._sources(dancer)])
+        self._source.set_options([Option("-1", self.tr("dancers_section.none")), *self._sources(dancer)])
         self._source.show_option(str(dancer.source))
         self._mirrored.setChecked(dancer.mirrored)
         for name, number in self._numbers.items():
@@ -234,7 +234,7 @@ class DancersSection(QWidget):
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         for name in bundled_choreographies():
             menu.addAction(verbatim(name)).triggered.connect(lambda _=False, name=name: self.add(name))
-        menu.addAction(self.tr("From File …")).triggered.connect(self._add_from_file)
+        menu.addAction(self.tr("dancers_section.from_file")).triggered.connect(self._add_from_file)
         learn = self._session.actions.get("dancers.learn")
         if learn is not None:
             menu.addAction(learn)
@@ -243,7 +243,7 @@ class DancersSection(QWidget):
 
     def add(self, choreography: str) -> None:
         """Add a dancer of a choreography; it is selected then."""
-        add_dancer(self._session, choreography, self.tr("Dancer"))
+        add_dancer(self._session, choreography, self.tr("dancers_section.dancer"))
 
     def _add_from_file(self) -> None:
         path = self._ask_for_choreography()
@@ -253,8 +253,8 @@ class DancersSection(QWidget):
     def _ask_for_choreography(self) -> Path | None:
         source = self._session.project.source
         start = Path(source).parent if source else None
-        kind = self.tr("Choreographies")
-        return ask_for_file(self, self.tr("Choreography"), start, f"{kind} (*{SUFFIX})")
+        kind = self.tr("dancers_section.choreographies")
+        return ask_for_file(self, self.tr("dancers_section.choreography"), start, f"{kind} (*{SUFFIX})")
 
     def _choose_choreography(self, id: str) -> None:
         dancer = self.dancer
@@ -334,22 +334,22 @@ class DancersSection(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._tools["add"].setToolTip(self.tr("Add a dancer"))
-        self._tools["duplicate"].setToolTip(self.tr("Duplicate: another one dances the same"))
-        self._tools["remove"].setToolTip(self.tr("Remove the selected dancer"))
-        self.list.setAccessibleName(self.tr("Dancers"))
+        self._tools["add"].setToolTip(self.tr("dancers_section.add_dancer"))
+        self._tools["duplicate"].setToolTip(self.tr("dancers_section.duplicate_another_one_dances_same"))
+        self._tools["remove"].setToolTip(self.tr("dancers_section.remove_selected_dancer"))
+        self.list.setAccessibleName(self.tr("dancers_section.dancers"))
         texts = {
-            "choreography": self.tr("Choreography"),
-            "character": self.tr("Character"),
+            "choreography": self.tr("dancers_section.choreography"),
+            "character": self.tr("dancers_section.character"),
             "source": parameter_text(_SOURCE.label),
         }
         for name, text in texts.items():
             self._labels[name].setText(text)
         self._source.setToolTip(parameter_text(_SOURCE.tip))
-        self._mirrored.setText(self.tr("Mirrored"))
-        self._mirrored.setToolTip(self.tr("Left and right exchanged"))
-        self._look.setToolTip(self.tr("Show what the choreography has learned"))
-        self._dice.setToolTip(self.tr("Another dance to the same music"))
+        self._mirrored.setText(self.tr("dancers_section.mirrored"))
+        self._mirrored.setToolTip(self.tr("dancers_section.left_and_right_exchanged"))
+        self._look.setToolTip(self.tr("dancers_section.show_what_choreography_has_learned"))
+        self._dice.setToolTip(self.tr("dancers_section.another_dance_to_same_music"))
         name_places(self._places)
         for number in self._numbers.values():
             number.retranslate()

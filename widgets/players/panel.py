@@ -213,7 +213,7 @@ class PlayersPanel(QWidget):
             played = instrument_name(instrument) if instrument is not None else player.instrument_id
             person = project.person(player)
             if person is not player:
-                played = self.tr("{instrument}, played by {name}").format(instrument=played, name=person.name)
+                played = self.tr("players_panel.played_by").format(instrument=played, name=person.name)
             rows.append(
                 Row(
                     player,
@@ -233,16 +233,16 @@ class PlayersPanel(QWidget):
         chosen, everyone = self._session.players, self._session.project.players
         persons = len(self._session.project.bodies)
         self._count.setText(
-            self.tr("{chosen} of {count} selected").format(chosen=len(chosen), count=len(everyone))
+            self.tr("players_panel.of_selected").format(chosen=len(chosen), count=len(everyone))
             if len(chosen) > 1
-            else self.tr("Players: {count}").format(count=persons)
+            else self.tr("players_panel.players").format(count=persons)
         )
         for name in ("duplicate", "remove"):
             self._tools[name].setEnabled(bool(chosen))
         self._throw.setEnabled(bool(everyone))
         self._reset.setEnabled(bool(chosen))
-        whom = self.tr("selected players") if len(chosen) > 1 else self.tr("all players")
-        self._variety.header.set_texts(self.tr("Variety"), whom)
+        whom = self.tr("players_panel.selected_players") if len(chosen) > 1 else self.tr("players_panel.all_players")
+        self._variety.header.set_texts(self.tr("players_panel.variety"), whom)
 
     def _show_dancers(self) -> None:
         """Scroll to what the selected dancer dances, once the section has its new height."""
@@ -341,23 +341,19 @@ class PlayersPanel(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._tools["add"].setToolTip(self.tr("Add a player"))
-        self._tools["duplicate"].setToolTip(self.tr("Duplicate: somebody else plays the same, from a copy of the part"))
-        self._tools["remove"].setToolTip(self.tr("Remove the selected players"))
-        self._empty.setText(self.tr("Nobody plays yet. Add a player with ＋, or drag a MIDI file onto the window."))
+        self._tools["add"].setToolTip(self.tr("players_panel.add_player"))
+        self._tools["duplicate"].setToolTip(self.tr("players_panel.duplicate_somebody_else_plays_same"))
+        self._tools["remove"].setToolTip(self.tr("players_panel.remove_selected_players"))
+        self._empty.setText(self.tr("players_panel.nobody_plays_yet_add_player"))
         self._spread.set_texts(
-            self.tr("Spread"),
+            self.tr("players_panel.spread"),
             "",
-            self.tr("How far apart the players become: 0 all the same, 1 as different as is sensible"),
+            self.tr("players_panel.how_far_apart_players_become"),
         )
-        self._throw.setText(self.tr("Randomise"))
-        self._throw.setToolTip(
-            self.tr(
-                "Amplitude, sway, weight shift, bell height, lungs, embouchure and seed by chance, around their average"
-            )
-        )
-        self._reset.setText(self.tr("Reset"))
-        self._reset.setToolTip(self.tr("Return all parameters of the selected players to what they were cast with"))
+        self._throw.setText(self.tr("players_panel.randomise"))
+        self._throw.setToolTip(self.tr("players_panel.amplitude_sway_weight_shift_bell"))
+        self._reset.setText(self.tr("players_panel.reset"))
+        self._reset.setToolTip(self.tr("players_panel.return_all_parameters_of_selected"))
         self._spread.show_value(self._session.variety)
         self._show_all()
 

@@ -169,8 +169,8 @@ class ParameterSections(QWidget):
         """Offer what all instruments are played in, and say of the others why not."""
         posture, options = self._choices[_POSTURE], []
         reasons = {
-            "standing": self.tr("Played seated only: {players}"),
-            "seated": self.tr("Played standing only: {players}"),
+            "standing": self.tr("parameter_sections.played_seated_only"),
+            "seated": self.tr("parameter_sections.played_standing_only"),
         }
         for id, word in posture.parameter.choices:
             barred = [
@@ -257,21 +257,26 @@ class ParameterSections(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        titles = (self.tr("Motion"), self.tr("Breath"), self.tr("Face"), self.tr("Player"))
+        titles = (
+            self.tr("parameter_sections.motion"),
+            self.tr("parameter_sections.breath"),
+            self.tr("parameter_sections.face"),
+            self.tr("parameter_sections.player"),
+        )
         for section, title in zip(self._sections.values(), titles, strict=True):
             section.header.set_texts(title)
         texts = {
-            "part": self.tr("Part"),
-            "instrument": self.tr("Instrument"),
-            "character": self.tr("Character"),
-            "colour": self.tr("Colour"),
+            "part": self.tr("parameter_sections.part"),
+            "instrument": self.tr("parameter_sections.instrument"),
+            "character": self.tr("parameter_sections.character"),
+            "colour": self.tr("parameter_sections.colour"),
         }
         for name, text in texts.items():
             self._labels[name].setText(text)
         self._show_instruments()
         self._show_characters()
-        self._colour.setToolTip(self.tr("Colour of the player in the timeline and on the stage"))
-        self._dice.setToolTip(self.tr("Another seed for each"))
+        self._colour.setToolTip(self.tr("parameter_sections.colour_of_player_in_timeline"))
+        self._dice.setToolTip(self.tr("parameter_sections.another_seed_for_each"))
         for slider in self._sliders.values():
             slider.retranslate()
         for choice in self._choices.values():

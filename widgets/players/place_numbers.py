@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import msgspec
-from PySide6.QtCore import QCoreApplication
 
 from app.project.casting import StagePosition
 from widgets.common.number_slider import NumberSlider
 from widgets.common.session import Session
+from widgets.common.translated import tr
 from widgets.players.stage import FARTHEST_M
 
 
@@ -27,24 +27,22 @@ def place_sliders(session: Session, prefix: str) -> dict[str, NumberSlider]:
 
 def name_places(sliders: dict[str, NumberSlider]) -> None:
     """Set their words in the language of the editor."""
-    metres = QCoreApplication.translate("Place", "m", "metres")
+    metres = tr("place.metres")
     words = {
         "x_m": (
-            QCoreApplication.translate("Place", "X"),
+            tr("place.x"),
             metres,
-            QCoreApplication.translate("Place", "To the right as the audience sees it, from the middle"),
+            tr("place.to_right_as_audience_sees"),
         ),
         "z_m": (
-            QCoreApplication.translate("Place", "Z"),
+            tr("place.z"),
             metres,
-            QCoreApplication.translate("Place", "Towards the audience, from the middle"),
+            tr("place.towards_audience_from_middle"),
         ),
         "turn_rad": (
-            QCoreApplication.translate("Place", "Turn"),
+            tr("place.turn"),
             "°",
-            QCoreApplication.translate(
-                "Place", "0 faces the audience, positive turns to the right as the audience sees it"
-            ),
+            tr("place.0_faces_audience_positive_turns"),
         ),
     }
     for name, (label, unit, tip) in words.items():

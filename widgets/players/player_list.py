@@ -228,7 +228,7 @@ class _RowDelegate(QStyledItemDelegate):
         dim = tokens.text if in_front else tokens.text_dim
         painter.setPen(QColor(tokens.warning if row.unseen else dim))
         lower = QRect(room.left(), room.top() + half, right - room.left(), room.height() - half)
-        text = self.tr("Cannot be seen") if row.unseen else row.instrument
+        text = self.tr("row_delegate.cannot_be_seen") if row.unseen else row.instrument
         text = QFontMetricsF(small).elidedText(text, Qt.TextElideMode.ElideRight, lower.width())
         painter.drawText(lower, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
 
@@ -272,22 +272,22 @@ class _RowDelegate(QStyledItemDelegate):
         row: Row = index.data(_ROW)
         mute, solo = self.buttons(option.rect)
         if mute.contains(event.pos()):
-            text = self.tr("Mute: not heard, but still seen and exported")
+            text = self.tr("row_delegate.mute_not_heard_but_still")
         elif solo.contains(event.pos()):
-            text = self.tr("Solo: only these are heard")
+            text = self.tr("row_delegate.solo_only_these_are_heard")
         elif self.arm_button(option.rect).contains(event.pos()):
             armed = self._session.recording.armed == row.player.id
-            text = self.tr("Is recorded, whoever is in front. Click: whoever is in front then")
+            text = self.tr("row_delegate.is_recorded_whoever_is_in")
             if not armed:
-                text = self.tr("Record this player, whoever is in front")
+                text = self.tr("row_delegate.record_this_player_whoever_is")
         else:
             lines = [row.player.name, row.instrument]
             if row.leads:
-                lines.append(self.tr("Gives the entries"))
+                lines.append(self.tr("row_delegate.gives_entries"))
             if row.unseen:
                 lines.append(row.unseen)
             if row.problems:
-                lines.append(self.tr("Problems: {count}").format(count=row.problems))
+                lines.append(self.tr("row_delegate.problems").format(count=row.problems))
             text = "\n".join(lines)
         QToolTip.showText(event.globalPos(), text, view)
         return True

@@ -114,12 +114,12 @@ class PresetSection(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._section.header.set_texts(self.tr("Presets"))
-        self._choice.setPlaceholderText(self.tr("No presets yet"))
-        self._name.setPlaceholderText(self.tr("Name for a new preset"))
-        self._tools["apply"].setToolTip(self.tr("Apply to the selected players"))
-        self._tools["save"].setToolTip(self.tr("Save the parameters of the player in front; the same name replaces"))
-        self._tools["delete"].setToolTip(self.tr("Delete this preset from your folder"))
+        self._section.header.set_texts(self.tr("preset_section.presets"))
+        self._choice.setPlaceholderText(self.tr("preset_section.no_presets_yet"))
+        self._name.setPlaceholderText(self.tr("preset_section.name_for_new_preset"))
+        self._tools["apply"].setToolTip(self.tr("preset_section.apply_to_selected_players"))
+        self._tools["save"].setToolTip(self.tr("preset_section.save_parameters_of_player_in"))
+        self._tools["delete"].setToolTip(self.tr("preset_section.delete_this_preset_from_your"))
         self._show_buttons()
 
     # Qt's own names

@@ -201,11 +201,11 @@ class StageView(QWidget):
         band = QRectF(0, self.height() - self._audience_px(), self.width(), self._audience_px())
         painter.fillRect(band, QColor(tokens.surface))
         painter.setPen(QColor(tokens.text_dim))
-        painter.drawText(band, Qt.AlignmentFlag.AlignCenter, self.tr("▾ Audience"))
+        painter.drawText(band, Qt.AlignmentFlag.AlignCenter, self.tr("stage_view.audience"))
         painter.drawText(
             band.adjusted(6, 0, -6, 0),
             Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter,
-            self.tr("grid {step} m").format(step=f"{step:g}"),
+            self.tr("stage_view.grid_m").format(step=f"{step:g}"),
         )
 
     def _paint_performer(self, painter: QPainter, number: int, player: Player | Dancer) -> None:

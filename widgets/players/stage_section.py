@@ -94,10 +94,10 @@ class StageSection(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._section.header.set_texts(self.tr("Stage"))
-        self._snap.setToolTip(self.tr("Snap to 0.1 m and 5° (Alt: the other way round)"))
-        self._arc.setToolTip(self.tr("Automatic arc: everyone in order, open to the audience"))
-        self.view.setAccessibleName(self.tr("Stage from above"))
+        self._section.header.set_texts(self.tr("stage_section.stage"))
+        self._snap.setToolTip(self.tr("stage_section.snap_to_0_1_m"))
+        self._arc.setToolTip(self.tr("stage_section.automatic_arc_everyone_in_order"))
+        self.view.setAccessibleName(self.tr("stage_section.stage_from_above"))
         name_places(self._numbers)
         self.view.update()
 

@@ -155,7 +155,7 @@ class Flags(Pictured):
     def tip(self, flag: Flag) -> str:
         """All of a flag's text, and its bar."""
         bar = self.session.project.score.metre_map.bar_of_tick(flag.tick)
-        where = self.tr("Bar {bar}").format(bar=bar)
+        where = self.tr("flags.bar").format(bar=bar)
         return f"{flag.text}\n{where}"
 
     def event(self, event: QEvent) -> bool:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication, QSize, Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from widgets.common.plain import Label
 from widgets.common.tokens import Tokens
+from widgets.common.translated import tr
 
 GUTTER_PX = 144
 """Width of the header of every lane."""
@@ -47,7 +48,7 @@ class LaneHeader(QWidget):
 
     def name_fold(self, folded: bool) -> None:
         """Say what the button does."""
-        text = QCoreApplication.translate("Lane", "Unfold") if folded else QCoreApplication.translate("Lane", "Fold")
+        text = tr("lane.unfold") if folded else tr("lane.fold")
         self.fold_button.setToolTip(text)
         self.fold_button.setAccessibleName(text)
 

@@ -172,12 +172,12 @@ class TimelinePanel(QWidget):
 
     def retranslate(self) -> None:
         """Set every text anew."""
-        self.lanes_button.setText(self.tr("Lanes"))
-        self.lanes_button.setToolTip(self.tr("Which lanes are shown, and in which order"))
+        self.lanes_button.setText(self.tr("timeline_panel.lanes"))
+        self.lanes_button.setToolTip(self.tr("timeline_panel.which_lanes_are_shown_and"))
         for name, text in (
-            ("zoom_out", self.tr("Zoom out (Ctrl+wheel)")),
-            ("zoom_in", self.tr("Zoom in (Ctrl+wheel)")),
-            ("fit", self.tr("Show the whole piece (double-click the ruler)")),
+            ("zoom_out", self.tr("timeline_panel.zoom_out_ctrl_wheel")),
+            ("zoom_in", self.tr("timeline_panel.zoom_in_ctrl_wheel")),
+            ("fit", self.tr("timeline_panel.show_whole_piece_double_click")),
         ):
             self.zoom_buttons[name].setToolTip(text)
             self.zoom_buttons[name].setAccessibleName(text)
@@ -277,8 +277,10 @@ class TimelinePanel(QWidget):
             action.setChecked(not lane.isHidden())
             action.toggled.connect(lane.setVisible)
         self._lanes_menu.addSeparator()
-        self._lanes_menu.addAction(self.tr("Unfold All")).triggered.connect(lambda: self._fold_all(False))
-        self._lanes_menu.addAction(self.tr("Fold All")).triggered.connect(lambda: self._fold_all(True))
+        self._lanes_menu.addAction(self.tr("timeline_panel.unfold_all")).triggered.connect(
+            lambda: self._fold_all(False)
+        )
+        self._lanes_menu.addAction(self.tr("timeline_panel.fold_all")).triggered.connect(lambda: self._fold_all(True))
 
     def _fold_all(self, folded: bool) -> None:
         for lane in self.lanes.values():
@@ -292,16 +294,16 @@ class TimelinePanel(QWidget):
         at, last = self.stack.lanes.index(lane), len(self.stack.lanes) - 1
         menu = QMenu(self)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        up = menu.addAction(self.tr("Move Up"))
+        up = menu.addAction(self.tr("timeline_panel.move_up"))
         up.setEnabled(at > 0)
         up.triggered.connect(lambda: self.stack.shift(lane, -1))
-        down = menu.addAction(self.tr("Move Down"))
+        down = menu.addAction(self.tr("timeline_panel.move_down"))
         down.setEnabled(at < last)
         down.triggered.connect(lambda: self.stack.shift(lane, 1))
         menu.addSeparator()
-        fold = menu.addAction(self.tr("Unfold") if lane.folded else self.tr("Fold"))
+        fold = menu.addAction(self.tr("timeline_panel.unfold") if lane.folded else self.tr("timeline_panel.fold"))
         fold.triggered.connect(lambda: lane.set_folded(not lane.folded))
-        menu.addAction(self.tr("Hide")).triggered.connect(lane.hide)
+        menu.addAction(self.tr("timeline_panel.hide")).triggered.connect(lane.hide)
         menu.popup(header.mapToGlobal(place))
 
     # Time

@@ -78,11 +78,11 @@ class QuantisePopover(QFrame):
 
     def retranslate(self) -> None:
         """Set every text anew."""
-        self.grid_label.setText(self.tr("Grid"))
-        self.strength.set_texts(self.tr("Strength"), "%")
-        self.onsets.setText(self.tr("Beginnings"))
-        self.ends.setText(self.tr("Ends"))
-        self.keep_button.setText(self.tr("Quantise"))
+        self.grid_label.setText(self.tr("quantise_popover.grid"))
+        self.strength.set_texts(self.tr("quantise_popover.strength"), "%")
+        self.onsets.setText(self.tr("quantise_popover.beginnings"))
+        self.ends.setText(self.tr("quantise_popover.ends"))
+        self.keep_button.setText(self.tr("quantise_popover.quantise"))
 
     def open_over(self, widget: QWidget) -> None:
         """Open in the middle of a widget, with the grid that edits snap to."""

@@ -124,10 +124,10 @@ class PianoRoll(Lane):
         """What to do where nothing is yet; empty where there are notes."""
         front = self.model.front()
         if front is None:
-            return self.tr("Nobody plays yet: open a MIDI file, or add a player.")
+            return self.tr("piano_roll.nobody_plays_yet_open_midi")
         if len(front[0]):
             return ""
-        return self.tr("No notes yet: take the pencil and draw, double-click, or paste.")
+        return self.tr("piano_roll.no_notes_yet_take_pencil")
 
     @property
     def playable(self) -> tuple[int, int] | None:
@@ -193,7 +193,7 @@ class PianoRoll(Lane):
 
     def pitch_tip(self, pitch: int) -> str:
         """What the keyboard says about a key."""
-        return self.tr("{pitch}: click to select all its notes").format(pitch=self.pitch_text(pitch))
+        return self.tr("piano_roll.click_to_select_all_its").format(pitch=self.pitch_text(pitch))
 
     def select_pitch(self, pitch: int, add: bool) -> None:
         """Select every note of a pitch in the part in front."""
@@ -352,7 +352,7 @@ class PianoRoll(Lane):
         note = self.model.note(note_id)
         if note is not None:
             self._velocity = note.velocity
-            QToolTip.showText(QCursor.pos(), self.tr("Velocity {velocity}").format(velocity=note.velocity), self.plot)
+            QToolTip.showText(QCursor.pos(), self.tr("piano_roll.velocity").format(velocity=note.velocity), self.plot)
 
     def _tell(self, mouse: LaneMouse, note: Note | None) -> None:
         """Say what is under the mouse: place and pitch, or the note; problems of a note as a tool tip."""
@@ -361,10 +361,10 @@ class PianoRoll(Lane):
         bar = score.metre_map.bar_of_tick(int(tick // 1))
         beat = beat_of_tick(score, tick)
         pitch = self.pitch_text(int(mouse.value // 1))
-        text = self.tr("{pitch} · bar {bar}, beat {beat}").format(pitch=pitch, bar=bar, beat=beat)
+        text = self.tr("piano_roll.bar_beat").format(pitch=pitch, bar=bar, beat=beat)
         problems = ""
         if note is not None:
-            text += self.tr(" · velocity {velocity}").format(velocity=note.velocity)
+            text += self.tr("piano_roll.velocity_2").format(velocity=note.velocity)
             player = self.session.player
             known = self.session.problems(player.id) if player is not None else ()
             found = [problem for problem in known if problem.note_id == note.id]
@@ -403,8 +403,8 @@ class PianoRoll(Lane):
         self.keyboard.update()
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("Notes"))
-        self.title.setToolTip(self.tr("Notes of the player in front; the others behind"))
+        self.title.setText(self.tr("piano_roll.notes"))
+        self.title.setToolTip(self.tr("piano_roll.notes_of_player_in_front"))
         self.keyboard.update()
 
     def _redraw(self, item: LaneItem) -> None:

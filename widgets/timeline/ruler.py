@@ -253,22 +253,28 @@ class Ruler(Pictured):
         menu = QMenu(self)
         mark = self._mark_at(place)
         if mark is not None:
-            change = menu.addAction(self.tr("Change Tempo") if mark.kind == "tempo" else self.tr("Change Metre"))
+            change = menu.addAction(
+                self.tr("ruler.change_tempo") if mark.kind == "tempo" else self.tr("ruler.change_metre")
+            )
             change.triggered.connect(lambda: self.edit_mark(mark.kind, mark.tick))
-            remove = menu.addAction(self.tr("Remove Tempo") if mark.kind == "tempo" else self.tr("Remove Metre"))
+            remove = menu.addAction(
+                self.tr("ruler.remove_tempo") if mark.kind == "tempo" else self.tr("ruler.remove_metre")
+            )
             remove.setEnabled(mark.tick > 0)
             remove.triggered.connect(lambda: self._remove(mark.kind, mark.tick))
             menu.addSeparator()
         score = self.session.project.score
         tick = max(self.session.grid.snap(score, score.tempo_map.ticks(self.axis.seconds(place.x() - GUTTER_PX))), 0)
         bar_tick = max(score.metre_map.tick_of_bar(score.metre_map.bar_of_tick(tick)), 0)
-        menu.addAction(self.tr("Add Tempo Here")).triggered.connect(lambda: self.edit_mark("tempo", tick))
-        menu.addAction(self.tr("Add Metre at This Bar")).triggered.connect(lambda: self.edit_mark("metre", bar_tick))
+        menu.addAction(self.tr("ruler.add_tempo_here")).triggered.connect(lambda: self.edit_mark("tempo", tick))
+        menu.addAction(self.tr("ruler.add_metre_at_this_bar")).triggered.connect(
+            lambda: self.edit_mark("metre", bar_tick)
+        )
         felt = [action for id, action in self.session.actions.items() if id.startswith("beat.")]
         if felt:
-            menu.addMenu(self.tr("Felt Beat")).addActions(felt)
+            menu.addMenu(self.tr("ruler.felt_beat")).addActions(felt)
         menu.addSeparator()
-        menu.addAction(self.tr("Select This Bar")).triggered.connect(lambda: self._select_bar(tick))
+        menu.addAction(self.tr("ruler.select_this_bar")).triggered.connect(lambda: self._select_bar(tick))
         for id in ("play.loop", "notes.select_span", "timeline.zoom_selection", "timeline.fit"):
             action = self.session.actions.get(id)
             if action is not None:
@@ -318,9 +324,13 @@ class Ruler(Pictured):
         if held in ("punch_start", "punch_end"):
             recording = session.recording
             return HoldEdge(
-                mouse, far, at_start,
-                lambda: recording.punch_ticks, lambda span: recording.set(punch_ticks=span), lambda tick: max(tick, 0),
-            )  # fmt: skip
+                mouse,
+                far,
+                at_start,
+                lambda: recording.punch_ticks,
+                lambda span: recording.set(punch_ticks=span),
+                lambda tick: max(tick, 0),
+            )
         return Seek(session, mouse, far, self._tick_at) if held else None
 
     def _refuse_first(self) -> None:

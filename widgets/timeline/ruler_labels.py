@@ -58,9 +58,9 @@ class MarkEditor(QLineEdit):
         self._mark = (kind, tick)
         self.setText(text)
         self.setToolTip(
-            self.tr("Tempo in quarters per minute; Enter takes it, Escape leaves it")
+            self.tr("mark_editor.tempo_in_quarters_per_minute")
             if kind == "tempo"
-            else self.tr("Metre, e.g. 6/8; Enter takes it, Escape leaves it")
+            else self.tr("mark_editor.metre_e_g_6_8")
         )
         self.setGeometry(int(min(left_px, self._ruler.width() - FIELD_PX - 4)), 0, FIELD_PX, height_px)
         self.show()

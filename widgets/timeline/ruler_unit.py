@@ -41,13 +41,13 @@ class UnitButton(QToolButton):
     def retranslate(self) -> None:
         """Set every text anew."""
         texts: dict[TimeDisplay, str] = {
-            "bars": self.tr("Bars"),
-            "seconds": self.tr("Seconds"),
-            "frames": self.tr("Frames"),
+            "bars": self.tr("unit_button.bars"),
+            "seconds": self.tr("unit_button.seconds"),
+            "frames": self.tr("unit_button.frames"),
         }
         for display, action in self._units.items():
             action.setText(texts[display])
-        self.setToolTip(self.tr("What the ruler counts"))
+        self.setToolTip(self.tr("unit_button.what_ruler_counts"))
         self._show_unit()
 
     def _show_unit(self) -> None:

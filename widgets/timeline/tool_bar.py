@@ -93,10 +93,10 @@ class ToolBar(QWidget):
     def retranslate(self) -> None:
         """Set every text anew."""
         tips = {
-            Tool.SELECT: self.tr("Select: click, drag a frame, drag notes and their ends"),
-            Tool.DRAW: self.tr("Draw: drag out a new note"),
-            Tool.ERASE: self.tr("Erase: drag over notes"),
-            Tool.SPLIT: self.tr("Split: click where the note shall be cut"),
+            Tool.SELECT: self.tr("tool_bar.select_click_drag_frame_drag"),
+            Tool.DRAW: self.tr("tool_bar.draw_drag_out_new_note"),
+            Tool.ERASE: self.tr("tool_bar.erase_drag_over_notes"),
+            Tool.SPLIT: self.tr("tool_bar.split_click_where_note_shall"),
         }
         for tool, button in self.tools.items():
             action = self._session.actions.get(f"notes.tool_{tool.value}")
@@ -104,14 +104,14 @@ class ToolBar(QWidget):
             button.setToolTip(f"{tips[tool]} ({keys})" if keys else tips[tool])
             button.setAccessibleName(tips[tool])
         texts = {
-            Ghosts.GHOSTS: self.tr("Others as Ghosts"),
-            Ghosts.ALL: self.tr("All Players"),
-            Ghosts.ALONE: self.tr("Only This Player"),
+            Ghosts.GHOSTS: self.tr("tool_bar.others_as_ghosts"),
+            Ghosts.ALL: self.tr("tool_bar.all_players"),
+            Ghosts.ALONE: self.tr("tool_bar.only_this_player"),
         }
         for mode, action in self._modes.items():
             action.setText(texts[mode])
-        self.ghosts_button.setToolTip(self.tr("How the other players' notes are seen"))
-        self.player_box.setToolTip(self.tr("The player in front"))
+        self.ghosts_button.setToolTip(self.tr("tool_bar.how_other_players_notes_are"))
+        self.player_box.setToolTip(self.tr("tool_bar.player_in_front"))
         self._fill_players()
         self.show_state()
 
@@ -132,7 +132,7 @@ class ToolBar(QWidget):
 
     def _count(self) -> None:
         count = len(self._session.selection.notes)
-        self.readout.setText(self.tr("Selected notes: {count}").format(count=count) if count else "")
+        self.readout.setText(self.tr("tool_bar.selected_notes").format(count=count) if count else "")
 
     def _choose_tool(self, button: QToolButton) -> None:
         self._roll.set_tool(next(tool for tool, each in self.tools.items() if each is button))

@@ -231,7 +231,11 @@ class TransportBar(QWidget):
             beats = (start - now) / project.metre_map.felt_ticks_at(start)
             text = f"−{ceil(beats - 1e-6)}"
         elif recording.running:
-            text = self.tr("REC") if recording.passes < 2 else self.tr("REC {number}").format(number=recording.passes)
+            text = (
+                self.tr("transport_bar.rec")
+                if recording.passes < 2
+                else self.tr("transport_bar.rec_2").format(number=recording.passes)
+            )
         if text != self.take_text.text():
             self.take_text.setText(text)
             self.take_text.setVisible(bool(text))
@@ -271,42 +275,44 @@ class TransportBar(QWidget):
     def retranslate(self) -> None:
         """Set every text anew."""
         tips = {
-            "play.to_start": self.tr("To the start"),
-            "play.toggle": self.tr("Play, or stop here"),
-            "play.stop": self.tr("Stop; once more: to the start of the loop or the piece"),
-            "play.loop": self.tr("Loop the selection, else the bar"),
-            "record.toggle": self.tr("Record the player in front, or the armed one, from the playhead on"),
-            "play.click": self.tr("Metronome"),
-            "play.follow": self.tr("The timeline follows the playhead"),
+            "play.to_start": self.tr("transport_bar.to_start"),
+            "play.toggle": self.tr("transport_bar.play_or_stop_here"),
+            "play.stop": self.tr("transport_bar.stop_once_more_to_start"),
+            "play.loop": self.tr("transport_bar.loop_selection_else_bar"),
+            "record.toggle": self.tr("transport_bar.record_player_in_front_or"),
+            "play.click": self.tr("transport_bar.metronome"),
+            "play.follow": self.tr("transport_bar.timeline_follows_playhead"),
         }
         for id, tip in tips.items():
             self._tip(self.buttons[id], tip, self._session.actions.get(id))
-        self.bars.set_texts("", "", self.tr("Bar, beat, ticks. Click to type, drag to move"))
-        self.bars.setAccessibleName(self.tr("Bar, beat, ticks"))
-        self.clock.set_texts("", "", self.tr("Minutes and seconds. Click to type, drag to move"))
-        self.clock.setAccessibleName(self.tr("Seconds"))
-        self.frames.set_texts(self.tr("f", "frame"), "", self.tr("Frame. Click to type, drag to step"))
-        self.frames.setAccessibleName(self.tr("Frame"))
-        self.tempo.setToolTip(self.tr("Tempo and metre at the playhead; the ruler edits them"))
-        self.volume.set_texts(self.tr("Volume"), "%", self.tr("Volume. Double-click: 80 %"))
-        self.speed.set_texts(self.tr("Speed"), "%", self.tr("Speed; the pitch stays. Double-click: 100 %"))
-        self.source.setToolTip(self.tr("What is heard"))
-        self.source.setAccessibleName(self.tr("What is heard"))
+        self.bars.set_texts("", "", self.tr("transport_bar.bar_beat_ticks_click_to"))
+        self.bars.setAccessibleName(self.tr("transport_bar.bar_beat_ticks"))
+        self.clock.set_texts("", "", self.tr("transport_bar.minutes_and_seconds_click_to"))
+        self.clock.setAccessibleName(self.tr("transport_bar.seconds"))
+        self.frames.set_texts(self.tr("transport_bar.frame"), "", self.tr("transport_bar.frame_click_to_type_drag"))
+        self.frames.setAccessibleName(self.tr("transport_bar.frame_2"))
+        self.tempo.setToolTip(self.tr("transport_bar.tempo_and_metre_at_playhead"))
+        self.volume.set_texts(self.tr("transport_bar.volume"), "%", self.tr("transport_bar.volume_double_click_80"))
+        self.speed.set_texts(
+            self.tr("transport_bar.speed"), "%", self.tr("transport_bar.speed_pitch_stays_double_click")
+        )
+        self.source.setToolTip(self.tr("transport_bar.what_is_heard"))
+        self.source.setAccessibleName(self.tr("transport_bar.what_is_heard"))
         self.source.set_options(
             (
-                Option("recording", self.tr("Recording")),
-                Option("synthesiser", self.tr("Synthesiser")),
-                Option("both", self.tr("Both")),
+                Option("recording", self.tr("transport_bar.recording")),
+                Option("synthesiser", self.tr("transport_bar.synthesiser")),
+                Option("both", self.tr("transport_bar.both")),
             )
         )
-        snap_tip = self.tr("Edits snap to the grid; Alt suspends it")
+        snap_tip = self.tr("transport_bar.edits_snap_to_grid_alt")
         self.snap_button.setToolTip(snap_tip)
         self.snap_button.setAccessibleName(snap_tip)
-        self.snap.setToolTip(self.tr("Step of the grid: note values, triplets (T), dotted (.)"))
-        self.snap.setAccessibleName(self.tr("Step of the grid"))
+        self.snap.setToolTip(self.tr("transport_bar.step_of_grid_note_values"))
+        self.snap.setAccessibleName(self.tr("transport_bar.step_of_grid"))
         self.snap.set_options([Option(name, name) for name in GRIDS])
-        hint = self.tr("There is no audio device: it plays silently, in time. Connect one and play again.")
-        self.silent_text.setText(self.tr("No audio device: silent"))
+        hint = self.tr("transport_bar.there_is_no_audio_device")
+        self.silent_text.setText(self.tr("transport_bar.no_audio_device_silent"))
         for label in (self.silent_sign, self.silent_text):
             label.setToolTip(hint)
             label.setAccessibleName(hint)

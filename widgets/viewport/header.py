@@ -121,44 +121,42 @@ class Header(QWidget):
     def retranslate(self) -> None:
         """Set all texts again."""
         texts: dict[View, str] = {
-            "ensemble": self.tr("Ensemble"),
-            "front": self.tr("Front"),
-            "side": self.tr("Side"),
-            "top": self.tr("Top"),
-            "hands": self.tr("Hands"),
-            "mouth": self.tr("Mouth"),
-            "feet": self.tr("Feet"),
+            "ensemble": self.tr("header.ensemble"),
+            "front": self.tr("header.front"),
+            "side": self.tr("header.side"),
+            "top": self.tr("header.top"),
+            "hands": self.tr("header.hands"),
+            "mouth": self.tr("header.mouth"),
+            "feet": self.tr("header.feet"),
         }
         tips: dict[View, str] = {
-            "ensemble": self.tr("Everyone, from the audience"),
-            "front": self.tr("The selected players from their front"),
-            "side": self.tr("The selected players from their right side"),
-            "top": self.tr("The selected players from above"),
-            "hands": self.tr("Hands of the player in front; the camera follows them"),
-            "mouth": self.tr("Mouth of the player in front; the camera follows it"),
-            "feet": self.tr("Feet of the player in front; the camera follows them"),
+            "ensemble": self.tr("header.everyone_from_audience"),
+            "front": self.tr("header.selected_players_from_their_front"),
+            "side": self.tr("header.selected_players_from_their_right"),
+            "top": self.tr("header.selected_players_from_above"),
+            "hands": self.tr("header.hands_of_player_in_front"),
+            "mouth": self.tr("header.mouth_of_player_in_front"),
+            "feet": self.tr("header.feet_of_player_in_front"),
         }
         for view, button in self._views.items():
             button.setText(texts[view])
             button.setToolTip(self._tip(tips[view], f"viewport.{view}"))
             self._view_rows[view].setText(texts[view])
-        self._folded.setToolTip(self.tr("View"))
+        self._folded.setToolTip(self.tr("header.view"))
         self._folded.setText(texts[self._session.viewport.view])
         shown: dict[Shown, str] = {
-            "names": self.tr("Players' names"),
-            "skeleton": self.tr("Skeleton"),
-            "contacts": self.tr("Contact points and their distances"),
-            "wireframe": self.tr("Wireframe"),
+            "names": self.tr("header.players_names"),
+            "skeleton": self.tr("header.skeleton"),
+            "contacts": self.tr("header.contact_points_and_their_distances"),
+            "wireframe": self.tr("header.wireframe"),
         }
         for what, row in self._show_rows.items():
             row.setText(shown[what])
-        self._pose.setText(self.tr("Pose"))
-        self._pose.setToolTip(
-            self._tip(self.tr("Hold bell, head, elbows or torso differently by dragging handles"), "viewport.pose")
-        )
-        self._frame.setToolTip(self._tip(self.tr("Frame the selected players"), "viewport.frame"))
-        self._show.setToolTip(self.tr("Show beside the players"))
-        self._full.setToolTip(self._tip(self.tr("The viewport alone on the whole screen, or not"), FULL_SCREEN))
+        self._pose.setText(self.tr("header.pose"))
+        self._pose.setToolTip(self._tip(self.tr("header.hold_bell_head_elbows_or"), "viewport.pose"))
+        self._frame.setToolTip(self._tip(self.tr("header.frame_selected_players"), "viewport.frame"))
+        self._show.setToolTip(self.tr("header.show_beside_players"))
+        self._full.setToolTip(self._tip(self.tr("header.viewport_alone_on_whole_screen"), FULL_SCREEN))
         for control in (self._pose, self._frame, self._show, self._full, self._folded):
             control.setAccessibleName(control.toolTip())
         self._fold()

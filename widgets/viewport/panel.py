@@ -483,21 +483,15 @@ class ViewportPanel(QWidget):
     def _show_note(self) -> None:
         note = ""
         if self._session.viewport.posing:
-            note = self.tr("Drag a handle · Shift: finely · Alt: lean · double-click: back")
+            note = self.tr("viewport_panel.drag_handle_shift_finely_alt")
         self.header.set_note(note)
 
     def retranslate(self) -> None:
         """Set all texts again."""
-        self.setWindowTitle(self.tr("Viewport"))
-        self.setAccessibleName(self.tr("Viewport"))
+        self.setWindowTitle(self.tr("viewport_panel.viewport"))
+        self.setAccessibleName(self.tr("viewport_panel.viewport"))
         if self._failure is not None:
-            self._reason.setText(
-                self.tr(
-                    "The players cannot be drawn here: there is no usable OpenGL 2.\n({reason})\n\n"
-                    "Timeline, players, inspector, sound and export work all the same. "
-                    "An up-to-date graphics driver usually brings the picture back."
-                ).format(reason=self._failure)
-            )
+            self._reason.setText(self.tr("viewport_panel.players_cannot_be_drawn_here").format(reason=self._failure))
         self._show_note()
         self._update()
 

@@ -236,14 +236,14 @@ class Scene(QObject):
         """What is said in the middle of the picture; empty where there is nothing to say."""
         loaded = self._loaded
         if not self._session.project.players and not self._session.project.dancers:
-            return self.tr("No players yet. Open or import a piece to see it performed.")
+            return self.tr("scene.no_players_yet_open_or")
         if loaded is None:
-            return self.tr("Loading the players …")
+            return self.tr("scene.loading_players")
         if loaded.stage.shown.any():
             return ""
         if loaded.left_out and not loaded.stage.members:
             return "\n".join(message_text(one.message(message_text)) for one in loaded.left_out)
-        return self.tr("Making the first motion …")
+        return self.tr("scene.making_first_motion")
 
     def _reading(self) -> str:
         """The angles of the pose in hand."""
@@ -252,11 +252,11 @@ class Scene(QObject):
             return ""
         parts = []
         if held.up_deg:
-            parts.append((self.tr("up {degrees}°") if held.up_deg > 0 else self.tr("down {degrees}°"), held.up_deg))
+            parts.append((self.tr("scene.up") if held.up_deg > 0 else self.tr("scene.down"), held.up_deg))
         if held.left_deg:
-            side = self.tr("left {degrees}°") if held.left_deg > 0 else self.tr("right {degrees}°")
+            side = self.tr("scene.left") if held.left_deg > 0 else self.tr("scene.right")
             parts.append((side, held.left_deg))
         if held.roll_deg:
-            lean = self.tr("lean left {degrees}°") if held.roll_deg > 0 else self.tr("lean right {degrees}°")
+            lean = self.tr("scene.lean_left") if held.roll_deg > 0 else self.tr("scene.lean_right")
             parts.append((lean, held.roll_deg))
         return "  ".join(text.format(degrees=f"{abs(value):.1f}") for text, value in parts) or "0°"

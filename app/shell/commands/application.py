@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from app.shell.editor import editor_of
 from widgets.common.session import Session
 from widgets.common.tokens import THEMES
@@ -87,10 +87,9 @@ def _panel_shown(name: str, session: Session) -> bool:
     return editor_of(session).window.is_panel_shown(name)
 
 
-def _panel(name: str, text: str, key: str) -> Action:
+def _panel(name: str, key: str) -> Action:
     return Action(
         f"panel.{name}",
-        text,
         partial(show_panel, name),
         "View/Panels",
         key,
@@ -102,7 +101,6 @@ def _panel(name: str, text: str, key: str) -> Action:
 ACTIONS: tuple[Action, ...] = (
     Action(
         "application.palette",
-        QT_TRANSLATE_NOOP("Action", "Search Commands..."),
         palette,
         "Help",
         "Ctrl+Shift+P",
@@ -110,7 +108,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "application.full_screen",
-        QT_TRANSLATE_NOOP("Action", "Full-Screen Viewport"),
         full_screen,
         "View",
         "F11",
@@ -118,12 +115,11 @@ ACTIONS: tuple[Action, ...] = (
         checked=_is_full_screen,
         icon="full_screen",
     ),
-    _panel("players", QT_TRANSLATE_NOOP("Action", "Players"), "Ctrl+1"),
-    _panel("inspector", QT_TRANSLATE_NOOP("Action", "Inspector"), "Ctrl+2"),
-    _panel("timeline", QT_TRANSLATE_NOOP("Action", "Timeline"), "Ctrl+3"),
+    _panel("players", "Ctrl+1"),
+    _panel("inspector", "Ctrl+2"),
+    _panel("timeline", "Ctrl+3"),
     Action(
         "application.reset_layout",
-        QT_TRANSLATE_NOOP("Action", "Reset Layout"),
         reset_layout,
         "View/Panels",
         enabled=_is_open,
@@ -131,49 +127,42 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "pitch.concert",
-        QT_TRANSLATE_NOOP("Action", "Concert Pitch"),
         partial(written_pitch, False),
         "View/Pitch",
         checked=lambda session: not session.pitch_display.written,
     ),
     Action(
         "pitch.written",
-        QT_TRANSLATE_NOOP("Action", "Written Pitch"),
         partial(written_pitch, True),
         "View/Pitch",
         checked=lambda session: session.pitch_display.written,
     ),
     Action(
         "pitch_octave.c4",
-        QT_TRANSLATE_NOOP("Action", "Middle C Is C4"),
         partial(middle_c, 4),
         "View/Pitch",
         checked=lambda session: session.pitch_display.middle_c_octave == 4,
     ),
     Action(
         "pitch_octave.c3",
-        QT_TRANSLATE_NOOP("Action", "Middle C Is C3"),
         partial(middle_c, 3),
         "View/Pitch",
         checked=lambda session: session.pitch_display.middle_c_octave == 3,
     ),
     Action(
         "pitch_names.letters",
-        QT_TRANSLATE_NOOP("Action", "Letters (C D E)"),
         partial(syllables, False),
         "View/Pitch",
         checked=lambda session: not session.pitch_display.syllables,
     ),
     Action(
         "pitch_names.syllables",
-        QT_TRANSLATE_NOOP("Action", "Syllables (Do Re Mi)"),
         partial(syllables, True),
         "View/Pitch",
         checked=lambda session: session.pitch_display.syllables,
     ),
     Action(
         "theme.dark",
-        QT_TRANSLATE_NOOP("Action", "Dark Theme"),
         partial(theme, "dark"),
         "View/Theme",
         checked=lambda session: session.tokens.name == "dark",
@@ -181,7 +170,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "theme.light",
-        QT_TRANSLATE_NOOP("Action", "Light Theme"),
         partial(theme, "light"),
         "View/Theme",
         checked=lambda session: session.tokens.name == "light",
@@ -189,28 +177,24 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "language.en",
-        "English",
         partial(language, "en"),
         "View/Language",
         checked=lambda session: editor_of(session).language.code == "en",
     ),
     Action(
         "language.ja",
-        "日本語",
         partial(language, "ja"),
         "View/Language",
         checked=lambda session: editor_of(session).language.code == "ja",
     ),
     Action(
         "application.instruments",
-        QT_TRANSLATE_NOOP("Action", "Instruments..."),
         instruments,
         "Edit",
         "Ctrl+Alt+I",
     ),
     Action(
         "application.preferences",
-        QT_TRANSLATE_NOOP("Action", "Preferences..."),
         preferences,
         "Edit",
         "Ctrl+,",
@@ -218,10 +202,9 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "application.shortcuts",
-        QT_TRANSLATE_NOOP("Action", "Keyboard Shortcuts..."),
         shortcuts,
         "Help",
         icon="keyboard",
     ),
-    Action("application.about", QT_TRANSLATE_NOOP("Action", "About Suisou"), about, "Help", icon="information"),
+    Action("application.about", about, "Help", icon="information"),
 )

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from app.errors import Message
 from app.project.edit.piece import set_felt_beat
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from widgets.common.session import Session
 
 
-def _felt(name: str, quarters: float | None, text: str) -> Action:
+def _felt(name: str, quarters: float | None) -> Action:
     def run(session: Session, on: bool) -> None:
         session.attempt(Message("edit.set_felt_beat"), lambda project: set_felt_beat(project, quarters))
 
     return Action(
         f"beat.{name}",
-        text,
         run,
         "Edit/Beat",
         checked=lambda session: session.project.felt_beat_quarters == quarters,
@@ -22,10 +21,10 @@ def _felt(name: str, quarters: float | None, text: str) -> Action:
 
 
 ACTIONS: tuple[Action, ...] = (
-    _felt("automatic", None, QT_TRANSLATE_NOOP("Action", "Felt Beat from Metre and Tempo")),
-    _felt("eighth", 0.5, QT_TRANSLATE_NOOP("Action", "Felt Beat: Eighth")),
-    _felt("quarter", 1.0, QT_TRANSLATE_NOOP("Action", "Felt Beat: Quarter")),
-    _felt("dotted_quarter", 1.5, QT_TRANSLATE_NOOP("Action", "Felt Beat: Dotted Quarter")),
-    _felt("half", 2.0, QT_TRANSLATE_NOOP("Action", "Felt Beat: Half")),
-    _felt("dotted_half", 3.0, QT_TRANSLATE_NOOP("Action", "Felt Beat: Dotted Half")),
+    _felt("automatic", None),
+    _felt("eighth", 0.5),
+    _felt("quarter", 1.0),
+    _felt("dotted_quarter", 1.5),
+    _felt("half", 2.0),
+    _felt("dotted_half", 3.0),
 )

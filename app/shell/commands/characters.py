@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from app.shell.editor import editor_of
 from widgets.common.session import Session
 
@@ -18,6 +18,6 @@ def show(session: Session) -> None:
 
 
 ACTIONS: tuple[Action, ...] = (
-    Action("file.add_character", QT_TRANSLATE_NOOP("Action", "Add Character..."), add, "File", icon="player"),
-    Action("application.characters", QT_TRANSLATE_NOOP("Action", "Characters..."), show, "Edit", icon="players"),
+    Action("file.add_character", add, "File", icon="player"),
+    Action("application.characters", show, "Edit", icon="players"),
 )

@@ -5,20 +5,19 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from PySide6.QtCore import QCoreApplication
-
 from app.choreography.library import bundled_choreographies
 from app.errors import Message
 from app.project.edit.dancers import set_choreography
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from app.shell.editor import editor_of
 from widgets.common.session import Session
+from widgets.common.translated import tr
 from widgets.players import newcomers
 
 
 def add(session: Session) -> None:
     """Add a dancer of the first choreography that comes with the program."""
-    newcomers.add_dancer(session, bundled_choreographies()[0], QCoreApplication.translate("Action", "Dancer"))
+    newcomers.add_dancer(session, bundled_choreographies()[0], tr("action.dancer"))
 
 
 def rename(session: Session) -> None:
@@ -59,7 +58,7 @@ def _dance(session: Session, path: Path) -> None:
     """Let the selected dancer dance a choreography, or a new one where there is none."""
     dancer, choreography = session.dancer, os.fspath(path.absolute())
     if dancer is None:
-        newcomers.add_dancer(session, choreography, QCoreApplication.translate("Action", "Dancer"))
+        newcomers.add_dancer(session, choreography, tr("action.dancer"))
         return
     session.attempt(
         Message("edit.dancer_choreography", {"dancer": dancer.name}),
@@ -78,7 +77,6 @@ def _has_dancer(session: Session) -> bool:
 ACTIONS: tuple[Action, ...] = (
     Action(
         "dancers.add",
-        QT_TRANSLATE_NOOP("Action", "Add dancer"),
         add,
         "Edit/Players",
         enabled=_has_choreographies,
@@ -86,7 +84,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "dancers.rename",
-        QT_TRANSLATE_NOOP("Action", "Rename dancer"),
         rename,
         "Edit/Players",
         "F2",
@@ -96,7 +93,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "dancers.duplicate",
-        QT_TRANSLATE_NOOP("Action", "Duplicate dancer"),
         duplicate,
         "Edit/Players",
         "Ctrl+D",
@@ -106,7 +102,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "dancers.remove",
-        QT_TRANSLATE_NOOP("Action", "Remove dancer"),
         remove,
         "Edit/Players",
         "Del",
@@ -116,7 +111,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "dancers.choreography",
-        QT_TRANSLATE_NOOP("Action", "Show Choreography..."),
         show_choreography,
         "Edit/Players",
         enabled=_has_dancer,
@@ -124,7 +118,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "dancers.learn",
-        QT_TRANSLATE_NOOP("Action", "Learn Choreography..."),
         learn_choreography,
         "Edit/Players",
     ),

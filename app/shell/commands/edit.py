@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from widgets.common.session import Session
 
 
@@ -25,10 +25,9 @@ def _can_redo(session: Session) -> bool:
 
 
 ACTIONS: tuple[Action, ...] = (
-    Action("edit.undo", QT_TRANSLATE_NOOP("Action", "Undo"), undo, "Edit", "Ctrl+Z", enabled=_can_undo, icon="undo"),
+    Action("edit.undo", undo, "Edit", "Ctrl+Z", enabled=_can_undo, icon="undo"),
     Action(
         "edit.redo",
-        QT_TRANSLATE_NOOP("Action", "Redo"),
         redo,
         "Edit",
         "Ctrl+Shift+Z;Ctrl+Y",

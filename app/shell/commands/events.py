@@ -27,7 +27,7 @@ from app.project.edit.events import (
 )
 from app.project.edit.notes import erase
 from app.project.model import Project
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from app.shell.commands.chosen import events_by_player, notes_by_player, plan_of
 from widgets.common.event_names import expression_name
 from widgets.common.plain import verbatim
@@ -276,16 +276,13 @@ def prepare(session: Session) -> None:
     session.attempt(Message("edit.toggle_preparation"), edit)
 
 
-def _kind(kind: GestureKind, text: str) -> Action:
-    return Action(
-        f"gesture.{kind}", text, lambda session: gesture(session, kind), "Edit/Events/Gesture", enabled=_has_player
-    )
+def _kind(kind: GestureKind) -> Action:
+    return Action(f"gesture.{kind}", lambda session: gesture(session, kind), "Edit/Events/Gesture", enabled=_has_player)
 
 
 ACTIONS: tuple[Action, ...] = (
     Action(
         "edit.delete",
-        QT_TRANSLATE_NOOP("Action", "Delete"),
         delete,
         "Edit",
         "Delete",
@@ -295,7 +292,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "events.give_back",
-        QT_TRANSLATE_NOOP("Action", "Back to the Generator's"),
         return_to_generated,
         "Edit",
         "Backspace",
@@ -305,14 +301,12 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "events.give_back_player",
-        QT_TRANSLATE_NOOP("Action", "Revert All Corrections of the Player"),
         revert_player,
         "Edit",
         enabled=_player_corrected,
     ),
     Action(
         "events.breath",
-        QT_TRANSLATE_NOOP("Action", "Add a Breath"),
         breathe,
         "Edit/Events",
         "B",
@@ -322,7 +316,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "events.preparation",
-        QT_TRANSLATE_NOOP("Action", "Prepare the Breath, or Not"),
         prepare,
         "Edit/Events",
         "Shift+B",
@@ -331,7 +324,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "events.cue",
-        QT_TRANSLATE_NOOP("Action", "Add a Cue"),
         cue,
         "Edit/Events",
         "C",
@@ -341,7 +333,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "events.gesture",
-        QT_TRANSLATE_NOOP("Action", "Add a Gesture..."),
         choose_gesture,
         "Edit/Events",
         "G",
@@ -351,7 +342,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "events.expression",
-        QT_TRANSLATE_NOOP("Action", "Add an Expression..."),
         choose_expression,
         "Edit/Events",
         "X",
@@ -359,8 +349,8 @@ ACTIONS: tuple[Action, ...] = (
         _has_player,
         icon="expression",
     ),
-    _kind("sway", QT_TRANSLATE_NOOP("Action", "Sway")),
-    _kind("weight_shift", QT_TRANSLATE_NOOP("Action", "Weight Shift")),
-    _kind("bell_height", QT_TRANSLATE_NOOP("Action", "Bell Height")),
-    _kind("lower_instrument", QT_TRANSLATE_NOOP("Action", "Lower the Instrument")),
+    _kind("sway"),
+    _kind("weight_shift"),
+    _kind("bell_height"),
+    _kind("lower_instrument"),
 )

@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtCore import Qt
 
 from app.encoding import shown
 from app.errors import AppError, Message
@@ -14,7 +14,7 @@ from app.project.midi_out import export_midi as write_piece
 from app.project.model import Player, Project, map_choices
 from app.project.reimport import Reimport, reimport
 from app.score.read import read_midi
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from app.shell.editor import editor_of
 from app.shell.files import MIDI_SUFFIXES
 from app.version import program_version
@@ -22,6 +22,7 @@ from instrument_maps.library import all_maps
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text, note_text
+from widgets.common.translated import tr
 from widgets.inspector.words import correction_title
 
 
@@ -37,9 +38,8 @@ def read_again(session: Session) -> None:
 def read_another(session: Session) -> None:
     """Ask for a newer version of the piece's MIDI file and take it in."""
     editor = editor_of(session)
-    translate = QCoreApplication.translate
-    kinds = f"{translate('Files', 'MIDI files')} ({' '.join(f'*{suffix}' for suffix in MIDI_SUFFIXES)})"
-    path = editor.questions.open_file(translate("Files", "Re-import MIDI"), editor.files.folder, kinds)
+    kinds = f"{tr('files.midi_files')} ({' '.join(f'*{suffix}' for suffix in MIDI_SUFFIXES)})"
+    path = editor.questions.open_file(tr("files.re_import_midi"), editor.files.folder, kinds)
     if path is not None:
         reimport_from(session, path)
 
@@ -95,10 +95,9 @@ def _take(session: Session, before: Project, outcome: Reimport) -> None:
 def export_midi(session: Session) -> None:
     """Ask for a file, and write the piece to it as MIDI."""
     editor = editor_of(session)
-    translate = QCoreApplication.translate
     proposal = Path(editor.files.folder) / f"{editor.files.stem}.mid"
-    kinds = f"{translate('Files', 'MIDI files')} (*.mid)"
-    target = editor.questions.save_file(translate("Files", "Export MIDI"), str(proposal), kinds, MIDI_SUFFIXES)
+    kinds = f"{tr('files.midi_files')} (*.mid)"
+    target = editor.questions.save_file(tr("files.export_midi"), str(proposal), kinds, MIDI_SUFFIXES)
     if target is None:
         return
     project = session.project
@@ -181,7 +180,6 @@ def _is_open(session: Session) -> bool:
 ACTIONS: tuple[Action, ...] = (
     Action(
         "file.reimport",
-        QT_TRANSLATE_NOOP("Action", "Read the MIDI File Again..."),
         read_again,
         "File",
         "Ctrl+Shift+I",
@@ -189,21 +187,18 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "file.reimport_other",
-        QT_TRANSLATE_NOOP("Action", "Take In a Newer MIDI File..."),
         read_another,
         "File",
         enabled=_is_open,
     ),
     Action(
         "file.export_midi",
-        QT_TRANSLATE_NOOP("Action", "Export MIDI..."),
         export_midi,
         "File",
         enabled=_can_export,
     ),
     Action(
         "export.files",
-        QT_TRANSLATE_NOOP("Action", "Export Players..."),
         export_files,
         "Export",
         "Ctrl+E",
@@ -212,7 +207,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "export.playblast",
-        QT_TRANSLATE_NOOP("Action", "Playblast..."),
         playblast,
         "Export",
         "Ctrl+Shift+E",

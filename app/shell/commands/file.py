@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication
-
 from app.project.storage import SUFFIX
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from app.shell.editor import editor_of
 from app.shell.files import AUDIO_SUFFIXES, MIDI_SUFFIXES
 from widgets.common.session import Session
+from widgets.common.translated import tr
 
 
 def new_piece(session: Session) -> None:
@@ -19,12 +18,11 @@ def new_piece(session: Session) -> None:
 def open_file(session: Session) -> None:
     """Ask for a project or MIDI file and open it."""
     editor = editor_of(session)
-    translate = QCoreApplication.translate
     kinds = (
-        (translate("Files", "Projects and MIDI files"), (SUFFIX, *MIDI_SUFFIXES)),
-        (translate("Files", "All files"), ("",)),
+        (tr("files.projects_and_midi_files"), (SUFFIX, *MIDI_SUFFIXES)),
+        (tr("files.all_files"), ("",)),
     )
-    path = editor.questions.open_file(translate("Files", "Open"), editor.files.folder, _filters(kinds))
+    path = editor.questions.open_file(tr("files.open"), editor.files.folder, _filters(kinds))
     if path is not None:
         editor.files.open(path)
 
@@ -32,9 +30,8 @@ def open_file(session: Session) -> None:
 def import_midi(session: Session) -> None:
     """Ask for a MIDI file and who plays what in it."""
     editor = editor_of(session)
-    translate = QCoreApplication.translate
-    kinds = ((translate("Files", "MIDI files"), MIDI_SUFFIXES), (translate("Files", "All files"), ("",)))
-    path = editor.questions.open_file(translate("Files", "Import MIDI"), editor.files.folder, _filters(kinds))
+    kinds = ((tr("files.midi_files"), MIDI_SUFFIXES), (tr("files.all_files"), ("",)))
+    path = editor.questions.open_file(tr("files.import_midi"), editor.files.folder, _filters(kinds))
     if path is not None:
         editor.files.open(path)
 
@@ -42,9 +39,8 @@ def import_midi(session: Session) -> None:
 def add_audio(session: Session) -> None:
     """Ask for the recording that the piece is heard with."""
     editor = editor_of(session)
-    translate = QCoreApplication.translate
-    kinds = ((translate("Files", "Sound files"), AUDIO_SUFFIXES), (translate("Files", "All files"), ("",)))
-    path = editor.questions.open_file(translate("Files", "Add recording"), editor.files.folder, _filters(kinds))
+    kinds = ((tr("files.sound_files"), AUDIO_SUFFIXES), (tr("files.all_files"), ("",)))
+    path = editor.questions.open_file(tr("files.add_recording"), editor.files.folder, _filters(kinds))
     if path is not None:
         editor.files.add_audio(path)
 
@@ -100,31 +96,26 @@ def _filters(kinds: tuple[tuple[str, tuple[str, ...]], ...]) -> str:
 
 
 ACTIONS: tuple[Action, ...] = (
-    Action("file.new", QT_TRANSLATE_NOOP("Action", "New Piece"), new_piece, "File", "Ctrl+N", icon="new"),
-    Action("file.open", QT_TRANSLATE_NOOP("Action", "Open..."), open_file, "File", "Ctrl+O", icon="open"),
-    Action("file.open_example", QT_TRANSLATE_NOOP("Action", "Open the Example Quartet"), open_example, "File"),
+    Action("file.new", new_piece, "File", "Ctrl+N", icon="new"),
+    Action("file.open", open_file, "File", "Ctrl+O", icon="open"),
+    Action("file.open_example", open_example, "File"),
     Action(
         "file.open_danced_example",
-        QT_TRANSLATE_NOOP("Action", "Open the Example with a Dancer"),
         open_danced_example,
         "File",
     ),
     Action(
         "file.save",
-        QT_TRANSLATE_NOOP("Action", "Save"),
         save,
         "File",
         "Ctrl+S",
         enabled=_can_save,
         icon="save",
     ),
-    Action(
-        "file.save_as", QT_TRANSLATE_NOOP("Action", "Save As..."), save_as, "File", "Ctrl+Shift+S", enabled=_is_open
-    ),
-    Action("file.import_midi", QT_TRANSLATE_NOOP("Action", "Import MIDI..."), import_midi, "File", icon="import"),
+    Action("file.save_as", save_as, "File", "Ctrl+Shift+S", enabled=_is_open),
+    Action("file.import_midi", import_midi, "File", icon="import"),
     Action(
         "file.add_audio",
-        QT_TRANSLATE_NOOP("Action", "Add Recording..."),
         add_audio,
         "File",
         enabled=_is_open,
@@ -132,13 +123,12 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "file.piece_settings",
-        QT_TRANSLATE_NOOP("Action", "Piece Settings..."),
         piece_settings,
         "File",
         "Alt+Return",
         enabled=_is_open,
         icon="piece",
     ),
-    Action("file.close", QT_TRANSLATE_NOOP("Action", "Close Project"), close, "File", "Ctrl+W", enabled=_is_open),
-    Action("file.quit", QT_TRANSLATE_NOOP("Action", "Quit"), leave, "File", "Ctrl+Q"),
+    Action("file.close", close, "File", "Ctrl+W", enabled=_is_open),
+    Action("file.quit", leave, "File", "Ctrl+Q"),
 )

@@ -9,7 +9,7 @@ from app.errors import AppError, Message
 from app.project.edit.events import pin_fingerings
 from app.project.model import Player, Project
 from app.score.model import Note
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from app.shell.commands.chosen import notes_by_player, plan_of
 from instrument_maps.model import Fingering
 from widgets.common.session import Session, Severity
@@ -121,10 +121,9 @@ def _has_notes(session: Session) -> bool:
     return bool(session.selection.notes)
 
 
-def _sign(sign: str, text: str) -> Action:
+def _sign(sign: str) -> Action:
     return Action(
         f"fingering.type_{sign.lower()}",
-        text,
         lambda session: type_fingering(session, sign),
         "Edit/Fingering",
         sign,
@@ -136,7 +135,6 @@ def _sign(sign: str, text: str) -> Action:
 ACTIONS: tuple[Action, ...] = (
     Action(
         "fingering.cycle",
-        QT_TRANSLATE_NOOP("Action", "Next Alternate Fingering"),
         cycle_fingering,
         "Edit/Fingering",
         "F",
@@ -144,13 +142,13 @@ ACTIONS: tuple[Action, ...] = (
         _has_notes,
         icon="fingering",
     ),
-    _sign("0", QT_TRANSLATE_NOOP("Action", "Fingering 0")),
-    _sign("1", QT_TRANSLATE_NOOP("Action", "Fingering 1")),
-    _sign("2", QT_TRANSLATE_NOOP("Action", "Fingering 2")),
-    _sign("3", QT_TRANSLATE_NOOP("Action", "Fingering 3")),
-    _sign("4", QT_TRANSLATE_NOOP("Action", "Fingering 4")),
-    _sign("5", QT_TRANSLATE_NOOP("Action", "Fingering 5")),
-    _sign("6", QT_TRANSLATE_NOOP("Action", "Fingering 6")),
-    _sign("7", QT_TRANSLATE_NOOP("Action", "Fingering 7")),
-    _sign("T", QT_TRANSLATE_NOOP("Action", "Fingering T (Thumb or Trigger)")),
+    _sign("0"),
+    _sign("1"),
+    _sign("2"),
+    _sign("3"),
+    _sign("4"),
+    _sign("5"),
+    _sign("6"),
+    _sign("7"),
+    _sign("T"),
 )

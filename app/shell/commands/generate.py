@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.errors import Message
 from app.project.edit import generation
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from widgets.common.session import Session
 
 LOST = "correction.orphaned"
@@ -106,7 +106,6 @@ def _has_varied_bars(session: Session) -> bool:
 ACTIONS: tuple[Action, ...] = (
     Action(
         "generate.everyone",
-        QT_TRANSLATE_NOOP("Action", "Another Performance by Everyone"),
         vary_everyone,
         "Generate",
         "Ctrl+Alt+G",
@@ -114,7 +113,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "generate.players",
-        QT_TRANSLATE_NOOP("Action", "Another Performance by the Selected Players"),
         vary_players,
         "Generate",
         "Ctrl+Shift+G",
@@ -122,7 +120,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "generate.bars",
-        QT_TRANSLATE_NOOP("Action", "Another Performance of the Selected Bars"),
         vary_bars,
         "Generate",
         "Ctrl+G",
@@ -130,7 +127,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "generate.bars_back",
-        QT_TRANSLATE_NOOP("Action", "Selected Bars as at First"),
         unvary_bars,
         "Generate",
         enabled=_has_varied_bars,

@@ -13,7 +13,7 @@ from app.errors import Message
 from app.project.edit import events as event_edits
 from app.project.edit import notes
 from app.project.model import Project
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session, Severity
 from widgets.common.timeline_view import Tool
@@ -312,10 +312,9 @@ def _has_tool(session: Session, tool: Tool) -> bool:
     return session.timeline_view is not None and session.timeline_view.tool is tool
 
 
-def _tool(tool: Tool, text: str, key: str, icon: str) -> Action:
+def _tool(tool: Tool, key: str, icon: str) -> Action:
     return Action(
         f"notes.tool_{tool.value}",
-        text,
         lambda session, on: set_tool(session, tool, on),
         "Edit/Tool",
         key,
@@ -327,26 +326,22 @@ def _tool(tool: Tool, text: str, key: str, icon: str) -> Action:
 
 def _row(
     id: str,
-    text: str,
     run: Callable[..., None],
     keys: str = "",
     icon: str = "",
     menu: str = "Edit/Notes",
     enabled: Callable[[Session], bool] = _has_notes,
 ) -> Action:
-    return Action(id, text, run, menu, keys, "timeline", enabled=enabled, icon=icon)
+    return Action(id, run, menu, keys, "timeline", enabled=enabled, icon=icon)
 
 
 ACTIONS: tuple[Action, ...] = (
-    _row("notes.cut", QT_TRANSLATE_NOOP("Action", "Cut"), cut, "Ctrl+X", "cut", "Edit"),
-    _row("notes.copy", QT_TRANSLATE_NOOP("Action", "Copy"), copy, "Ctrl+C", "copy", "Edit"),
-    _row(
-        "notes.paste", QT_TRANSLATE_NOOP("Action", "Paste at Playhead"), paste, "Ctrl+V", "paste", "Edit", _has_player
-    ),
-    _row("notes.duplicate", QT_TRANSLATE_NOOP("Action", "Duplicate"), duplicate, "Ctrl+D", "duplicate", "Edit"),
+    _row("notes.cut", cut, "Ctrl+X", "cut", "Edit"),
+    _row("notes.copy", copy, "Ctrl+C", "copy", "Edit"),
+    _row("notes.paste", paste, "Ctrl+V", "paste", "Edit", _has_player),
+    _row("notes.duplicate", duplicate, "Ctrl+D", "duplicate", "Edit"),
     _row(
         "notes.select_all",
-        QT_TRANSLATE_NOOP("Action", "Select All Notes"),
         select_all,
         "Ctrl+A",
         "",
@@ -355,7 +350,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     _row(
         "notes.select_none",
-        QT_TRANSLATE_NOOP("Action", "Select Nothing"),
         select_none,
         "Alt+A",
         "",
@@ -364,7 +358,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     _row(
         "notes.select_pitch",
-        QT_TRANSLATE_NOOP("Action", "Select Same Pitch"),
         select_pitch,
         "Alt+S",
         "",
@@ -372,7 +365,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     _row(
         "notes.select_bar",
-        QT_TRANSLATE_NOOP("Action", "Select Notes of the Bar"),
         select_bar,
         "Alt+B",
         "",
@@ -381,56 +373,47 @@ ACTIONS: tuple[Action, ...] = (
     ),
     _row(
         "notes.select_span",
-        QT_TRANSLATE_NOOP("Action", "Select Notes of the Range"),
         select_span,
         "Alt+R",
         "",
         "Edit/Select",
         _has_span,
     ),
-    _tool(Tool.SELECT, QT_TRANSLATE_NOOP("Action", "Select"), "V", "pointer"),
-    _tool(Tool.DRAW, QT_TRANSLATE_NOOP("Action", "Draw"), "D", "pencil"),
-    _tool(Tool.ERASE, QT_TRANSLATE_NOOP("Action", "Erase"), "E", "eraser"),
-    _tool(Tool.SPLIT, QT_TRANSLATE_NOOP("Action", "Split"), "S", "split"),
-    _row(
-        "notes.split", QT_TRANSLATE_NOOP("Action", "Split at Playhead"), split, "Shift+S", "split", enabled=_has_player
-    ),
-    _row("notes.join", QT_TRANSLATE_NOOP("Action", "Join"), join, "J", "join"),
-    _row("notes.quantise", QT_TRANSLATE_NOOP("Action", "Quantise..."), quantise, "Q", "quantise"),
-    _row("notes.up", QT_TRANSLATE_NOOP("Action", "Semitone Up"), partial(transpose, by_pitch=1), "Up", "transpose"),
-    _row("notes.down", QT_TRANSLATE_NOOP("Action", "Semitone Down"), partial(transpose, by_pitch=-1), "Down"),
-    _row("notes.octave_up", QT_TRANSLATE_NOOP("Action", "Octave Up"), partial(transpose, by_pitch=12), "Shift+Up"),
-    _row(
-        "notes.octave_down", QT_TRANSLATE_NOOP("Action", "Octave Down"), partial(transpose, by_pitch=-12), "Shift+Down"
-    ),
+    _tool(Tool.SELECT, "V", "pointer"),
+    _tool(Tool.DRAW, "D", "pencil"),
+    _tool(Tool.ERASE, "E", "eraser"),
+    _tool(Tool.SPLIT, "S", "split"),
+    _row("notes.split", split, "Shift+S", "split", enabled=_has_player),
+    _row("notes.join", join, "J", "join"),
+    _row("notes.quantise", quantise, "Q", "quantise"),
+    _row("notes.up", partial(transpose, by_pitch=1), "Up", "transpose"),
+    _row("notes.down", partial(transpose, by_pitch=-1), "Down"),
+    _row("notes.octave_up", partial(transpose, by_pitch=12), "Shift+Up"),
+    _row("notes.octave_down", partial(transpose, by_pitch=-12), "Shift+Down"),
     _row(
         "notes.earlier",
-        QT_TRANSLATE_NOOP("Action", "Earlier by the Grid"),
         partial(nudge, steps=-1),
         "Left",
         enabled=_has_something,
     ),
     _row(
         "notes.later",
-        QT_TRANSLATE_NOOP("Action", "Later by the Grid"),
         partial(nudge, steps=1),
         "Right",
         enabled=_has_something,
     ),
     _row(
         "notes.frame_earlier",
-        QT_TRANSLATE_NOOP("Action", "Earlier by a Frame"),
         partial(nudge_frames, frames=-1),
         "Ctrl+Left",
         enabled=_has_something,
     ),
     _row(
         "notes.frame_later",
-        QT_TRANSLATE_NOOP("Action", "Later by a Frame"),
         partial(nudge_frames, frames=1),
         "Ctrl+Right",
         enabled=_has_something,
     ),
-    _row("notes.louder", QT_TRANSLATE_NOOP("Action", "Louder"), partial(change_velocity, by=VELOCITY_STEP), "+;="),
-    _row("notes.softer", QT_TRANSLATE_NOOP("Action", "Softer"), partial(change_velocity, by=-VELOCITY_STEP), "-"),
+    _row("notes.louder", partial(change_velocity, by=VELOCITY_STEP), "+;="),
+    _row("notes.softer", partial(change_velocity, by=-VELOCITY_STEP), "-"),
 )

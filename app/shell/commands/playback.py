@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from app.errors import Message
 from app.project.edit.piece import set_audio
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from app.shell.sound import sound_of
 from widgets.common.session import Session
 
@@ -148,20 +148,18 @@ def _speed(percent: int) -> Action:
 
     return Action(
         f"play.speed_{percent}",
-        f"{percent} %",
         run,
         "Play/Speed",
         checked=lambda session: round(100 * session.listening.speed) == percent,
     )
 
 
-def _source(source: Source, text: str) -> Action:
+def _source(source: Source) -> Action:
     def run(session: Session, on: bool = True) -> None:
         session.listening.set(source=source)
 
     return Action(
         f"play.source_{source}",
-        text,
         run,
         "Play/Sound",
         enabled=_has_recording,
@@ -239,7 +237,6 @@ def _selected_s(session: Session) -> tuple[float, float] | None:
 ACTIONS: tuple[Action, ...] = (
     Action(
         "play.toggle",
-        QT_TRANSLATE_NOOP("Action", "Play or Stop Here"),
         toggle,
         "Play",
         "Space",
@@ -248,37 +245,33 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "play.bar",
-        QT_TRANSLATE_NOOP("Action", "Play from Start of Bar"),
         play_bar,
         "Play",
         "Return;Enter",
         enabled=_can_play,
         icon="play",
     ),
-    Action("play.stop", QT_TRANSLATE_NOOP("Action", "Stop"), stop, "Play", enabled=_can_play, icon="stop"),
+    Action("play.stop", stop, "Play", enabled=_can_play, icon="stop"),
     Action(
         "play.loop",
-        QT_TRANSLATE_NOOP("Action", "Loop the Selection"),
         toggle_loop,
         "Play",
         "L",
         checked=lambda session: session.loop_s is not None,
         icon="loop",
     ),
-    Action("play.to_start", QT_TRANSLATE_NOOP("Action", "To Start"), to_start, "Play/Go", "Home", icon="to_start"),
-    Action("play.to_end", QT_TRANSLATE_NOOP("Action", "To End"), to_end, "Play/Go", "End", icon="to_end"),
+    Action("play.to_start", to_start, "Play/Go", "Home", icon="to_start"),
+    Action("play.to_end", to_end, "Play/Go", "End", icon="to_end"),
     Action(
         "play.frame_back",
-        QT_TRANSLATE_NOOP("Action", "Previous Frame"),
         frame_back,
         "Play/Go",
         ",",
         icon="previous_frame",
     ),
-    Action("play.frame_on", QT_TRANSLATE_NOOP("Action", "Next Frame"), frame_on, "Play/Go", ".", icon="next_frame"),
+    Action("play.frame_on", frame_on, "Play/Go", ".", icon="next_frame"),
     Action(
         "play.note_back",
-        QT_TRANSLATE_NOOP("Action", "Previous Note"),
         note_back,
         "Play/Go",
         "Alt+,",
@@ -287,22 +280,20 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "play.note_on",
-        QT_TRANSLATE_NOOP("Action", "Next Note"),
         note_on,
         "Play/Go",
         "Alt+.",
         enabled=_has_notes,
         icon="next_note",
     ),
-    Action("play.bar_back", QT_TRANSLATE_NOOP("Action", "Previous Bar"), bar_back, "Play/Go", "PgUp"),
-    Action("play.bar_on", QT_TRANSLATE_NOOP("Action", "Next Bar"), bar_on, "Play/Go", "PgDown"),
+    Action("play.bar_back", bar_back, "Play/Go", "PgUp"),
+    Action("play.bar_on", bar_on, "Play/Go", "PgDown"),
     *(_speed(percent) for percent in (25, 50, 75, 100, 150, 200)),
-    _source("recording", QT_TRANSLATE_NOOP("Action", "Recording")),
-    _source("synthesiser", QT_TRANSLATE_NOOP("Action", "Synthesiser")),
-    _source("both", QT_TRANSLATE_NOOP("Action", "Recording and Synthesiser")),
+    _source("recording"),
+    _source("synthesiser"),
+    _source("both"),
     Action(
         "play.click",
-        QT_TRANSLATE_NOOP("Action", "Metronome"),
         set_click,
         "Play",
         "Shift+C",
@@ -311,7 +302,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "play.scrub",
-        QT_TRANSLATE_NOOP("Action", "Hear the Playhead Being Moved"),
         set_scrub,
         "Play",
         checked=lambda session: session.listening.scrub_sound,
@@ -319,7 +309,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "play.follow",
-        QT_TRANSLATE_NOOP("Action", "Follow the Playhead"),
         set_follow,
         "Play",
         checked=lambda session: session.follow,
@@ -327,7 +316,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "play.estimate_offset",
-        QT_TRANSLATE_NOOP("Action", "Estimate the Recording's Offset"),
         estimate_offset,
         "Play/Recording",
         enabled=_recording_ready,
@@ -335,7 +323,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "play.fit_tempo",
-        QT_TRANSLATE_NOOP("Action", "Fit the Tempo to the Recording"),
         fit_tempo,
         "Play/Recording",
         enabled=_recording_ready,
@@ -343,7 +330,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "play.remove_recording",
-        QT_TRANSLATE_NOOP("Action", "Remove the Recording"),
         remove_recording,
         "Play/Recording",
         enabled=_has_recording,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.errors import Message
 from app.project.edit import players as edit
 from app.project.model import Player, Project
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from app.shell.editor import editor_of
 from instrument_maps.library import all_maps
 from widgets.common.session import Session
@@ -180,10 +180,9 @@ def _is_quiet(session: Session) -> bool:
 
 
 ACTIONS: tuple[Action, ...] = (
-    Action("players.add", QT_TRANSLATE_NOOP("Action", "Add player"), add, "Edit/Players", icon="add"),
+    Action("players.add", add, "Edit/Players", icon="add"),
     Action(
         "players.rename",
-        QT_TRANSLATE_NOOP("Action", "Rename player"),
         rename,
         "Edit/Players",
         "F2",
@@ -193,7 +192,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "players.duplicate",
-        QT_TRANSLATE_NOOP("Action", "Duplicate players"),
         duplicate,
         "Edit/Players",
         "Ctrl+D",
@@ -203,21 +201,18 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "players.join",
-        QT_TRANSLATE_NOOP("Action", "One person plays these in turn"),
         join,
         "Edit/Players",
         enabled=_are_several,
     ),
     Action(
         "players.separate",
-        QT_TRANSLATE_NOOP("Action", "Separate into players of their own"),
         separate,
         "Edit/Players",
         enabled=_double,
     ),
     Action(
         "players.remove",
-        QT_TRANSLATE_NOOP("Action", "Remove players"),
         remove,
         "Edit/Players",
         "Del",
@@ -227,7 +222,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "players.mute",
-        QT_TRANSLATE_NOOP("Action", "Mute players"),
         mute,
         "Edit/Players",
         "M",
@@ -238,7 +232,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "players.solo",
-        QT_TRANSLATE_NOOP("Action", "Solo players"),
         solo,
         "Edit/Players",
         "S",
@@ -249,7 +242,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "players.hear_everyone",
-        QT_TRANSLATE_NOOP("Action", "Hear everyone"),
         hear_everyone,
         "Edit/Players",
         enabled=_is_quiet,
@@ -257,7 +249,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "players.next",
-        QT_TRANSLATE_NOOP("Action", "Next player in front"),
         next_player,
         "Edit/Players",
         "Ctrl+PgDown",
@@ -265,7 +256,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "players.previous",
-        QT_TRANSLATE_NOOP("Action", "Previous player in front"),
         previous_player,
         "Edit/Players",
         "Ctrl+PgUp",
@@ -273,7 +263,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "players.posture",
-        QT_TRANSLATE_NOOP("Action", "Sit down or stand up"),
         toggle_posture,
         "Edit/Players",
         enabled=_may_sit_or_stand,
@@ -281,7 +270,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "players.randomise",
-        QT_TRANSLATE_NOOP("Action", "Randomise the ensemble"),
         randomise,
         "Edit/Players",
         enabled=_has_players,
@@ -289,7 +277,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "players.arrange",
-        QT_TRANSLATE_NOOP("Action", "Automatic arc"),
         arrange,
         "Edit/Players",
         enabled=_has_players,
@@ -297,7 +284,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "players.select_all",
-        QT_TRANSLATE_NOOP("Action", "Select all players"),
         select_all,
         "Edit/Players",
         "Ctrl+Shift+A",
@@ -305,7 +291,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "players.reset",
-        QT_TRANSLATE_NOOP("Action", "Reset the players' parameters"),
         reset,
         "Edit/Players",
         enabled=_has_players,

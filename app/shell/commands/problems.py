@@ -6,7 +6,7 @@ from weakref import WeakKeyDictionary
 
 from app.errors import Message
 from app.plan.model import Problem
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from widgets.common.selection import Selection
 from widgets.common.session import Session, Severity
 
@@ -53,7 +53,6 @@ def _has_problems(session: Session) -> bool:
 ACTIONS: tuple[Action, ...] = (
     Action(
         "problems.next",
-        QT_TRANSLATE_NOOP("Action", "Next Problem"),
         lambda session: go_to_problem(session, 1),
         "View",
         "F8",
@@ -62,7 +61,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "problems.previous",
-        QT_TRANSLATE_NOOP("Action", "Previous Problem"),
         lambda session: go_to_problem(session, -1),
         "View",
         "Shift+F8",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import ceil, floor
 
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from app.shell.editor import editor_of
 from app.shell.recording import recorder_of
 from widgets.common.session import Session
@@ -58,7 +58,7 @@ def _span(session: Session) -> tuple[int, int] | None:
     return session.recording.punch_ticks
 
 
-def _count_in(id: str, bars: int, text: str) -> Action:
+def _count_in(id: str, bars: int) -> Action:
     def run(session: Session, on: bool = True) -> None:
         recorder = recorder_of(session)
         if recorder is not None:
@@ -66,7 +66,6 @@ def _count_in(id: str, bars: int, text: str) -> Action:
 
     return Action(
         id,
-        text,
         run,
         "Record/Counting",
         enabled=_is_here,
@@ -93,7 +92,6 @@ def _is_armed(session: Session) -> bool:
 ACTIONS: tuple[Action, ...] = (
     Action(
         "record.toggle",
-        QT_TRANSLATE_NOOP("Action", "Record"),
         toggle,
         "Record",
         "Ctrl+R",
@@ -102,7 +100,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "record.arm",
-        QT_TRANSLATE_NOOP("Action", "Always Record This Player"),
         arm,
         "Record",
         enabled=_can_record,
@@ -110,18 +107,16 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "record.punch",
-        QT_TRANSLATE_NOOP("Action", "Punch In and Out"),
         punch,
         "Record",
         enabled=lambda session: _can_record(session) and _span(session) is not None,
         checked=lambda session: session.recording.punch,
     ),
-    _count_in("record.count_in_0", 0, QT_TRANSLATE_NOOP("Action", "No Count-in")),
-    _count_in("record.count_in_1", 1, QT_TRANSLATE_NOOP("Action", "Count In One Bar")),
-    _count_in("record.count_in_2", 2, QT_TRANSLATE_NOOP("Action", "Count In Two Bars")),
+    _count_in("record.count_in_0", 0),
+    _count_in("record.count_in_1", 1),
+    _count_in("record.count_in_2", 2),
     Action(
         "record.devices",
-        QT_TRANSLATE_NOOP("Action", "Devices..."),
         devices,
         "Record",
         enabled=_is_here,
@@ -129,7 +124,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "record.latency",
-        QT_TRANSLATE_NOOP("Action", "Measure Latency..."),
         latency,
         "Record",
         enabled=_has_device,

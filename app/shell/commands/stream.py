@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from app.shell.editor import editor_of
 from app.shell.streamer import streamer_of
 from widgets.common.session import Session
@@ -25,7 +25,6 @@ def _can_stream(session: Session) -> bool:
 ACTIONS: tuple[Action, ...] = (
     Action(
         "stream.toggle",
-        QT_TRANSLATE_NOOP("Action", "Stream Live (VMC)"),
         toggle,
         "Export",
         "Ctrl+Alt+L",
@@ -35,7 +34,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "stream.settings",
-        QT_TRANSLATE_NOOP("Action", "Live Stream Settings..."),
         settings,
         "Export",
         enabled=lambda session: streamer_of(session) is not None,

@@ -8,7 +8,7 @@ from app.project.edit.takes import BEFORE
 from app.project.limits import LAST_TICK
 from app.project.model import Player, Project
 from app.score.take import Cleaning, Floats, Take
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from app.shell.sound import sound_of
 from widgets.common.listening import HeardTake
 from widgets.common.selection import Selection
@@ -208,7 +208,6 @@ def _may_sink(session: Session) -> bool:
 ACTIONS: tuple[Action, ...] = (
     Action(
         "takes.listen",
-        QT_TRANSLATE_NOOP("Action", "Listen to Take"),
         listen,
         "Record/Takes",
         "Ctrl+L",
@@ -217,7 +216,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "takes.listen_alone",
-        QT_TRANSLATE_NOOP("Action", "Listen to Take Alone"),
         listen_alone,
         "Record/Takes",
         "Ctrl+Shift+L",
@@ -226,7 +224,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "takes.whole",
-        QT_TRANSLATE_NOOP("Action", "Use the Whole Take"),
         whole,
         "Record/Takes",
         enabled=_has_row,
@@ -234,7 +231,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "takes.above",
-        QT_TRANSLATE_NOOP("Action", "Selected Span from the Take Above"),
         above,
         "Record/Takes",
         "Alt+Up",
@@ -244,7 +240,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "takes.below",
-        QT_TRANSLATE_NOOP("Action", "Selected Span from the Take Below"),
         below,
         "Record/Takes",
         "Alt+Down",
@@ -254,7 +249,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "takes.before",
-        QT_TRANSLATE_NOOP("Action", "Back to What Was Before the Takes"),
         before,
         "Record/Takes",
         enabled=_has_takes,
@@ -262,7 +256,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "takes.rename",
-        QT_TRANSLATE_NOOP("Action", "Rename Take"),
         rename,
         "Record/Takes",
         "F2",
@@ -272,21 +265,18 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "takes.earlier_lane",
-        QT_TRANSLATE_NOOP("Action", "Move Take Up"),
         earlier_lane,
         "Record/Takes",
         enabled=_may_rise,
     ),
     Action(
         "takes.later_lane",
-        QT_TRANSLATE_NOOP("Action", "Move Take Down"),
         later_lane,
         "Record/Takes",
         enabled=_may_sink,
     ),
     Action(
         "takes.usual_cleaning",
-        QT_TRANSLATE_NOOP("Action", "Clean Take as Usual"),
         usual_cleaning,
         "Record/Takes",
         enabled=_is_cleaned_otherwise,
@@ -294,7 +284,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "takes.find_beats",
-        QT_TRANSLATE_NOOP("Action", "Find the Beats of the Take"),
         find_beats,
         "Record/Takes",
         enabled=_has_chosen,
@@ -302,7 +291,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "takes.remove",
-        QT_TRANSLATE_NOOP("Action", "Delete Take"),
         remove,
         "Record/Takes",
         enabled=_has_chosen,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from widgets.common.session import Session, TimeDisplay
 from widgets.common.timeline_view import Ghosts, TimelineView
 
@@ -25,7 +25,7 @@ def _can_zoom_to_selection(session: Session) -> bool:
     return _has_view(session) and bool(session.selection)
 
 
-def _shown(ghosts: Ghosts, text: str, icon: str) -> Action:
+def _shown(ghosts: Ghosts, icon: str) -> Action:
     def run(session: Session, on: bool) -> None:
         if session.timeline_view is not None:
             session.timeline_view.set_ghosts(ghosts)
@@ -33,16 +33,15 @@ def _shown(ghosts: Ghosts, text: str, icon: str) -> Action:
     def checked(session: Session) -> bool:
         return session.timeline_view is not None and session.timeline_view.ghosts is ghosts
 
-    return Action(f"timeline.{ghosts.value}", text, run, "View/Notes", checked=checked, icon=icon)
+    return Action(f"timeline.{ghosts.value}", run, "View/Notes", checked=checked, icon=icon)
 
 
-def _counted(display: TimeDisplay, text: str) -> Action:
+def _counted(display: TimeDisplay) -> Action:
     def run(session: Session, on: bool) -> None:
         session.set_time_display(display)
 
     return Action(
         f"timeline.count_{display}",
-        text,
         run,
         "View/Time",
         checked=lambda session: session.time_display == display,
@@ -52,7 +51,6 @@ def _counted(display: TimeDisplay, text: str) -> Action:
 ACTIONS: tuple[Action, ...] = (
     Action(
         "timeline.zoom_in",
-        QT_TRANSLATE_NOOP("Action", "Zoom Timeline In"),
         _asked(lambda view: view.zoom_in()),
         "View",
         "Ctrl++;Ctrl+=",
@@ -61,7 +59,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "timeline.zoom_out",
-        QT_TRANSLATE_NOOP("Action", "Zoom Timeline Out"),
         _asked(lambda view: view.zoom_out()),
         "View",
         "Ctrl+-",
@@ -70,7 +67,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "timeline.fit",
-        QT_TRANSLATE_NOOP("Action", "Show the Whole Piece"),
         _asked(lambda view: view.fit()),
         "View",
         "Ctrl+0",
@@ -79,7 +75,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "timeline.zoom_selection",
-        QT_TRANSLATE_NOOP("Action", "Zoom to Selection"),
         _asked(lambda view: view.zoom_to_selection()),
         "View",
         "Z",
@@ -87,10 +82,10 @@ ACTIONS: tuple[Action, ...] = (
         enabled=_can_zoom_to_selection,
         icon="zoom_selection",
     ),
-    _shown(Ghosts.GHOSTS, QT_TRANSLATE_NOOP("Action", "Others as Ghosts"), "ghosts"),
-    _shown(Ghosts.ALL, QT_TRANSLATE_NOOP("Action", "All Players' Notes"), "players"),
-    _shown(Ghosts.ALONE, QT_TRANSLATE_NOOP("Action", "Only the Notes of the Player in Front"), "player"),
-    _counted("bars", QT_TRANSLATE_NOOP("Action", "Ruler in Bars")),
-    _counted("seconds", QT_TRANSLATE_NOOP("Action", "Ruler in Seconds")),
-    _counted("frames", QT_TRANSLATE_NOOP("Action", "Ruler in Frames")),
+    _shown(Ghosts.GHOSTS, "ghosts"),
+    _shown(Ghosts.ALL, "players"),
+    _shown(Ghosts.ALONE, "player"),
+    _counted("bars"),
+    _counted("seconds"),
+    _counted("frames"),
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.action import Action
 from widgets.common.session import Session
 from widgets.common.viewport_state import Shown, View
 
@@ -46,10 +46,9 @@ def _has_players(session: Session) -> bool:
     return bool(session.project.players)
 
 
-def _view(view: View, text: str, key: str) -> Action:
+def _view(view: View, key: str) -> Action:
     return Action(
         id=f"viewport.{view}",
-        text=text,
         run=partial(show_view, view),
         menu="View/Viewport",
         shortcut=key,
@@ -58,10 +57,9 @@ def _view(view: View, text: str, key: str) -> Action:
     )
 
 
-def _toggle(what: Shown, text: str, icon: str, key: str = "") -> Action:
+def _toggle(what: Shown, icon: str, key: str = "") -> Action:
     return Action(
         id=f"viewport.{what}",
-        text=text,
         run=partial(show, what),
         menu="View/Viewport",
         shortcut=key,
@@ -72,16 +70,15 @@ def _toggle(what: Shown, text: str, icon: str, key: str = "") -> Action:
 
 
 ACTIONS: tuple[Action, ...] = (
-    _view("ensemble", QT_TRANSLATE_NOOP("Action", "Ensemble"), "1"),
-    _view("front", QT_TRANSLATE_NOOP("Action", "Front"), "2"),
-    _view("side", QT_TRANSLATE_NOOP("Action", "Side"), "3"),
-    _view("top", QT_TRANSLATE_NOOP("Action", "Top"), "4"),
-    _view("hands", QT_TRANSLATE_NOOP("Action", "Hands"), "5"),
-    _view("mouth", QT_TRANSLATE_NOOP("Action", "Mouth"), "6"),
-    _view("feet", QT_TRANSLATE_NOOP("Action", "Feet"), "7"),
+    _view("ensemble", "1"),
+    _view("front", "2"),
+    _view("side", "3"),
+    _view("top", "4"),
+    _view("hands", "5"),
+    _view("mouth", "6"),
+    _view("feet", "7"),
     Action(
         id="viewport.frame",
-        text=QT_TRANSLATE_NOOP("Action", "Frame Selected Players"),
         run=frame_players,
         menu="View/Viewport",
         shortcut="F",
@@ -91,7 +88,6 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         id="viewport.frame_all",
-        text=QT_TRANSLATE_NOOP("Action", "Frame Ensemble"),
         run=frame_ensemble,
         menu="View/Viewport",
         shortcut="Home;A",
@@ -99,13 +95,12 @@ ACTIONS: tuple[Action, ...] = (
         enabled=_has_players,
         icon="players",
     ),
-    _toggle("names", QT_TRANSLATE_NOOP("Action", "Players' Names"), "player"),
-    _toggle("skeleton", QT_TRANSLATE_NOOP("Action", "Skeleton"), "skeleton"),
-    _toggle("contacts", QT_TRANSLATE_NOOP("Action", "Contact Points"), "contacts"),
-    _toggle("wireframe", QT_TRANSLATE_NOOP("Action", "Wireframe"), "wireframe", "W"),
+    _toggle("names", "player"),
+    _toggle("skeleton", "skeleton"),
+    _toggle("contacts", "contacts"),
+    _toggle("wireframe", "wireframe", "W"),
     Action(
         id="viewport.pose",
-        text=QT_TRANSLATE_NOOP("Action", "Pose by Hand"),
         run=pose,
         menu="View/Viewport",
         shortcut="P",

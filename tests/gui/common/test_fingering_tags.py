@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import pytest
 from PySide6.QtWidgets import QApplication
 
+from app.shell.language import Texts
 from instrument_maps.load import bundled_maps
-from tests.gui.japanese import FromFiles
 from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
 
 USED = {tag for instrument in bundled_maps().values() for one in instrument.fingerings for tag in one.tags}
@@ -16,7 +16,7 @@ USED = {tag for instrument in bundled_maps().values() for one in instrument.fing
 
 @pytest.fixture
 def japanese(qt_app: QApplication) -> Iterator[None]:
-    translator = FromFiles("common", parent=qt_app)
+    translator = Texts("ja")
     qt_app.installTranslator(translator)
     yield
     qt_app.removeTranslator(translator)

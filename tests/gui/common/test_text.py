@@ -8,10 +8,10 @@ import pytest
 from PySide6.QtWidgets import QApplication
 
 from app.errors import Message
-from app.messages import PITCHES, TEMPLATES, text
+from app.messages import PITCHES, WORDINGS, text
 from app.project.edit.notes import move
 from app.score.model import Note
-from tests.gui.japanese import FromFiles
+from app.shell.language import Texts
 from widgets.common.session import Session
 from widgets.common.text import message_text
 
@@ -31,7 +31,7 @@ def note(session: Session) -> Note:
 
 @pytest.fixture
 def japanese(qt_app: QApplication) -> Iterator[None]:
-    translator = FromFiles("common", "messages", parent=qt_app)
+    translator = Texts("ja")
     qt_app.installTranslator(translator)
     yield
     qt_app.removeTranslator(translator)
@@ -39,23 +39,23 @@ def japanese(qt_app: QApplication) -> Iterator[None]:
 
 def test_a_note_is_told_by_pitch_and_place(session: Session, note: Note) -> None:
     told = message_text(Message("breath.inside_note", {"note": note.id}), session)
-    assert told.endswith("note F4 (bar 2, beat 2)"), told
+    assert "the sounding note F4 (bar 2, beat 2);" in told, told
     assert note.id not in told
 
 
 def test_pitches_are_named_as_the_person_wants(session: Session, note: Note) -> None:
     message = Message("fingering.out_of_range", {"note": note.id, "pitch": 45, **OUTSIDE})
-    assert "A2 lies outside the range of this instrument, F♯3 to B♭5" in message_text(message, session)
+    assert "A2 is outside this instrument's range (F♯3 to B♭5)" in message_text(message, session)
     session.pitch_display.set(middle_c_octave=3)
-    assert "A1 lies outside the range of this instrument, F♯2 to B♭4" in message_text(message, session)
+    assert "A1 is outside this instrument's range (F♯2 to B♭4)" in message_text(message, session)
     session.pitch_display.set(middle_c_octave=4, written=True)
     # A trumpet in B flat reads a whole tone above what sounds.
-    assert "B2 lies outside the range of this instrument, A♭3 to C6" in message_text(message, session)
+    assert "B2 is outside this instrument's range (A♭3 to C6)" in message_text(message, session)
 
 
 def test_the_command_line_keeps_ids_and_names_pitches(note: Note) -> None:
     told = text(Message("fingering.out_of_range", {"note": note.id, "pitch": 45, **OUTSIDE}))
-    assert told.startswith(f"note {note.id}: A2 lies outside the range of this instrument, F♯3 to B♭5")
+    assert told.startswith(f"note {note.id}: A2 is outside this instrument's range (F♯3 to B♭5)")
 
 
 def test_a_note_of_another_player_is_found(session: Session) -> None:
@@ -65,7 +65,7 @@ def test_a_note_of_another_player_is_found(session: Session) -> None:
     told = message_text(message, session)
     assert "(bar 1, beat " in told
     # A note that is gone is told by what is known of it.
-    assert "when 99:1 begins" in told
+    assert "overlaps 99:1 by" in told
     assert message_text(message, session, other.id) == told
 
 
@@ -88,11 +88,11 @@ def test_an_anchor_is_a_note_an_event_or_a_name(session: Session, note: Note) ->
     def told(anchor: str) -> str:
         return message_text(Message("correction.orphaned", {"kind": "set_breath", "anchor": anchor}), session)
 
-    assert told(note.id).startswith("the correction (breath) for F4 (bar 2, beat 2)")
-    assert told(f"breath:{note.id}").startswith("the correction (breath) for Breath F4 (bar 2, beat 2)")
-    assert told("lower_instrument:@960").startswith("the correction (breath) for Instrument lowered 1.2")
-    assert told("99:1").startswith("the correction (breath) for a note that is gone has lost")
-    assert told("added-3").startswith("the correction (breath) for added-3")
+    assert told(note.id).startswith("correction (breath) for F4 (bar 2, beat 2)")
+    assert told(f"breath:{note.id}").startswith("correction (breath) for Breath F4 (bar 2, beat 2)")
+    assert told("lower_instrument:@960").startswith("correction (breath) for Instrument lowered 1.2")
+    assert told("99:1").startswith("correction (breath) for a deleted note: no matching note")
+    assert told("added-3").startswith("correction (breath) for added-3")
 
 
 @pytest.mark.usefixtures("japanese")
@@ -111,7 +111,7 @@ def test_in_japanese_no_english_word_is_left(session: Session, note: Note) -> No
 
 def test_pitches_of_messages_are_their_fields() -> None:
     for id, names in PITCHES.items():
-        assert all("{" + name + "}" in TEMPLATES[id] for name in names), id
+        assert all("{" + name + "}" in WORDINGS[id][0] for name in names), id
 
 
 def test_an_instrument_is_told_by_its_name() -> None:

@@ -93,7 +93,7 @@ def test_the_gallery_counts_what_is_danced_and_goes_by_arrow_keys(session: Sessi
     assert used
     assert dict(rows.used) == used
     for state in range(6):
-        expected = f"danced {used[state]}×" if used[state] else "not danced"
+        expected = f"used {used[state]}×" if used[state] else "not used"
         assert rows.used_text(state) == expected
         assert expected in str(rows.index(state).data(Qt.ItemDataRole.AccessibleTextRole))
     assert f"dances {len(used)} of 6 " in text(dialog, "use")
@@ -132,7 +132,7 @@ def test_transitions_are_the_models_percentages_and_the_cell_is_read_out(
         f"Basic motion 2 is followed by 3 with a probability of {100 * transition[1, 2]:.1f} %."
     )
     press(dialog.transitions, Qt.Key.Key_Left)
-    assert text(dialog, "transitions_details").startswith("Basic motion 2 is danced again")
+    assert text(dialog, "transitions_details").startswith("Basic motion 2 repeats with a probability of ")
     assert table.rows.marked == set(danced(session))
     assert not session.document.done[1:]
 
@@ -167,7 +167,7 @@ def test_sounds_are_those_learned_and_those_of_the_piece_which_are_marked(dialog
     assert [table.index(0, column).data() for column in range(6)] == ["95"] * 6
     assert [table.index(1, column).data() for column in range(6)] == ["·"] * 6
     press(dialog.percussion, Qt.Key.Key_Right)
-    assert text(dialog, "percussion_details") == "95.4 % of the strokes during basic motion 2 are: Cowbell"
+    assert text(dialog, "percussion_details") == "Cowbell: 95.4 % of the percussion hits during basic motion 2"
 
 
 def test_credits_are_shown_as_they_are_written(dialog: ChoreographyDialog) -> None:

@@ -208,10 +208,10 @@ def test_who_is_left_out_is_named_with_the_reason(
         dialog._players.item(row).setCheckState(Qt.CheckState.Checked)
     start(dialog)
     told = outcome.text()
-    assert "Trumpet 1 is left out: " in told
+    assert "Trumpet 1 is excluded: " in told
     assert "mori.glb" in told
-    assert "Trumpet 2 is left out: " in told
-    assert "'ophicleide', which is not installed" in told
+    assert "Trumpet 2 is excluded: " in told
+    assert "the instrument 'ophicleide' of Trumpet 2 is not installed" in told
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"Trombone 1.bvh", "report.json"}
-    assert any(line.startswith("warning: Trumpet 1 is left out: ") for line in noticed)
+    assert any(line.startswith("warning: Trumpet 1 is excluded: ") for line in noticed)
     session.deleteLater()

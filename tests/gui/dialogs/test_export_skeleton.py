@@ -16,8 +16,8 @@ from app.formats.fbx.write import write_scene
 from app.performance.bodies import character_of
 from app.performance.ensemble import Performance
 from app.performance.span import cut_span
+from app.shell.language import Texts
 from tests.gui.conftest import quartet_project
-from tests.gui.japanese import FromFiles
 from tests.support.bad_players import with_character
 from tests.support.performed import player_motion
 from tests.support.tasks import ImmediateTasks
@@ -75,7 +75,7 @@ def can_start(dialog: ExportDialog) -> bool:
 def test_a_request_has_what_is_chosen(dialog: ExportDialog, mannequin: Path) -> None:
     assert dialog._request().skeleton == "own"
     choose(dialog, Qt.Key.Key_Down)
-    assert "IK retargeter" in told(dialog)
+    assert "IK Retargeter" in told(dialog)
     name(dialog, mannequin)
     request = dialog._request()
     assert (request.skeleton, request.asset) == ("ue5", mannequin)
@@ -104,7 +104,7 @@ def test_one_without_a_character_does_not_keep_the_others_from_an_asset(
 def test_an_asset_that_would_lose_the_animation_is_refused(dialog: ExportDialog, mannequin: Path, qtbot: QtBot) -> None:
     name(dialog, mannequin)
     qtbot.waitUntil(lambda: "⚠" in told(dialog))
-    assert "53 bones that move are not in the asset" in told(dialog)
+    assert "53 animated bones are not in the asset" in told(dialog)
     assert "hips, spine, chest" in told(dialog)
     assert not can_start(dialog)
     field = dialog.findChild(QLineEdit, "export_asset")
@@ -118,7 +118,7 @@ def test_a_file_that_is_none_is_named(dialog: ExportDialog, tmp_path: Path, qtbo
     name(dialog, tmp_path / "absent.fbx")
     outcome = dialog.findChild(QLabel, "export_outcome")
     assert outcome is not None
-    assert "no file of this name" in outcome.text()
+    assert "The file to compare with was not found." in outcome.text()
     assert not can_start(dialog)
     (tmp_path / "broken.fbx").write_bytes(b"Kaydara FBX Binary  \x00\x1a\x00 and nothing more")
     name(dialog, tmp_path / "broken.fbx")
@@ -142,7 +142,7 @@ def test_both_languages(dialog: ExportDialog, qt_app: QApplication) -> None:
     box = dialog.findChild(QComboBox, "export_skeleton")
     assert box is not None
     assert box.itemText(1) == "Unreal Engine 5 mannequin"
-    japanese = FromFiles("dialogs", "messages")
+    japanese = Texts("ja")
     qt_app.installTranslator(japanese)
     try:
         dialog._skeleton.retranslate()

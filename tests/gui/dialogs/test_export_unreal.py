@@ -104,7 +104,7 @@ def test_it_exports_into_a_project_and_again(dialog: ExportDialog, game: Path) -
     assert "will be replaced: " in outcome(dialog)
     assert "S_quartet.wav" in outcome(dialog)
     dialog._players.item(0).setCheckState(Qt.CheckState.Unchecked)
-    assert "2 will be removed: " in outcome(dialog)
+    assert "2 files that are no longer needed will be removed: " in outcome(dialog)
 
 
 def test_a_dancer_goes_into_the_project_alone(session: Session, qtbot: QtBot, game: Path, tmp_path: Path) -> None:
@@ -161,7 +161,7 @@ def test_each_destination_keeps_its_place(dialog: ExportDialog, game: Path, tmp_
 def test_what_is_wrong_is_told_before_anything_is_written(dialog: ExportDialog, game: Path, tmp_path: Path) -> None:
     into_unreal(dialog)
     place(dialog, str(tmp_path))
-    assert "is no Unreal project" in outcome(dialog)
+    assert "is not an Unreal project" in outcome(dialog)
     assert not start_button(dialog).isEnabled()
     mine = game / "SuisouSource" / "quartet" / "Audio" / "S_quartet.wav"
     mine.parent.mkdir(parents=True)

@@ -278,7 +278,7 @@ def test_an_unknown_name_is_asked_about(qt_app: QApplication, qtbot: QtBot, tmp_
     ok = dialog.findChild(QDialogButtonBox).button(QDialogButtonBox.StandardButton.Ok)
     # Left alone it is left out; nothing is chosen for it.
     assert (play.isChecked(), ok.isEnabled(), instrument.isEnabled()) == (False, True, True)
-    assert (instrument.currentData(), instrument.currentText()) == (None, "Choose an instrument")
+    assert (instrument.currentData(), instrument.currentText()) == (None, "Select an instrument")
     assert [part.name for part in imported(dialog).score.parts] == ["Flute"]
     # Ticked, it must be answered before anything is imported.
     QTest.mouseClick(play, Qt.MouseButton.LeftButton)
@@ -303,8 +303,8 @@ def test_a_percussion_track_is_shown_as_the_dancers(qt_app: QApplication, qtbot:
     dialog.show()
     instrument = dialog.findChild(QComboBox, "instrument_0")
     assert instrument is not None
-    assert instrument.currentText() == "Percussion, for dancers"
-    assert "no player plays it" in instrument.toolTip()
+    assert instrument.currentText() == "Percussion (for dancers)"
+    assert "not played by players" in instrument.toolTip()
     told = dialog.findChild(QListWidget, "import_warnings")
     assert told is not None
     assert any(told.item(row).text().endswith("; dancers dance to it") for row in range(told.count()))

@@ -154,7 +154,7 @@ def test_what_cannot_be_is_told_beside_it_and_changes_nothing(page: Page) -> Non
 def test_alternates_come_and_go_and_every_step_is_undone(page: Page) -> None:
     page.choose(D5)
     page.click("add")
-    assert "there already" in page.problem.text()  # Nothing else is a harmonic there.
+    assert "already in the table" in page.problem.text()  # Nothing else is a harmonic there.
     page.choose(HIGH)
     before = page.labels(HIGH)
     page.click("add")

@@ -50,7 +50,7 @@ def test_conflicts_are_rows_and_what_stays_is_counted(session: Session, qtbot: Q
             for note in (edited.score.parts[0].notes[3], outcome.project.score.parts[0].notes[3])
         )
         assert texts[0] == f"{part.name}: {here} → {there}"
-        assert texts[1].startswith(f"{part.name}: {'erased' if language == 'en' else '削除'}")
+        assert texts[1].startswith(f"{part.name}: {'deleted' if language == 'en' else '削除'}")
         table = dialog.findChild(QTableWidget, "reimport_parts")
         assert table is not None
         assert [table.item(row, 4).text() for row in range(table.rowCount())] == ["1", "0", "0", "0"]

@@ -122,7 +122,7 @@ def test_a_pose_is_turned_and_faded(panel: InspectorPanel, planned: Session) -> 
     assert isinstance(item, PoseCorrection)
     assert item.up_deg == -8.0
     assert item.fade_in_ticks > 0
-    assert "added by hand" in child(panel, ByHandLine, "event_by_hand").text()
+    assert "added manually" in child(panel, ByHandLine, "event_by_hand").text()
 
 
 def lines(panel: InspectorPanel, name: str) -> LineList:
@@ -201,7 +201,7 @@ def test_the_history_goes_back_and_forth(panel: InspectorPanel, planned: Session
     last = planned.project
     show_tab(panel, 2)
     view = lines(panel, "history_list")
-    assert [line.title for line in view.lines.lines] == ["As opened", "Rename 1", "Rename 2", "Rename 3"]
+    assert [line.title for line in view.lines.lines] == ["Opened", "Rename 1", "Rename 2", "Rename 3"]
     assert view.lines.lines[3].tone == "current"
     click_line(view, 0)
     assert planned.project is first

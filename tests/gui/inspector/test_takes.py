@@ -63,7 +63,7 @@ def words(panel: InspectorPanel) -> str:
 
 
 def test_it_says_what_is_left_out(panel: InspectorPanel, taken: Session) -> None:
-    assert "Left out: ghost notes: 1, unheard: 1" in words(panel)
+    assert "Excluded: ghost notes: 1, inaudible: 1" in words(panel)
     assert "EWI5000" in words(panel)
     assert pitches(taken) == [60, 64, 65]
 

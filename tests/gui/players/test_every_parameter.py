@@ -6,11 +6,12 @@ import pytest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.messages import WORDINGS
 from app.plan.parameters import PARAMETERS, Parameter
 from app.project.edit.body_dance import set_body_dance
 from app.project.edit.dancers import add_dancer
 from app.project.model import DANCER_PARAMETERS
-from tests.gui.japanese import FromFiles
+from app.shell.language import Texts
 from tests.support.parameters import others
 from tests.support.windows import show_in_front
 from widgets.common.combo import Combo
@@ -54,7 +55,8 @@ def test_every_parameter_is_changed_for_all_who_are_selected(
     choose(control, value)
     assert {getattr(player.parameters, parameter.name) for player in session.project.players} == {value}
     assert len(session.document.done) == 1
-    assert sentence(session.document.done[0].name) == f"{parameter.label}, players: {len(session.project.players)}"
+    label = WORDINGS[parameter.label][0]
+    assert sentence(session.document.done[0].name) == f"{label}, players: {len(session.project.players)}"
 
 
 @pytest.mark.parametrize("parameter", DANCER_PARAMETERS.values(), ids=DANCER_PARAMETERS)
@@ -64,25 +66,21 @@ def test_every_parameter_of_a_dancer_is_changed(panel: PlayersPanel, session: Se
     value = 0 if parameter.name == "source" else others(parameter, parameter.default)[-1]
     choose(control, value)
     assert getattr(session.project.dancers[0], parameter.name) == value
-    assert sentence(session.document.done[0].name) == f"{parameter.label} of Anna"
+    assert sentence(session.document.done[0].name) == f"{WORDINGS[parameter.label][0]} of Anna"
 
 
 def test_words_are_those_of_the_declaration_in_both_languages(panel: PlayersPanel) -> None:
-    japanese = FromFiles("parameters")
-    assert japanese.faults == []
-    for translator in (None, japanese):
-        if translator is not None:
-            QApplication.installTranslator(translator)
+    for language, code in enumerate(("en", "ja")):
+        translator = Texts(code)
+        QApplication.installTranslator(translator)
         try:
             QApplication.processEvents()
             for table, prefix in ((PARAMETERS, "parameter"), (DANCER_PARAMETERS, "dancer")):
                 for parameter in table.values():
                     control = panel.findChild(QWidget, f"{prefix}_{parameter.name}")
                     assert isinstance(control, QWidget)
-                    tip = japanese.texts.get(("Parameter", parameter.tip, "")) if translator else parameter.tip
-                    label = japanese.texts["Parameter", parameter.label, ""] if translator else parameter.label
-                    assert control.toolTip().startswith(tip or "")
+                    assert not parameter.tip or control.toolTip().startswith(WORDINGS[parameter.tip][language])
+                    label = WORDINGS[parameter.label][language]
                     assert not isinstance(control, NumberSlider) or control.accessibleName() == label
         finally:
-            if translator is not None:
-                QApplication.removeTranslator(translator)
+            QApplication.removeTranslator(translator)

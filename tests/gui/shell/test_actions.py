@@ -48,7 +48,7 @@ def test_undo_names_the_step_and_takes_it_back(program: Program, qtbot: QtBot) -
     before = session.project
     session.attempt(Message("edit.set_tempo"), lambda project: set_title(project, "Another"))
     qtbot.waitUntil(undo.isEnabled)
-    assert undo.text() == "Undo: set the tempo"
+    assert undo.text() == "Undo: Set Tempo"
     qtbot.keyClick(program.window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert session.project is before
     qtbot.waitUntil(redo.isEnabled)
@@ -131,7 +131,7 @@ def test_the_preferences_move_a_shortcut(program: Program, qtbot: QtBot) -> None
     dialog.close()
 
 
-@pytest.mark.parametrize(("language", "told"), [("en", "Opens the menu File"), ("ja", "ファイル")])
+@pytest.mark.parametrize(("language", "told"), [("en", "opens the menu File"), ("ja", "形式")])
 def test_keys_that_open_a_menu_are_not_given(program: Program, qtbot: QtBot, language: str, told: str) -> None:
     from app.shell.preferences import show_preferences
 

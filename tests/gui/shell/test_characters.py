@@ -152,7 +152,7 @@ def test_without_what_playing_needs_it_cannot_be_kept(program: Program) -> None:
 def test_a_mitten_is_told(program: Program) -> None:
     told = opened(program, MITTENS).findChild(QLabel, "character_told")
     assert told is not None
-    assert "fingers" in told.text()
+    assert "Fingers that do not move" in told.text()
     assert "blink" in told.text()
 
 

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QCoreApplication
 from PySide6.QtGui import QAction, QFont, QFontDatabase, QRawFont
 from PySide6.QtWidgets import (
     QAbstractButton,
-    QApplication,
     QComboBox,
     QDockWidget,
     QGroupBox,
@@ -24,14 +21,12 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-import resources
 from app.choreography.library import bundled_choreographies
 from app.shell.app import Program
-from app.shell.language import Language
+from app.shell.language import ROOMS
 from app.shell.preferences import show_preferences
 from app.shell.settings import Settings
 from app.shell.theme import JAPANESE_FAMILIES
-from resources.build import build_translations as build
 from tests.gui.shell.conftest import trigger
 
 KEPT = (
@@ -129,9 +124,8 @@ def test_every_japanese_sign_can_be_drawn(program: Program) -> None:
     assert family is not None, "no Japanese font is installed"
     font = QRawFont.fromFont(QFont(family))
     signs: dict[str, str] = {}
-    for path in sorted(Path(build.TARGET).glob("*_ja.ts")):
-        for text in build.translations(path).values():
-            signs |= {sign: text for sign in text if ord(sign) > 0x7F}
+    for _, text in (wording for room in ROOMS for wording in room.values()):
+        signs |= {sign: text for sign in text if ord(sign) > 0x7F}
     own = QRawFont.fromFont(program.window.font())
     undrawn = {
         s: text for s, text in signs.items() if not font.supportsCharacter(ord(s)) and not own.supportsCharacter(ord(s))
@@ -145,22 +139,3 @@ def test_actions_have_texts_in_japanese(program: Program) -> None:
     missing = [row.id for row in program.editor.table.rows.values() if english(program.editor.table.text(row.id), ())]
     assert missing == []
     assert isinstance(program.session.actions["file.save"], QAction)
-
-
-def test_an_update_under_the_running_editor_leaves_its_words_alone(
-    qapp: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A file that is mapped and rewritten in place crashed whoever asked for a word."""
-    folder = tmp_path / "translations"
-    folder.mkdir()
-    release = folder / "suisou_ja.qm"
-    release.write_bytes((Path(resources.__file__).parent / "translations" / "suisou_ja.qm").read_bytes())
-    monkeypatch.setattr("app.shell.language.files", lambda package: tmp_path)
-    language = Language()
-    language.set("ja")
-    try:
-        assert QCoreApplication.translate("_Details", "Copy") == "コピー"
-        release.write_bytes(b"")
-        assert QCoreApplication.translate("_Details", "Copy") == "コピー"
-    finally:
-        language.set("en")

@@ -40,7 +40,7 @@ def test_a_learned_choreography_is_danced_by_the_selected_dancer_or_a_new_one(st
     assert dialog.isVisible()
     use = dialog.findChild(QPushButton, "learn_use")
     assert use is not None
-    assert use.text() == "Add a Dancer with It"
+    assert use.text() == "Add Dancer with This Choreography"
     dialog.used.emit(learned)
     (dancer,) = session.project.dancers
     assert dancer.choreography == str(learned)
@@ -70,7 +70,7 @@ def test_it_is_where_a_choreography_is_chosen(studio: Studio) -> None:
     combo = section.findChild(Combo, "dancer_choreography")
     assert combo is not None
     last = combo.count() - 1
-    assert combo.itemText(last) == "Learn …"
+    assert combo.itemText(last) == "Learn..."
     combo.setCurrentIndex(last)
     combo.activated.emit(last)
     dialog = program.window.findChild(LearnDialog)

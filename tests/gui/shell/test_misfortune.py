@@ -64,7 +64,7 @@ def told(program: Program) -> Told:
     return result
 
 
-def edit(program: Program, title: str = "By hand") -> Project:
+def edit(program: Program, title: str = "Corrections") -> Project:
     assert program.session.attempt(Message("edit.set_tempo"), lambda project: set_title(project, title))
     return program.session.project
 
@@ -191,7 +191,7 @@ def test_a_full_disk(program: Program, told: Told, answers: Answers, tmp_path: P
     assert [found.name for found in tmp_path.glob("*.partial")] == []
     trigger(program, "file.save")
     assert program.session.document.is_saved
-    assert storage.load(path).score.title == "By hand"
+    assert storage.load(path).score.title == "Corrections"
 
 
 def test_a_place_that_cannot_be_written_to(program: Program, told: Told, answers: Answers, tmp_path: Path) -> None:
@@ -216,7 +216,7 @@ def test_a_file_that_is_write_protected(
     monkeypatch.setattr("app.project.storage.os.access", lambda *_: False)
     trigger(program, "file.save")
     assert "work.suisou" in refused(program, told)
-    assert storage.load(path).score.title != "By hand"
+    assert storage.load(path).score.title != "Corrections"
 
 
 def test_names_that_nobody_expects(program: Program, answers: Answers, tmp_path: Path) -> None:
@@ -263,7 +263,7 @@ def test_work_of_others_is_not_written_over(
     assert program.window.banner.isVisible()
     answers.path = tmp_path / "mine.suisou"
     click(program, "banner_answer_0", qtbot)
-    assert storage.load(tmp_path / "mine.suisou").score.title == "By hand"
+    assert storage.load(tmp_path / "mine.suisou").score.title == "Corrections"
     assert storage.load(overtaken).score.title == "Of somebody else"
     assert program.session.document.is_saved
     assert not program.window.banner.isVisible()
@@ -272,7 +272,7 @@ def test_work_of_others_is_not_written_over(
 def test_work_of_others_is_replaced_where_the_person_says_so(program: Program, overtaken: Path, qtbot: QtBot) -> None:
     trigger(program, "file.save")
     click(program, "banner_answer_1", qtbot)
-    assert storage.load(overtaken).score.title == "By hand"
+    assert storage.load(overtaken).score.title == "Corrections"
     assert storage.load(storage.backup_path(overtaken)).score.title == "Of somebody else"
     edit(program, "Once more")
     trigger(program, "file.save")
@@ -289,13 +289,13 @@ def test_closing_does_not_write_over_work_of_others(
     assert storage.load(overtaken).score.title == "Of somebody else"
     click(program, "banner_answer_1", qtbot)
     qtbot.waitUntil(lambda: not program.window.isVisible())
-    assert storage.load(overtaken).score.title == "By hand"
+    assert storage.load(overtaken).score.title == "Corrections"
 
 
 def test_a_file_that_was_removed_is_written_again(program: Program, overtaken: Path) -> None:
     overtaken.unlink()
     trigger(program, "file.save")
-    assert storage.load(overtaken).score.title == "By hand"
+    assert storage.load(overtaken).score.title == "Corrections"
 
 
 def test_two_editors_on_one_file_are_told(start: Start, answers: Answers, tmp_path: Path) -> None:

@@ -92,7 +92,7 @@ def test_a_piece_is_dropped_heard_saved_and_opened_again(
     again = start()
     page = again.window.start_page
     texts = [label.text() for label in page.findChildren(QLabel)]
-    assert any(text.startswith(f"Unsaved work was found: {NAME}.suisou") for text in texts)
+    assert any(text.startswith(f"Unsaved changes found: {NAME}.suisou") for text in texts)
     rows = [button for button in page.findChildren(QPushButton, "recent_file") if f"{NAME}.suisou" in button.text()]
     assert rows[0].isEnabled()
     assert rows[0].toolTip() == f"{folder.parent}/{NAME}/{NAME}.suisou"

@@ -177,7 +177,7 @@ def test_a_fault_of_saving_does_not_hide_the_first(
 def test_notices_unfold_and_go(program: Program, qtbot: QtBot) -> None:
     status = program.window.status
     program.session.notice(Message("midi.empty", {"file": "/a/very/long/path.mid"}), Severity.ERROR)
-    assert status.notice_text == "/a/very/long/path.mid is empty"
+    assert status.notice_text == "/a/very/long/path.mid is empty; choose another file"
     click(program, "notice", qtbot)
     details = status._details
     qtbot.waitUntil(details.isVisible)

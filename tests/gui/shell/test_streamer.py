@@ -203,7 +203,7 @@ def test_nobody_there_is_said_and_hurts_nobody(program: Program, qtbot: QtBot) -
     chip = program.window.status.findChild(QPushButton, "stream_state")
     assert chip is not None
     qtbot.waitUntil(lambda: program.session.streaming.state == "unheard")
-    assert "nobody listens" in chip.text()
+    assert "no receiver" in chip.text()
     assert program.session.streaming.trouble is None
     with Receiver(port) as receiver:
         heard(receiver, qtbot, 2)
@@ -271,7 +271,7 @@ def test_the_dialog_by_mouse_and_keys(program: Program, qtbot: QtBot) -> None:
         heard(receiver, qtbot, 2)
         qtbot.waitUntil(lambda: "frames per second" in told.text())
         QTest.mouseClick(toggle, Qt.MouseButton.LeftButton)
-        assert told.text() == "Nothing is sent."
+        assert told.text() == "Not streaming."
     dialog.close()
 
 
@@ -357,8 +357,8 @@ def test_who_cannot_be_seen_is_named_and_everyone_else_is_sent(program: Program,
         dialog = StreamDialog(session)
         named = [dialog._list.topLevelItem(row).text(0) for row in range(4)]
         assert "not sent" in named[0]
-        assert "'ophicleide', which is not installed" in named[0]
+        assert "instrument 'ophicleide' of Trumpet 1 is not installed" in named[0]
         assert named[1] == session.project.players[1].name
     players = program.window.findChild(PlayerList)
     assert players is not None
-    assert ["which is not installed" in row.unseen for row in players.rows.rows] == [True, False, False, False]
+    assert ["is not installed" in row.unseen for row in players.rows.rows] == [True, False, False, False]

@@ -185,16 +185,16 @@ def test_escape_ends_a_drag_without_an_edit(lane: DanceLane) -> None:
 def test_what_is_forbidden_is_not_danced_until_it_is_allowed_again(lane: DanceLane) -> None:
     state = states(lane)[4]
     menu = menu_at(lane, place(lane, 4))
-    entries(menu)[f"Do Not Dance Basic Motion {state + 1} in This Piece"].trigger()
+    entries(menu)[f"Disable Basic Motion {state + 1} in This Piece"].trigger()
     menu.close()
     assert [type(item) for item in corrections(lane)] == [ForbidState]
     assert state not in {step.state for step in lane.dances[MARY].steps}
     menu = menu_at(lane, place(lane, 4))
-    entries(menu)[f"Allow Basic Motion {state + 1} Again"].trigger()
+    entries(menu)[f"Allow Basic Motion {state + 1}"].trigger()
     menu.close()
     assert corrections(lane) == ()
     menu = menu_at(lane, place(lane, 4))
-    entries(menu)[f"Do Not Dance Basic Motion {state + 1} Here"].trigger()
+    entries(menu)[f"Disable Basic Motion {state + 1} Here"].trigger()
     menu.close()
     [item] = corrections(lane)
     assert isinstance(item, ForbidState)

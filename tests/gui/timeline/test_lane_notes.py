@@ -238,7 +238,7 @@ def test_the_offset_is_typed(panel: TimelinePanel, session: Session) -> None:
 def test_without_a_recording_the_lane_says_what_to_do(panel: TimelinePanel, session: Session) -> None:
     lane = waveform_lane(panel)
     assert lane.offset_text() == ""
-    assert "recording" in lane.empty_text()
+    assert "Drop an audio file here" in lane.empty_text()
     double_click(lane, QPoint(300, 30))
     drag(lane, QPoint(300, 30), dx=50)
     assert not session.document.done

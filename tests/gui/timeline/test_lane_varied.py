@@ -99,7 +99,7 @@ def test_the_list_of_what_was_done_by_hand_has_it(panel: TimelinePanel, session:
     words.resize(320, 400)
     words.show()
     line = words.list.lines.lines[0]
-    assert (line.title, line.tone) == ("Performed anew", "by_hand")
+    assert (line.title, line.tone) == ("Regenerated", "by_hand")
     assert line.place == "2.2"
     words.list.opened.emit(line.key)
     assert session.player is not None

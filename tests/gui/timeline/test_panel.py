@@ -193,7 +193,7 @@ def test_tools_and_the_player_in_front_are_chosen_above(stage: Stage) -> None:
     assert stage.session.players == ("p2.1.1",)
     stage.table.actions["timeline.alone"].trigger()
     assert stage.panel.ghosts is Ghosts.ALONE
-    assert bar.ghosts_button.text() == "Only This Player"
+    assert bar.ghosts_button.text() == "Active Player Only"
 
 
 def test_the_scroll_bar_and_the_buttons_below(stage: Stage) -> None:

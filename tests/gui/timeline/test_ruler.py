@@ -218,17 +218,17 @@ def test_a_dragged_tempo_comes_back_with_escape(stage: Stage) -> None:
 
 def test_a_metre_is_added_at_a_bar_and_removed(stage: Stage) -> None:
     ruler = ruler_of(stage)
-    choose(ruler.context_menu(QPointF(*place(stage, 6 * TPQ))), "Add Metre at This Bar")
+    choose(ruler.context_menu(QPointF(*place(stage, 6 * TPQ))), "Add Time Signature at This Bar")
     type_into(stage, "3/4")
     metres = [(metre.tick, metre.numerator) for metre in stage.session.project.score.metres]
     assert metres == [(0, 4), (BAR, 3)]
     x, y = on_mark(stage, "metre", BAR)
-    choose(ruler.context_menu(QPointF(x, y)), "Remove Metre")
+    choose(ruler.context_menu(QPointF(x, y)), "Remove Time Signature")
     assert len(stage.session.project.score.metres) == 1
 
 
 def test_a_bar_is_selected_from_the_menu(stage: Stage) -> None:
-    choose(ruler_of(stage).context_menu(QPointF(*place(stage, 6 * TPQ))), "Select This Bar")
+    choose(ruler_of(stage).context_menu(QPointF(*place(stage, 6 * TPQ))), "Select Bar")
     assert stage.session.selection.span == (BAR, 2 * BAR)
 
 
@@ -251,7 +251,7 @@ def test_clock(seconds: float, decimals: int, text: str) -> None:
 
 def with_metre(stage: Stage, bar: int, text: str = "3/4") -> Ruler:
     ruler = ruler_of(stage)
-    choose(ruler.context_menu(QPointF(*place(stage, bar * BAR + 10))), "Add Metre at This Bar")
+    choose(ruler.context_menu(QPointF(*place(stage, bar * BAR + 10))), "Add Time Signature at This Bar")
     type_into(stage, text)
     return ruler
 

@@ -577,6 +577,7 @@ import sys
 from PySide6.QtWidgets import QApplication, QLabel
 from app.errors import AppError
 app = QApplication(["suisou"])
+from app.shell.language import Language
 from tests.gui.conftest import quartet_project
 from tests.support.tasks import ImmediateTasks
 from widgets.common.session import Session
@@ -588,6 +589,7 @@ class Nothing:
     def pose_now(self, player_id, time_s):
         return None
 
+language = Language()
 session = Session(quartet_project(), ImmediateTasks())
 panel = ViewportPanel(session, Nothing())
 panel.resize(400, 300)

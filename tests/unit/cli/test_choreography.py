@@ -100,7 +100,7 @@ def test_a_pair_is_learned(swings: Path, drums: Path, tmp_path: Path, capsys: py
     printed = capsys.readouterr()
     assert printed.err == ""
     assert printed.out.splitlines() == [
-        f"{target}: 4 basic motions (states) of 10 segments, 8.5 s (511 frames)",
+        f"{target}: 4 basic motions from 10 segments, 8.5 s (511 frames)",
         "",
         "motion          music  seconds  segments  states  offset s  confidence",
         "swings.bvh  drums.mid      8.5        10       4      1.00       given",
@@ -126,7 +126,7 @@ def test_a_motion_is_cut_at_given_times(
     assert model.sources[0].cuts_given
     cuts.write_text("0.5\nlater\n", encoding="utf-8")
     assert main([*command, "--to", str(tmp_path / "b")]) == BAD_INPUT
-    assert "cuts.txt, line 2: 'later' is no time" in capsys.readouterr().err
+    assert "cuts.txt, line 2: 'later' is not a time" in capsys.readouterr().err
     cuts.write_text("0.5\n100\n", encoding="utf-8")
     assert main([*command, "--to", str(tmp_path / "b")]) == BAD_USE
     assert "swings.bvh cannot be cut" in capsys.readouterr().err
@@ -137,7 +137,7 @@ def test_what_was_guessed_of_a_motion_is_said(
 ) -> None:
     command = ["choreography", "learn", "--pair", str(swings), str(drums), "--fps", "90", "--to", str(tmp_path / "a")]
     assert main(command) == DONE
-    assert "to look at:\n  swings.bvh: 90 frames/s (its file says 60)\n" in capsys.readouterr().out
+    assert "to look at:\n  swings.bvh: 90 frames/s (the file states 60)\n" in capsys.readouterr().out
 
 
 def test_an_offset_is_a_time_of_the_file(drums: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -150,7 +150,7 @@ def test_an_offset_is_a_time_of_the_file(drums: Path, tmp_path: Path, capsys: py
     assert main([*command, "--to", str(tmp_path / "a.choreography")]) == DONE
     printed = capsys.readouterr().out
     assert "10       4      1.00       given" in printed
-    assert "1 frame of a rest pose" in printed
+    assert "1 frame of rest pose" in printed
     assert read_model(tmp_path / "a.choreography").sources[0].offset_s == pytest.approx(1.0 - 1.0 / 60.0)
 
 
@@ -175,7 +175,7 @@ def test_what_cannot_be_learned_from_is_named(
     other.write_bytes(b"")
     for motion, music, options, status, said in [
         (swings, flute, [], BAD_INPUT, "flute.mid has no percussion"),
-        (other, drums, [], BAD_INPUT, "dance.mp4 is not a file of motion"),
+        (other, drums, [], BAD_INPUT, "dance.mp4 is not a supported motion file"),
         (tmp_path / "none.bvh", drums, [], BAD_INPUT, "none.bvh cannot be read"),
         (swings, drums, ["--credits", str(tmp_path / "none.txt")], BAD_INPUT, "none.txt cannot be read"),
         (swings, drums, ["--states", "11"], BAD_USE, "11 basic motions"),

@@ -55,7 +55,7 @@ def test_the_others_are_exported(
     out = tmp_path / "out"
     assert main(["export", saved(project, tmp_path), "--to", str(out), *BVH]) == PARTIAL
     captured = capsys.readouterr()
-    (line,) = [line for line in captured.err.splitlines() if line.startswith("suisou: trumpet is left out: ")]
+    (line,) = [line for line in captured.err.splitlines() if line.startswith("suisou: trumpet is excluded: ")]
     assert reason in line
     assert {path.name for path in out.iterdir()} == {"trombone.bvh", "report.json"}
     report = json.loads((out / "report.json").read_text("utf-8"))
@@ -83,7 +83,7 @@ def test_a_hold_that_cannot_be_found_concerns_one(
     monkeypatch.setattr(bodies, "_HELD", set())
     path = saved(project, tmp_path)
     assert main(["export", path, "--to", str(tmp_path / "out"), *BVH]) == PARTIAL
-    assert "trumpet is left out: man_adult cannot be made to hold tin_whistle_D (LinAlgError" in capsys.readouterr().err
+    assert "trumpet is excluded: man_adult cannot hold tin_whistle_D (LinAlgError" in capsys.readouterr().err
     assert (tmp_path / "out" / "trombone.bvh").is_file()
     # Of our own instruments it is a fault of the program, which is not hidden.
     monkeypatch.setattr(bodies, "hold_for", singular)
@@ -121,7 +121,9 @@ def test_everyone_bad_is_one_error_that_names_them_all(
 
 def test_a_complete_export_says_so(own: OwnFolders, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["export", saved(small_project(), tmp_path), "--to", str(tmp_path / "out"), *BVH]) == 0
-    assert "left out" not in "".join(capsys.readouterr())
+    told = "".join(capsys.readouterr())
+    assert "left out" not in told
+    assert "excluded" not in told
     assert json.loads((tmp_path / "out" / "report.json").read_text("utf-8"))["left_out"] == []
 
 
@@ -137,7 +139,7 @@ def test_the_others_are_streamed_to_the_ports_they_always_have(
         assert trombone.frames[0].root[:3] != (0.0, 0.0, 0.0), "on the stage, as one of two"
         assert not trumpet.frames
     captured = capsys.readouterr()
-    assert "trumpet is left out: " in captured.err
+    assert "trumpet is excluded: " in captured.err
     assert reason in captured.err
     assert "trombone: 127.0.0.1:39812" in captured.out
     assert "39811" not in captured.out
@@ -156,7 +158,7 @@ def test_the_others_are_inspected(
     (left_out,) = found["left_out"]
     assert left_out["player"] == "trumpet"
     assert reason in left_out["reason"]
-    assert "suisou: trumpet is left out: " in captured.err
+    assert "suisou: trumpet is excluded: " in captured.err
     assert main(["inspect", path]) == PARTIAL
     printed = capsys.readouterr().out
     assert "trombone " in printed

@@ -154,7 +154,17 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
     }  # fmt: skip
     assert set(found["tempo"][0]) == {"tick", "bpm"}
     for player in found["players"]:
-        assert set(player) == {"name", "instrument", "part", "notes", "breaths", "cues", "gestures", "expressions"}
+        assert set(player) == {
+            "name",
+            "instrument",
+            "part",
+            "person",
+            "notes",
+            "breaths",
+            "cues",
+            "gestures",
+            "expressions",
+        }
         assert player["notes"]
         for note in player["notes"]:
             assert set(note) == {
@@ -326,7 +336,7 @@ def test_instruments_are_listed_and_checked(run: Run, tmp_path: Path) -> None:
     status, out, err = run("instruments", "check", broken)
     assert status == 1
     assert "line" in out
-    assert "not valid" in err
+    assert "is invalid" in err
     broken.write_text(good.read_text(encoding="utf-8") + '\nnonsense = "x"\n', "utf-8")
     status, out, _ = run("instruments", "check", broken)
     assert status == 1

@@ -47,7 +47,7 @@ def test_a_file_is_not_written_over_itself(tmp_path: Path, capsys: pytest.Captur
     held = path.read_bytes()
     assert main(["midi", str(path), "--to", str(tmp_path / "." / "piece.mid")]) == BAD_INPUT
     assert path.read_bytes() == held
-    assert "write to another file" in capsys.readouterr().err
+    assert "save to another file" in capsys.readouterr().err
 
 
 def test_no_folder_is_said(quartet: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

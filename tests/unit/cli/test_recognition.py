@@ -125,7 +125,7 @@ def test_a_name_is_enough(name: str, map_id: str, tmp_path: Path, capsys: pytest
         found = inspected(
             tmp_path / "one.mid", capsys, name.encode(encoding), program=0, pitches=(low, low + 2, low + 4)
         )
-        assert not any("neither" in warning for warning in found["warnings"])
+        assert not any("cannot be determined" in warning for warning in found["warnings"])
         if instrument is not None:
             (player,) = found["players"]
             assert player["instrument"] == map_id
@@ -197,7 +197,7 @@ def test_the_range_decides_where_nothing_else_does(
         assert "Part" in found["unplayed"][0]["name"]
     else:
         assert found["players"][0]["instrument"].startswith(family)
-        assert "neither its name nor its program" in found["warnings"][0]
+        assert "the instrument cannot be determined from name or program" in found["warnings"][0]
 
 
 def test_the_instrument_name_helps_where_the_track_name_says_nothing(

@@ -84,9 +84,9 @@ def test_the_devices_are_listed(player: WindPlayer, run: Run) -> None:
 
 
 def test_no_device_is_said(jack: None, run: Run, tmp_path: Path) -> None:
-    assert run("ports") == (0, "no MIDI device is connected; plug one in and switch it on\n", "")
+    assert run("ports") == (0, "no MIDI device is connected; connect one and switch it on\n", "")
     status, _, told = run("record", "--port", "EWI", "--to", tmp_path / "take.mid")
-    assert (status, told) == (1, "suisou: no MIDI device is connected; plug one in and switch it on\n")
+    assert (status, told) == (1, "suisou: no MIDI device is connected; connect one and switch it on\n")
     assert not list(tmp_path.iterdir())
 
 
@@ -95,7 +95,7 @@ def test_no_midi_system_is_said(monkeypatch: pytest.MonkeyPatch, run: Run) -> No
     monkeypatch.setenv("SUISOU_MIDI_API", "jack")
     status, _, told = run("ports")
     assert status == 1
-    assert "no MIDI system answers" in told
+    assert "the MIDI system does not respond" in told
 
 
 def test_a_take_is_recorded(playing: WindPlayer, run: Run, tmp_path: Path) -> None:
@@ -136,13 +136,13 @@ def test_ctrl_c_ends_the_take(playing: WindPlayer, tmp_path: Path) -> None:
 
 def test_a_device_that_is_not_there_is_said_with_those_that_are(player: WindPlayer, run: Run, tmp_path: Path) -> None:
     status, _, told = run("record", "--port", "flute", "--to", tmp_path / "take.mid")
-    assert (status, told) == (1, f"suisou: no MIDI device is called 'flute'; there are: {player.name}\n")
+    assert (status, told) == (1, f"suisou: MIDI device 'flute' was not found; connected devices: {player.name}\n")
 
 
 def test_silence_is_no_take(player: WindPlayer, run: Run, tmp_path: Path) -> None:
     status, _, told = run("record", "--port", player.name, "--to", tmp_path / "take.mid", "--seconds", "0.2")
     assert status == 1
-    assert f"nothing was heard from {player.name}" in told
+    assert f"nothing was received from {player.name}" in told
     assert not list(tmp_path.iterdir())
 
 
@@ -151,7 +151,7 @@ def test_nothing_is_written_over(run: Run, tmp_path: Path) -> None:
     path.write_text("precious")
     status, _, told = run("record", "--port", "EWI", "--to", path)
     assert status == 1
-    assert "is there already" in told
+    assert "already exists" in told
     assert path.read_text() == "precious"
 
 
@@ -204,7 +204,7 @@ def test_a_running_recording_is_left_alone(run: Run, tmp_path: Path) -> None:
     for arguments in (("--rescue",), ("--port", "EWI")):
         status, _, told = run("record", *arguments, "--to", tmp_path / "take.mid")
         assert status == 1
-        assert "is running" in told
+        assert "is in progress" in told
     writer.close()
 
 

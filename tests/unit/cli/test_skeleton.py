@@ -31,7 +31,7 @@ def test_the_bones_are_those_asked_for(tmp_path: Path) -> None:
 def test_an_asset_of_another_skeleton_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert export(tmp_path / "out", "--check-skeleton", str(FOREIGN)) != 0
     said = capsys.readouterr().err
-    assert "child_mixamo.fbx has another skeleton" in said
+    assert "child_mixamo.fbx has a different skeleton" in said
     assert "Trumpet 1" in said
     assert "mixamorig:Hips" in said
     assert not (tmp_path / "out").exists()

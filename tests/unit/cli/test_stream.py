@@ -35,7 +35,7 @@ def quartet() -> Path:
 def length_s(quartet: Path, capsys: pytest.CaptureFixture[str]) -> float:
     """What the program itself says the end is."""
     assert main(["stream", str(quartet), "--player", "Trombone 1", "--from", "9999"]) == BAD_USE
-    (end,) = re.findall(r"to ([0-9.]+) seconds", capsys.readouterr().err)
+    (end,) = re.findall(r"lasts from -?[0-9.]+ to ([0-9.]+) s$", capsys.readouterr().err)
     return float(end)
 
 
@@ -71,7 +71,7 @@ def test_dancers_of_a_project_have_the_ports_after_the_players(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Of two the first cannot dance, and keeps the port all the same."""
-    project = with_dancers(bundled_quartet(), tmp_path, "Gone", "Ana")
+    project = with_dancers(bundled_quartet(), tmp_path, "Removed", "Ana")
     gone = msgspec.structs.replace(project.dancers[0], choreography=str(tmp_path / "gone.choreography"))
     ana = project.dancers[1]
     save(replace(project, dancers=(gone, ana)), tmp_path / "danced.suisou")
@@ -79,7 +79,7 @@ def test_dancers_of_a_project_have_the_ports_after_the_players(
     span = whole_span(performance.time_frame, Fraction(30))
     asked = ["stream", str(tmp_path / "danced.suisou"), "--from", str(span.end_s - 1.0), "--fps", "30"]
     with Receiver(39811) as first, Receiver(39812) as second:
-        assert main([*asked, "--port", "39811", "--player", "Gone", "--player", "Ana"]) == PARTIAL
+        assert main([*asked, "--port", "39811", "--player", "Removed", "--player", "Ana"]) == PARTIAL
         assert not first.packets
         sent = second.frames
     told = capsys.readouterr()

@@ -7,6 +7,7 @@ import pytest
 from app.messages.pitches import pitch_name
 from widgets.common.pitch import pitch_text
 from widgets.common.session import PitchDisplay
+from widgets.common.texts import TEXTS
 
 
 @pytest.mark.parametrize(
@@ -25,7 +26,8 @@ def test_syllables() -> None:
     assert pitch_name(70, 4, ("ド", "レ", "ミ", "ファ", "ソ", "ラ", "シ")) == "シ♭4"
 
 
-def test_written_pitch_is_shown_where_it_is_wanted() -> None:
+def test_written_pitch_is_shown_where_it_is_wanted(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("widgets.common.pitch.tr", lambda id: TEXTS[id][0])
     display = PitchDisplay()
     assert pitch_text(display, 70, 2) == "B♭4"
     display.set(written=True, middle_c_octave=3)

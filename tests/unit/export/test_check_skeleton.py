@@ -106,6 +106,6 @@ def test_it_is_told_in_words() -> None:
     target, figure = exported()
     asset = shifted(shifted(renamed(figure, HAND, "Hand_L"), HEAD, 0.004), PREFIX + "neck", 0.001)
     said = [text(message) for message in told(check_skeleton(target, asset))]
-    assert said[0] == f"1 bone that moves is not in the asset, so that what it does would be lost: {HAND}"
-    assert f"2 bones rest elsewhere than in the asset, at most by 4.0 mm ({HEAD})" in said
-    assert "1 bone of the asset is not in the file and keeps its rest pose: Hand_L" in said
+    assert said[0] == f"1 animated bone is not in the asset, so its motion would be lost: {HAND}"
+    assert f"2 bones have a different rest position from the asset, by up to 4.0 mm ({HEAD})" in said
+    assert "1 bone of the asset is missing from the file and keeps its rest pose: Hand_L" in said

@@ -35,7 +35,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Report, Path, Pro
     dances = str(folder / "steps.choreography")
     dancers = (
         Dancer("dancer:1", "Dancer: 1/2", dances, "woman_adult", StagePosition(0.0, 2.0, 0.0)),
-        Dancer("dancer:2", "Gone", str(folder / "gone.choreography"), "man_adult", StagePosition(1.0, 2.0, 0.0)),
+        Dancer("dancer:2", "Removed", str(folder / "gone.choreography"), "man_adult", StagePosition(1.0, 2.0, 0.0)),
     )
     project = replace(played(), dancers=dancers)
     performance = Performance(project)
@@ -48,7 +48,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Report, Path, Pro
 def test_who_can_dance_is_written_and_the_other_named(written: tuple[Report, Path, Project]) -> None:
     report, folder, _ = written
     assert [one.name for one in report.dancers] == ["Dancer: 1/2"]
-    assert [one.player for one in report.left_out] == ["Gone"]
+    assert [one.player for one in report.left_out] == ["Removed"]
     files = report.dancers[0].files
     assert set(files) == {"character_fbx", "character_bvh"}
     assert sorted(path.name for path in folder.iterdir()) == sorted([*files.values(), "report.json"])

@@ -60,7 +60,7 @@ def test_a_mitten_plays_with_what_it_has(tmp_path: Path) -> None:
     assert player["size"] == 1.0
     assert measures["contacts"] == {}
     assert measures["guides"]
-    assert sum("fingers that do not bend" in warning for warning in report["warnings"]) == 2
+    assert sum("hand do not bend" in warning for warning in report["warnings"]) == 2
     assert measures["lips"]["max_mm"] < 0.1
     # Valves go down by themselves.
     assert all(control["right"] == control["judged"] > 0 for control in measures["controls"].values())
@@ -73,7 +73,7 @@ def test_a_face_that_does_not_move_breathes_with_the_torso(tmp_path: Path) -> No
     assert breaths["planned"] > 0
     assert breaths["jaw_open"] == 0
     assert breaths["shown"] == breaths["planned"]
-    assert any("no morph that opens" in warning for warning in report["warnings"])
+    assert any("no morph opens the mouth" in warning for warning in report["warnings"])
 
 
 def test_what_a_hold_misses_is_told_and_no_more_than_that_is_forgiven() -> None:

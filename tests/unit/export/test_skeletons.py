@@ -207,7 +207,7 @@ def test_an_asset_that_would_lose_the_animation_stops_the_export(piece: Piece, t
     said = text(caught.value.message)
     assert "ue5.fbx" in said
     assert piece.player.name in said
-    assert "53 bones that move are not in the asset" in said
+    assert "53 animated bones are not in the asset" in said
     assert not (tmp_path / "out").exists()
 
 
@@ -221,6 +221,6 @@ def test_what_differs_is_in_the_report(piece: Piece, tmp_path: Path) -> None:
     skeleton = report.players[0].skeleton
     assert (skeleton.choice, skeleton.asset) == ("ue5", "other.fbx")
     assert {difference.kind for difference in skeleton.differences} == {"position"}
-    assert any("rest elsewhere than in the asset" in warning for warning in report.warnings)
+    assert any("different rest position from the asset" in warning for warning in report.warnings)
     kept = msgspec.json.decode((tmp_path / "out" / "report.json").read_bytes())["players"][0]["skeleton"]
     assert kept["differences"][0]["kind"] == "position"

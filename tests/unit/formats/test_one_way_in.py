@@ -14,7 +14,6 @@ OUR_OWN = {
     # Bundled with the program.
     "app/audio/rendering.py": {"read_bytes"},
     "app/export/unreal/plugin.py": {"read_bytes"},
-    "app/shell/language.py": {"read_bytes"},
     "instrument_maps/load.py": {"read_bytes"},
     "widgets/common/icons.py": {"read_text"},
     # A file that this process has made: a lock, or what it copies to its backup.

@@ -73,7 +73,6 @@ def test_what_is_changed_of_one_instrument_is_changed_of_the_person() -> None:
         edit.set_parameters(project, (piccolo,), amplitude=0.9),
         edit.change(project, (piccolo,), character_id="woman_adult"),
         edit.place(project, {piccolo: StagePosition(3.0, 1.0, 0.2)}),
-        edit.reseed(project, (piccolo,)),
         edit.randomise(project, (piccolo, oboe), 1.0),
         vary_players(project, (piccolo,)),
     ]

@@ -52,7 +52,7 @@ def test_what_is_missing_is_said_and_a_failure_ends_it(
     said = capfd.readouterr().out
     assert "left out: soundfont" in said
     assert "left out: characters" in said
-    assert build_all.main(["translations", "icons", "examples", "--characters-python", "x"]) == 1
+    assert build_all.main(["licences", "icons", "examples", "--characters-python", "x"]) == 1
     assert [command[-1] for command in ran[4:]] == ["resources.build.build_icons"]
     with pytest.raises(SystemExit):
         build_all.main(["nonsense"])

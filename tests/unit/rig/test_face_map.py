@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.errors import FileError
-from app.messages import TEMPLATES
+from app.messages import WORDINGS
 from app.rig.character import load_character
 from app.rig.face_map import map_morphs
 from app.rig.read_figure import read_figure
@@ -222,4 +222,4 @@ def test_a_correction_that_names_nothing_is_refused(
         map_morphs(face_of(["Mouth_A"]), wanted)
     assert caught.value.message.id == message
     assert named.items() <= caught.value.message.arguments.items()
-    assert TEMPLATES[message].format(**caught.value.message.arguments)
+    assert WORDINGS[message][0].format(**caught.value.message.arguments)

@@ -233,7 +233,7 @@ import sys
 from threadpoolctl import threadpool_info
 from app.rig.character_library import character_named
 from app.rig.fit import fit_hold
-from app.rig.instrument import bundled_instrument
+from tests.support.models import bundled_instrument
 from instrument_maps.load import bundled_maps
 from metadata.load import load_body
 

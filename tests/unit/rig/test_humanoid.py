@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.errors import FileError
-from app.messages import TEMPLATES
+from app.messages import WORDINGS
 from app.rig.humanoid import JointMapping, map_joints
 from metadata.load import load_bone_names, load_skeleton
 from metadata.model import REQUIRED_JOINTS
@@ -348,7 +348,7 @@ def test_a_correction_that_names_nothing_is_refused(
         map_joints(figure_of(listed("unreal5")), wanted)
     assert caught.value.message.id == message
     assert named.items() <= caught.value.message.arguments.items()
-    assert TEMPLATES[message].format(**caught.value.message.arguments)
+    assert WORDINGS[message][0].format(**caught.value.message.arguments)
 
 
 def test_a_skeleton_that_is_no_body_has_no_joints() -> None:

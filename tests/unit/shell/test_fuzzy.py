@@ -18,9 +18,9 @@ def best(query: str, *texts: str) -> str:
         ("save", "Save", ("Save As", "Unsaved work")),
         ("sa", "Save As", ("Close Project", "Undo")),
         ("light", "Light Theme", ("Slight Delay", "Highlight")),
-        ("lt", "Light Theme", ("Split at Playhead", "Default")),
+        ("lt", "Light Theme", ("Split at Playhead", "Reset to Default")),
         ("theme dark", "Dark Theme", ("Light Theme",)),
-        ("zoom in", "Zoom Timeline In", ("Zoom Timeline Out",)),
+        ("zoom in", "Zoom In Timeline", ("Zoom Out Timeline",)),
         ("ライト", "ライトテーマ", ("ダークテーマ",)),
     ],
 )

@@ -51,7 +51,7 @@ class Sending:
         self.sent_s: list[float] = []
         self.places_s: list[float] = []
         self.thread._send = self.send  # type: ignore[method-assign]
-        self.thread.wish(_Wish(cast(Any, None), (), (), (), cast(Any, None), RATE_HZ, False))
+        self.thread.wish(_Wish(cast(Any, None), (), (), (), (), cast(Any, None), RATE_HZ, False))
         self.due_s = clock.now_s - LATE_S
         self.busy_s = 0.0
 

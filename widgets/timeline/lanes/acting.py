@@ -84,11 +84,8 @@ class ActingLane(RegionLane):
         self.retranslate()
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("Acting"))
-        self.title.setToolTip(
-            self.tr("Drag to move, up and down for the strength, an edge to resize, a corner for a fade; "
-                    "double-click adds")
-        )  # fmt: skip
+        self.title.setText(self.tr("acting_lane.acting"))
+        self.title.setToolTip(self.tr("acting_lane.drag_to_move_up_and"))
         self._made_for, self._known = (), {}
         self.refresh()
 
@@ -98,8 +95,8 @@ class ActingLane(RegionLane):
     def group_name(self, kind: str) -> str:
         """What a group of rows is called, after its first kind."""
         if kind == VARIED:
-            return self.tr("Anew")
-        return self.tr("Pose") if kind == "lower_instrument" else kind_name(kind)
+            return self.tr("acting_lane.anew")
+        return self.tr("acting_lane.pose") if kind == "lower_instrument" else kind_name(kind)
 
     # Regions
 
@@ -178,9 +175,7 @@ class ActingLane(RegionLane):
 
     def tip(self, region: Region) -> str:
         if region.kind == VARIED:
-            return self.tr(
-                "These bars are performed anew, with other chances; Backspace brings the first performance back"
-            )
+            return self.tr("acting_lane.these_bars_are_performed_anew")
         return super().tip(region)
 
     def _guests(self, plan: PlayerPlan) -> list[Region]:
@@ -254,8 +249,14 @@ class ActingLane(RegionLane):
             elif len(x0) > exposed.width():
                 draw_columns(painter, exposed, x0, x1, middle - y, middle, shade(colour, 90))
             else:
-                draw_rects(painter, x0, np.minimum(middle, middle - y), np.maximum(x1 - x0 - 1.0, 1.0),
-                           np.maximum(np.abs(y), 1.0), shade(colour, 90))  # fmt: skip
+                draw_rects(
+                    painter,
+                    x0,
+                    np.minimum(middle, middle - y),
+                    np.maximum(x1 - x0 - 1.0, 1.0),
+                    np.maximum(np.abs(y), 1.0),
+                    shade(colour, 90),
+                )
 
     def paint_region(self, painter: QPainter, region: Region, box: QRectF, selected: bool) -> None:
         tokens, project = self.session.tokens, self.session.project
@@ -312,15 +313,15 @@ class ActingLane(RegionLane):
 
     def menu_entries(self, menu: QMenu, region: Region | None, mouse: LaneMouse) -> None:
         if region is not None and region.kind == "expression" and not region.removed:
-            other = menu.addMenu(self.tr("Another expression"))
+            other = menu.addMenu(self.tr("acting_lane.another_expression"))
             self._expression_entries(other, self._choose_expression, region)
-        adding = menu.addMenu(self.tr("Add an expression here"))
+        adding = menu.addMenu(self.tr("acting_lane.add_expression_here"))
         self._expression_entries(adding, lambda name: self._add_expression(name, mouse))
-        gestures = menu.addMenu(self.tr("Add a gesture here"))
+        gestures = menu.addMenu(self.tr("acting_lane.add_gesture_here"))
         for kind in GESTURE_KINDS:
             entry = gestures.addAction(kind_name(kind))
             entry.triggered.connect(lambda _=False, kind=kind: self._add_gesture(kind, mouse))
-        menu.addAction(self.tr("Add a cue here")).triggered.connect(lambda _=False: self._add_cue(mouse))
+        menu.addAction(self.tr("acting_lane.add_cue_here")).triggered.connect(lambda _=False: self._add_cue(mouse))
 
     def _expression_entries(self, menu: QMenu, chosen: Callable[[str], None], now: Region | None = None) -> None:
         own = {expression.name for expression in self.session.project.expressions}

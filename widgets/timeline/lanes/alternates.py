@@ -64,21 +64,25 @@ class Alternates(QFrame):
         for fingering in self.choices(player_id, event):
             now = fingering.label == event.label
             chip = Chip(
-                self._session, fingering.label, self.note_text(fingering), by_hand=now and pinned,
-                outlined=now and not pinned, parent=self,
-            )  # fmt: skip
+                self._session,
+                fingering.label,
+                self.note_text(fingering),
+                by_hand=now and pinned,
+                outlined=now and not pinned,
+                parent=self,
+            )
             chip.setObjectName(f"chip_{fingering.label}")
             chip.setChecked(now)
-            chip.setToolTip(self.tr("Choice {rank}").format(rank=fingering.rank))
+            chip.setToolTip(self.tr("alternates.choice").format(rank=fingering.rank))
             chip.clicked.connect(lambda _=False, label=fingering.label: self.choose(label))
             self._row.addWidget(chip)
         if pinned:
-            back = QPushButton(icon("reset", self._session.tokens), self.tr("Generated"), self)
+            back = QPushButton(icon("reset", self._session.tokens), self.tr("alternates.generated"), self)
             back.setObjectName("give_back")
             back.setFlat(True)
             back.setMinimumHeight(LEAST_TARGET_PX)
             back.setIconSize(QSize(16, 16))
-            back.setToolTip(self.tr("Back to the generator's choice"))
+            back.setToolTip(self.tr("alternates.back_to_generators_choice"))
             back.clicked.connect(lambda _=False: self.give_back())
             self._row.addWidget(back)
         window = self._lane.window()

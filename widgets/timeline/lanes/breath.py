@@ -41,10 +41,8 @@ class BreathLane(RegionLane):
         self.retranslate()
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("Breath"))
-        self.title.setToolTip(
-            self.tr("Drag to move, up and down for the depth, an edge to resize; double-click adds one")
-        )
+        self.title.setText(self.tr("breath_lane.breath"))
+        self.title.setToolTip(self.tr("breath_lane.drag_to_move_up_and"))
 
     def kind_name(self, kind: str) -> str:
         return kind_name(kind)
@@ -98,7 +96,7 @@ class BreathLane(RegionLane):
         lines = [super().tip(region)]
         if not region.removed:
             seconds = region.end_s - region.start_s
-            lines.insert(1, self.tr("depth {depth:.2f}, {seconds:.2f} s").format(depth=region.amount, seconds=seconds))
+            lines.insert(1, self.tr("breath_lane.depth_s").format(depth=region.amount, seconds=seconds))
         return "\n".join(lines)
 
     def add_at(self, mouse: LaneMouse) -> None:
@@ -117,7 +115,7 @@ class BreathLane(RegionLane):
             self.session.select(Selection(events=frozenset(EventKey(plan.player_id, event_id) for event_id in ids)))
 
     def menu_entries(self, menu: QMenu, region: Region | None, mouse: LaneMouse) -> None:
-        menu.addAction(self.tr("Add a breath here")).triggered.connect(lambda _=False: self.add_at(mouse))
+        menu.addAction(self.tr("breath_lane.add_breath_here")).triggered.connect(lambda _=False: self.add_at(mouse))
         if region is None or (region.removed and region.kind == "breath"):
             return
         note_id = region.event_id.split(":", 1)[1]
@@ -126,7 +124,7 @@ class BreathLane(RegionLane):
         if plan is None:
             return
         has = any(event.id == f"preparation:{note_id}" for event in plan.breaths)
-        entry = menu.addAction(self.tr("Prepared"))
+        entry = menu.addAction(self.tr("breath_lane.prepared"))
         entry.setCheckable(True)
         entry.setChecked(has)
         entry.triggered.connect(lambda _=False: self._toggle(plan, note_id))

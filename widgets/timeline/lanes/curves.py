@@ -132,24 +132,24 @@ class CurvesLane(Lane):
         self.retranslate()
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("Curves"))
-        self.title.setToolTip(self.tr("Drag a note's value up or down; Shift for fine steps"))
-        self.choice.setToolTip(self.tr("The curve that is edited or shown in front"))
-        self.choice.setAccessibleName(self.tr("Curve"))
+        self.title.setText(self.tr("curves_lane.curves"))
+        self.title.setToolTip(self.tr("curves_lane.drag_notes_value_up_or"))
+        self.choice.setToolTip(self.tr("curves_lane.curve_that_is_edited_or"))
+        self.choice.setAccessibleName(self.tr("curves_lane.curve"))
         self._fill_choice()
 
     def curve_name(self, curve: str) -> str:
         """What a curve is called."""
         names = {
-            "tension": self.tr("Lip tension"),
-            "effort": self.tr("Effort"),
-            "air": self.tr("Air"),
-            "breath": self.tr("Breath controller"),
-            "bite": self.tr("Bite"),
-            "volume": self.tr("Volume"),
-            "expression": self.tr("Expression"),
-            "aftertouch": self.tr("Aftertouch"),
-            "pitch_bend": self.tr("Pitch bend"),
+            "tension": self.tr("curves_lane.lip_tension"),
+            "effort": self.tr("curves_lane.effort"),
+            "air": self.tr("curves_lane.air"),
+            "breath": self.tr("curves_lane.breath_controller"),
+            "bite": self.tr("curves_lane.bite"),
+            "volume": self.tr("curves_lane.volume"),
+            "expression": self.tr("curves_lane.expression"),
+            "aftertouch": self.tr("curves_lane.aftertouch"),
+            "pitch_bend": self.tr("curves_lane.pitch_bend"),
         }
         return names[curve]
 

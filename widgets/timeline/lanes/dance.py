@@ -60,24 +60,19 @@ class DanceLane(Lane):
         self.performance_changed()
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("Dance"))
-        self.title.setToolTip(
-            self.tr(
-                "What each dancer dances. Click a motion to select it, drag it to another beat, up and down for "
-                "another one, right-click for more; Backspace returns it to the generator"
-            )
-        )
+        self.title.setText(self.tr("dance_lane.dance"))
+        self.title.setToolTip(self.tr("dance_lane.what_each_dancer_dances_click"))
         self.update_items()
 
     def empty_text(self) -> str:
         """How there comes to be a dance; empty where somebody dances."""
-        return "" if self.dancers else self.tr("No dancers yet. Add one in the Players panel.")
+        return "" if self.dancers else self.tr("dance_lane.no_dancers_yet_add_one")
 
     def reason(self, dance: DanceSteps) -> str:
         """Why a dancer does not dance; empty for one who does."""
         if dance.error is not None:
             return sentence(dance.error, self.session, dance.dancer.id)
-        return "" if dance.steps else self.tr("No beat of the music is known.")
+        return "" if dance.steps else self.tr("dance_lane.no_beat_of_music_is")
 
     # What is shown
 
@@ -215,17 +210,13 @@ class DanceLane(Lane):
         segment = dance.model.segments[step.segment]
         start_s = segment.start / float(dance.model.clips[segment.clip].fps)
         lines = [
-            self.tr("Basic motion {number}, {seconds:.2f} s").format(
-                number=step.state + 1, seconds=step.end_s - step.start_s
-            ),
-            self.tr("From {source}, {start:.2f} s").format(
-                source=dance.model.sources[segment.clip].motion_name, start=start_s
-            ),
+            self.tr("dance_lane.basic_motion_s").format(number=step.state + 1, seconds=step.end_s - step.start_s),
+            self.tr("dance_lane.from_s").format(source=dance.model.sources[segment.clip].motion_name, start=start_s),
         ]
         if dance.pinned[number]:
-            lines.append(self.tr("Pinned; Backspace returns it to the generator"))
+            lines.append(self.tr("dance_lane.pinned_backspace_returns_it_to"))
         for item in dance.barred(number):
-            lines.append(self.tr("Basic motion {number} is not danced here").format(number=item.state + 1))
+            lines.append(self.tr("dance_lane.basic_motion_is_not_danced").format(number=item.state + 1))
         return "\n".join(lines)
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:

@@ -59,41 +59,44 @@ class DanceMenu(QMenu):
         step, pinned = self._dance.steps[number], self._dance.pinned[number]
         motion = step.state + 1
         self._add(
-            self, self.tr("Pin Basic Motion {number} Here").format(number=motion),
+            self,
+            self.tr("dance_menu.pin_basic_motion_here").format(number=motion),
             lambda: lane.pin(dancer_id, number, step.state),
-        ).setEnabled(not pinned)  # fmt: skip
+        ).setEnabled(not pinned)
         self._add_motions()
         self._add_segments()
         self.addSeparator()
         self._add(
-            self, self.tr("Do Not Dance Basic Motion {number} Here").format(number=motion),
+            self,
+            self.tr("dance_menu.do_not_dance_basic_motion").format(number=motion),
             lambda: lane.forbid(dancer_id, number),
-        )  # fmt: skip
+        )
         self._add(
-            self, self.tr("Do Not Dance Basic Motion {number} in This Piece").format(number=motion),
+            self,
+            self.tr("dance_menu.do_not_dance_basic_motion_in_this_piece").format(number=motion),
             lambda: lane.forbid(dancer_id, number, everywhere=True),
-        )  # fmt: skip
+        )
         for item in self._dance.barred(number):
-            text = self.tr("Allow Basic Motion {number} Again").format(number=item.state + 1)
+            text = self.tr("dance_menu.allow_basic_motion_again").format(number=item.state + 1)
             self._add(self, text, partial(lane.take_back, dancer_id, (item,)))
         self.addSeparator()
-        self._add(self, self.tr("Return to Generator"), lambda: lane.take_back(dancer_id, pinned)).setEnabled(
-            bool(pinned)
-        )
+        self._add(
+            self, self.tr("dance_menu.return_to_generator"), lambda: lane.take_back(dancer_id, pinned)
+        ).setEnabled(bool(pinned))
         corrections = lane.session.project.dance_corrections.get(dancer_id, ())
-        self._add(self, self.tr("Return Whole Dance to Generator"), lambda: lane.clear(dancer_id)).setEnabled(
-            bool(corrections)
-        )
+        self._add(
+            self, self.tr("dance_menu.return_whole_dance_to_generator"), lambda: lane.clear(dancer_id)
+        ).setEnabled(bool(corrections))
 
     def _add_motions(self) -> None:
         from app.performance.dance_steps import examples
 
-        menu = self._submenu(self.tr("Other Basic Motion"), "dance_motions")
+        menu = self._submenu(self.tr("dance_menu.other_basic_motion"), "dance_motions")
         danced = self._dance.steps[self._number].state
         for state, example in enumerate(examples(self._dance.model, self._figures)):
             if example is None:
                 continue
-            text = self.tr("Basic Motion {number}").format(number=state + 1)
+            text = self.tr("dance_menu.basic_motion").format(number=state + 1)
             action = self._add(menu, text, partial(self._lane.pin, self._dancer_id, self._number, state))
             action.setIcon(self._icon(example))
             action.setEnabled(state != danced)
@@ -101,13 +104,13 @@ class DanceMenu(QMenu):
     def _add_segments(self) -> None:
         from app.performance.dance_steps import segments_of
 
-        menu = self._submenu(self.tr("Other Segment of This Motion"), "dance_segments")
+        menu = self._submenu(self.tr("dance_menu.other_segment_of_this_motion"), "dance_segments")
         model, step = self._dance.model, self._dance.steps[self._number]
         others = np.array([one for one in segments_of(model, step.state) if one != step.segment], np.int64)
         far = np.linalg.norm(self._figures[others] - self._figures[step.segment], axis=-1).sum(axis=-1)
         for segment in others[np.argsort(far, kind="stable")][:MOST_SEGMENTS].tolist():
             one = model.segments[segment]
-            text = self.tr("{source}, {start:.2f} s").format(
+            text = self.tr("dance_menu.s").format(
                 source=model.sources[one.clip].motion_name, start=one.start / float(model.clips[one.clip].fps)
             )
             self._add(menu, verbatim(text), partial(self._lane.use, self._dancer_id, self._number, segment)).setIcon(

@@ -201,8 +201,8 @@ class FingeringLane(Lane):
         self.retranslate()
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("Fingering"))
-        self.title.setToolTip(self.tr("Click a note to see its alternates; type a fingering to pin it"))
+        self.title.setText(self.tr("fingering_lane.fingering"))
+        self.title.setToolTip(self.tr("fingering_lane.click_note_to_see_its"))
 
     # What is shown
 

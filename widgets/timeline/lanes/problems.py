@@ -124,8 +124,8 @@ class ProblemsLane(Lane):
         self.retranslate()
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("Problems"))
-        self.title.setToolTip(self.tr("What the player in front cannot do as it stands; F8 goes to the next"))
+        self.title.setText(self.tr("problems_lane.problems"))
+        self.title.setToolTip(self.tr("problems_lane.what_player_in_front_cannot"))
 
     def refresh(self) -> None:
         """Show the problems of the player in front."""

@@ -225,10 +225,20 @@ class RegionLane(Lane):
             tick = round(project.score.tempo_map.ticks(at_s))
             result.append(
                 Region(
-                    plan.player_id, item.event_id, kind, tick, tick, at_s, at_s, row(kind),
-                    reason=Message("correction.by_hand"), by_hand=True, steady=True, removed=True,
+                    plan.player_id,
+                    item.event_id,
+                    kind,
+                    tick,
+                    tick,
+                    at_s,
+                    at_s,
+                    row(kind),
+                    reason=Message("correction.by_hand"),
+                    by_hand=True,
+                    steady=True,
+                    removed=True,
                 )
-            )  # fmt: skip
+            )
         return result
 
     # What happens around
@@ -302,7 +312,7 @@ class RegionLane(Lane):
 
     def type_amount(self, region: Region) -> None:
         """Ask for the amount of a region; it becomes that of all selected ones."""
-        self.number.open(self.box(region), region.amount, 2, self._set_amounts, self.tr("How much"))
+        self.number.open(self.box(region), region.amount, 2, self._set_amounts, self.tr("region_lane.how_much"))
 
     def _set_amounts(self, amount: float) -> None:
         self._change_amounts(lambda _: amount)
@@ -358,8 +368,12 @@ class RegionLane(Lane):
 
     def hover(self, mouse: LaneMouse | None) -> None:
         region, zone = self.region_at(mouse) if mouse is not None else (None, "")
-        shapes = {"start": Qt.CursorShape.SizeHorCursor, "end": Qt.CursorShape.SizeHorCursor,
-                  "fade_in": Qt.CursorShape.CrossCursor, "fade_out": Qt.CursorShape.CrossCursor}  # fmt: skip
+        shapes = {
+            "start": Qt.CursorShape.SizeHorCursor,
+            "end": Qt.CursorShape.SizeHorCursor,
+            "fade_in": Qt.CursorShape.CrossCursor,
+            "fade_out": Qt.CursorShape.CrossCursor,
+        }
         if zone in shapes:
             self.plot.setCursor(shapes[zone])
         else:
@@ -372,7 +386,7 @@ class RegionLane(Lane):
         """What is told of a region under the mouse."""
         lines = [region.label or self.kind_name(region.kind)]
         if region.removed:
-            lines = [self.kind_name(region.kind), self.tr("deleted by hand")]
+            lines = [self.kind_name(region.kind), self.tr("region_lane.deleted_by_hand")]
         elif region.reason is not None:
             lines.append(message_text(region.reason, self.session, region.player_id))
         return "\n".join(lines)

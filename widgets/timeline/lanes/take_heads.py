@@ -76,23 +76,23 @@ class TakeHeads(QWidget):
 
     def retranslate(self) -> None:
         """Set the texts anew."""
-        self.setAccessibleName(self.tr("Takes"))
+        self.setAccessibleName(self.tr("take_heads.takes"))
         self.update()
 
     def name_of(self, row: TakeRow) -> str:
         """What a row is called."""
-        return self.tr("Before") if row.take is None else row.take.name
+        return self.tr("take_heads.before") if row.take is None else row.take.name
 
     def tip(self, row: TakeRow) -> str:
         """When and with what a take was played, and what can be done with it."""
         if row.take is None:
-            return self.tr("What was there before the first take. Double-click takes all of it back")
+            return self.tr("take_heads.what_was_there_before_first")
         take = row.take
         when = when_text(take.recorded)
         seconds = (take.end_us - take.start_us) / 1e6
-        about = self.tr("{seconds:.1f} s, notes: {count}").format(seconds=seconds, count=len(row.pitches))
+        about = self.tr("take_heads.s_notes").format(seconds=seconds, count=len(row.pitches))
         lines = (take.name, " · ".join(text for text in (when, take.device) if text), about)
-        return "\n".join((*(text for text in lines if text), self.tr("Double-click takes all of it")))
+        return "\n".join((*(text for text in lines if text), self.tr("take_heads.double_click_takes_all_of")))
 
     # Renaming
 
@@ -105,7 +105,7 @@ class TakeHeads(QWidget):
         box = self._row_box(number)
         field = QLineEdit(take.name, self)
         field.setObjectName("take_name_field")
-        field.setAccessibleName(self.tr("Name of the take"))
+        field.setAccessibleName(self.tr("take_heads.name_of_take"))
         field.setGeometry(QRectF(BAR_PX + 1.0, box.center().y() - 13.0, self.width() - BAR_PX - 3.0, 26.0).toRect())
         field.selectAll()
         field.editingFinished.connect(lambda: self._end_typing(True))

@@ -48,30 +48,25 @@ class TakesLane(Lane):
 
     def retranslate(self) -> None:
         self._show_title()
-        self.title.setToolTip(
-            self.tr("What was recorded of the player in front. Drag over a row to take that stretch from that take")
-        )
+        self.title.setToolTip(self.tr("takes_lane.what_was_recorded_of_player"))
         self.heads.retranslate()
         self.update_items()
 
     def _show_title(self) -> None:
         count = max(len(self.rows) - 1, 0)
-        self.title.setText(self.tr("Takes ({count})").format(count=count) if count else self.tr("Takes"))
+        self.title.setText(self.tr("takes_lane.takes").format(count=count) if count else self.tr("takes_lane.takes_2"))
 
     def empty_text(self) -> str:
         """How there comes to be a take."""
         player = self.session.player
         if player is None:
-            return self.tr("No player is in front.")
-        return self.tr(
-            "Nothing is recorded of {player} yet. Connect a wind controller, start recording ({keys}) and play: each "
-            "time through becomes a take here. Then drag over the takes to put the part together."
-        ).format(player=player.name, keys=self._record_keys())
+            return self.tr("takes_lane.no_player_is_in_front")
+        return self.tr("takes_lane.nothing_is_recorded_of_yet").format(player=player.name, keys=self._record_keys())
 
     def _record_keys(self) -> str:
         action = self.session.actions.get("record.toggle")
         keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText) if action is not None else ""
-        return keys or self.tr("Record")
+        return keys or self.tr("takes_lane.record")
 
     # What is shown
 
@@ -282,7 +277,7 @@ class TakesLane(Lane):
         row = self.row_at(mouse.y_px) if mouse is not None else None
         if mouse is not None and self._edge_at(mouse) is not None:
             self.plot.setCursor(Qt.CursorShape.SplitHCursor)
-            self.plot.setToolTip(self.tr("Drag to change where one take ends and the other begins"))
+            self.plot.setToolTip(self.tr("takes_lane.drag_to_change_where_one"))
             return
         if mouse is None or row is None:
             self.plot.setToolTip("")
@@ -295,7 +290,7 @@ class TakesLane(Lane):
         reach_s = 3.0 / self.axis.px_per_s
         for index in row.left_out.between(mouse.time_s - reach_s, mouse.time_s + reach_s).tolist():
             name = pitch_text(self.session.pitch_display, int(row.left_out_pitches[index]), self._transposition())
-            return self.tr("{note} is left out: {why}").format(note=name, why=self.why(row.faults[index]))
+            return self.tr("takes_lane.is_left_out").format(note=name, why=self.why(row.faults[index]))
         return self.heads.tip(row)
 
     def _transposition(self) -> int:
@@ -307,10 +302,10 @@ class TakesLane(Lane):
         """Why cleaning leaves a note out."""
         return {
             "": "",
-            "ghost": self.tr("short and soft, a ghost note"),
-            "silent": self.tr("blown too softly to be heard"),
-            "slip": self.tr("a finger was late, it lies between two notes of a legato"),
-            "double": self.tr("the same note twice, a key sprang back"),
+            "ghost": self.tr("takes_lane.short_and_soft_ghost_note"),
+            "silent": self.tr("takes_lane.blown_too_softly_to_be"),
+            "slip": self.tr("takes_lane.finger_was_late_it_lies"),
+            "double": self.tr("takes_lane.same_note_twice_key_sprang"),
         }[fault]
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:

@@ -98,13 +98,13 @@ class WaveformLane(Lane):
         self.ask_height(EMPTY_PX if empty else PREFERRED_PX, EMPTY_PX if empty else LEAST_PX)
 
     def retranslate(self) -> None:
-        self.title.setText(self.tr("Recording"))
-        self.title.setToolTip(self.tr("Drag to move it against the score, with Shift finely; double-click types"))
+        self.title.setText(self.tr("waveform_lane.recording"))
+        self.title.setToolTip(self.tr("waveform_lane.drag_to_move_it_against"))
         self.update_items()
 
     def empty_text(self) -> str:
         """What can be done where there is no recording."""
-        return self.tr("Drop a recording here. Until then the synthesiser plays the score.")
+        return self.tr("waveform_lane.drop_recording_here_until_then")
 
     def offset_text(self) -> str:
         """The offset, and where it is from."""
@@ -113,12 +113,10 @@ class WaveformLane(Lane):
             return ""
         number = number_text(audio.offset_s, DECIMALS)
         if self.session.listening.waveform is None:
-            return self.tr("offset {offset} s · the recording is not read yet").format(offset=number)
+            return self.tr("waveform_lane.offset_s_recording_is_not").format(offset=number)
         if audio.confidence is None:
-            return self.tr("offset {offset} s").format(offset=number)
-        return self.tr("offset {offset} s (estimated, {confidence:.2f})").format(
-            offset=number, confidence=audio.confidence
-        )
+            return self.tr("waveform_lane.offset_s").format(offset=number)
+        return self.tr("waveform_lane.offset_s_estimated").format(offset=number, confidence=audio.confidence)
 
     def text_box(self) -> QRectF:
         """Where the offset is written."""
@@ -179,7 +177,9 @@ class WaveformLane(Lane):
         self._drag = None
         if audio is None:
             return
-        self.editor.open(self.text_box(), audio.offset_s, DECIMALS, self._typed, self.tr("Offset in seconds"), "s")
+        self.editor.open(
+            self.text_box(), audio.offset_s, DECIMALS, self._typed, self.tr("waveform_lane.offset_in_seconds"), "s"
+        )
 
     def hover(self, mouse: LaneMouse | None) -> None:
         if mouse is not None and self.session.project.audio is not None:
@@ -190,7 +190,9 @@ class WaveformLane(Lane):
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
         menu = QMenu(self)
         if self.session.project.audio is not None:
-            menu.addAction(self.tr("Type the offset...")).triggered.connect(lambda _=False: self.double_click(mouse))
+            menu.addAction(self.tr("waveform_lane.type_offset")).triggered.connect(
+                lambda _=False: self.double_click(mouse)
+            )
         for action_id in ("file.add_audio", "play.estimate_offset", "play.remove_recording"):
             action = self.session.actions.get(action_id)
             if action is not None:

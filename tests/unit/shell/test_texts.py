@@ -1,0 +1,61 @@
+"""Every text is there in both languages, fits, and is used; every text that is used is there."""
+
+from __future__ import annotations
+
+import ast
+import string
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+from app.messages import WORDINGS
+from app.shell.actions import rows
+from app.shell.language import LANGUAGES, ROOMS
+
+ROOT = Path(__file__).parents[3]
+TEXTS = {id: wording for room in ROOMS for id, wording in room.items()}
+FUNCTIONS = frozenset({"tr"})
+
+
+def fields(text: str) -> set[tuple[str, str]]:
+    """What a template is filled with: names, and how they are formatted; plurals are English."""
+    parsed = string.Formatter().parse(text)
+    return {(name, spec or "") for _, name, spec, _ in parsed if name is not None and "|" not in (spec or "")}
+
+
+def sources() -> Iterator[ast.AST]:
+    """Every node of the program but for the tables of texts."""
+    for folder in ("app", "widgets"):
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            if path.name != "texts.py" and path.parent.name != "messages":
+                yield from ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+
+
+def test_every_text_is_there_in_both_languages_with_its_arguments() -> None:
+    for id, wording in TEXTS.items():
+        assert len(wording) == len(LANGUAGES), id
+        english, japanese = wording
+        assert english.strip(), id
+        assert japanese.strip(), id
+        assert fields(japanese) == fields(english), f"{id}: {english!r} -> {japanese!r}"
+        assert ("&" in japanese) == ("&" in english), f"{id}: the mark of a key: {english!r} -> {japanese!r}"
+
+
+def test_no_id_is_given_twice() -> None:
+    counted = Counter(id for room in ROOMS for id in room)
+    assert [id for id, count in counted.items() if count > 1] == []
+
+
+def test_what_is_used_is_there_and_what_is_there_is_used() -> None:
+    used, named = set[str](), set[str]()
+    for node in sources():
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            named.add(node.value)
+        if not isinstance(node, ast.Call) or not node.args:
+            continue
+        name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+        if name in FUNCTIONS and isinstance(node.args[0], ast.Constant):
+            used.add(str(node.args[0].value))
+    actions = {f"action.{row.id}" for row in rows()}
+    assert used | actions <= TEXTS.keys()
+    assert TEXTS.keys() - WORDINGS.keys() <= named | actions
