@@ -1,6 +1,6 @@
 """``python -m app``, and the installed command ``suisou``: a sub-command, or the editor.
 
-Nothing of Qt is imported before it is known that the editor is wanted.
+Nothing of Qt is imported before it is known that the editor is requested.
 """
 
 from __future__ import annotations
@@ -58,13 +58,13 @@ def run(arguments: Sequence[str]) -> int:
     from app.cli.status import BAD_USE, NO_DISPLAY
     from app.cli.terminal import warn
 
-    wanted = list(arguments)
-    if not wanted or wanted[0].lower().endswith(OPENED):
-        wanted.insert(0, "edit")
-    if wanted[0] != "edit":
-        return command_line(wanted)
+    requested = list(arguments)
+    if not requested or requested[0].lower().endswith(OPENED):
+        requested.insert(0, "edit")
+    if requested[0] != "edit":
+        return command_line(requested)
     try:
-        parsed = parser().parse_args(wanted)
+        parsed = parser().parse_args(requested)
     except SystemExit as stop:  # argparse: --help ends with 0, bad use with 2
         return stop.code if isinstance(stop.code, int) else BAD_USE
     from app.shell.display import why_no_display
@@ -78,7 +78,7 @@ def run(arguments: Sequence[str]) -> int:
 
 def edit(parsed: Namespace) -> int:
     """Start the editor as the command line says."""
-    # Which sound libraries this system lacks is nothing a person can act on.
+    # Which sound libraries this system lacks is nothing the user can act on.
     os.environ.setdefault("QT_LOGGING_RULES", "qt.multimedia.symbolsresolver=false;qt.multimedia.ffmpeg=false")
     from app.cli.status import BAD_INPUT, STOPPED
     from app.cli.terminal import warn

@@ -1,4 +1,4 @@
-"""Text in bytes whose encoding nobody states: texts of MIDI files, and names of files.
+"""Text in bytes whose encoding no one states: texts of MIDI files, and names of files.
 
 On Linux the name of a file is bytes. Those that are not UTF-8, as of files out of a Japanese zip archive, are lone
 surrogates in Python's paths (PEP 383): they open the file, and neither JSON, nor TOML, nor Qt, nor a terminal takes

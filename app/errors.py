@@ -16,7 +16,7 @@ Argument: TypeAlias = str | int | float | bool
 
 
 class Message(msgspec.Struct, frozen=True, gc=False):
-    """Something to tell a person: a warning, a reason, a problem.
+    """Something to tell the user: a warning, a reason, a problem.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class Message(msgspec.Struct, frozen=True, gc=False):
 
 
 class AppError(Exception):
-    """An error a person can act on; anything else that escapes a parser is a bug.
+    """An error the user can act on; anything else that escapes a parser is a bug.
 
     Parameters
     ----------
@@ -76,4 +76,4 @@ class UsageError(AppError):
 
 
 class Cancelled(AppError):
-    """The person stopped the work; nothing half-written stays."""
+    """The user stopped the work; nothing half-written stays."""

@@ -103,16 +103,16 @@ def node_triangles(instrument: InstrumentMap, model: GltfModel) -> dict[str, Flo
     """Triangles (T, 3, 3) that move with each node the map speaks of, in the frame of that node."""
     names = {node.name: index for index, node in enumerate(model.nodes)}
     places = root_from_node(model, names[ROOT])
-    wanted = {names[name]: name for name in (ROOT, *instrument.nodes) if name in names}
-    found: dict[str, list[FloatArray]] = {name: [] for name in wanted.values()}
+    requested = {names[name]: name for name in (ROOT, *instrument.nodes) if name in names}
+    found: dict[str, list[FloatArray]] = {name: [] for name in requested.values()}
     for index, node in enumerate(model.nodes):
         owner = index
-        while owner >= 0 and owner not in wanted:
+        while owner >= 0 and owner not in requested:
             owner = model.nodes[owner].parent
         if node.mesh is None or owner < 0:
             continue
         owner_from_node = np.linalg.inv(places[owner]) @ places[index]
         for primitive in model.meshes[node.mesh].primitives:
             points = primitive.positions @ owner_from_node[:3, :3].T + owner_from_node[:3, 3]
-            found[wanted[owner]].append(points[primitive.triangles])
+            found[requested[owner]].append(points[primitive.triangles])
     return {name: np.concatenate(parts) if parts else np.zeros((0, 3, 3)) for name, parts in found.items()}

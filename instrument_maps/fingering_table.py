@@ -1,4 +1,4 @@
-"""Edits of a map's table of fingerings, as pure functions; and a person's own map file that says what they changed.
+"""Edits of a map's table of fingerings, as pure functions; and the user's own map file that says what they changed.
 
 Every edit returns another tuple of fingerings, sorted and with ranks that count from 1; `problems_of` says what a map
 with them would be refused for.
@@ -47,7 +47,7 @@ _ROW_KEYS = ("written_pitch", "rank", "label", "controls", "cents", "correction"
 
 
 def read_label(instrument: InstrumentMap, text: str) -> tuple[str, dict[str, float]]:
-    """What a person typed, as the label of a fingering and the values it says.
+    """What the user typed, as the label of a fingering and the values it says.
 
     Signs may come in any order and case where that is not ambiguous; a place of the slide is where the other
     fingerings of that label have it.
@@ -80,11 +80,13 @@ def read_label(instrument: InstrumentMap, text: str) -> tuple[str, dict[str, flo
     none = OPEN if words else NONE
     if text.casefold() in ("", none, OPEN, "open", NONE):
         return none, {}
-    told = " ".join(map(meant, text.replace(",", " ").split())) if words else "".join(map(meant, text.replace(" ", "")))
-    values = controls_of(told, pitch)
+    reported = (
+        " ".join(map(meant, text.replace(",", " ").split())) if words else "".join(map(meant, text.replace(" ", "")))
+    )
+    values = controls_of(reported, pitch)
     if values is None:
         raise UsageError("fingering.unknown_sign", text=text, signs=", ".join([none, *signs]))
-    return (words_of(values, pitch) if words else told), values
+    return (words_of(values, pitch) if words else reported), values
 
 
 def with_label(instrument: InstrumentMap, table: Table, written: int, rank: int, text: str) -> Table:
@@ -119,7 +121,7 @@ def pressed_label(instrument: InstrumentMap, one: Fingering, name: str) -> str:
 
 
 def read_cents(text: str) -> float:
-    """What a person typed, as cents; nothing is 0. Raises UsageError ``fingering.no_number`` (text)."""
+    """What the user typed, as cents; nothing is 0. Raises UsageError ``fingering.no_number`` (text)."""
     try:
         return float(text.replace("−", "-").replace(",", ".").removesuffix("¢") or 0.0)
     except ValueError:
@@ -204,7 +206,7 @@ def _with_pitch(table: Table, written: int, own: Sequence[Fingering]) -> Table:
     return tuple(sorted([*others, *ranked], key=lambda one: (one.written_pitch, one.rank)))
 
 
-# A person's own file
+# The user's own file
 
 
 def base_table(instrument: InstrumentMap, path: Path | None) -> Table:
@@ -220,7 +222,7 @@ def base_table(instrument: InstrumentMap, path: Path | None) -> Table:
 
 
 def own_text(instrument: InstrumentMap, table: Table, text: str | None, file: str) -> str | None:
-    """The text of a person's own map with this table of fingerings; None where nothing is left to say.
+    """The text of the user's own map with this table of fingerings; None where nothing is left to say.
 
     Parameters
     ----------
@@ -228,14 +230,14 @@ def own_text(instrument: InstrumentMap, table: Table, text: str | None, file: st
         As it is now.
     table : tuple of Fingering
     text : str or None
-        Of the person's file as it is, whose other lines stay; None: there is none, and the bundled map is extended.
+        Of the user's file as it is, whose other lines stay; None: there is none, and the bundled map is extended.
     file : str
         Its path: what it extends is looked for beside it.
 
     Raises
     ------
     MapError
-        ``table.syntax`` of the person's file; ``map.not_rewritten``; what `parse_map` finds wrong with the result.
+        ``table.syntax`` of the user's file; ``map.not_rewritten``; what `parse_map` finds wrong with the result.
     """
     known: dict[str, Any] = {} if text is None else parse_table(text, file)
     fresh = text is None
@@ -249,14 +251,14 @@ def own_text(instrument: InstrumentMap, table: Table, text: str | None, file: st
     if not fresh and isinstance(base, str):
         below = parse_map(f'{BASE} = "{base}"\nid = "{instrument.id}"\n', file).fingerings
     pitches = sorted({one.written_pitch for one in table})
-    told = [
+    reported = [
         one for pitch in pitches if of_pitch(table, pitch) != of_pitch(below, pitch) for one in of_pitch(table, pitch)
     ]
-    if not told and (fresh or set(known) <= _OURS):
+    if not reported and (fresh or set(known) <= _OURS):
         return None
     result = _without_block(text)
-    if told:
-        result = _with_block(result, _block(told, instrument))
+    if reported:
+        result = _with_block(result, _block(reported, instrument))
     try:
         read = parse_map(result, file)
         rest = {key: value for key, value in parse_table(result, file).items() if key != "fingerings"}
@@ -270,7 +272,7 @@ def own_text(instrument: InstrumentMap, table: Table, text: str | None, file: st
 
 
 def save_own(instrument: InstrumentMap, table: Table, folder: Path) -> Path | None:
-    """Write a person's own map with this table; returns its path, None where it says nothing any more and was removed.
+    """Write the user's own map with this table; returns its path, None where it says nothing any more and was removed.
 
     Raises
     ------
@@ -294,8 +296,8 @@ def save_own(instrument: InstrumentMap, table: Table, folder: Path) -> Path | No
     return path
 
 
-def _block(told: Sequence[Fingering], instrument: InstrumentMap) -> str:
-    rows = "\n".join(f"  {_row(one, instrument)}," for one in told)
+def _block(reported: Sequence[Fingering], instrument: InstrumentMap) -> str:
+    rows = "\n".join(f"  {_row(one, instrument)}," for one in reported)
     return f"fingerings = [\n{rows}\n]\n"
 
 

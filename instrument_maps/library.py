@@ -1,4 +1,4 @@
-"""The instruments a person has: the bundled maps and those of their own folder (see `app.formats.user_folder`)."""
+"""The instruments the user has: the bundled maps and those of their own folder (see `app.formats.user_folder`)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Library(Shelf[InstrumentMap]):
 
     @property
     def own(self) -> Mapping[str, Path]:
-        """Files of the maps that are a person's own."""
+        """Files of the maps that are the user's own."""
         return self.files
 
     def find(self, id: str) -> InstrumentMap:
@@ -39,7 +39,7 @@ class Library(Shelf[InstrumentMap]):
             raise MapError("map.unknown", id=id) from None
 
     def model_path(self, instrument: InstrumentMap) -> Path:
-        """Return the file of a map's model: beside a person's own map, else the bundled one.
+        """Return the file of a map's model: beside the user's own map, else the bundled one.
 
         Raises
         ------
@@ -54,15 +54,15 @@ class Library(Shelf[InstrumentMap]):
 
 
 def _own_map(path: Path) -> Read[InstrumentMap]:
-    """A map of a person's folder, or everything that is wrong with it. Raises AppError."""
+    """A map of the user's folder, or everything that is wrong with it. Raises AppError."""
     instrument = named_map(path)
     beside = path.parent / instrument.model
     wrong = model_problems(instrument, beside if os.path.isfile(beside) else MODELS / instrument.model)
-    told = tuple(
+    reported = tuple(
         Message("table.invalid", {"file": str(path), "place": where, "detail": detail}) for where, detail in wrong
     )
     # Another model is another instrument, also where the map says the same.
-    return Read(None if told else msgspec.structs.replace(instrument), (beside,), told)
+    return Read(None if reported else msgspec.structs.replace(instrument), (beside,), reported)
 
 
 LIBRARY = UserFolder("instruments", (".glb",), Library, bundled_maps, _own_map, NOT_MAPS)

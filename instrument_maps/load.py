@@ -105,7 +105,7 @@ def check_map(path: Path | str) -> tuple[Message, ...]:
 def bundled_maps() -> Mapping[str, InstrumentMap]:
     """Return the maps that come with the program, by id, in the order of their ids.
 
-    Parsing and validating them takes ten times as long as reading the result of that, which is kept in the person's
+    Parsing and validating them takes ten times as long as reading the result of that, which is kept in the user's
     cache under the digest of the maps and of what reads them.
     """
     kept = cache_folder("maps") / f"maps-{_digest()}.msgpack"
@@ -157,18 +157,18 @@ def named_map(path: Path) -> InstrumentMap:
 def _shaped(text: str, file: str) -> InstrumentMap:
     """Parse, extend and convert: everything that types alone can tell."""
     instrument = shaped(_extended(parse_table(text, file), file, ()), InstrumentMap, file)
-    told = [
+    reported = [
         msgspec.structs.replace(fingering, controls=controls_of(fingering.label, instrument.controls) or {})
         if not fingering.controls
         else fingering
         for fingering in instrument.fingerings
     ]
-    return msgspec.structs.replace(instrument, fingerings=tuple(told))
+    return msgspec.structs.replace(instrument, fingerings=tuple(reported))
 
 
 @lru_cache(maxsize=4)
 def parse_table(text: str, file: str) -> dict[str, Any]:
-    """Return a map's table, which nobody changes: several maps extend the same one. Raises MapError."""
+    """Return a map's table, which no one changes: several maps extend the same one. Raises MapError."""
     return parse_toml(text, file)
 
 
@@ -179,7 +179,7 @@ def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict
     base, own = table[BASE], Path(file).absolute()
     if not isinstance(base, str) or not base.isidentifier():
         raise MapError("table.invalid", file=file, place=BASE, detail=f"{base!r} is not the id of a map")
-    # A person's own map may extend the bundled one of its own name.
+    # The user's own map may extend the bundled one of its own name.
     paths = [path for path in (folder / f"{base}.toml" for folder in (own.parent, FOLDER)) if path != own]
     path = next((path for path in paths if os.path.isfile(path)), None)
     if path in above or (path is None and base == own.stem):

@@ -268,7 +268,7 @@ class Contact(_Table, frozen=True):
     grip : str
         ``"firm"``: the touch that carries or works the instrument, exact. ``"resting"``: the part lies
         against the surface where the hand allows it (judged as the hand's grip, not as a touch). ``"guide"``, never in
-        a file: about here lies a part that cannot bend, and nobody judges it (a mitten's finger).
+        a file: about here lies a part that cannot bend, and no one judges it (a mitten's finger).
     """
 
     part: str
@@ -412,7 +412,7 @@ class Hold(_Table, frozen=True):
         return posture if posture in self.postures else self.postures[0]
 
     def carriage(self, posture: Posture) -> Carriage:
-        """Return how it is carried, in the only posture it is played in where the wanted one is not possible."""
+        """Return how it is carried, in the only posture it is played in where the requested one is not possible."""
         return self._either(posture, self.standing, self.seated)
 
     def lowered(self, posture: Posture) -> Lowered:
@@ -421,8 +421,8 @@ class Hold(_Table, frozen=True):
 
     @staticmethod
     def _either(posture: Posture, standing: _Kind | None, seated: _Kind | None) -> _Kind:
-        wanted, other = (seated, standing) if posture == "seated" else (standing, seated)
-        found = other if wanted is None else wanted
+        requested, other = (seated, standing) if posture == "seated" else (standing, seated)
+        found = other if requested is None else requested
         if found is None:
             raise ValueError("a map without any posture")
         return found

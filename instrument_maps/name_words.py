@@ -66,7 +66,7 @@ def _spelled(word: str) -> str:
 
 
 def _unmarked(found: re.Match[str]) -> str:
-    """A letter without its diacritics; the voicing marks of kana stay, for they tell names apart."""
+    """A letter without its diacritics; the voicing marks of kana stay, for they distinguishes names."""
     if _WIDE.match(found[0]):
         return found[0]
     # "Bässe" are no "Basse"; ö and ü are more often written without their dots than as two letters.

@@ -441,8 +441,11 @@ def _fingers(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iter
             yield f"{path}.fingers.{name}", f"'{finger}' is not a finger"
     for finger, names in asked.items():
         if not any(names == _station(contact) for contact in instrument.contacts if _of(contact, finger)):
-            wanted = " and ".join(f"'{name}'" for name in sorted(names))
-            yield f"{path}.controls", f"no contact lets '{finger}' work {wanted}{' together' if len(names) > 1 else ''}"
+            requested = " and ".join(f"'{name}'" for name in sorted(names))
+            yield (
+                f"{path}.controls",
+                f"no contact lets '{finger}' work {requested}{' together' if len(names) > 1 else ''}",
+            )
 
 
 def _station(contact: Contact) -> set[str]:
@@ -465,12 +468,12 @@ def _label(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterat
     signed = [control for control in moved if control.kind != "slide"]
     if not all(control.label for control in signed):
         return
-    told, none = "".join(sign for sign in fingering.label if not sign.isspace()), NONE
+    reported, none = "".join(sign for sign in fingering.label if not sign.isspace()), NONE
     if any(control.kind == "slide" for control in pitch):
-        told, none = told.rstrip("0123456789"), "a place of the slide"
+        reported, none = reported.rstrip("0123456789"), "a place of the slide"
     named = "".join(control.label for control in signed)
-    plain = told.replace(NONE, "") if told.count(NONE) <= 1 else told
-    if Counter(plain) != Counter(named) or (NONE in told and any(sign.isdigit() for sign in plain)):
+    plain = reported.replace(NONE, "") if reported.count(NONE) <= 1 else reported
+    if Counter(plain) != Counter(named) or (NONE in reported and any(sign.isdigit() for sign in plain)):
         yield path, f"'{fingering.label}' does not name what the controls say, '{named or none}'"
 
 

@@ -70,7 +70,7 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         Id of the more general instrument that this is a size or key of: a clarinet in A is a sort of clarinet. A part
         for the one may be played by the other where nothing fits better.
     by_name_only : bool
-        Nobody is given this instrument because of the range of the notes alone.
+        No one is given this instrument because of the range of the notes alone.
     any_pitch : bool
         A wind section without a range of its own ("brass"): the range of its notes decides who plays, among
         ``families`` where they are named.
@@ -295,8 +295,8 @@ class Vocabulary:
                 beside = self._marks_beside(tokens, singular, start, start + length)
                 for named in filter(None, (alone, self._with_key(own, beside))):
                     keyed = self._keyed.get(own) is named
-                    form, told_by = self._form(named, beside.keys())
-                    marks = {mark: count for mark, count in beside.items() if mark in self._keys | told_by}
+                    form, reported_by = self._form(named, beside.keys())
+                    marks = {mark: count for mark, count in beside.items() if mark in self._keys | reported_by}
                     words = length - len(_IN.intersection(own))
                     # A name of the table goes before one that is put together.
                     total = 2 * (words + sum(marks.values())) - (bool(marks) and not keyed)
@@ -306,7 +306,7 @@ class Vocabulary:
                     written_out = (own in self._written_out or one in self._written_out) and not any(
                         len(word) == 1 and word.isascii() for word in own
                     )
-                    rank = not vague, total, len(told_by) > 1, no_size, words, written_out, -start
+                    rank = not vague, total, len(reported_by) > 1, no_size, words, written_out, -start
                     if best is None or rank > best[0]:
                         best = rank, msgspec.structs.replace(form, vague=True) if keyed and vague else form
         return None if best is None else best[1]
@@ -366,14 +366,14 @@ class Vocabulary:
     def _form(self, instrument: Instrument, marks: Set[str]) -> tuple[Instrument, frozenset[str]]:
         """The form of an instrument that the marks name, and those that do: by most of them, by its size before its
         key; itself where there is none."""
-        found, told_by, best = instrument, frozenset[str](), (0, False)
+        found, reported_by, best = instrument, frozenset[str](), (0, False)
         for form in self._forms.get(instrument.id, ()):
             for mark in form.marks:
                 parts = frozenset(mark.split("+"))
                 rank = len(parts), self._keys.isdisjoint(parts)
                 if parts <= marks and rank > best:
-                    found, told_by, best = form, parts, rank
-        return found, told_by
+                    found, reported_by, best = form, parts, rank
+        return found, reported_by
 
     def _marks_beside(self, tokens: tuple[str, ...], singular: tuple[str, ...], begin: int, end: int) -> dict[str, int]:
         """The sizes, clefs and the nearest key among the words before and after a name, and how many words each is."""

@@ -21,7 +21,7 @@ Range: TypeAlias = tuple[float, float]
 Axis: TypeAlias = tuple[float, float, float]
 """A unit vector in the T-pose; the positive rotation about it is the motion the field names."""
 AmplitudeScale: TypeAlias = tuple[NotNegative, NotNegative, NotNegative]
-"""The value at amplitude 0 (the residual of a player told to keep still), 0.5 (natural) and 1 (exaggerated);
+"""The value at amplitude 0 (the residual of a player asked to keep still), 0.5 (natural) and 1 (exaggerated);
 linear between. Use `at_amplitude`."""
 
 REQUIRED_JOINTS: tuple[str, ...] = (

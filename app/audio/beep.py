@@ -1,4 +1,4 @@
-"""A short sound by which somebody knows that they hear something."""
+"""A short sound by which someone knows that they hear something."""
 
 from __future__ import annotations
 

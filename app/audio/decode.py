@@ -62,7 +62,7 @@ class Recording:
 def decode(
     path: str,
     progress: Callable[[float], None] = lambda share: None,
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
 ) -> Recording:
     """Read a recording.
 
@@ -70,7 +70,7 @@ def decode(
     ----------
     path : str
     progress : callable
-        Told the share 0..1 that is read.
+        Called with the share 0..1 that is read.
     stop_wanted : callable
         Asked now and then; true ends the work.
 
@@ -83,7 +83,7 @@ def decode(
     try:
         with open_file(path) as stream, soundfile.SoundFile(stream) as file:
             most_s = FREE_S + os.fstat(stream.fileno()).st_size / LEAST_BYTES_PER_S
-            return _read(path, file, most_s, progress, stop_wanted)
+            return _read(path, file, most_s, progress, stop_requested)
     except (soundfile.SoundFileError, RuntimeError, TypeError) as error:
         raise FileError("audio.not_readable", file=path, detail=_detail(error)) from error
 
@@ -93,7 +93,7 @@ def _read(
     file: soundfile.SoundFile,
     most_s: float,
     progress: Callable[[float], None],
-    stop_wanted: Callable[[], bool],
+    stop_requested: Callable[[], bool],
 ) -> Recording:
     rate_hz, channels = file.samplerate, file.channels
     if not (LEAST_RATE_HZ <= rate_hz <= MOST_RATE_HZ and 1 <= channels <= MOST_CHANNELS):
@@ -105,7 +105,7 @@ def _read(
     # The length in the header is a claim: it is used for the progress only.
     expected = max(file.frames, 1)
     while True:
-        if stop_wanted():
+        if stop_requested():
             raise Cancelled("work.stopped")
         try:
             raw = file.read(_BLOCK, dtype="float32", always_2d=True)

@@ -20,7 +20,7 @@ _PITCHED_HZ: Final = (60.0, 5000.0)
 """Where fundamentals and low harmonics of winds lie; other peaks tell nothing of the tuning."""
 _CENTRE_HZ: Final = 880.0
 _OCTAVES: Final = 2.0
-"""Pitch classes are told by the middle of the range: standard deviation of the weights around its centre."""
+"""Pitch classes are reported by the middle of the range: standard deviation of the weights around its centre."""
 _SPREAD: Final = 0.6
 """Standard deviation in semitones of how a line of the spectrum counts for the pitch classes near it."""
 _BANDS: Final = 64

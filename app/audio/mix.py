@@ -61,7 +61,7 @@ def recording_track(recording: Recording, offset_s: float) -> Track:
 
 
 def place_gains(x_m: float, width_m: float) -> tuple[float, float]:
-    """Gains of left and right for somebody on the stage, at equal power; both 1 in the middle.
+    """Gains of left and right for someone on the stage, at equal power; both 1 in the middle.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def mixdown(
     end_s: float,
     rate_hz: int = RATE_HZ,
     progress: Callable[[float], None] = lambda share: None,
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
 ) -> Block:
     """The sound of a span of the performance, as films and files get it: the recording, else the synthesiser.
 
@@ -93,7 +93,7 @@ def mixdown(
         Seconds of the performance; may be negative.
     rate_hz : int
     progress : callable
-        Told the share 0..1 that is done.
+        Called with the share 0..1 that is done.
     stop_wanted : callable
         Asked now and then; true ends the work.
 
@@ -109,17 +109,17 @@ def mixdown(
     Cancelled
     """
     if project.audio is not None:
-        recording = decode(project.audio.path, lambda share: progress(0.9 * share), stop_wanted)
+        recording = decode(project.audio.path, lambda share: progress(0.9 * share), stop_requested)
         mix = Mix([recording_track(recording, project.audio.offset_s)])
     else:
-        mix = _synthesised(project, start_s, end_s, progress, stop_wanted)
+        mix = _synthesised(project, start_s, end_s, progress, stop_requested)
     start, count = round(start_s * RATE_HZ), max(round((end_s - start_s) * RATE_HZ), 0)
     block = mix.read(start, count)
     if rate_hz != RATE_HZ and count:
         block = soxr.resample(block, RATE_HZ, rate_hz)
-    wanted = max(round((end_s - start_s) * rate_hz), 0)
-    result = np.zeros((wanted, 2), np.float32)
-    result[: len(block)] = np.clip(block[:wanted], -1.0, 1.0)
+    requested = max(round((end_s - start_s) * rate_hz), 0)
+    result = np.zeros((requested, 2), np.float32)
+    result[: len(block)] = np.clip(block[:requested], -1.0, 1.0)
     progress(1.0)
     return result
 
@@ -129,20 +129,20 @@ def _synthesised(
     start_s: float,
     end_s: float,
     progress: Callable[[float], None],
-    stop_wanted: Callable[[], bool],
+    stop_requested: Callable[[], bool],
 ) -> Mix:
     """The players' phrases that sound within a span."""
     synthesiser = Synthesiser()
-    wanted = [
+    requested = [
         (player.id, phrase)
         for player in project.players
         for phrase in player_phrases(project, player)
         if phrase.start < end_s * RATE_HZ and phrase.end > start_s * RATE_HZ
     ]
     pieces: dict[str, list[Piece]] = {}
-    for index, (player_id, phrase) in enumerate(wanted):
-        if stop_wanted():
+    for index, (player_id, phrase) in enumerate(requested):
+        if stop_requested():
             raise Cancelled("work.stopped")
         pieces.setdefault(player_id, []).append(synthesiser.render(phrase))
-        progress(index / len(wanted))
+        progress(index / len(requested))
     return Mix(player_tracks(project, pieces))

@@ -62,7 +62,7 @@ class Estimate:
 
 
 @dataclass(frozen=True)
-class _Heard:
+class _ControllerInput:
     """What a recording sounds like: chroma (12, frames), onset strength (frames,)."""
 
     chroma: Floats
@@ -84,7 +84,7 @@ def estimate_offset(
     rate_hz: int,
     score: Score,
     progress: Callable[[float], None] = lambda share: None,
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
 ) -> Estimate:
     """Find where a recording stands.
 
@@ -94,7 +94,7 @@ def estimate_offset(
     rate_hz : int
     score : Score
     progress : callable
-        Told the share 0..1 that is done.
+        Called with the share 0..1 that is done.
     stop_wanted : callable
         Asked now and then; true ends the work.
 
@@ -106,7 +106,7 @@ def estimate_offset(
     """
 
     def reached(share: float) -> None:
-        if stop_wanted():
+        if stop_requested():
             raise Cancelled("work.stopped")
         progress(share)
 
@@ -137,7 +137,7 @@ def _expected(score: Score) -> _Expected:
     )
 
 
-def _heard(samples: Samples, rate_hz: int, progress: Callable[[float], None]) -> _Heard:
+def _heard(samples: Samples, rate_hz: int, progress: Callable[[float], None]) -> _ControllerInput:
     sound = soxr.resample(samples.astype(np.float32).mean(axis=1) / 32768.0, rate_hz, _RATE_HZ)
     sound = np.pad(sound, (0, max(_LEAST_SAMPLES - len(sound), 0)))
     progress(0.2)
@@ -150,7 +150,7 @@ def _heard(samples: Samples, rate_hz: int, progress: Callable[[float], None]) ->
     progress(0.5)
     onsets = onset_strength(sound, _RATE_HZ, 1024, _ONSET_HOP)
     progress(1.0)
-    return _Heard(_shape(classes), _evened(onsets))
+    return _ControllerInput(_shape(classes), _evened(onsets))
 
 
 def _shape(chroma: Floats) -> Floats:
@@ -189,7 +189,9 @@ def _score_chroma(expected: _Expected, ratio: float) -> Floats:
     return _shape(np.maximum(np.cumsum(steps, axis=1)[:, :frames], 0.0) ** 2)
 
 
-def _by_chroma(heard: _Heard, expected: _Expected, progress: Callable[[float], None]) -> list[tuple[float, float]]:
+def _by_chroma(
+    heard: _ControllerInput, expected: _Expected, progress: Callable[[float], None]
+) -> list[tuple[float, float]]:
     """The likeliest places: (second of the recording at which the score's second 0 lies, tempo ratio)."""
     length_s = float(expected.end_s.max())
     # At the ends of the piece a wrong tempo must not put chords beside one another.
@@ -200,8 +202,8 @@ def _by_chroma(heard: _Heard, expected: _Expected, progress: Callable[[float], N
     spectra: dict[int, Spectrum] = {}
     energy = np.concatenate([[0.0], np.cumsum((heard.chroma**2).sum(axis=0))])
     for index, ratio in enumerate(ratios):
-        wanted = _score_chroma(expected, ratio)
-        lags, values = _correlate(heard.chroma, wanted, energy, spectra)
+        requested = _score_chroma(expected, ratio)
+        lags, values = _correlate(heard.chroma, requested, energy, spectra)
         for at in _peaks(values):
             found.append((float(values[at]), float(lags[at]) * _CHROMA_S, ratio))
         progress((index + 1) / len(ratios))
@@ -216,20 +218,20 @@ def _by_chroma(heard: _Heard, expected: _Expected, progress: Callable[[float], N
 
 
 def _correlate(
-    heard: Floats, wanted: Floats, energy: Floats, spectra: dict[int, Spectrum]
+    heard: Floats, requested: Floats, energy: Floats, spectra: dict[int, Spectrum]
 ) -> tuple[npt.NDArray[np.int64], Floats]:
     """Likeness of the two at every lag of the recording, -1..1, by how much of them overlaps."""
-    frames, length = heard.shape[1], wanted.shape[1]
+    frames, length = heard.shape[1], requested.shape[1]
     from scipy import fft  # heavy, and only here
 
     size = fft.next_fast_len(frames + length, real=True)
     if size not in spectra:
         spectra.clear()
         spectra[size] = fft.rfft(heard, size, axis=1)
-    products = fft.irfft((spectra[size] * np.conj(fft.rfft(wanted, size, axis=1))).sum(axis=0), size)
+    products = fft.irfft((spectra[size] * np.conj(fft.rfft(requested, size, axis=1))).sum(axis=0), size)
     lags = np.arange(-length + 1, frames)
     values = products[lags % size]
-    own = np.concatenate([[0.0], np.cumsum((wanted**2).sum(axis=0))])
+    own = np.concatenate([[0.0], np.cumsum((requested**2).sum(axis=0))])
     begin, end = np.clip(lags, 0, frames), np.clip(lags + length, 0, frames)
     there = energy[end] - energy[begin]
     ours = own[np.clip(end - lags, 0, length)] - own[np.clip(begin - lags, 0, length)]
@@ -253,7 +255,9 @@ def _peaks(values: Floats) -> list[int]:
     return result
 
 
-def _by_onsets(heard: _Heard, expected: _Expected, start_s: float, ratio: float) -> tuple[float, float, float]:
+def _by_onsets(
+    heard: _ControllerInput, expected: _Expected, start_s: float, ratio: float
+) -> tuple[float, float, float]:
     """The exact place near a rough one: (start, ratio, mean onset strength there in spreads).
 
     Round by round the onsets may lie less and less beside the recording's.
@@ -301,14 +305,14 @@ def _edges(onsets: Floats, width_s: float) -> Floats:
     return result
 
 
-def _likeness(heard: _Heard, expected: _Expected, start_s: float, ratio: float) -> float:
+def _likeness(heard: _ControllerInput, expected: _Expected, start_s: float, ratio: float) -> float:
     """How alike the chroma of both are where the score now lies, against the score transposed: 0 for another piece."""
-    wanted = _score_chroma(expected, ratio)
+    requested = _score_chroma(expected, ratio)
     lag = round(start_s / _CHROMA_S)
-    first, last = max(lag, 0), min(lag + wanted.shape[1], heard.chroma.shape[1])
+    first, last = max(lag, 0), min(lag + requested.shape[1], heard.chroma.shape[1])
     if last <= first:
         return 0.0
-    there, ours = heard.chroma[:, first:last], wanted[:, first - lag : last - lag]
+    there, ours = heard.chroma[:, first:last], requested[:, first - lag : last - lag]
     size = float(np.sqrt((there**2).sum() * (ours**2).sum()))
     if size <= 0.0:
         return 0.0

@@ -125,7 +125,7 @@ class Playback(QObject):
 
     @property
     def is_silent(self) -> bool:
-        """Whether a device was missing when sound was last wanted."""
+        """Whether a device was missing when sound was last requested."""
         return self._silent
 
     def play(self, from_s: float | None = None) -> None:

@@ -1,4 +1,4 @@
-"""Reads a mix in order, at another speed if wanted, over and over in a loop; says which moment each sample is of."""
+"""Reads a mix in order, at another speed if requested, over and over in a loop; says which moment each sample is of."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Reader:
         0.25..2; the pitch stays.
     loop_s : (float, float), optional
     silent : bool
-        Only the time is wanted.
+        Only the time is requested.
     """
 
     def __init__(
@@ -101,11 +101,11 @@ class Reader:
         self._marks = [mark for mark in self._marks if mark[0] < self._made]
         self._marks.append((self._made, at / RATE_HZ, self._speed))
 
-    def _next(self, wanted: int) -> Block:
+    def _next(self, requested: int) -> Block:
         """Some output."""
         if self._speed == 1.0:
             segments = len(self._segments)
-            block = self._input(wanted)
+            block = self._input(requested)
             self._made += len(block)
             if len(self._segments) > segments:
                 self._marks.append((self._made, self._at / RATE_HZ, 1.0))

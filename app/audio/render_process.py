@@ -69,7 +69,7 @@ def _end(child: subprocess.Popen[bytes]) -> None:
     # It may have been killed with something unsaid; the stream is closed all the same.
     with contextlib.suppress(OSError):
         child.stdin.close()
-    # Who still reads from it, in a thread, is told first that nothing comes.
+    # Who still reads from it, in a thread, is reported first that nothing comes.
     child.wait()
     child.stdout.close()
 

@@ -6,14 +6,14 @@ from collections.abc import Collection
 from itertools import count
 
 from app.capture.journal import Journal, passes
-from app.score.take import Cleaning, Take, Wiring
+from app.score.take import Cleaning, ControllerMapping, Take
 from app.score.tempo import TempoMap
 
 
 def takes_of(
     journal: Journal,
     tempo_map: TempoMap,
-    wiring: Wiring,
+    wiring: ControllerMapping,
     name: str,
     start_s: float | None = None,
     cleaning: Cleaning | None = None,
@@ -26,13 +26,13 @@ def takes_of(
     journal : Journal
     tempo_map : TempoMap
         What was heard.
-    wiring : Wiring
+    wiring : ControllerMapping
         With what the device sends breath and bite.
     name : str
         What a take is called, ``{number}`` for its number.
     start_s : float, optional
-        Where the recording was wanted from: what was played before, while it was counted in, stays in the take, which
-        begins there. By default the first moment that is known.
+        Where the recording was requested from: what was played before, while it was counted in, stays in the take,
+        which begins there. By default the first moment that is known.
     cleaning : Cleaning, optional
     taken : collection of str
         Names of the takes that are there: numbers go on after them.

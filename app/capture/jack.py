@@ -11,7 +11,7 @@ _SHUTDOWN: Final = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
 
 
 class ServerWatch:
-    """A client without ports, whom the server's end is told to.
+    """A client without ports, that is notified when the server ends.
 
     Without JACK's library nothing is watched: then no server runs either.
 
@@ -25,7 +25,7 @@ class ServerWatch:
         self.has_ended = False
         self._client: int | None = None
         # Kept: the library calls it as long as the client is open.
-        self._told = _SHUTDOWN(self._tell)
+        self._reported = _SHUTDOWN(self._report)
         try:
             # Python's lock is free while this library works, unlike within rtmidi.
             self._library: Any = ctypes.CDLL("libjack.so.0")
@@ -37,9 +37,9 @@ class ServerWatch:
         status = ctypes.c_int()
         self._client = self._library.jack_client_open(_CLIENT, _NO_START_SERVER, ctypes.byref(status))
         if self._client:
-            self._library.jack_on_shutdown(self._client, self._told, None)
+            self._library.jack_on_shutdown(self._client, self._reported, None)
 
-    def _tell(self, _: int | None) -> None:
+    def _report(self, _: int | None) -> None:
         self.has_ended = True
 
     def close(self) -> None:

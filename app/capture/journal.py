@@ -151,7 +151,7 @@ class JournalWriter:
         mode = "r+" if resumed and os.path.exists(path) else "x"
         try:
             self._file = FileIO(path, mode)
-            # For whoever finds the journal: somebody still writes it.
+            # For whoever finds the journal: someone still writes it.
             lock(self._file)
             is_new = mode == "x" or self._cut() == 0
         except FileExistsError as error:

@@ -1,4 +1,4 @@
-"""How late a device comes, from somebody who blows on every click."""
+"""How late a device comes, from someone who blows on every click."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def _densest(offsets: Sequence[float]) -> float:
 
 
 def hits(events: Iterable[tuple[float, bytes]], breath: BreathSource) -> tuple[float, ...]:
-    """When somebody began to blow: notes, or where a device sends none, the breath; what doubles a hit is left out.
+    """When someone began to blow: notes, or where a device sends none, the breath; what doubles a hit is left out.
 
     Parameters
     ----------

@@ -61,12 +61,12 @@ def learned(events: Iterable[tuple[int, bytes]], trusted: Sequence[BreathSource]
 def learned_bite(
     bitten: Iterable[tuple[int, bytes]], blown: Iterable[tuple[int, bytes]], breath: Learned
 ) -> BiteSource | None:
-    """What moves most while somebody bites; None where nothing does.
+    """What moves most while someone bites; None where nothing does.
 
     Parameters
     ----------
     bitten, blown : iterable of (int, bytes)
-        Moments and messages while somebody bit, and while they blew before.
+        Moments and messages while someone bit, and while they blew before.
     breath : Learned
         What was found then. A pressure that moved with it doubles the breath.
     """

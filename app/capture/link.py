@@ -52,7 +52,7 @@ class RecorderLink:
     Parameters
     ----------
     on_news : callable
-        Called in a thread of the link's when there is something to `poll` and nobody was called since the last time.
+        Called in a thread of the link's when there is something to `poll` and no one was called since the last time.
     system : str
         The only MIDI system to try, as rtmidi names it; empty for any.
     """
@@ -97,8 +97,8 @@ class RecorderLink:
                 return
             before, self._open = self._open, None if port is None else Open(port)
             if before is None and self._open is not None:
-                self._tell(self._open)
-            elif self._tell(Leave()):
+                self._report(self._open)
+            elif self._report(Leave()):
                 # The next recorder opens it: a port in use is only closed by the end of its process.
                 self._is_leaving = True
                 self._end_surely()
@@ -112,7 +112,7 @@ class RecorderLink:
             self._take = Start(os.fsencode(Path(path).absolute()), header)
             self._is_stopping = False
             self._unsent.clear()
-            self._is_begun = self._tell(self._take)
+            self._is_begun = self._report(self._take)
 
     def sync(self, ns: int, position_s: float, pass_: int = 0) -> None:
         """Say what place of the piece is heard at a moment of `time.perf_counter_ns`.
@@ -121,7 +121,7 @@ class RecorderLink:
         """
         with self._lock:
             point = Sync(ns, position_s, pass_)
-            if self._take is not None and not self._tell(point):
+            if self._take is not None and not self._report(point):
                 self._unsent.append(point)
 
     def stop(self) -> None:
@@ -129,7 +129,7 @@ class RecorderLink:
         with self._lock:
             if self._take is not None:
                 self._is_stopping = True
-                self._tell(Stop())
+                self._report(Stop())
 
     def poll(self) -> list[News]:
         """The news since the last time, in order."""
@@ -150,14 +150,14 @@ class RecorderLink:
         self._thread.join()
 
     def _end_surely(self) -> None:
-        """Kill the recorder, which was told to end, if a driver holds it up. The lock is held."""
+        """Kill the recorder, which was requested to end, if a driver holds it up. The lock is held."""
         assert self._child is not None
         self._ending = threading.Timer(_END_WITHIN_S, self._child.kill)
         self._ending.daemon = True
         self._ending.start()
 
-    def _tell(self, command: Command) -> bool:
-        """Whether the recorder was told; what matters of the rest is told to the next. The lock is held."""
+    def _report(self, command: Command) -> bool:
+        """Whether the recorder was notified; what matters of the rest is sent to the next. The lock is held."""
         if self._child is None or self._is_leaving:
             return False
         assert self._child.stdin is not None
@@ -202,14 +202,16 @@ class RecorderLink:
             if self._take is not None:
                 # What no recorder has begun must not be there.
                 began_ns = resumed_ns if self._is_begun else None
-                self._is_begun = self._tell(msgspec.structs.replace(self._take, resumed_ns=began_ns)) or self._is_begun
+                self._is_begun = (
+                    self._report(msgspec.structs.replace(self._take, resumed_ns=began_ns)) or self._is_begun
+                )
             if self._open is not None:
-                self._tell(self._open)
+                self._report(self._open)
             for point in self._unsent:
-                self._tell(point)
+                self._report(point)
             self._unsent.clear()
             if self._is_stopping:
-                self._tell(Stop())
+                self._report(Stop())
             return self._child
 
     def _fail(self, detail: str) -> None:
@@ -227,32 +229,32 @@ class RecorderLink:
         assert child.stdout is not None
         with contextlib.suppress(EOFError, OSError, msgspec.MsgspecError):
             while True:
-                told = read_framed(child.stdout, NEWS)
-                if isinstance(told, SystemEnded):
+                reported = read_framed(child.stdout, NEWS)
+                if isinstance(reported, SystemEnded):
                     with self._lock:
                         self._is_leaving = True
                     continue
-                if isinstance(told, Finished | NotStarted):
-                    self._take_ended(told)
-                elif isinstance(told, Lost | Opened | Back):
-                    self._port_changed(told)
-                self._put(told)
+                if isinstance(reported, Finished | NotStarted):
+                    self._take_ended(reported)
+                elif isinstance(reported, Lost | Opened | Back):
+                    self._port_changed(reported)
+                self._put(reported)
 
-    def _port_changed(self, told: Lost | Opened | Back) -> None:
+    def _port_changed(self, reported: Lost | Opened | Back) -> None:
         with self._lock:
             # Another may have been chosen since.
-            if told.port == self.port:
-                self._open = Open(told.port, is_lost=isinstance(told, Lost))
+            if reported.port == self.port:
+                self._open = Open(reported.port, is_lost=isinstance(reported, Lost))
 
-    def _take_ended(self, told: Finished | NotStarted) -> None:
+    def _take_ended(self, reported: Finished | NotStarted) -> None:
         with self._lock:
             # A journal that was started while another ran ends that one.
-            if self._take is not None and (isinstance(told, NotStarted) or told.path == self._take.path):
+            if self._take is not None and (isinstance(reported, NotStarted) or reported.path == self._take.path):
                 self._take = None
                 self._is_stopping = False
 
-    def _put(self, told: News) -> None:
-        self._news.append(told)
+    def _put(self, reported: News) -> None:
+        self._news.append(reported)
         if not self._is_called:
             self._is_called = True
             self._on_news()

@@ -85,7 +85,7 @@ class MidiSystem:
 
     Parameters
     ----------
-    wanted : str
+    requested : str
         Name of the only system to try; empty for all that are compiled in.
 
     Raises
@@ -94,17 +94,17 @@ class MidiSystem:
         ``capture.no_library`` (detail), ``capture.api_unknown`` (name, possible), ``capture.no_system``.
     """
 
-    def __init__(self, wanted: str = "") -> None:
+    def __init__(self, requested: str = "") -> None:
         try:
             import rtmidi
         except ImportError as error:
             raise PortError("capture.no_library", detail=str(error)) from error
         self._rtmidi: Any = rtmidi
         compiled = {rtmidi.get_api_name(api): api for api in rtmidi.get_compiled_api()}
-        if wanted and wanted not in compiled:
-            raise PortError("capture.api_unknown", name=wanted, possible=", ".join(sorted(compiled)))
+        if requested and requested not in compiled:
+            raise PortError("capture.api_unknown", name=requested, possible=", ".join(sorted(compiled)))
         for name, api in compiled.items():
-            if wanted in ("", name):
+            if requested in ("", name):
                 with contextlib.suppress(rtmidi.RtMidiError):
                     self.name, self._api = name, api
                     self._inputs, self._outputs = rtmidi.MidiIn(api, CLIENT), rtmidi.MidiOut(api, CLIENT)

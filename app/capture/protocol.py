@@ -14,11 +14,11 @@ _LENGTH: Final = struct.Struct("<I")
 T = TypeVar("T")
 
 
-class _Told(msgspec.Struct, frozen=True, tag=True, array_like=True, gc=False):
+class _Report(msgspec.Struct, frozen=True, tag=True, array_like=True, gc=False):
     pass
 
 
-class Open(_Told, frozen=True):
+class Open(_Report, frozen=True):
     """Listen to a port, again whenever it comes back; to a recorder this is said only once (see
     `app.capture.recorder`). ``is_lost``: it was listened to and went away."""
 
@@ -26,7 +26,7 @@ class Open(_Told, frozen=True):
     is_lost: bool = False
 
 
-class Start(_Told, frozen=True):
+class Start(_Report, frozen=True):
     """Write what is heard into a journal, whose path is as `os.fsencode` has it: not all names are text.
     ``resumed_ns``: another recorder began it, and nothing was received since."""
 
@@ -35,7 +35,7 @@ class Start(_Told, frozen=True):
     resumed_ns: int | None = None
 
 
-class Sync(_Told, frozen=True):
+class Sync(_Report, frozen=True):
     """At this moment that place of the piece is heard."""
 
     ns: int
@@ -43,16 +43,16 @@ class Sync(_Told, frozen=True):
     pass_: int
 
 
-class Stop(_Told, frozen=True):
+class Stop(_Report, frozen=True):
     """Finish the journal."""
 
 
-class Leave(_Told, frozen=True):
+class Leave(_Report, frozen=True):
     """End, the journal as it is: another recorder goes on with it."""
 
 
-class Ports(_Told, frozen=True):
-    """The devices that are there now; told at the start and whenever they change.
+class Ports(_Report, frozen=True):
+    """The devices that are there now; reported at the start and whenever they change.
 
     Attributes
     ----------
@@ -67,63 +67,63 @@ class Ports(_Told, frozen=True):
     system: str
 
 
-class Opened(_Told, frozen=True):
+class Opened(_Report, frozen=True):
     """The port is listened to."""
 
     port: str
     ns: int
 
 
-class Lost(_Told, frozen=True):
+class Lost(_Report, frozen=True):
     """The port has gone; it is opened again when it comes back."""
 
     port: str
     ns: int
 
 
-class Back(_Told, frozen=True):
+class Back(_Report, frozen=True):
     """The lost port is listened to again."""
 
     port: str
     ns: int
 
 
-class Refused(_Told, frozen=True):
+class Refused(_Report, frozen=True):
     """Something asked for cannot be done, and why."""
 
     reason: Message
 
 
-class NotStarted(_Told, frozen=True):
+class NotStarted(_Report, frozen=True):
     """The journal cannot be begun, and why: nothing is recorded."""
 
     reason: Message
 
 
-class Restarted(_Told, frozen=True):
+class Restarted(_Report, frozen=True):
     """The recorder ended unexpectedly and was started again; the journal goes on."""
 
     reason: Message
 
 
-class SystemEnded(_Told, frozen=True):
+class SystemEnded(_Report, frozen=True):
     """The MIDI system has gone, with all of its ports: this recorder ends, another one waits for the system."""
 
 
-class Events(_Told, frozen=True):
+class Events(_Report, frozen=True):
     """What was played: moments of `time.perf_counter_ns` and the bytes of the messages (of channels only)."""
 
     times_ns: tuple[int, ...]
     messages: tuple[bytes, ...]
 
 
-class Written(_Told, frozen=True):
+class Written(_Report, frozen=True):
     """So many events of the running journal are safe on the disk."""
 
     count: int
 
 
-class Finished(_Told, frozen=True):
+class Finished(_Report, frozen=True):
     """The journal is whole and closed."""
 
     path: bytes
@@ -140,9 +140,9 @@ NEWS: Final = msgspec.msgpack.Decoder(News)
 _ENCODER: Final = msgspec.msgpack.Encoder()
 
 
-def framed(told: Command | News) -> bytes:
+def framed(reported: Command | News) -> bytes:
     """A command or news as bytes with their length before them."""
-    data = _ENCODER.encode(told)
+    data = _ENCODER.encode(reported)
     return _LENGTH.pack(len(data)) + data
 
 

@@ -89,15 +89,15 @@ class Recorder:
         self,
         news: SimpleQueue[News | Heard | None],
         journal: SimpleQueue[Any],
-        wanted_system: str = "",
+        requested_system: str = "",
         on_open: Callable[[], None] = lambda: None,
     ) -> None:
         self._news, self._journal = news, journal
-        self._wanted_system, self._on_open = wanted_system, on_open
+        self._requested_system, self._on_open = requested_system, on_open
         self._system: MidiSystem | None = None
         self._has_ports = False
         self._tried_at_s = -_NO_SYSTEM_LOOK_S
-        self._told: News | None = None
+        self._reported: News | None = None
         self._refused: list[Message] = []
         self._asked: Open | None = None
         self._input: Any = None
@@ -128,7 +128,7 @@ class Recorder:
             return
         inputs, outputs = system.inputs(), system.outputs()
         self._lose(inputs)
-        self._tell(Ports(_names(inputs), _names(outputs), system.name))
+        self._report(Ports(_names(inputs), _names(outputs), system.name))
         if self._input is None:
             self._open(system, inputs)
         self._has_ports = bool(inputs or outputs)
@@ -142,10 +142,10 @@ class Recorder:
             self._tried_at_s = now_s
             self._leave_system()
             try:
-                self._system = MidiSystem(self._wanted_system)
+                self._system = MidiSystem(self._requested_system)
                 self._refused.clear()
             except PortError as error:
-                self._tell(Ports((), (), ""))
+                self._report(Ports((), (), ""))
                 self._refuse(error.message)
         return self._system
 
@@ -158,9 +158,9 @@ class Recorder:
         if self._input is not None and self._identity not in {port.identity for port in inputs}:
             close_lost(self._input)
             self._input = None
-            self._tell_lost()
+            self._report_lost()
 
-    def _tell_lost(self) -> None:
+    def _report_lost(self) -> None:
         assert self._asked is not None
         ns = time.perf_counter_ns()
         self._journal.put(("lost", ns))
@@ -169,7 +169,7 @@ class Recorder:
     def _end(self) -> None:
         """The system has gone: what was had of it can only be left, which ends with the process."""
         if self._input is not None:
-            self._tell_lost()
+            self._report_lost()
         self._news.put(SystemEnded())
         self.has_ended = True
 
@@ -201,9 +201,9 @@ class Recorder:
         self._journal.put(heard)
         self._news.put(heard)
 
-    def _tell(self, ports: Ports) -> None:
-        if ports != self._told:
-            self._told = ports
+    def _report(self, ports: Ports) -> None:
+        if ports != self._reported:
+            self._reported = ports
             self._news.put(ports)
 
     def _refuse(self, reason: Message) -> None:
@@ -273,7 +273,7 @@ class JournalKeeper:
         except FileError as error:
             self._news.put(NotStarted(error.message))
         except OSError as error:
-            self._tell_failure(error)
+            self._report_failure(error)
 
     def _write(self) -> None:
         if self._writer is None:
@@ -284,7 +284,7 @@ class JournalKeeper:
                 self._to_disk()
             self._failed = False
         except OSError as error:
-            self._tell_failure(error)
+            self._report_failure(error)
 
     def _to_disk(self) -> None:
         assert self._writer is not None
@@ -307,7 +307,7 @@ class JournalKeeper:
         if word is not None:
             self._news.put(Finished(os.fsencode(writer.path), writer.count))
 
-    def _tell_failure(self, error: OSError) -> None:
+    def _report_failure(self, error: OSError) -> None:
         """Say that the disk takes nothing, once; it is tried again with what comes next."""
         if not self._failed and self._writer is not None:
             self._failed = True
@@ -318,15 +318,15 @@ class JournalKeeper:
 
 
 def send_news(queue: SimpleQueue[News | Heard | None], stream: IO[bytes]) -> None:
-    """Send what comes into a queue, events that have gathered together; None ends it, and that nobody reads."""
+    """Send what comes into a queue, events that have gathered together; None ends it, and that no one reads."""
     with contextlib.suppress(OSError):
         while True:
             items = [queue.get()]
             with contextlib.suppress(Empty):
                 while True:
                     items.append(queue.get_nowait())
-            for is_heard, group in groupby(items, lambda item: isinstance(item, tuple)):
-                if is_heard:
+            for is_audible, group in groupby(items, lambda item: isinstance(item, tuple)):
+                if is_audible:
                     heard = [item for item in group if isinstance(item, tuple) and is_whole(item[1])]
                     if heard:
                         times_ns, messages = zip(*heard, strict=True)

@@ -46,7 +46,7 @@ LONGER: Final = 2.0
 """Times the mean around it: each of them alone makes an accent, and two make one with half of each (as logarithms)."""
 
 
-def heard_rhythm(score: Score) -> Rhythm:
+def audible_rhythm(score: Score) -> Rhythm:
     """What a dancer hears of a piece: its percussion, or without any what `derived_rhythm` finds."""
     rhythm = score_rhythm(score)
     return rhythm if len(rhythm.hits_s) else derived_rhythm(score)

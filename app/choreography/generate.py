@@ -25,7 +25,7 @@ from app.choreography.joins import distances_m
 from app.choreography.judge import usual_change_rad_s
 from app.choreography.model import ChoreographyModel
 from app.choreography.rhythm import Rhythm
-from app.choreography.sequence import Candidates, Grid, Weights, Wishes, choose, grid_of, symbol_scores
+from app.choreography.sequence import Candidates, Constraints, Grid, Weights, choose, grid_of, symbol_scores
 from app.choreography.stitch import STAGE_M, Frames, Stitcher
 from app.choreography.warp import REST_S, TimeMap, arriving
 from app.rig import quaternion
@@ -122,7 +122,7 @@ class Choreographer:
         manner: Manner,
         fps: Fraction,
         *,
-        wishes: Wishes | None = None,
+        constraints: Constraints | None = None,
         weights: Weights | None = None,
         first_s: float = 0.0,
         end_s: float | None = None,
@@ -134,12 +134,12 @@ class Choreographer:
         rhythm : Rhythm
         manner : Manner
         fps : Fraction
-        wishes : Wishes, optional
+        wishes : Constraints, optional
         weights : Weights, optional
         first_s, end_s : float
             The motion's first frame and its end; by default from the first tick to `REST_S` after the last step.
         """
-        plan, body = self._planned(rhythm, manner, wishes, weights), manner.source or 0
+        plan, body = self._planned(rhythm, manner, constraints, weights), manner.source or 0
         if end_s is None:
             end_s = max(first_s, (plan.steps[-1].end_s if plan.steps else 0.0) + 2.0 * REST_S)
         count = max(1, math.ceil((end_s - first_s) * float(fps)))
@@ -160,12 +160,14 @@ class Choreographer:
         return self._usual_rad_s[fps]
 
     def steps(
-        self, rhythm: Rhythm, manner: Manner, *, wishes: Wishes | None = None, weights: Weights | None = None
+        self, rhythm: Rhythm, manner: Manner, *, constraints: Constraints | None = None, weights: Weights | None = None
     ) -> tuple[Step, ...]:
         """Which segments are danced when."""
-        return self._planned(rhythm, manner, wishes, weights).steps
+        return self._planned(rhythm, manner, constraints, weights).steps
 
-    def _planned(self, rhythm: Rhythm, manner: Manner, wishes: Wishes | None, weights: Weights | None) -> _Plan:
+    def _planned(
+        self, rhythm: Rhythm, manner: Manner, constraints: Constraints | None, weights: Weights | None
+    ) -> _Plan:
         """Which segments are danced when, and how time goes meanwhile."""
         candidates, grid, segments = self.candidates, grid_of(rhythm), self.model.segments
         initial = np.log(self.model.initial * self.model.states)[candidates.states]
@@ -179,7 +181,7 @@ class Choreographer:
             candidates,
             seed=manner.seed,
             weights=weights,
-            wishes=wishes,
+            constraints=constraints,
             initial=initial + self._standing([one.start for one in segments]),
             final=self._standing([one.end for one in segments]),
         )

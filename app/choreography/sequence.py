@@ -111,7 +111,7 @@ class Candidates:
 
 
 @dataclass(frozen=True)
-class Wishes:
+class Constraints:
     """What the user decided.
 
     Attributes
@@ -166,7 +166,7 @@ def choose(
     *,
     seed: int,
     weights: Weights | None = None,
-    wishes: Wishes | None = None,
+    constraints: Constraints | None = None,
     initial: FloatArray | None = None,
     final: FloatArray | None = None,
 ) -> list[tuple[int, int]]:
@@ -180,7 +180,7 @@ def choose(
     candidates : Candidates
     seed : int
     weights : Weights, optional
-    wishes : Wishes, optional
+    wishes : Constraints, optional
     initial, final : (S,) float64, optional
         Log odds of each segment as the first, and as the last.
 
@@ -189,12 +189,12 @@ def choose(
     list of (place, segment)
         Places ascending. Empty without places or segments.
     """
-    weights, wishes = weights or Weights(), wishes or Wishes()
+    weights, constraints = weights or Weights(), constraints or Constraints()
     count, segments = len(grid.times_s), len(candidates.states)
     if not count or not segments:
         return []
     random = np.random.default_rng(seed)
-    search = _Search(grid, scores, candidates, weights, wishes, initial)
+    search = _Search(grid, scores, candidates, weights, constraints, initial)
     chosen: list[tuple[int, int]] = []
     step = 2 * PHRASE_BEATS
     for first in range(0, count, step):
@@ -224,13 +224,13 @@ class _Search:
         scores: FloatArray,
         candidates: Candidates,
         weights: Weights,
-        wishes: Wishes,
+        constraints: Constraints,
         initial: FloatArray | None,
     ) -> None:
-        self._grid, self._candidates, self._weights, self._wishes = grid, candidates, weights, wishes
-        self._wished = sorted({*wishes.pinned, *wishes.segments})
+        self._grid, self._candidates, self._weights, self._wishes = grid, candidates, weights, constraints
+        self._wished = sorted({*constraints.pinned, *constraints.segments})
         self._forbidden: dict[int, list[int]] = {}
-        for place, state in wishes.forbidden:
+        for place, state in constraints.forbidden:
             self._forbidden.setdefault(place, []).append(state)
         self._scores = weights.model * scores - weights.off_beat * ~grid.on_beat[:, None]
         self._initial = np.zeros(len(candidates.states)) if initial is None else weights.model * initial
@@ -301,12 +301,12 @@ class _Search:
 
     def _allowed(self, place: int) -> FloatArray:
         """Nothing for the segments that may be at a place, never for the others."""
-        wishes, states = self._wishes, self._candidates.states
+        constraints, states = self._wishes, self._candidates.states
         cost = np.zeros(len(states))
-        if place in wishes.segments:
-            cost[np.arange(len(states)) != wishes.segments[place]] = NEVER / 100.0
-        elif place in wishes.pinned:
-            cost[states != wishes.pinned[place]] = NEVER / 100.0
+        if place in constraints.segments:
+            cost[np.arange(len(states)) != constraints.segments[place]] = NEVER / 100.0
+        elif place in constraints.pinned:
+            cost[states != constraints.pinned[place]] = NEVER / 100.0
         elif place in self._forbidden:
             cost[np.isin(states, self._forbidden[place])] = NEVER / 100.0
         return cost

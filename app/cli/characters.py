@@ -72,7 +72,7 @@ def _add_file(command: argparse.ArgumentParser) -> None:
 
 
 def list_characters(arguments: argparse.Namespace) -> None:
-    """Print every character: id, title and file; then a person's own folder and what is wrong in it."""
+    """Print every character: id, title and file; then the user's own folder and what is wrong in it."""
     from app.rig.character_library import character_library, character_problems
 
     known = character_library()
@@ -159,10 +159,10 @@ def checked(path: Path, joints: Mapping[str, str], morphs: Mapping[str, Mapping[
     reading = read_character(path, joints, morphs)
     names = reading.figure.bone_names
     lacking = [joint for joint in REQUIRED_JOINTS if joint not in reading.joints.bones]
-    told = list(reading.figure.notes)
+    reported = list(reading.figure.notes)
     if not lacking:
         character = figure_character(reading.figure, shown(path.stem), reading.joints.bones, reading.face.morphs)
-        told += _told(character)
+        reported += _reported(character)
     return {
         "file": stored(path),
         "kind": reading.figure.origin,
@@ -177,19 +177,19 @@ def checked(path: Path, joints: Mapping[str, str], morphs: Mapping[str, Mapping[
         "face": reading.face.profile,
         "morphs": {shape: dict(own) for shape, own in reading.face.morphs.items()},
         "missing_morphs": list(reading.face.missing),
-        "notes": [text(note) for note in told],
+        "notes": [text(note) for note in reported],
     }
 
 
-def _told(character: Any) -> tuple[Message, ...]:
+def _reported(character: Any) -> tuple[Message, ...]:
     """What an animator should know of the character with an instrument."""
+    from app.rig.fitted_instrument import suited
     from app.rig.instrument import load_instrument
-    from app.rig.suited import suited
     from instrument_maps.library import find_map, model_path
     from metadata.load import load_body
 
     played = find_map(PLAYED)
-    return suited(character, played, load_body(), lambda: load_instrument(model_path(played), played)).told
+    return suited(character, played, load_body(), lambda: load_instrument(model_path(played), played)).reported
 
 
 def as_text(found: Mapping[str, Any]) -> list[str]:

@@ -291,7 +291,7 @@ def _formation(name: str) -> str:
 def generate(arguments: argparse.Namespace) -> None:
     """Generate the dances, write the files and print what is danced."""
     from app.choreography.dance import Manner
-    from app.choreography.derived_rhythm import heard_rhythm
+    from app.choreography.derived_rhythm import audible_rhythm
     from app.choreography.formation import dance_together, roles
     from app.choreography.generate import Choreographer
     from app.choreography.library import bundled_choreographies, choreography_path
@@ -301,7 +301,7 @@ def generate(arguments: argparse.Namespace) -> None:
 
     name: str = arguments.choreography
     model = read_model(choreography_path(name) if name in bundled_choreographies() else Path(name))
-    rhythm = heard_rhythm(uncast_score(read_contents(arguments.piece)))
+    rhythm = audible_rhythm(uncast_score(read_contents(arguments.piece)))
     manner = Manner(arguments.seed, _source(model, arguments.prefer), arguments.size, arguments.weight)
     cast = roles(arguments.formation, arguments.dancers, manner, len(model.sources))
     progress = Progress(sys.stderr)

@@ -20,7 +20,7 @@ from app.cli.options import (
     whole_number,
 )
 from app.cli.progress import Progress, find_holds
-from app.cli.status import tell_left_out
+from app.cli.status import report_left_out
 from app.cli.summary import project_summary, summary
 from app.cli.terminal import say
 from app.encoding import shown
@@ -135,7 +135,7 @@ def export(arguments: argparse.Namespace) -> int:
 
     if arguments.unreal is not None and arguments.formats:
         raise UsageError("unreal.formats")
-    # What is wrong with it is told before anything is read.
+    # What is wrong with it is reported before anything is read.
     unreal = None if arguments.unreal is None else find_project(arguments.unreal)
     clean_up()
     project = open_project(arguments)
@@ -167,19 +167,19 @@ def export(arguments: argparse.Namespace) -> int:
         with _terminable():
             if unreal is None:
                 report = write(request, text, progress=progress)
-                told = summary(report, arguments.to)
+                reported = summary(report, arguments.to)
             else:
                 written = export_into(request, unreal, text, progress=progress)
-                report, told = written.report, project_summary(written, unreal)
+                report, reported = written.report, project_summary(written, unreal)
     finally:
         progress.clear()
-    say(*told)
-    return tell_left_out((one.player, one.reason) for one in report.left_out)
+    say(*reported)
+    return report_left_out((one.player, one.reason) for one in report.left_out)
 
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Being told to end (SIGTERM) stops like Ctrl-C does, so that nothing half-written stays."""
+    """A request to end (SIGTERM) stops like Ctrl-C does, so that nothing half-written stays."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         raise KeyboardInterrupt

@@ -11,7 +11,7 @@ import numpy as np
 
 from app.cli.options import Commands, add_rate_option, add_source_options, add_title_option, open_project
 from app.cli.progress import find_holds
-from app.cli.status import tell_left_out
+from app.cli.status import report_left_out
 from app.cli.summary import columns
 from app.cli.terminal import say, say_json
 from app.encoding import shown
@@ -72,14 +72,14 @@ def inspect(arguments: argparse.Namespace) -> int:
         say_json(found)
     else:
         say(*tables(shown(arguments.file.name), found))
-    return tell_left_out((one["player"], one["reason"]) for one in found["left_out"])
+    return report_left_out((one["player"], one["reason"]) for one in found["left_out"])
 
 
 def inspection(performance: Performance) -> Table:
     """Everything ``inspect --json`` prints: seconds are the performance's, beats are quarters from tick 0."""
     project = performance.project
     score = project.score
-    # Nobody plans for an instrument that is not there.
+    # No one plans for an instrument that is not there.
     playable = attempt(project.players, performance.instrument)
     absent = {one.player.id for one in playable.left_out}
     return {
@@ -329,7 +329,7 @@ def _row(player: Table) -> tuple[str, ...]:
 
 
 def _fingerings(labels: list[str]) -> str:
-    """Labels of several words are told apart by a comma, and are fewer."""
+    """Labels of several words are distinguished by a comma, and are fewer."""
     if not any(" " in label for label in labels):
         return " ".join(labels)
     return ", ".join(labels[:FIRST_WORDS])

@@ -46,7 +46,7 @@ def add_command(commands: Commands) -> None:
 
 
 def list_maps(arguments: argparse.Namespace) -> None:
-    """Print every map: id, name, concert range, transposition, what the player moves; then a person's own folder and
+    """Print every map: id, name, concert range, transposition, what the player moves; then the user's own folder and
     what is wrong in it."""
     from instrument_maps.library import library
 

@@ -23,10 +23,10 @@ from app.project.names import unique_names
 from app.project.parameters import parameter_names, parse_settings, select_players
 from app.project.storage import is_project_file, load
 from app.rig.character_library import characters
-from app.score.choose import MapChoice, Stream, require_map
+from app.score.choose import MapChoice, TrackChannel, require_map
 from app.score.model import Score
-from app.score.parts import PartWish, stream_name, usual_wishes
-from app.score.read import read_contents, wished_score
+from app.score.parts import PartAssignment, stream_name, usual_wishes
+from app.score.read import assigned_score, read_contents
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
 
@@ -183,7 +183,7 @@ def add_rate_option(command: argparse.ArgumentParser) -> None:
 
 def open_project(arguments: argparse.Namespace) -> Project:
     """The project that a file holds, or a MIDI file with its players cast; what the options say comes on top. What is
-    wrong with a person's own instruments is said, and those are left out.
+    wrong with the user's own instruments is said, and those are left out.
 
     Raises
     ------
@@ -238,23 +238,26 @@ def _cast_project(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMa
 def _read_score(arguments: argparse.Namespace, maps: Sequence[MapChoice]) -> Score:
     """The score of a MIDI file, with the pitches that are written ones transposed."""
     contents = read_contents(arguments.file, encoding=arguments.encoding)
-    wishes = _assigned(contents.streams, usual_wishes(contents.streams, maps), arguments.assign, maps)
-    score = wished_score(contents, wishes, maps)
+    assignments = _assigned(contents.streams, usual_wishes(contents.streams, maps), arguments.assign, maps)
+    score = assigned_score(contents, assignments, maps)
     if not arguments.written:
         return score
     chosen = select_players(arguments.written, unique_names(part.name for part in score.parts))
     places = {score.parts[index].place for index in chosen}
-    streams = [contents.streams[wish.streams[0]] for wish in wishes]
+    streams = [contents.streams[wish.streams[0]] for wish in assignments]
     asked = [
         msgspec.structs.replace(wish, written=stream.place in places)
-        for wish, stream in zip(wishes, streams, strict=True)
+        for wish, stream in zip(assignments, streams, strict=True)
     ]
-    return wished_score(contents, asked, maps)
+    return assigned_score(contents, asked, maps)
 
 
 def _assigned(
-    streams: Sequence[Stream], wishes: Sequence[PartWish], texts: Sequence[str], maps: Sequence[MapChoice]
-) -> Sequence[PartWish]:
+    streams: Sequence[TrackChannel],
+    assignments: Sequence[PartAssignment],
+    texts: Sequence[str],
+    maps: Sequence[MapChoice],
+) -> Sequence[PartAssignment]:
     """The wishes with the instruments that are assigned to parts as ``PART=INSTRUMENT``.
 
     Raises
@@ -263,14 +266,14 @@ def _assigned(
         ``assign.malformed`` (assignment), ``assign.instrument_unknown`` (instrument, possible), ``player.unknown``.
     """
     if not texts:
-        return wishes
+        return assignments
     names = unique_names(map(stream_name, streams))
-    assigned = {wish.streams[0]: wish for wish in wishes}
+    assigned = {wish.streams[0]: wish for wish in assignments}
     for text in texts:
         part, equals, map_id = (piece.strip() for piece in text.rpartition("="))
         if not (part and equals and map_id):
             raise UsageError("assign.malformed", assignment=text)
         require_map(map_id, [choice.map_id for choice in maps])
         for index in select_players([part], names):
-            assigned[index] = PartWish((index,), map_id)
+            assigned[index] = PartAssignment((index,), map_id)
     return [assigned[index] for index in sorted(assigned)]

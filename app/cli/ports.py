@@ -59,11 +59,11 @@ class Listening:
             No MIDI system answers.
         """
         reason = Message("capture.no_system")
-        for told in self.until(time.monotonic() + _ANSWER_WITHIN_S):
-            if isinstance(told, Ports) and told.system:
-                return told
-            if isinstance(told, Refused):
-                raise NoDevice(told.reason.id, **told.reason.arguments)
+        for reported in self.until(time.monotonic() + _ANSWER_WITHIN_S):
+            if isinstance(reported, Ports) and reported.system:
+                return reported
+            if isinstance(reported, Refused):
+                raise NoDevice(reported.reason.id, **reported.reason.arguments)
         raise NoDevice(reason.id)
 
 

@@ -109,7 +109,7 @@ def _listen(arguments: argparse.Namespace, journal: Path) -> None:
                 _count_in(listening, arguments.count_in, arguments.tempo, begin_ns)
                 length_s = LONGEST_S if arguments.seconds is None else arguments.seconds
                 warn("recording" if arguments.seconds else "recording; Ctrl+C ends it")
-                _tell_until(listening, _monotonic_s(begin_ns) + length_s)
+                _report_until(listening, _monotonic_s(begin_ns) + length_s)
         finally:
             now_ns = time.perf_counter_ns()
             listening.link.sync(max(now_ns, begin_ns), max(now_ns - begin_ns, 0) / 1e9)
@@ -117,46 +117,46 @@ def _listen(arguments: argparse.Namespace, journal: Path) -> None:
         _finished(listening)
 
 
-def _open(listening: Listening, wanted: str) -> str:
+def _open(listening: Listening, requested: str) -> str:
     """Open the device that is called so, or the only one whose name holds the text."""
     inputs = listening.ports().inputs
     if not inputs:
         raise NoDevice("capture.no_ports")
-    matching = [name for name in inputs if name == wanted] or [
-        name for name in inputs if wanted.casefold() in name.casefold()
+    matching = [name for name in inputs if name == requested] or [
+        name for name in inputs if requested.casefold() in name.casefold()
     ]
     if len(matching) != 1:
-        raise NoDevice("capture.port_unknown", port=wanted, possible=", ".join(matching or inputs))
+        raise NoDevice("capture.port_unknown", port=requested, possible=", ".join(matching or inputs))
     listening.link.open(matching[0])
-    for told in listening.until(time.monotonic() + _WITHIN_S):
-        if isinstance(told, Opened):
-            return told.port
-        if isinstance(told, Refused):
-            raise NoDevice(told.reason.id, **told.reason.arguments)
+    for reported in listening.until(time.monotonic() + _WITHIN_S):
+        if isinstance(reported, Opened):
+            return reported.port
+        if isinstance(reported, Refused):
+            raise NoDevice(reported.reason.id, **reported.reason.arguments)
     raise NoDevice("capture.port_not_here", port=matching[0])
 
 
 def _begun(listening: Listening) -> None:
-    for told in listening.until(time.monotonic() + _WITHIN_S):
-        if isinstance(told, Written):
+    for reported in listening.until(time.monotonic() + _WITHIN_S):
+        if isinstance(reported, Written):
             return
-        if isinstance(told, NotStarted | Refused):
-            raise RecordError(told.reason.id, **told.reason.arguments)
+        if isinstance(reported, NotStarted | Refused):
+            raise RecordError(reported.reason.id, **reported.reason.arguments)
 
 
 def _count_in(listening: Listening, bars: int, tempo: float, begin_ns: int) -> None:
     beats = bars * _BEATS_IN_BAR
     for beat in range(beats):
-        _tell_until(listening, _monotonic_s(begin_ns) - (beats - beat) * 60.0 / tempo)
+        _report_until(listening, _monotonic_s(begin_ns) - (beats - beat) * 60.0 / tempo)
         number = beat % _BEATS_IN_BAR + 1
         count(number, is_last=number == _BEATS_IN_BAR)
-    _tell_until(listening, _monotonic_s(begin_ns))
+    _report_until(listening, _monotonic_s(begin_ns))
 
 
-def _tell_until(listening: Listening, end_s: float) -> None:
+def _report_until(listening: Listening, end_s: float) -> None:
     """Say what happens to the device until a moment of `time.monotonic`."""
-    for told in listening.until(end_s):
-        match told:
+    for reported in listening.until(end_s):
+        match reported:
             case Lost(port=port):
                 warn(f"{port} is gone; recording goes on when it comes back")
             case Back(port=port):
@@ -166,10 +166,10 @@ def _tell_until(listening: Listening, end_s: float) -> None:
 
 
 def _finished(listening: Listening) -> None:
-    for told in listening.until(time.monotonic() + _WITHIN_S):
-        if isinstance(told, Refused):
-            warn(text(told.reason))
-        if isinstance(told, Finished):
+    for reported in listening.until(time.monotonic() + _WITHIN_S):
+        if isinstance(reported, Refused):
+            warn(text(reported.reason))
+        if isinstance(reported, Finished):
             return
 
 
@@ -180,7 +180,7 @@ def _write(target: Path, path: Path, tempo: float) -> None:
     if not taken or not journal.messages:
         if journal.complete:
             path.unlink()
-        raise RecordError("record.nothing_heard", port=journal.header.port)
+        raise RecordError("record.nothing_received", port=journal.header.port)
     take = taken[0]
     end_us = _end_us(journal)
     try:

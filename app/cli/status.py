@@ -22,7 +22,7 @@ STOPPED: Final = 128 + signal.SIGINT
 """With Ctrl-C."""
 
 
-def tell_left_out(left_out: Iterable[tuple[str, str]]) -> int:
+def report_left_out(left_out: Iterable[tuple[str, str]]) -> int:
     """Name the players who are left out with the reasons, a line for each on stderr; the exit status."""
     status = DONE
     for player, reason in left_out:

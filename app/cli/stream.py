@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 from app.cli.options import Commands, add_source_options, frame_rate, open_project, seconds, within
 from app.cli.progress import Progress, find_holds
-from app.cli.status import tell_left_out
+from app.cli.status import report_left_out
 from app.cli.terminal import say
 from app.errors import UsageError
 from app.messages import text
@@ -102,7 +102,7 @@ def stream(arguments: argparse.Namespace) -> int:
     AppError
         The file cannot be read, the computer cannot be reached.
     """
-    from app.performance.cast import attempt, performers_of, refuse_nobody
+    from app.performance.cast import attempt, performers_of, require_players
     from app.performance.ensemble import Performance
     from app.performance.span import whole_span
 
@@ -115,7 +115,7 @@ def stream(arguments: argparse.Namespace) -> int:
     # Whoever is asked for by any instrument is sent with all.
     chosen = list(dict.fromkeys(project.person(one) if isinstance(one, Player) else one for one in asked))
     if not chosen:
-        raise UsageError("stream.nobody")
+        raise UsageError("stream.no_players")
     checked_port(arguments.port + len(chosen) - 1)
     address = find_address(arguments.host, arguments.port)
     if not arguments.broadcast and reaches_many(address):
@@ -128,8 +128,8 @@ def stream(arguments: argparse.Namespace) -> int:
     made: dict[str, Performer | Dancing] = {**playing.made, **dancing.made}
     left_out = playing.left_out + dancing.left_out
     if not made:
-        refuse_nobody(left_out, str(arguments.file), text)
-    status = tell_left_out((one.player.name, text(one.reason)) for one in left_out)
+        require_players(left_out, str(arguments.file), text)
+    status = report_left_out((one.player.name, text(one.reason)) for one in left_out)
     # Whoever is left out keeps the port: the others have theirs whatever happens.
     ports = {one.id: arguments.port + place for place, one in enumerate(chosen)}
     sent = [one for one in chosen if one.id in made]
@@ -154,7 +154,7 @@ def stream(arguments: argparse.Namespace) -> int:
 
 
 def _beside(performance: Performance, one: Player | Dancer, made: Mapping[str, Performer]) -> tuple[Performer, ...]:
-    """The other instruments of somebody who is sent, as far as they can be seen."""
+    """The other instruments of someone who is sent, as far as they can be seen."""
     if not isinstance(one, Player):
         return ()
     return tuple(
@@ -236,7 +236,7 @@ def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: 
     """Every frame at its time; those that come too late are left out."""
     fps, frames = float(span.fps), span.count
     began_s = time.perf_counter()
-    heard_s, unheard, sent = began_s, False, 0
+    sounding_s, inaudible, sent = began_s, False, 0
     step = 0
     while loop or first + step < frames:
         wait_s = began_s + step / fps - time.perf_counter()
@@ -245,11 +245,11 @@ def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: 
         now_s = time.perf_counter()
         frame = (first + step) % frames
         for streamed, sender in zip(cast, senders, strict=True):
-            unheard = sender.send(streamed.datagrams(frame, now_s - began_s)) is Outcome.UNHEARD or unheard
+            inaudible = sender.send(streamed.datagrams(frame, now_s - began_s)) is Outcome.UNHEARD or inaudible
         sent += 1
-        if now_s - heard_s >= _TELL_S:
-            if unheard and sys.stderr.isatty():
-                say("nobody listens there yet", stream=sys.stderr)
-            heard_s, unheard = now_s, False
+        if now_s - sounding_s >= _TELL_S:
+            if inaudible and sys.stderr.isatty():
+                say("no receiver there yet", stream=sys.stderr)
+            sounding_s, inaudible = now_s, False
         step = max(step + 1, int((time.perf_counter() - began_s) * fps))
     say(f"{sent} frames in {time.perf_counter() - began_s:.1f} s")

@@ -41,7 +41,7 @@ def summary(report: Report, folder: Path) -> list[str]:
 def project_summary(written: Written, project: UnrealProject) -> list[str]:
     """The tree of what is in an Unreal project now, and what `summary` says of it."""
     plan, report = written.plan, written.report
-    engine = f"Unreal Engine {project.engine}" if project.version is not None else "its engine's version is not told"
+    engine = f"Unreal Engine {project.engine}" if project.version is not None else "unknown engine version"
     lines = [
         f"{shown(project.file)} ({engine}): {report.frames} frames at {report.fps_exact} frames/s; "
         "the sound starts with the first one",

@@ -184,7 +184,7 @@ def skinned_mesh(
 
 
 def mesh_names(names: Iterable[str], bones: Iterable[str]) -> tuple[str, ...]:
-    """Names no other mesh and no bone has: Unreal and Blender tell objects apart by name alone."""
+    """Names no other mesh and no bone has: Unreal and Blender distinguishes objects by name alone."""
     taken = {bone.casefold() for bone in bones}
     result = []
     for name in names:

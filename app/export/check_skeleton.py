@@ -80,7 +80,7 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[Difference, .
         our_parent = target.names[above] if above >= 0 else ""
         their_parent = asset.bone_names[other_above] if other_above >= 0 else ""
         if our_parent != their_parent:
-            # A matter of roots, or of parents that have other names, is told there.
+            # A matter of roots, or of parents that have other names, is reported there.
             if our_parent and their_parent and (our_parent in theirs or their_parent in ours):
                 found.append(Difference("parent", name, grave=True, ours=our_parent, theirs=their_parent))
             continue
@@ -112,7 +112,7 @@ def without_armature(asset: Figure) -> Figure:
     )
 
 
-def told(differences: Sequence[Difference]) -> tuple[Message, ...]:
+def reported(differences: Sequence[Difference]) -> tuple[Message, ...]:
     """The differences in words, the gravest first: how many there are of a kind, and which, or the largest."""
     messages = [
         _grave(difference) for difference in differences if difference.grave and difference.kind != "additional"

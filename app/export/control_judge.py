@@ -25,7 +25,7 @@ class ControlMeasure(msgspec.Struct, frozen=True):
     """Whether a control is in place at the judged frames, and stays there until it may leave.
 
     ``stopped_short`` and ``held_stopped_short`` are those of the judged notes, and of the frames held, at which it
-    stays on the near side of a place that is out of the player's reach: neither right nor wrong, and told apart. How
+    stays on the near side of a place that is out of the player's reach: neither right nor wrong, and distinguished. How
     far from there at most is ``most_short_mm``.
     """
 
@@ -110,10 +110,10 @@ class ControlJudge:
             (released if target == control.rest_value else pressed)[span] |= there
         return pressed, released
 
-    def asked(self, wanted: Sequence[bool] | BoolArray) -> BoolArray:
-        """Frames of the sounding notes for which ``wanted`` (N,) is true."""
+    def asked(self, requested: Sequence[bool] | BoolArray) -> BoolArray:
+        """Frames of the sounding notes for which ``requested`` (N,) is true."""
         frames = np.zeros(len(self._times_s), dtype=np.bool_)
-        for index in np.flatnonzero(wanted).tolist():
+        for index in np.flatnonzero(requested).tolist():
             frames[self._belongs(index)] = True
         return frames
 

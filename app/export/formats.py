@@ -11,11 +11,11 @@ from app.formats.scene import Scene
 from app.formats.usd import refuse_without_usd
 
 Format = Literal["fbx", "bvh", "glb", "usd"]
-Held = Literal["character", "instrument"]
+SettingBinding = Literal["character", "instrument"]
 
 
 @dataclass(frozen=True)
-class Beside:
+class WriteOptions:
     """What some kinds of file take beside the scene.
 
     Attributes
@@ -49,22 +49,22 @@ class FileFormat:
     """
 
     suffix: str
-    holds: tuple[Held, ...]
+    holds: tuple[SettingBinding, ...]
     work: float
-    write: Callable[[Path, Scene, Beside], None]
+    write: Callable[[Path, Scene, WriteOptions], None]
     refuse: Callable[[], None] = lambda: None
 
 
 # The writers are loaded when something is written: the command line names the formats in its help.
 
 
-def _fbx(path: Path, scene: Scene, beside: Beside) -> None:
+def _fbx(path: Path, scene: Scene, beside: WriteOptions) -> None:
     from app.formats.fbx.write import write_scene
 
     write_scene(path, scene)
 
 
-def _bvh(path: Path, scene: Scene, beside: Beside) -> None:
+def _bvh(path: Path, scene: Scene, beside: WriteOptions) -> None:
     from app.export.skeleton import scene_bvh
     from app.formats.atomic import atomic_write
     from app.formats.bvh import encode_bvh
@@ -73,13 +73,13 @@ def _bvh(path: Path, scene: Scene, beside: Beside) -> None:
         stream.write(encode_bvh(scene_bvh(scene, beside.bone_names)))
 
 
-def _glb(path: Path, scene: Scene, beside: Beside) -> None:
+def _glb(path: Path, scene: Scene, beside: WriteOptions) -> None:
     from app.formats.gltf.write import write_glb
 
     write_glb(path, scene)
 
 
-def _usd(path: Path, scene: Scene, beside: Beside) -> None:
+def _usd(path: Path, scene: Scene, beside: WriteOptions) -> None:
     from app.formats.usd import Sound, write_usd
 
     write_usd(path, scene, None if beside.sound is None else Sound(beside.sound, 0.0))
@@ -94,4 +94,4 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
 """In the order in which they are written and listed."""
 
 USUAL_FORMATS: Final[tuple[Format, ...]] = ("fbx", "bvh")
-"""What is written if nobody says otherwise."""
+"""What is written if no one says otherwise."""

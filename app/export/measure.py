@@ -31,11 +31,11 @@ from app.export.target import TargetSkeleton, normalised_target
 from app.formats.scene import Scene
 from app.performance.contacts import FEET_MM, LIPS_MM, TOUCH_MM, bound_mm
 from app.plan.model import BreathEvent, PlayerPlan
+from app.rig.fitted_instrument import mouth_opens
 from app.rig.hold import ContactFit
 from app.rig.lips import meeting
 from app.rig.model import Character
 from app.rig.stations import MOST_HOVER_M, aside_m, only_at, stations, stations_of_notes, worked_by
-from app.rig.suited import mouth_opens
 from instrument_maps.model import ROOT, Contact, InstrumentMap
 from metadata.model import Body, SkeletonProfile
 
@@ -93,7 +93,7 @@ class PlayerMeasures(msgspec.Struct, frozen=True):
     """Section by section what one player's files hold.
 
     ``hovering`` is how far fingers that work nothing are from the nearest of their keys and holes; ``guides`` how far
-    parts that cannot bend are from where they would touch: told, not judged.
+    parts that cannot bend are from where they would touch: reported, not judged.
     """
 
     sounding_frames: int
@@ -159,7 +159,7 @@ def measure_player(
     first_frame_s : float
         Time of the file's first frame.
     progress : callable
-        Told the share 0..1 that is done; what it raises stops the work.
+        Called with the share 0..1 that is done; what it raises stops the work.
     target : TargetSkeleton, optional
         The skeleton the player's file is on; ours if absent.
     changing : sequence of (float, float)
@@ -216,7 +216,7 @@ def measure_player(
 
 
 def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]:
-    """Largest correlation of each player's curve (F,) with any other player's; 0 where somebody does not move."""
+    """Largest correlation of each player's curve (F,) with any other player's; 0 where someone does not move."""
     greatest = dict.fromkeys(players, -1.0)
     for (name, curve), (other, others) in itertools.combinations(players.items(), 2):
         moves = np.ptp(curve) > 0.0 and np.ptp(others) > 0.0
@@ -237,9 +237,9 @@ def _trace(
     """One walk over all frames, a chunk at a time."""
     player = joints.playback
     frames = player.clip.frames
-    wanted = {contact.part for contact in instrument.contacts} | {*_SOLES, _LIPS, _UPPER_LIP}
-    wanted &= character.landmarks.keys()
-    surfaces = {name: Surface(player, *joints.surface(character.landmarks[name])) for name in sorted(wanted)}
+    requested = {contact.part for contact in instrument.contacts} | {*_SOLES, _LIPS, _UPPER_LIP}
+    requested &= character.landmarks.keys()
+    surfaces = {name: Surface(player, *joints.surface(character.landmarks[name])) for name in sorted(requested)}
     there = [name for name in _HANDS if name in character.landmarks]
     hands = [Hands(player, *joints.surface(character.landmarks[name]), instrument.proxy) for name in there]
     bone_of_node = {part.node: part.name for part in instrument.moving_parts} | {ROOT: held.bone_names[0]}
@@ -347,7 +347,7 @@ def _hole_values(instrument: InstrumentMap, traces: _Traces) -> dict[str, FloatA
             continue
         touches = [contact for contact in instrument.contacts if control.name in worked_by(contact, instrument)]
         if not touches:
-            # Nobody's finger is there: fingers that do not bend (`app.rig.suited`).
+            # No one's finger is there: fingers that do not bend (`app.rig.fitted_instrument`).
             continue
         whole_m = np.min([_gap_m(contact, instrument, traces, None) for contact in touches], axis=0)
         values = np.where(whole_m > instrument.size * CLEAR_MM / 1000.0, 0.0, np.nan)

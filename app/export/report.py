@@ -109,7 +109,7 @@ class PlayerReport(msgspec.Struct, frozen=True):
     size: float = 1.0
     """Of the instrument, as a multiple of its model: a small player has a small one."""
     missed: dict[str, float] = {}
-    """Touches that the hold of this body does not meet however it moves, millimetres: told, and counted apart."""
+    """Touches that the hold of this body does not meet however it moves, millimetres: reported, and counted apart."""
     doubles: tuple[DoubleReport, ...] = ()
     """The other instruments that the player changes to."""
 
@@ -130,7 +130,7 @@ class DancerReport(msgspec.Struct, frozen=True):
 
 
 class UnplayedPart(msgspec.Struct, frozen=True):
-    """A part of the file that nobody plays, and why."""
+    """A part of the file that no one plays, and why."""
 
     name: str
     reason: str
@@ -194,7 +194,7 @@ def _check_finite(value: object) -> None:
         raise ValueError("a report holds finite numbers only")
 
 
-def _told(spread: Spread, missed_mm: float) -> bool:
+def _reported(spread: Spread, missed_mm: float) -> bool:
     """Whether a contact is off by no more than was said of its hold, and what moving hands may add."""
     return missed_mm > 0.0 and spread.max_mm <= missed_mm + spread.bound_mm
 
@@ -214,9 +214,11 @@ def failures(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
         **measures.feet,
     }
     failed = [
-        name for name, spread in spreads.items() if not spread.kept and not _told(spread, player.missed.get(name, 0.0))
+        name
+        for name, spread in spreads.items()
+        if not spread.kept and not _reported(spread, player.missed.get(name, 0.0))
     ]
-    # What closes a hole is the finger itself: where the hold misses it, that is told already.
+    # What closes a hole is the finger itself: where the hold misses it, that is reported already.
     unmet = {part for touch in player.missed for part in touch.rpartition(" on ")[2].split("+")}
     controls = {name: control for name, control in measures.controls.items() if name not in unmet}
     failed += [

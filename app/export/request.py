@@ -1,6 +1,6 @@
 """What to export, and who of the players asked for can be exported: the others are left out with the reason.
 
-Messages: ``export.nobody`` (file): "{file}: there is nobody to export"; ``export.too_long`` (file, frames,
+Messages: ``export.no one`` (file): "{file}: there is no one to export"; ``export.too_long`` (file, frames,
 most); ``work.stopped``; those of `app.performance.cast`.
 """
 
@@ -15,7 +15,7 @@ from app.errors import Cancelled, FileError, Message
 from app.export.formats import FILE_FORMATS, Format
 from app.export.target import SkeletonChoice
 from app.export.targets import CheckedTarget, checked_targets, spoilt
-from app.performance.cast import LeftOut, Performer, attempt, performer_of, refuse_nobody
+from app.performance.cast import LeftOut, Performer, attempt, performer_of, require_players
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.model import Dancer, Player
@@ -107,14 +107,14 @@ class ExportCast:
 
 
 def cast_of(
-    request: Request, wording: Callable[[Message], str], stop_wanted: Callable[[], bool] = lambda: False
+    request: Request, wording: Callable[[Message], str], stop_requested: Callable[[], bool] = lambda: False
 ) -> ExportCast:
     """Who of a request can be exported. Nothing is written.
 
     Raises
     ------
     FileError
-        ``export.nobody``; ``export.too_long``; ``player.all_left_out``; what `read_figure` says of the asset.
+        ``export.no one``; ``export.too_long``; ``player.all_left_out``; what `read_figure` says of the asset.
     UsageError
         ``usd.missing``.
     Cancelled
@@ -123,13 +123,13 @@ def cast_of(
     if request.span.count > MOST_FRAMES:
         raise FileError("export.too_long", file=request.source, frames=request.span.count, most=MOST_FRAMES)
     if not request.players and not request.dancers:
-        raise FileError("export.nobody", file=request.source)
+        raise FileError("export.no_players", file=request.source)
     for name in request.formats:
         FILE_FORMATS[name].refuse()
     asset = None if request.asset is None else read_figure(request.asset)
 
     def make(player: Player) -> Performer:
-        if stop_wanted():
+        if stop_requested():
             raise Cancelled("work.stopped")
         return performer_of(request.performance, player)
 
@@ -137,7 +137,7 @@ def cast_of(
         # The modules of dances are loaded only for pieces with dancers.
         from app.performance.dancers import dancing_of
 
-        if stop_wanted():
+        if stop_requested():
             raise Cancelled("work.stopped")
         return dancing_of(request.performance, dancer)
 
@@ -157,7 +157,7 @@ def cast_of(
         left_out += spoilt(seen, targets, asset, wording)
     absent = {one.player.id for one in left_out}
     if absent.issuperset([*(player.id for player in persons), *(dancer.id for dancer in request.dancers)]):
-        refuse_nobody(left_out, request.source, wording)
+        require_players(left_out, request.source, wording)
     doubles: dict[str, list[Performer]] = {}
     for made in beside.made.values():
         doubles.setdefault(made.player.doubles, []).append(made)

@@ -18,7 +18,7 @@ from app.export.character import character_scene
 from app.export.control_judge import FloatArray
 from app.export.dancers import measure_dancer, standing_frames
 from app.export.folder import files_into
-from app.export.formats import FILE_FORMATS, Beside, Format, Held
+from app.export.formats import FILE_FORMATS, Format, SettingBinding, WriteOptions
 from app.export.instrument import instrument_scene
 from app.export.measure import Measured, contact_name, greatest_correlations, measure_player
 from app.export.report import (
@@ -47,22 +47,22 @@ from app.performance.motion import player_motion
 from app.project.model import Dancer
 from app.project.names import file_stems
 from app.rig.fit import INSIDE_M, missed
-from app.rig.hold import Hold
+from app.rig.hold import GripPose
 from metadata.load import load_skeleton
 
 Progress = Callable[[float, str], None]
-"""Told the share 0..1 that is done and whose work it is."""
+"""Called with the share 0..1 that is done and whose work it is."""
 
 _MOTION_WORK, _MEASURES_WORK = 1.0, 5.0
-"""Beside `FileFormat.work`."""
+"""WriteOptions `FileFormat.work`."""
 _SOUND_WORK = 0.3
-"""Beside a player's."""
+"""WriteOptions a player's."""
 
 
 def export(
     request: Request,
     wording: Callable[[Message], str],
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
     progress: Progress = lambda share, label: None,
 ) -> Report:
     """Write the files of every player asked for who can be exported, and ``report.json``: all of them, or none.
@@ -83,14 +83,14 @@ def export(
     Cancelled
         ``stop_wanted`` said so.
     """
-    return write_cast(request, cast_of(request, wording, stop_wanted), wording, stop_wanted, progress)
+    return write_cast(request, cast_of(request, wording, stop_requested), wording, stop_requested, progress)
 
 
 def write_cast(
     request: Request,
     cast: ExportCast,
     wording: Callable[[Message], str],
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
     progress: Progress = lambda share, label: None,
 ) -> Report:
     """`export` of a request's cast."""
@@ -104,8 +104,8 @@ def write_cast(
         for index, performer in enumerate(cast.performers):
             player = performer.player
 
-            def told(share: float, done: int = index, name: str = player.name) -> None:
-                if stop_wanted():
+            def reported(share: float, done: int = index, name: str = player.name) -> None:
+                if stop_requested():
                     raise Cancelled("work.stopped")
                 progress((done + share) / whole, name)
 
@@ -118,7 +118,7 @@ def write_cast(
                 stems[player.id],
                 names,
                 folder,
-                told,
+                reported,
             )
             asset = None if request.asset is None else shown(request.asset.name)
             skeleton = SkeletonReport(checked.target.choice, asset, checked.differences)
@@ -131,7 +131,7 @@ def write_cast(
             dancer = here[dancing.dancer.id]
 
             def moved(share: float, done: int = index, name: str = dancer.name) -> None:
-                if stop_wanted():
+                if stop_requested():
                     raise Cancelled("work.stopped")
                 progress((done + share) / whole, name)
 
@@ -145,7 +145,7 @@ def write_cast(
             def mixed(share: float) -> None:
                 progress((everyone + _SOUND_WORK * share) / whole, sound)
 
-            write_sound(folder / sound, request.performance.project, request.span, mixed, stop_wanted)
+            write_sound(folder / sound, request.performance.project, request.span, mixed, stop_requested)
         report_value = _report(request, cast, _compared(reports, cast.player_ids, torsos), tuple(dancers), wording)
         with atomic_write(folder / REPORT) as stream:
             stream.write(encode_report(report_value))
@@ -164,7 +164,7 @@ def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str
             if held_stem in taken:
                 held_stem = f"{held_stem}_{stems[player.id]}"
             taken.add(held_stem)
-            held_stems: dict[Held, str] = {"character": stem, "instrument": held_stem}
+            held_stems: dict[SettingBinding, str] = {"character": stem, "instrument": held_stem}
             names[player.id] = {
                 f"{held}_{name}": f"{held_stems[held]}{kind.suffix}"
                 for name, kind in FILE_FORMATS.items()
@@ -199,54 +199,54 @@ def _export_player(
     stem: str,
     names: dict[str, dict[str, str]],
     folder: Path,
-    told: Callable[[float], None],
+    reported: Callable[[float], None],
 ) -> tuple[PlayerReport, Measured | None]:
-    told(0.0)
+    reported(0.0)
     performance, character, files = request.performance, performer.character, names[performer.player.id]
-    wanted = {name: kind for name, kind in FILE_FORMATS.items() if name in request.formats}
-    work = _MOTION_WORK + sum(kind.work for kind in wanted.values()) + _MEASURES_WORK * ("fbx" in wanted)
+    requested = {name: kind for name, kind in FILE_FORMATS.items() if name in request.formats}
+    work = _MOTION_WORK + sum(kind.work for kind in requested.values()) + _MEASURES_WORK * ("fbx" in requested)
     work *= 1 + len(doubles)
     motion = player_motion(
-        performance, performer, request.span, progress=lambda share: told(_MOTION_WORK / work * share)
+        performance, performer, request.span, progress=lambda share: reported(_MOTION_WORK / work * share)
     )
-    held_by = {held for kind in wanted.values() for held in kind.holds}
+    held_by = {held for kind in requested.values() for held in kind.holds}
     scenes = _scenes(request, performer, target, motion, stem, held_by)
-    beside = Beside(
+    beside = WriteOptions(
         sound=sound_name(request.source) if request.sound else None,
         bone_names=profile_names(request.bvh_names, target, character.skeleton) if request.bvh_names else {},
     )
     done = _MOTION_WORK
-    for name, kind in wanted.items():
+    for name, kind in requested.items():
         for held in kind.holds:
             kind.write(folder / files[f"{held}_{name}"], scenes[held], beside)
         done += kind.work
-        told(done / work)
+        reported(done / work)
     del motion, scenes  # the files are measured, not what they were made from
     _, found = changes_of(performance, [one.player for one in (performer, *doubles)])
     changing = tuple((change.start_s, change.end_s) for change in found)
     judging = _Judging(request, target, folder, files.get("character_fbx"), changing)
-    measured = judging.measured(performer, files, lambda share: told((done + _MEASURES_WORK * share) / work))
+    measured = judging.measured(performer, files, lambda share: reported((done + _MEASURES_WORK * share) / work))
     reports = []
     for index, double in enumerate(doubles, 1):
         begun = index / (1 + len(doubles))
-        told(begun)
+        reported(begun)
         own_files = names[double.player.id]
         motion = player_motion(performance, double, request.span)
         scene = instrument_scene(double.instrument, double.model, motion, stem, request.creator)
-        for name, kind in wanted.items():
+        for name, kind in requested.items():
             if "instrument" in kind.holds:
                 kind.write(folder / own_files[f"instrument_{name}"], scene, beside)
         del motion, scene
-        own = judging.measured(double, own_files, _part_of(told, begun, 1.0 / (1 + len(doubles))))
+        own = judging.measured(double, own_files, _part_of(reported, begun, 1.0 / (1 + len(doubles))))
         reports.append(_double_report(request, double, own_files, own))
-    told(1.0)
+    reported(1.0)
     report = msgspec.structs.replace(_player_report(request, performer, files, measured), doubles=tuple(reports))
     return report, measured
 
 
-def _part_of(told: Callable[[float], None], begun: float, share: float) -> Callable[[float], None]:
+def _part_of(reported: Callable[[float], None], begun: float, share: float) -> Callable[[float], None]:
     """Tells of a part of some work."""
-    return lambda done: told(begun + share * done)
+    return lambda done: reported(begun + share * done)
 
 
 @dataclass(frozen=True)
@@ -259,8 +259,10 @@ class _Judging:
     character: str | None
     changing: tuple[tuple[float, float], ...]
 
-    def measured(self, performer: Performer, held: dict[str, str], told: Callable[[float], None]) -> Measured | None:
-        """What the files hold of somebody's playing: the person's character and the instrument."""
+    def measured(
+        self, performer: Performer, held: dict[str, str], reported: Callable[[float], None]
+    ) -> Measured | None:
+        """What the files hold of someone's playing: the person's character and the instrument."""
         if self.character is None:
             return None
         return measure_player(
@@ -272,7 +274,7 @@ class _Judging:
             performer.body,
             load_skeleton(performer.body.skeleton),
             self.request.span.first_frame_s,
-            told,
+            reported,
             self.target,
             self.changing,
         )
@@ -302,26 +304,26 @@ def _export_dancer(
     stem: str,
     files: dict[str, str],
     folder: Path,
-    told: Callable[[float], None],
+    reported: Callable[[float], None],
 ) -> DancerReport:
-    told(0.0)
+    reported(0.0)
     character, target, span = dancing.character, checked.target, request.span
     motion = dancing.motion(span.fps, span.first, span.count)
-    told(0.3)
+    reported(0.3)
     scene = character_scene(character, motion, stem, request.creator, target)
-    beside = Beside(
+    beside = WriteOptions(
         sound=sound_name(request.source) if request.sound else None,
         bone_names=profile_names(request.bvh_names, target, character.skeleton) if request.bvh_names else {},
     )
     for name, kind in FILE_FORMATS.items():
         if name in request.formats:
             kind.write(folder / files[f"character_{name}"], scene, beside)
-    told(0.8)
+    reported(0.8)
     measures = None
     if "fbx" in request.formats:
         read = read_scene(folder / files["character_fbx"])
         measures = measure_dancer(read, character, target, standing_frames(dancing, span))
-    told(1.0)
+    reported(1.0)
     starts_s = [step.start_s for step in dancing.dance(span.fps).steps]
     asset = None if request.asset is None else shown(request.asset.name)
     return DancerReport(
@@ -337,10 +339,10 @@ def _export_dancer(
 
 
 def _scenes(
-    request: Request, performer: Performer, target: TargetSkeleton, motion: Motion, stem: str, held: set[Held]
-) -> dict[Held, Scene]:
+    request: Request, performer: Performer, target: TargetSkeleton, motion: Motion, stem: str, held: set[SettingBinding]
+) -> dict[SettingBinding, Scene]:
     """The scenes that some format asked for can hold."""
-    scenes: dict[Held, Scene] = {}
+    scenes: dict[SettingBinding, Scene] = {}
     if "character" in held:
         scenes["character"] = character_scene(performer.character, motion, stem, request.creator, target)
     if "instrument" in held:
@@ -355,7 +357,7 @@ def _stems(performance: Performance) -> dict[str, str]:
     return dict(zip(names, file_stems(list(names.values())), strict=True))
 
 
-def _missed_mm(hold: Hold) -> dict[str, float]:
+def _missed_mm(hold: GripPose) -> dict[str, float]:
     """What a hold itself misses by how much, by the names of the measures: touches, and skin inside the instrument."""
     found = {contact_name(one): round(1000.0 * one.distance_m, 2) for one in missed(hold)}
     deepest_m = max((hand.penetration_m for hand in hold.hands), default=0.0)

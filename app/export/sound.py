@@ -19,7 +19,7 @@ def write_sound(
     project: Project,
     span: FrameSpan,
     progress: Callable[[float], None] = lambda share: None,
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
 ) -> None:
     """Write the recording, or else the synthesiser, as 16-bit PCM; its first sample belongs to the first frame.
 
@@ -29,7 +29,7 @@ def write_sound(
         The recording cannot be read; ``file.cannot_write``.
     Cancelled
     """
-    block = mixdown(project, span.first_frame_s, span.end_s, RATE_HZ, progress, stop_wanted)
+    block = mixdown(project, span.first_frame_s, span.end_s, RATE_HZ, progress, stop_requested)
     try:
         with path.open("wb") as stream:
             soundfile.write(stream, block, RATE_HZ, format="WAV", subtype="PCM_16")

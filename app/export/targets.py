@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.errors import Argument, Message
-from app.export.check_skeleton import Difference, check_skeleton, told
+from app.export.check_skeleton import Difference, check_skeleton, reported
 from app.export.mannequin import mannequin_axes, mannequin_target
 from app.export.own_skeleton import own_target
 from app.export.target import SkeletonChoice, TargetSkeleton, normalised_target
@@ -21,7 +21,7 @@ from app.rig.model import Character
 from app.rig.placements import local_placements
 
 MOST_TOLD = 5
-"""Grave differences that are told one by one."""
+"""Grave differences that are reported one by one."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class CheckedTarget:
     @property
     def messages(self) -> tuple[Message, ...]:
         """What there is to know, the gravest first."""
-        return (*told(self.differences), *self.target.messages)
+        return (*reported(self.differences), *self.target.messages)
 
 
 def target_skeleton(character: Character, choice: SkeletonChoice, asset: Figure | None = None) -> TargetSkeleton:
@@ -96,7 +96,7 @@ def spoilt(
     detail)."""
     found = []
     for player in players:
-        grave = told([difference for difference in checked[player.id].differences if difference.grave])
+        grave = reported([difference for difference in checked[player.id].differences if difference.grave])
         if grave:
             detail = "; ".join(map(wording, grave[:MOST_TOLD])) + ("; ..." if len(grave) > MOST_TOLD else "")
             arguments: dict[str, Argument] = {"file": asset.file, "player": player.name, "detail": detail}

@@ -11,7 +11,7 @@ Messages
 --------
 file.cannot_write (file, reason)
 tree.busy (file)
-    Somebody else writes into the same tree just now.
+    Someone else writes into the same tree just now.
 tree.refused (file, reason)
     The system did not let a file be replaced or removed; everything is as it was.
 tree.leads_outside (file, target)

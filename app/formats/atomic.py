@@ -24,7 +24,7 @@ _PARTIAL: Final = re.compile(r"\.[0-9a-f]{16}\.partial")
 _swept: set[Path] = set()
 """Folders that this process has written into."""
 _FRESH_S: Final = 60.0
-"""On Windows an open file cannot be renamed: between the two it is nobody's, and too young to be swept."""
+"""On Windows an open file cannot be renamed: between the two it is no one's, and too young to be swept."""
 
 
 @contextlib.contextmanager
@@ -45,7 +45,7 @@ def atomic_write(
         What `path` held before is kept under this name, in the same folder; at every moment one of the two is whole.
     follow_link : bool
         Whether a symbolic link stays a link, and what it leads to is replaced: so for a file that the user names. A
-        file that only we name replaces the link, which somebody else has put there.
+        file that only we name replaces the link, which someone else has put there.
 
     Yields
     ------
@@ -100,10 +100,10 @@ def _new_partial(folder: Path) -> tuple[Path, BinaryIO]:
     """A new file that is locked, where the file system knows locks."""
     while True:
         partial = folder / f".{secrets.token_hex(8)}.partial"
-        # "x": never write into somebody else's file; the mode follows the umask, as for any new file.
+        # "x": never write into someone else's file; the mode follows the umask, as for any new file.
         stream = partial.open("xb")
         try:
-            # Somebody who sweeps may have taken it for a dead one's between the two steps.
+            # Someone who sweeps may have taken it for a dead one's between the two steps.
             if lock(stream) and is_same_file(partial, stream):
                 return partial, stream
         except OSError:

@@ -13,6 +13,6 @@ CACHE_VARIABLE: Final = "SUISOU_CACHE"
 
 
 def cache_folder(kind: str) -> Path:
-    """Return the person's folder for results of a kind; it may not be there yet."""
+    """Return the user's folder for results of a kind; it may not be there yet."""
     named = os.environ.get(CACHE_VARIABLE)
     return (Path(named) if named else platformdirs.user_cache_path("suisou", appauthor=False)) / kind

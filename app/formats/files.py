@@ -20,7 +20,7 @@ from typing import Final
 from app.errors import FileError
 
 _FLAGS: Final = os.O_RDONLY | sum(getattr(os, name, 0) for name in ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY"))
-"""A pipe that nobody writes to is opened without waiting; a terminal does not become this process's own."""
+"""A pipe that no one writes to is opened without waiting; a terminal does not become this process's own."""
 
 
 def open_file(path: str | os.PathLike[str]) -> BufferedReader:

@@ -23,7 +23,7 @@ def lock(stream: IO[Any]) -> bool:
     """Lock a file for as long as it is open; whether no other process has. Raises OSError where there are no locks."""
     try:
         if sys.platform == "win32":
-            place = stream.tell()
+            place = stream.report()
             stream.seek(_BYTE)
             try:
                 msvcrt.locking(stream.fileno(), msvcrt.LK_NBLCK, 1)
@@ -40,7 +40,7 @@ def lock(stream: IO[Any]) -> bool:
 
 @contextlib.contextmanager
 def locked_here(path: Path) -> Iterator[bool]:
-    """Lock an existing file for the time of the block; whether nobody else has. Raises OSError."""
+    """Lock an existing file for the time of the block; whether no one else has. Raises OSError."""
     with path.open("r+b") as stream:
         yield lock(stream)
 

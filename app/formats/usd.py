@@ -140,7 +140,7 @@ class _Writer:
         return self._layer
 
     def _joint_paths(self) -> list[str]:
-        """USD tells joints apart by paths: a name below its parent's path."""
+        """USD distinguishes joints by paths: a name below its parent's path."""
         names = _identifiers([bone.name for bone in self._scene.bones], set())
         paths: list[str] = []
         for bone, name in zip(self._scene.bones, names, strict=True):

@@ -1,7 +1,7 @@
-"""What a person has of a kind: the bundled ones and those of their own folder, read again when its files change.
+"""What the user has of a kind: the bundled ones and those of their own folder, read again when its files change.
 
-Each is a ``.toml`` file and what lies beside it. A person's own one wins over the bundled one of its id; what is wrong
-with a file is told by file, and the last good version of it stays in use. Everybody asks for the same value;
+Each is a ``.toml`` file and what lies beside it. The user's own one wins over the bundled one of its id; what is wrong
+with a file is reported by file, and the last good version of it stays in use. Everybody asks for the same value;
 `UserFolder.reload` alone replaces it, by another one.
 """
 
@@ -34,19 +34,19 @@ class Shelf(Generic[V]):
     Attributes
     ----------
     folder : Path
-        A person's own.
+        The user's own.
     items : mapping of str to V
-        By id: first the bundled ones, then a person's own. As long as one is what it was, it is the same object.
+        By id: first the bundled ones, then the user's own. As long as one is what it was, it is the same object.
     files : mapping of str to Path
-        Those that are a person's own, and their files.
+        Those that are the user's, and their files.
     problems : mapping of Path to tuple of Message
-        What is wrong with a person's files. Where an earlier version was good, ``items`` has that.
+        What is wrong with the user's files. Where an earlier version was good, ``items`` has that.
     revisions : mapping of str to int
         How often the one of each id became another; of those that never did, nothing.
     stamp : frozenset
         The files that were read.
     made_of : mapping of str to Stamp
-        What a person's own ones are made of beside what their tables say.
+        What the user's own ones are made of beside what their tables say.
     """
 
     folder: Path
@@ -60,7 +60,7 @@ class Shelf(Generic[V]):
 
 @dataclass(frozen=True)
 class Read(Generic[V]):
-    """What a file of a person's holds: a value and the files it is made of, or what is wrong with it."""
+    """What a file of the user's holds: a value and the files it is made of, or what is wrong with it."""
 
     value: V | None
     files: tuple[Path, ...] = ()
@@ -68,7 +68,7 @@ class Read(Generic[V]):
 
 
 class UserFolder(Generic[V, S]):
-    """A kind of which there are bundled ones and a person's own.
+    """A kind of which there are bundled ones and the user's own.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class UserFolder(Generic[V, S]):
     bundled : callable
         The bundled ones by id, the same objects every time.
     read : callable
-        A table of a person's, by its path; may raise AppError.
+        A table of the user, by its path; may raise AppError.
     skipped : collection of str
         Names of tables that hold something else.
     """
@@ -103,7 +103,7 @@ class UserFolder(Generic[V, S]):
         self._shelf, self._bundled, self._read, self._skipped = shelf, bundled, read, frozenset(skipped)
 
     def folder(self) -> Path:
-        """Where a person's own are; need not exist."""
+        """Where the user's own are; need not exist."""
         named = os.environ.get(self.variable)
         return Path(named) if named else platformdirs.user_data_path("suisou", appauthor=False) / self.name
 
@@ -125,7 +125,7 @@ class UserFolder(Generic[V, S]):
             return self.last
 
     def read(self, folder: Path, before: S | None = None) -> S:
-        """Read a person's folder; one that is not there holds nothing.
+        """Read the user's folder; one that is not there holds nothing.
 
         Parameters
         ----------
@@ -139,7 +139,7 @@ class UserFolder(Generic[V, S]):
             listed = files_in(folder, *self.suffixes)
         except AppError as error:
             problems[folder], listed = (error.message,), []
-        stamp = stamp_of(listed) | {(problem.id, 0, 0) for told in problems.values() for problem in told}
+        stamp = stamp_of(listed) | {(problem.id, 0, 0) for reported in problems.values() for problem in reported}
         if before is not None and before.folder == folder and before.stamp == stamp:
             return before
         own: dict[str, V] = {}

@@ -63,7 +63,7 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "fingering.out_of_range": ("pitch", "low", "high", "played_pitch"),
     "gesture.bell_height": ("pitch", "mean_pitch"),
     "embouchure.register": ("pitch", "low", "high"),
-    "embouchure.heard": ("pitch", "low", "high"),
+    "embouchure.controller": ("pitch", "low", "high"),
     "expression.low_loud": ("pitch", "easy_low"),
     "score.outside_ranges": ("lowest", "highest"),
     "score.unknown_instrument": ("lowest", "highest"),

@@ -90,7 +90,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "record --rescue --to {file}' で書き出してください"
         ),
     ),
-    "record.nothing_heard": (
+    "record.nothing_received": (
         "nothing was received from {port}; no file was written",
         "{port} から何も受信しませんでした。ファイルは書き出していません",
     ),

@@ -6,7 +6,7 @@ from typing import Final
 
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
     # The piece
-    "edit.piece_settings": ("settings of the piece", "曲の設定"),
+    "edit.piece_settings": ("Change Piece Settings", "曲の設定を変更"),
     # The recording
     "edit.estimate_offset": ("Estimate Audio Offset", "音源のオフセットを推定"),
     "edit.fit_tempo": ("Fit Offset and Tempo to Audio", "オフセットとテンポを音源に合わせる"),
@@ -86,8 +86,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "edit.add_player": ("Add {player}", "{player} を追加"),
     "edit.duplicate_players": ("Duplicate Players: {count}", "奏者を複製（{count} 人）"),
     "edit.remove_players": ("Remove Players: {count}", "奏者を削除（{count} 人）"),
-    "edit.join_players": ("one person plays instruments: {count}", "一人で持ち替え: {count}"),
-    "edit.separate_players": ("separate players: {count}", "プレイヤーを分ける: {count}"),
+    "edit.join_players": ("Combine into One Player: {count}", "一人の奏者にまとめる: {count}"),
+    "edit.separate_players": ("Separate Players: {count}", "別々の奏者に分ける: {count}"),
     "edit.move_players": ("Reorder Players", "奏者を並べ替え"),
     "edit.mute": ("Mute Players: {count}", "奏者をミュート（{count} 人）"),
     "edit.unmute": ("Unmute Players: {count}", "奏者のミュートを解除（{count} 人）"),
@@ -105,12 +105,12 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "edit.apply_preset": ("Apply Preset {preset} to Players: {count}", "プリセット {preset} を適用（{count} 人）"),
     "preset.saved": ("the preset {name} was saved", "プリセット {name} を保存しました"),
     "doubling.posture": (
-        "{player} and {other} are not played in one posture, so that one person cannot play both",
-        "{player}と{other}は同じ姿勢で演奏できないため、一人では持ち替えられません",
+        "{player} and {other} have no posture in common; one player cannot play both",
+        "{player} と {other} は同じ姿勢で演奏できないため、一人の奏者にまとめられません",
     ),
     "doubling.together": (
-        "{player} and {other} sound at once for {seconds:g} s, so that one person cannot play both",
-        "{player}と{other}は合わせて{seconds:g}秒同時に鳴るため、一人では持ち替えられません",
+        "{player} and {other} sound together for {seconds:g} s; one player cannot play both",
+        "{player} と {other} は合わせて {seconds:g} 秒同時に鳴るため、一人の奏者にまとめられません",
     ),
     "player.too_many": (
         "a project can have at most {most} players; remove a player first",
@@ -120,10 +120,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "a name must have at least one visible character",
         "名前には、表示できる文字が 1 つ以上必要です",
     ),
-    "player.no_part": (
-        "There is no part {part}. Select a part of this piece.",
-        "パート {part} はありません。この曲のパートを選択してください。",
-    ),
+    "player.no_part": ("part {part} was not found", "パート {part} が見つかりません"),
     "dancer.too_many": (
         "a project can have at most {most} dancers; remove a dancer first",
         "1 つのプロジェクトに置けるダンサーは {most} 人までです。先にダンサーを削除してください",

@@ -6,14 +6,17 @@ from typing import Final
 
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "doubling.rest_short": (
-        ("the rest of {rest_s:g} s is too short to change from {before} to {after}: about {needed_s:g} s are needed"),
-        "{before}から{after}への持ち替えには休みが{rest_s:g}秒では短すぎます: 約{needed_s:g}秒必要です",
+        ("the rest of {rest_s:g} s is too short to change from {before} to {after}; about {needed_s:g} s are needed"),
+        "{before} から {after} への持ち替えには {rest_s:g} 秒の休みでは短すぎます。約 {needed_s:g} 秒必要です",
     ),
     "doubling.overlap": (
-        ("{before} still sounds {seconds:g} s into {after}, but one person plays both: the change takes notes away"),
         (
-            "一人で持ち替えますが、{after}の始まりから{seconds:g}秒間まだ{before}が鳴っています: "
-            "持ち替えの間の音は演奏できません"
+            "{before} still sounds {seconds:g} s into {after}, and one player plays both; notes during the change "
+            "are not played"
+        ),
+        (
+            "{after} の始まりから {seconds:g} 秒間まだ {before} が鳴っていますが、奏者は一人です。"
+            "持ち替えの間の音は演奏されません"
         ),
     ),
     # The plan: fingerings
@@ -178,15 +181,15 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ),
         "{rest_beats:g} 拍の休符（{min_beats:g} 以上 {last_beat_beats:g} 未満）: 休符全体でブレスします",
     ),
-    "breath.heard": (
+    "breath.blown": (
         "from the recorded breath: {gap_s:g} s without blowing",
         "録音したブレスから: {gap_s:g} 秒間息が止まっています",
     ),
-    "breath.heard_preparation": (
+    "breath.blown_preparation": (
         "from the recorded breath: {gap_s:g} s without blowing; breath preparation",
         "録音したブレスから: {gap_s:g} 秒間息が止まっています。ブレスの準備動作です",
     ),
-    "breath.heard_short": (
+    "breath.blown_short": (
         "from the recorded breath: {gap_s:g} s without blowing, used because air runs out",
         "録音したブレスから: {gap_s:g} 秒間息が止まっています。息が足りないためここで吸います",
     ),
@@ -321,7 +324,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{pitch} in a range of {low} to {high}, loudness {loudness:g}",
         "音域 {low}～{high} の中の {pitch}、音量 {loudness:g}",
     ),
-    "embouchure.heard": (
+    "embouchure.controller": (
         "{pitch} in a range of {low} to {high}; from the recorded breath: average loudness {loudness:g}",
         "音域 {low}～{high} の中の {pitch}、録音したブレスから: 平均音量 {loudness:g}",
     ),

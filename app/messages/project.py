@@ -76,8 +76,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "--assign: {assignment!r} は「パート=楽器」の形ではありません（例: 'Lead=trumpet_Bb'）",
     ),
     "assign.instrument_unknown": (
-        "there is no instrument {instrument!r}; there are: {possible}",
-        "楽器 {instrument!r} はありません。使える楽器: {possible}",
+        "instrument {instrument!r} was not found; available: {possible}",
+        "楽器 {instrument!r} が見つかりません。使える楽器: {possible}",
     ),
     "assign.needed": (
         "{reason} with --assign '{part}=INSTRUMENT'",

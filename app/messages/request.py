@@ -1,4 +1,4 @@
-"""What a person asked for on the command line or in a dialog."""
+"""What the user asked for on the command line or in a dialog."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "bars {first} to {last} do not exist; the piece has bars {lowest} to {highest}",
         "{first} から {last} の小節はありません。この曲の小節は {lowest} から {highest} までです",
     ),
-    "export.nobody": (
+    "export.no_players": (
         "{file}: there are no players to export; 'suisou inspect' shows why each part is not played",
         "{file}: 書き出す奏者がいません。演奏されない理由は 'suisou inspect' で確認できます",
     ),

@@ -211,7 +211,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{part}: no instrument map for {instrument} is available; {map} is used instead",
         "{part}: {instrument} のインストゥルメントマップがないため、{map} で代用します",
     ),
-    "score.told_by_file": (
+    "score.instrument_from_file_name": (
         "{part}: the instrument cannot be determined from name or program; {map} was chosen from the file name",
         "{part}: 名前やプログラム番号から楽器を判定できないため、ファイル名から {map} を選びました",
     ),
@@ -259,13 +259,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "score.doubling": (
         (
-            "{part}: the player of this track changes to {instrument} for {count} {count:note|notes}, the first at "
-            "bar {bar}, beat {beat:g} ({pitch})"
+            "{part}: the player changes to {instrument} for {count} {count:note|notes}, the first at bar {bar}, "
+            "beat {beat:g} ({pitch})"
         ),
-        (
-            "{part}: このトラックのプレイヤーは{count}音を{instrument}に持ち替えて演奏します。"
-            "最初は{bar}小節{beat:g}拍目 ({pitch})"
-        ),
+        ("{part}: 奏者が {count} 音を {instrument} に持ち替えて演奏します。最初は {bar} 小節 {beat:g} 拍目（{pitch}）"),
     ),
     "score.stray_notes": (
         (

@@ -32,7 +32,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "ネットワーク上のすべてのコンピューターが受信できます。まだ何も送信していません"
         ),
     ),
-    "stream.nobody": (
+    "stream.no_players": (
         "there are no performers to stream; add a player or a dancer",
         "配信する出演者がいません。奏者またはダンサーを追加してください",
     ),

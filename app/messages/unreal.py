@@ -79,11 +79,11 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "unreal.file_wrong": (
         (
-            "{file} was not written correctly ({what}: {found} instead of {wanted}); nothing was changed in the "
+            "{file} was not written correctly ({what}: {found} instead of {requested}); nothing was changed in the "
             "project; please report this problem"
         ),
         (
-            "{file} が正しく書き出されませんでした（{what}: {wanted} ではなく {found}）。"
+            "{file} が正しく書き出されませんでした（{what}: {requested} ではなく {found}）。"
             "プロジェクトは変更していません。この問題を報告してください"
         ),
     ),

@@ -13,7 +13,7 @@ from app.motion.curve import FloatArray
 from app.motion.posture import Side, Trunk, exact_target
 from app.motion.reach import clavicle_of, forwards_axis
 from app.rig import quaternion
-from app.rig.hold import HandHold, Hold, Placed, hand_targets
+from app.rig.hold import GripPose, HandHold, Placed, hand_targets
 from app.rig.ik import arm, solve_limb
 from app.rig.model import Skeleton
 
@@ -59,7 +59,7 @@ def shoulder(skeleton: Skeleton, side: Side, body: Trunk, motion: BodyMotion) ->
 
 def solve_arms(
     skeleton: Skeleton,
-    hold: Hold,
+    hold: GripPose,
     body: Trunk,
     base: Trunk,
     motion: BodyMotion,

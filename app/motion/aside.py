@@ -17,7 +17,7 @@ from app.motion.curve import FloatArray
 from app.motion.posture import Side, Trunk
 from app.motion.reach import clavicle_of
 from app.rig import quaternion
-from app.rig.hold import Hold, hand_targets
+from app.rig.hold import GripPose, hand_targets
 from app.rig.ik import arm
 from app.rig.model import Skeleton
 
@@ -76,7 +76,7 @@ class Place:
     rest: Carried
 
     @classmethod
-    def of(cls, aside: Aside, skeleton: Skeleton, hold: Hold, base: Trunk, low: Carried) -> Place:
+    def of(cls, aside: Aside, skeleton: Skeleton, hold: GripPose, base: Trunk, low: Carried) -> Place:
         """From where a body that keeps still has the lowered instrument."""
         joint, reaches_m = clavicle_of(skeleton, aside.side)
         begins_m = base.chest_m + quaternion.rotate(base.chest, skeleton.offsets_m[joint])
@@ -121,7 +121,7 @@ class Place:
         )
 
     def let_go(
-        self, skeleton: Skeleton, hold: Hold, arms: dict[int, FloatArray], stowed: FloatArray
+        self, skeleton: Skeleton, hold: GripPose, arms: dict[int, FloatArray], stowed: FloatArray
     ) -> dict[int, FloatArray]:
         """The arm that does not bear the instrument, on its way to hanging down."""
         result: dict[int, FloatArray] = {}

@@ -1,4 +1,4 @@
-"""Layers of body motion: sway, weight, knees, breath, cue, bell, gaze and the residue of a body told to keep still.
+"""Layers of body motion: sway, weight, knees, breath, cue, bell, gaze and the residue of a body asked to keep still.
 
 Every layer is a function of time in anatomical angles. Layers are added, so each can be left out and none knows the
 others; contacts are solved afterwards and are never broken by them. Sizes come from `metadata` at the player's
@@ -31,7 +31,7 @@ EYES_LEVEL = 0.6
 EYES_BACK = 0.6
 """Share of the head's turn to the instrument that the eyes turn back, to the music and to the others."""
 QUICK_S = 0.6
-"""Gestures shorter than this are smaller in proportion: nobody leans as far in half the time."""
+"""Gestures shorter than this are smaller in proportion: no one leans as far in half the time."""
 UPRIGHT_S = 1.0
 """A body that bobs no more comes up within this time, and goes down again in as much before it does."""
 EXHALE_S = 3.0
@@ -87,7 +87,7 @@ class BodyMotion:
         How far the animator turns each elbow out, by side; empty: not at all.
     hips_danced : dict of str to array
         What a dance adds to the hips (`app.motion.danced`): ``ahead_m``, ``forward_rad`` and ``ease_m``, by how much
-        more the hand-over from leg to leg is rounded; empty: nobody dances.
+        more the hand-over from leg to leg is rounded; empty: no one dances.
     """
 
     forward_rad: dict[str, FloatArray]
@@ -373,7 +373,7 @@ _KINDS = ("sway", "weight_shift", "bell_height", "lower_instrument")
 
 
 @dataclass(frozen=True)
-class Levels:
+class LayerSamples:
     """The layers at some frames, before the player's sizes: members as of `Layers`, each (F,) float64.
 
     ``dip`` and ``lift`` are of the nods, ``held`` what the animator holds differently.
@@ -457,10 +457,10 @@ class Layers:
             poses=Poses.of(plan.poses),
         )
 
-    def sample(self, times_s: FloatArray) -> Levels:
+    def sample(self, times_s: FloatArray) -> LayerSamples:
         """The layers at ascending times."""
         dip, lift = self.nods.sample(times_s)
-        return Levels(
+        return LayerSamples(
             full=self.full.sample(times_s),
             leaning=self.leaning.sample(times_s),
             dip=dip,
@@ -475,7 +475,7 @@ class Layers:
 
 
 def body_motion(
-    levels: Levels,
+    levels: LayerSamples,
     player_id: str,
     parameters: PlayerParameters,
     body: Body,

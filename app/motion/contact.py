@@ -16,7 +16,7 @@ from app.motion.curve import FloatArray
 from app.motion.pose import within
 from app.motion.posture import Trunk
 from app.rig import quaternion
-from app.rig.hold import Hold
+from app.rig.hold import GripPose
 from instrument_maps.model import Carriage, Lowered
 
 X_AXIS, Y_AXIS, Z_AXIS = np.eye(3)
@@ -97,7 +97,7 @@ def _going_along(with_head: FloatArray, carriage: Carriage) -> FloatArray:
 
 
 def carry(
-    hold: Hold,
+    hold: GripPose,
     carriage: Carriage,
     lowered: Lowered,
     body: Trunk,

@@ -17,7 +17,7 @@ import numpy.typing as npt
 from app.motion.aside import Aside
 from app.motion.curve import EVERYWHERE, Curve, FloatArray, frame_times, moves
 from app.motion.model import Motion
-from app.motion.perform import Playing
+from app.motion.perform import PerformanceCurves
 from app.motion.posture import solve_legs
 from app.plan.doubling import Change
 from app.rig import quaternion
@@ -27,12 +27,12 @@ LOWERS = 0.85
 
 
 @dataclass(frozen=True, eq=False)
-class Doubling(Playing):
+class Doubling(PerformanceCurves):
     """One of the instruments of a person who plays several.
 
     Attributes
     ----------
-    played : tuple of Playing
+    played : tuple of PerformanceCurves
         All of the person's, each with its ways aside and back.
     shares : tuple of Curve
         How much the body does what each of them asks: together 1.
@@ -40,7 +40,7 @@ class Doubling(Playing):
         Which of them this is.
     """
 
-    played: tuple[Playing, ...] = ()
+    played: tuple[PerformanceCurves, ...] = ()
     shares: tuple[Curve, ...] = ()
     number: int = 0
 
@@ -101,8 +101,8 @@ class Doubling(Playing):
                 )
                 values[here] = first + (second - first) * share
 
-    def changed_s(self, other: Playing) -> FloatArray:
-        """As of `Playing`, by all that the person plays."""
+    def changed_s(self, other: PerformanceCurves) -> FloatArray:
+        """As of `PerformanceCurves`, by all that the person plays."""
         if not isinstance(other, Doubling):
             return EVERYWHERE
         if len(self.played) != len(other.played) or self.number != other.number:
@@ -112,12 +112,12 @@ class Doubling(Playing):
         return np.concatenate(spans)
 
 
-def doubled(played: Sequence[Playing], first: str, found: Sequence[Change]) -> tuple[Doubling, ...]:
+def doubled(played: Sequence[PerformanceCurves], first: str, found: Sequence[Change]) -> tuple[Doubling, ...]:
     """What each instrument of a person does beside the others.
 
     Parameters
     ----------
-    played : sequence of Playing
+    played : sequence of PerformanceCurves
         Of one body; each as if it had no other.
     first : str
         Id of the player whose instrument is in the hands at first.
@@ -129,12 +129,14 @@ def doubled(played: Sequence[Playing], first: str, found: Sequence[Change]) -> t
     return tuple(_doubling(one, ready, shares, number) for number, one in enumerate(ready))
 
 
-def _doubling(own: Playing, played: tuple[Playing, ...], shares: tuple[Curve, ...], number: int) -> Doubling:
-    members = {member.name: getattr(own, member.name) for member in fields(Playing)}
+def _doubling(
+    own: PerformanceCurves, played: tuple[PerformanceCurves, ...], shares: tuple[Curve, ...], number: int
+) -> Doubling:
+    members = {member.name: getattr(own, member.name) for member in fields(PerformanceCurves)}
     return Doubling(**members, played=played, shares=shares, number=number)
 
 
-def _with_ways(playing: Playing, number: int, first: str, found: Sequence[Change]) -> Playing:
+def _with_ways(playing: PerformanceCurves, number: int, first: str, found: Sequence[Change]) -> PerformanceCurves:
     """A player's motion with the instrument put aside while another is played."""
     ways = []
     for change in found:
@@ -153,7 +155,7 @@ def _with_ways(playing: Playing, number: int, first: str, found: Sequence[Change
     )
 
 
-def _lowered(playing: Playing, ways: Sequence[tuple[float, float, float]], begins: float) -> Curve:
+def _lowered(playing: PerformanceCurves, ways: Sequence[tuple[float, float, float]], begins: float) -> Curve:
     """How far the instrument is lowered: as planned, and wholly while it is aside."""
     bell = playing.body.bell
     spans: list[tuple[float, float, float]] = []

@@ -41,18 +41,18 @@ class Stand:
 
     def stood(self, carried: Carried, motion: BodyMotion) -> Carried:
         """The instrument where it is carried, swung about the mouthpiece until its pin is over the tip's place."""
-        # Where an animator turns the instrument, its tip goes: melody and cues move nobody's pin.
+        # Where an animator turns the instrument, its tip goes: melody and cues move no one's pin.
         pitch, yaw, roll = held_angles(self.carriage, replace(motion, bell_rad=np.zeros_like(motion.bell_rad)))
         still = attitude(pitch, np.asarray(yaw), roll)
         drawn_m, _ = _needed(self.endpin, self.lips_m, still)
         place_m = self.lips_m + quaternion.rotate(still, self._tip_m(drawn_m))
-        wanted_m = place_m - carried.position_m
+        requested_m = place_m - carried.position_m
         tip_m, axis = np.asarray(self.endpin.tip_m), np.asarray(self.endpin.axis)
         # How far the pin has to come out to be as far from the lips as that place: |tip + out * axis| = distance.
         along = float(tip_m @ axis)
-        out_m = np.sqrt(np.maximum((wanted_m**2).sum(axis=1) - float(tip_m @ tip_m) + along**2, 0.0)) - along
+        out_m = np.sqrt(np.maximum((requested_m**2).sum(axis=1) - float(tip_m @ tip_m) + along**2, 0.0)) - along
         pointing_m = quaternion.rotate(carried.rotation, self._tip_m(out_m))
-        swung = quaternion.between(_unit(pointing_m), _unit(wanted_m))
+        swung = quaternion.between(_unit(pointing_m), _unit(requested_m))
         return Carried(carried.position_m, quaternion.multiply(swung, carried.rotation))
 
     def drawn_out(self, position_m: npt.NDArray[np.floating], rotation: npt.NDArray[np.floating]) -> FloatArray:

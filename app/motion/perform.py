@@ -11,7 +11,7 @@ import msgspec
 import numpy as np
 
 from app.motion.aside import Aside
-from app.motion.body import BodyMotion, Layers, Levels, body_motion
+from app.motion.body import BodyMotion, Layers, LayerSamples, body_motion
 from app.motion.contact import Carried, freedom
 from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
@@ -26,7 +26,7 @@ from app.motion.stations import raised_curve, sampled, station_curves
 from app.plan.model import PlayerPlan, TimeFrame, same_events
 from app.plan.parameters import PlayerParameters, deciding
 from app.rig.carriage import carrying
-from app.rig.hold import Hold, Lips, Placed, giving_for
+from app.rig.hold import GripPose, Lips, Placed, giving_for
 from app.rig.model import Character
 from app.score.metre_map import FeltBeats
 from instrument_maps.model import Carriage, InstrumentMap
@@ -59,7 +59,7 @@ class Frames:
     controls : dict of str to (F,) float64
     placed : dict of str to Placed
     raised : (F,) float64
-        As the curves of `Playing`.
+        As the curves of `PerformanceCurves`.
     danced : (F, 12) float64 or None
         Of its layer; None: nothing is danced.
     stowed : (F,) float64 or None
@@ -67,7 +67,7 @@ class Frames:
     """
 
     times_s: FloatArray
-    levels: Levels
+    levels: LayerSamples
     look: Look
     face: Drivers
     controls: dict[str, FloatArray]
@@ -78,7 +78,7 @@ class Frames:
 
 
 @dataclass(frozen=True, eq=False)
-class Playing:
+class PerformanceCurves:
     """One player's plan as curves over the whole performance: what any of its frames are made from.
 
     Attributes
@@ -190,7 +190,7 @@ class Playing:
         asked |= {giving_for(finger) for hand in hands for lean in hand.leans for finger, _ in lean.places}
         return {name: sampled(curve, times_s) for name, curve in self.stations.items() if name in asked}
 
-    def changed_s(self, other: Playing) -> FloatArray:
+    def changed_s(self, other: PerformanceCurves) -> FloatArray:
         """Spans (K, 2) of seconds, outside of which (and of `padding` frames around) both make the very same frames."""
         mine, others = self._settings, other._settings
         if mine[0] != others[0] or any(a is not b for a, b in zip(mine[1:], others[1:], strict=True)):
@@ -232,14 +232,14 @@ def prepare(
     parameters: PlayerParameters,
     instrument_map: InstrumentMap,
     character: Character,
-    hold: Hold,
+    hold: GripPose,
     body: Body,
     *,
     felt_beats: FeltBeats,
     expressions: Mapping[str, Expression] | None = None,
-    before: Playing | None = None,
+    before: PerformanceCurves | None = None,
     dance: BodyLayer | None = None,
-) -> Playing:
+) -> PerformanceCurves:
     """Make a plan ready to be seen; parameters as of `perform`.
 
     Curves of events that are the very same tuples in ``before`` (the player as it was prior to an edit) are taken from
@@ -274,7 +274,7 @@ def prepare(
             fingers = _fingers(plan, instrument_map, felt_beats, player)
         elif not same_events(plan, old, "fingerings"):
             fingers = _fingers(plan, instrument_map, felt_beats, player, before)
-    return Playing(
+    return PerformanceCurves(
         plan=plan,
         instrument_map=instrument_map,
         felt_beats=felt_beats,
@@ -298,7 +298,7 @@ def lying(
     parameters: PlayerParameters,
     instrument_map: InstrumentMap,
     character: Character,
-    hold: Hold,
+    hold: GripPose,
     body: Body,
     number: int,
 ) -> Carried:
@@ -315,10 +315,10 @@ def _player(
     parameters: PlayerParameters,
     instrument_map: InstrumentMap,
     character: Character,
-    hold: Hold,
+    hold: GripPose,
     body: Body,
     posture: Posture,
-    before: Playing | None,
+    before: PerformanceCurves | None,
 ) -> Player:
     """What does not change with time; that of ``before``, which knows already how far its hands come, where it is the
     same body in the same posture."""
@@ -345,7 +345,7 @@ def _fingers(
     instrument_map: InstrumentMap,
     felt_beats: FeltBeats,
     player: Player,
-    before: Playing | None = None,
+    before: PerformanceCurves | None = None,
 ) -> tuple[dict[str, Curve], dict[str, Curve], Curve]:
     """Curves of the controls, of the places of the fingers and of how high they wait."""
     notes = plan.grips
@@ -367,7 +367,7 @@ def _fingers(
 
 
 def _settled(parameters: PlayerParameters, carriage: Carriage) -> PlayerParameters:
-    """The parameters of somebody whose instrument moves as little as its carriage says: the lips must stay with it."""
+    """The parameters of someone whose instrument moves as little as its carriage says: the lips must stay with it."""
     share = SETTLED + (1.0 - SETTLED) * freedom(carriage)
     if share == 1.0:
         return parameters
@@ -392,7 +392,7 @@ def _stands_free(player: Player) -> bool:
 
 
 def _comparable(
-    before: Playing,
+    before: PerformanceCurves,
     plan: PlayerPlan,
     parameters: PlayerParameters,
     instrument_map: InstrumentMap,
@@ -409,7 +409,7 @@ def perform(
     parameters: PlayerParameters,
     instrument_map: InstrumentMap,
     character: Character,
-    hold: Hold,
+    hold: GripPose,
     body: Body,
     *,
     felt_beats: FeltBeats,
@@ -427,7 +427,7 @@ def perform(
         Amplitude, posture, seed and the sizes of single layers.
     instrument_map : InstrumentMap
     character : Character
-    hold : Hold
+    hold : GripPose
         Fitted for this character and instrument.
     body : Body
         Sizes, limits and postures.
@@ -437,7 +437,7 @@ def perform(
     frames : int, optional
         How many; to the end of the performance without it.
     first_frame : int
-        Index of the first frame wanted. A part is identical to the same frames of the whole.
+        Index of the first requested frame. A part is identical to the same frames of the whole.
     expressions : mapping of str to Expression, optional
         The bundled ones without it.
 

@@ -12,7 +12,7 @@ from app.motion.contact import Carried
 from app.motion.curve import FloatArray
 from app.motion.posture import Side, Trunk
 from app.rig import quaternion
-from app.rig.hold import Hold, Placed, hand_targets
+from app.rig.hold import GripPose, Placed, hand_targets
 from app.rig.ik import arm
 from app.rig.model import Skeleton
 
@@ -59,7 +59,7 @@ class Help:
 
 def needed_help(
     skeleton: Skeleton,
-    hold: Hold,
+    hold: GripPose,
     body: Trunk,
     carried: Carried,
     controls: Mapping[str, FloatArray],
@@ -67,7 +67,7 @@ def needed_help(
 ) -> Help:
     """The help a body needs that has none yet; exactly 0 where the arms alone reach.
 
-    The shoulders help first, then the trunk turns; what is left is told.
+    The shoulders help first, then the trunk turns; what is left is reported.
     """
     turn, short_m = np.zeros(len(body.chest_m)), np.zeros(len(body.chest_m))
     protraction: dict[str, FloatArray] = {}

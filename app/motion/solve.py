@@ -22,7 +22,7 @@ from app.motion.reach import TURN_RAD, Help, needed_help, shoulder_distance_m, s
 from app.motion.stop import stopped
 from app.rig import quaternion
 from app.rig.finger_poses import finger_rotations
-from app.rig.hold import Hold, Placed, hand_targets
+from app.rig.hold import GripPose, Placed, hand_targets
 from app.rig.model import Skeleton
 from instrument_maps.model import Carriage, Endpin, Lowered
 
@@ -59,7 +59,7 @@ class Player:
     """
 
     skeleton: Skeleton
-    hold: Hold
+    hold: GripPose
     place: Stance
     carriage: Carriage
     lowered: Lowered
@@ -139,7 +139,7 @@ class Curves:
 
 
 def padding(fps: Fraction) -> int:
-    """Frames before and after the wanted ones that `solve` needs to look ahead and back."""
+    """Frames before and after the requested ones that `solve` needs to look ahead and back."""
     return 2 * math.ceil(HELP_EASE_S * fps)
 
 
@@ -150,10 +150,10 @@ def solve(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -
     ----------
     player : Player
     curves : Curves
-        With `padding` frames more at both ends than are wanted.
+        With `padding` frames more at both ends than are requested.
     fps : Fraction
     first_frame_s : float
-        Time of the first wanted frame.
+        Time of the first requested frame.
     """
     pad = padding(fps)
     needed = [needs(player, curves[part]) for part in _parts(len(curves))]

@@ -18,7 +18,7 @@ from app.motion.contact import Carried
 from app.motion.curve import FloatArray
 from app.motion.posture import Trunk
 from app.motion.reach import softly_capped
-from app.rig.hold import HandHold, Hold, Placed, hand_targets
+from app.rig.hold import GripPose, HandHold, Placed, hand_targets
 from app.rig.ik import arm
 from app.rig.model import Skeleton
 
@@ -60,7 +60,7 @@ class _Seen:
 
 def stopped(
     skeleton: Skeleton,
-    hold: Hold,
+    hold: GripPose,
     body: Trunk,
     motion: BodyMotion,
     carried: Carried,

@@ -19,13 +19,13 @@ from app.identity_cache import IdentityCache
 from app.motion.perform import lying
 from app.project.model import Player
 from app.rig.character_library import bundled_characters, character_named, character_revision
-from app.rig.grip_search import Told, unheard
-from app.rig.hold import Hold
+from app.rig.fitted_instrument import FittedInstrument, suited
+from app.rig.grip_search import Progress, no_progress
+from app.rig.hold import GripPose
 from app.rig.hold_file import bundled_path, hold_for
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
 from app.rig.stature import leg_size, sized_body, sized_model
-from app.rig.suited import Suited, suited
 from instrument_maps.library import library, model_path
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
@@ -37,10 +37,10 @@ FloatArray = npt.NDArray[np.float64]
 
 _MODELS: IdentityCache[InstrumentModel] = IdentityCache(128)
 """More than there are instruments: in an orchestra with one more than these, each would be read again at every edit."""
-_HOLDS: IdentityCache[Hold] = IdentityCache(256)
+_HOLDS: IdentityCache[GripPose] = IdentityCache(256)
 _HELD: set[tuple[str, int, str, int]] = set()
 """Pairs of character and instrument, by id and revision, whose holds were asked for."""
-_SUITED: IdentityCache[Suited] = IdentityCache(256)
+_SUITED: IdentityCache[FittedInstrument] = IdentityCache(256)
 
 
 def character_of(player: Player) -> Character:
@@ -67,28 +67,28 @@ def model_of(instrument: InstrumentMap) -> InstrumentModel:
     return _MODELS.get((instrument,), loaded)
 
 
-def suited_to(player: Player, instrument: InstrumentMap) -> Suited:
+def suited_to(player: Player, instrument: InstrumentMap) -> FittedInstrument:
     """An instrument as a player's body plays it: its size, and what touches it; found once for each pair."""
     if player.character_id in bundled_characters():
         # Ours are grown-ups and lack nothing: plans are made before anybody is loaded.
-        return Suited(instrument, ())
+        return FittedInstrument(instrument, ())
     character, body = character_of(player), body_of(player)
 
-    def found() -> Suited:
+    def found() -> FittedInstrument:
         return suited(character, instrument, body, lambda: model_of(instrument))
 
     return _SUITED.get((character, instrument, body), lambda: _worked_out(player, instrument, found))
 
 
-def hold_of(player: Player, instrument: InstrumentMap, told: Told = unheard) -> Hold:
+def hold_of(player: Player, instrument: InstrumentMap, progress: Progress = no_progress) -> GripPose:
     """How a player's body holds an instrument that is suited to it; fitted once for each pair.
 
-    ``told`` hears of a fit how far it is, and may stop it.
+    ``progress`` is called with the share of a fit that is done, and may stop it.
     """
     character, model, body = character_of(player), model_of(instrument), body_of(player)
 
-    def found() -> Hold:
-        return hold_for(character, model, instrument, body, told)
+    def found() -> GripPose:
+        return hold_for(character, model, instrument, body, progress)
 
     return _HOLDS.get((character, model, instrument, body), lambda: _worked_out(player, instrument, found))
 
@@ -138,13 +138,13 @@ def is_held(player: Player, instrument: InstrumentMap) -> bool:
     return (ours and _is_stored(player.character_id, instrument.id)) or _pair(player, instrument) in _HELD
 
 
-def hold_now(player: Player, instrument: InstrumentMap, told: Told = unheard) -> None:
+def hold_now(player: Player, instrument: InstrumentMap, progress: Progress = no_progress) -> None:
     """Find out how a player holds an instrument of the library, so that it is held from now on (`is_held`).
 
-    What is wrong with a character or a model is told where they are asked for.
+    What is wrong with a character or a model is reported where they are asked for.
     """
     with contextlib.suppress(UsageError, FileError, MapError):
-        hold_of(player, suited_to(player, instrument).instrument, told)
+        hold_of(player, suited_to(player, instrument).instrument, progress)
     _HELD.add(_pair(player, instrument))
 
 

@@ -23,7 +23,7 @@ from app.errors import AppError, Cancelled, FileError, Message
 from app.performance.bodies import body_of, character_of, hold_of, model_of
 from app.performance.ensemble import Performance
 from app.project.model import Dancer, Player
-from app.rig.hold import Hold
+from app.rig.hold import GripPose
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body
@@ -40,7 +40,7 @@ class LeftOut(msgspec.Struct, frozen=True):
     reason: Message
 
     def message(self, wording: Wording) -> Message:
-        """What the user is told."""
+        """What is reported to the user."""
         return Message("player.left_out", {"player": self.player.name, "reason": wording(self.reason)})
 
 
@@ -72,7 +72,7 @@ class Performer:
     instrument : InstrumentMap
         As the body plays it (`app.performance.bodies.suited_to`).
     model : InstrumentModel
-    hold : Hold
+    hold : GripPose
     """
 
     player: Player
@@ -80,7 +80,7 @@ class Performer:
     body: Body
     instrument: InstrumentMap
     model: InstrumentModel
-    hold: Hold
+    hold: GripPose
 
 
 def attempt(players: Iterable[P], make: Callable[[P], T]) -> Attempt[T]:
@@ -127,7 +127,7 @@ def performers_of(performance: Performance, players: Iterable[Player]) -> Attemp
     return attempt(players, lambda player: performer_of(performance, player))
 
 
-def refuse_nobody(left_out: Sequence[LeftOut], file: str, wording: Wording) -> None:
-    """Raise ``player.all_left_out``: nobody is left."""
+def require_players(left_out: Sequence[LeftOut], file: str, wording: Wording) -> None:
+    """Raise ``player.all_left_out``: no one is left."""
     reasons = "; ".join(f"{one.player.name}: {wording(one.reason)}" for one in left_out)
     raise FileError("player.all_left_out", file=file, reasons=reasons)

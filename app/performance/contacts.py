@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from app.errors import Message
 from app.motion.model import Motion
-from app.motion.perform import Playing
+from app.motion.perform import PerformanceCurves
 from app.plan.model import FingeringEvent, PlayerPlan, Problem
 from app.rig import quaternion
 from app.rig.hold import Placed, hand_targets
@@ -100,12 +100,12 @@ class ContactJudge:
 
     Parameters
     ----------
-    playing : Playing
+    playing : PerformanceCurves
     character : Character
     model : InstrumentModel
     """
 
-    def __init__(self, playing: Playing, character: Character, model: InstrumentModel) -> None:
+    def __init__(self, playing: PerformanceCurves, character: Character, model: InstrumentModel) -> None:
         plan, instrument = playing.plan, playing.instrument_map
         self._playing, self._model = playing, model
         self._character = meeting(character, instrument, playing.body)
@@ -171,8 +171,8 @@ class ContactJudge:
         places = {finger: found[notes] for finger, found in working.items()}
         off: dict[str, BoolArray] = {}
         for hand in self._playing.player.hold.hands:
-            wanted_m, _ = hand_targets(hand, place_m, turn, controls, placed)
-            gaps_m = np.linalg.norm(joints.of(self._wrists[hand.side])[0] - wanted_m, axis=1)
+            requested_m, _ = hand_targets(hand, place_m, turn, controls, placed)
+            gaps_m = np.linalg.norm(joints.of(self._wrists[hand.side])[0] - requested_m, axis=1)
             bounds_mm = [bound_mm(contact) for contact in instrument.contacts if contact.part.startswith(hand.side)]
             off[hand.side] = gaps_m * 1000.0 > MOVED_MM
             yield from _runs(
@@ -182,7 +182,7 @@ class ContactJudge:
                 control = hand.motion.control
                 asked = {**controls, control: self._playing.controls[control].sample(times_s)}
                 asked_m, _ = hand_targets(hand, place_m, turn, asked, placed)
-                gaps_m = np.linalg.norm(asked_m - wanted_m, axis=1)
+                gaps_m = np.linalg.norm(asked_m - requested_m, axis=1)
                 yield from _runs(("short", hand.side, control), times_s, gaps_m, gaps_m > SLIDE_M)
         nodes_m, node_turns = node_transforms(self._model, instrument, controls, len(frames))
         for index, contact in enumerate(instrument.contacts):
@@ -220,18 +220,18 @@ class ContactJudge:
         instrument = self._playing.instrument_map
         contact, place = instrument.contacts[index], self._only_at[index]
         if place is not None:
-            wanted: BoolArray = places[place[0]] == place[1]
+            requested: BoolArray = places[place[0]] == place[1]
             for name in worked_by(contact, instrument):
-                wanted = wanted & in_place(instrument.control(name), controls[name], targets[name])
+                requested = requested & in_place(instrument.control(name), controls[name], targets[name])
             if place[0] in placed:
                 share = placed[place[0]].share
-                wanted = wanted & ((share <= 0.0) | (share >= 1.0))
-            return wanted
+                requested = requested & ((share <= 0.0) | (share >= 1.0))
+            return requested
         if contact.control is None or contact.when == "always":
             return True
         control, target = instrument.control(contact.control), targets[contact.control]
-        wanted = (target == control.rest_value) == (contact.when == "released")
-        return wanted & in_place(control, controls[contact.control], target)
+        requested = (target == control.rest_value) == (contact.when == "released")
+        return requested & in_place(control, controls[contact.control], target)
 
 
 def _targets(control: Control, notes: Sequence[FingeringEvent]) -> FloatArray:
@@ -254,10 +254,10 @@ def contact_problems(breaks: Iterable[Break], plan: PlayerPlan) -> tuple[Problem
     """A problem for every while that a contact is broken, in the order of time.
 
     A control that stops short of a note that is out of reach is a problem of that note already
-    (`app.performance.reach`): it is not told again.
+    (`app.performance.reach`): it is not reported again.
     """
     problems = []
-    told = _united(
+    reported = _united(
         [
             (problem.start_s - APART_S, problem.end_s + APART_S)
             for problem in plan.problems
@@ -266,7 +266,9 @@ def contact_problems(breaks: Iterable[Break], plan: PlayerPlan) -> tuple[Problem
     )
     starts_s = np.array([event.start_s for event in plan.grips])
     for found in joined(breaks):
-        if found.kind == "short" and any(start_s <= found.start_s and found.end_s <= end_s for start_s, end_s in told):
+        if found.kind == "short" and any(
+            start_s <= found.start_s and found.end_s <= end_s for start_s, end_s in reported
+        ):
             continue
         note_id = None
         if found.kind != "foot":

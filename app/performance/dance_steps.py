@@ -102,13 +102,13 @@ class DanceSteps:
 
 
 def dances_of(
-    performance: Performance, stop_wanted: Callable[[], bool], progress: Callable[[float], None]
+    performance: Performance, stop_requested: Callable[[], bool], progress: Callable[[float], None]
 ) -> dict[str, DanceSteps]:
     """What all dancers dance, by their ids. Raises Cancelled."""
     made = {}
     dancers = performance.project.dancers
     for number, dancer in enumerate(dancers):
-        if stop_wanted():
+        if stop_requested():
             raise Cancelled("work.stopped")
         made[dancer.id] = dance_of(performance, dancer)
         progress((number + 1) / len(dancers))

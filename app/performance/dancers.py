@@ -26,14 +26,14 @@ import numpy.typing as npt
 
 from app.chance import chance, performed_seed
 from app.choreography.dance import Dance, Manner, Step
-from app.choreography.derived_rhythm import heard_rhythm
+from app.choreography.derived_rhythm import audible_rhythm
 from app.choreography.generate import Choreographer
 from app.choreography.judge import jerking_seams, sliding_stands
 from app.choreography.library import choreography_path
 from app.choreography.model_file import read_model
 from app.choreography.retarget import retarget
 from app.choreography.rhythm import Rhythm, delayed
-from app.choreography.sequence import Grid, Wishes, grid_of
+from app.choreography.sequence import Constraints, Grid, grid_of
 from app.errors import AppError, Cancelled, Message
 from app.identity_cache import IdentityCache
 from app.motion.curve import Envelopes
@@ -106,8 +106,8 @@ class Dancing:
             return self._steps
 
     def _chosen(self) -> tuple[Step, ...]:
-        wishes = wishes_of(self._corrections, grid_of(self.rhythm), self._tempo_map)
-        return self.choreographer.steps(self.rhythm, self._manner, wishes=wishes)
+        constraints = assignments_of(self._corrections, grid_of(self.rhythm), self._tempo_map)
+        return self.choreographer.steps(self.rhythm, self._manner, constraints=constraints)
 
     @property
     def _manner(self) -> Manner:
@@ -152,7 +152,7 @@ class Dancing:
                     self.rhythm,
                     self._manner,
                     fps,
-                    wishes=wishes_of(self._corrections, grid, self._tempo_map),
+                    constraints=assignments_of(self._corrections, grid, self._tempo_map),
                     first_s=frame.first_frame_s,
                     # Half a frame less: rounding must not add one.
                     end_s=frame.first_frame_s + (count - 0.5) * fps.denominator / fps.numerator,
@@ -220,11 +220,11 @@ def dancer_motion(
     performance: Performance,
     dancer: Dancer,
     span: FrameSpan,
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
     progress: Callable[[float], None] = lambda share: None,
 ) -> Motion:
     """One dancer's motion over some frames. Raises AppError as `dancing_of`, and Cancelled."""
-    if stop_wanted():
+    if stop_requested():
         raise Cancelled("work.stopped")
     motion = dancing_of(performance, dancer).motion(span.fps, span.first, span.count)
     progress(1.0)
@@ -234,7 +234,7 @@ def dancer_motion(
 def rhythm_of(performance: Performance) -> Rhythm:
     """What all dancers hear of the piece."""
     score = performance.project.score
-    return _RHYTHMS.get((score,), lambda: _same_rhythm(heard_rhythm(score)))
+    return _RHYTHMS.get((score,), lambda: _same_rhythm(audible_rhythm(score)))
 
 
 def heard_frame(performance: Performance) -> TimeFrame:
@@ -242,10 +242,10 @@ def heard_frame(performance: Performance) -> TimeFrame:
     return _same_frame(performance.time_frame.first_frame_s, performance.time_frame.end_s)
 
 
-def wishes_of(corrections: Sequence[DanceCorrection], grid: Grid, tempo_map: TempoMap) -> Wishes:
+def assignments_of(corrections: Sequence[DanceCorrection], grid: Grid, tempo_map: TempoMap) -> Constraints:
     """Corrections, which hold for ticks, on the nearest places of a grid; of several for one place the last counts."""
     if not len(grid.times_s):
-        return Wishes()
+        return Constraints()
     pinned, segments, forbidden = dict[int, int](), dict[int, int](), set[tuple[int, int]]()
     for item in corrections:
         match item:
@@ -255,7 +255,7 @@ def wishes_of(corrections: Sequence[DanceCorrection], grid: Grid, tempo_map: Tem
                 segments[place_of(item.tick, grid, tempo_map)] = item.segment
             case ForbidState():
                 forbidden |= {(at, item.state) for at in _places(item, grid, tempo_map)}
-    return Wishes(pinned, segments, frozenset(forbidden))
+    return Constraints(pinned, segments, frozenset(forbidden))
 
 
 def not_held(
@@ -264,8 +264,8 @@ def not_held(
     """A problem for every correction that these steps do not hold: there is no such basic motion or segment, or other
     corrections are against it. The corrections stay."""
     there = {step.place: step for step in steps}
-    wishes = wishes_of(corrections, grid, tempo_map)
-    pinned = {*wishes.pinned, *wishes.segments}
+    constraints = assignments_of(corrections, grid, tempo_map)
+    pinned = {*constraints.pinned, *constraints.segments}
     found = []
     for item in corrections:
         if isinstance(item, ForbidState):

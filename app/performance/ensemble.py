@@ -21,7 +21,7 @@ from app.performance.loudness import heard, note_loudness
 from app.performance.reach import posed_body, reached
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.doubling import Change, changes, first_played, held_plan
-from app.plan.generate import EnsemblePlan, Line, Piece, frame_around, plan_ensemble
+from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.plan.parameters import deciding
@@ -57,7 +57,7 @@ class Performance:
         Of the same document before an edit: what has not changed is taken from there, to the object. The result is
         the same without it.
     waiting : frozenset of str
-        Players who are not seen yet, because somebody else finds out first how they hold their instruments (`hold`).
+        Players who are not seen yet, because someone else finds out first how they hold their instruments (`hold`).
 
     Raises
     ------
@@ -90,7 +90,7 @@ class Performance:
             return self._memo.step("piece", Piece, score.tempo_map, self.project.metre_map, score.accompaniment)
 
     @cached_property
-    def lines(self) -> tuple[Line, ...]:
+    def lines(self) -> tuple[MonophonicPart, ...]:
         """What each player plays who has an instrument, in the order of the project's players."""
         with self._lock:
             lines = []
@@ -102,13 +102,13 @@ class Performance:
                 lines.append(self._line(player, instrument))
             return tuple(lines)
 
-    def _line(self, player: Player, instrument: InstrumentMap) -> Line:
+    def _line(self, player: Player, instrument: InstrumentMap) -> MonophonicPart:
         part = self.project.part(player)
         corrections = self.project.corrections.get(player.id, ())
         loudness = self._memo.step(f"loudness:{player.id}", note_loudness, part)
         blown = self._memo.step(f"heard:{player.id}", heard, part)
         said = (player.parameters, corrections, loudness, blown, player.doubles)
-        return self._memo.step(f"line:{player.id}", Line, player.id, part.notes, instrument, *said)
+        return self._memo.step(f"line:{player.id}", MonophonicPart, player.id, part.notes, instrument, *said)
 
     @cached_property
     def time_frame(self) -> TimeFrame:
@@ -132,7 +132,7 @@ class Performance:
 
     def prepare(
         self,
-        stop_wanted: Callable[[], bool] = lambda: False,
+        stop_requested: Callable[[], bool] = lambda: False,
         progress: Callable[[float], None] = lambda share: None,
     ) -> None:
         """Make all plans, if they are not made yet.
@@ -153,7 +153,7 @@ class Performance:
                 self.project.seed,
                 self.expressions,
                 before,
-                stop_wanted,
+                stop_requested,
                 progress,
             )
             self.unseen = dict[str, Message]()
@@ -161,9 +161,9 @@ class Performance:
             held = {player.id: self._in_hands(player, made) for player in self.project.players}
             for player in self.project.players:
                 # Whether hands reach is found out by posing them: with many players it takes as long as planning.
-                if stop_wanted():
+                if stop_requested():
                     raise Cancelled("work.stopped")
-                plans[player.id] = self._told(player, held[player.id])
+                plans[player.id] = self._reported(player, held[player.id])
             self._plans = plans
             _CHECKED.update(player.parameters.choreography for player in self.project.players)
             self.__dict__["_ensemble"] = made
@@ -205,7 +205,7 @@ class Performance:
         }
         return self._memo.step(f"held:{player.id}", _with_parts, plan, tuple(parts), *parts.values())
 
-    def _told(self, player: Player, plan: PlayerPlan | None) -> PlayerPlan:
+    def _reported(self, player: Player, plan: PlayerPlan | None) -> PlayerPlan:
         """A player's plan with what is wrong about the player."""
         frame = self.time_frame
         lacking = self.lacking(player)
@@ -213,8 +213,8 @@ class Performance:
             self.unseen[player.id] = lacking[0]
         if plan is not None and not lacking:
             return self._reaching(player, plan)
-        told = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking)
-        return self._memo.step(f"told:{player.id}", _with_problems, player.id, plan, frame, told)
+        reported = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking)
+        return self._memo.step(f"problems:{player.id}", _with_problems, player.id, plan, frame, reported)
 
     def _reaching(self, player: Player, plan: PlayerPlan) -> PlayerPlan:
         """The plan with what the player's body has not, and what its hands do not reach."""
@@ -235,11 +235,12 @@ class Performance:
         if not unreached and not lacking:
             return plan
         frame = self.time_frame
-        told = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking) + unreached
-        return self._memo.step(f"told:{player.id}", _with_problems, player.id, plan, frame, told)
+        reported = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking) + unreached
+        return self._memo.step(f"problems:{player.id}", _with_problems, player.id, plan, frame, reported)
 
     def _missed(self, player: Player, held: InstrumentMap) -> tuple[Message, ...]:
-        """What to tell of touches that a hold does not meet, as soon as it is known; those of our own bodies all do."""
+        """What to report about touches that a hold does not meet, as soon as it is known; those of our own bodies all
+        do."""
         if player.character_id in bundled_characters() or not is_held(player, self.instrument(player)):
             return ()
         off = missed(hold_of(player, held))
@@ -304,7 +305,7 @@ class Performance:
         if player.instrument_id not in self.library.maps:
             found.append(self._no_instrument(player))
         if player.character_id not in self.characters.sources:
-            problems = {path.stem: told[0] for path, told in self.characters.problems.items()}
+            problems = {path.stem: reported[0] for path, reported in self.characters.problems.items()}
             missing = Message("project.character_missing", {"player": player.name, "id": player.character_id})
             found.append(problems.get(player.character_id, missing))
         return tuple(found)
@@ -327,7 +328,7 @@ class Performance:
 
     def hold(
         self,
-        stop_wanted: Callable[[], bool] = lambda: False,
+        stop_requested: Callable[[], bool] = lambda: False,
         progress: Callable[[float], None] = lambda share: None,
         players: Iterable[Player] | None = None,
     ) -> None:
@@ -350,13 +351,13 @@ class Performance:
 
         for number, player in enumerate(unheld):
 
-            def told(share: float, before: int = number) -> None:
-                if stop_wanted():
+            def reported(share: float, before: int = number) -> None:
+                if stop_requested():
                     raise Cancelled("work.stopped")
                 progress((before + share) / len(unheld))
 
-            told(0.0)
-            hold_now(player, self.instrument(player), told)
+            reported(0.0)
+            hold_now(player, self.instrument(player), reported)
 
     def held(self, player: Player) -> InstrumentMap:
         """That map as the player's body plays it: of its size, touched by what the body has. Raises AppError."""
@@ -370,7 +371,7 @@ def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str,
 
 
 def _not_danced(player: Player) -> tuple[Message, ...]:
-    """What to tell of a choreography that the player cannot dance."""
+    """What to report about a choreography that the player cannot dance."""
     if not player.parameters.choreography:
         return ()
     # The modules of dances are loaded only for pieces with dancers.
@@ -380,7 +381,7 @@ def _not_danced(player: Player) -> tuple[Message, ...]:
     return () if unfit is None else (unfit,)
 
 
-def _work(line: Line, before: Line | None) -> int:
+def _work(line: MonophonicPart, before: MonophonicPart | None) -> int:
     """What planning a line costs after an edit, in notes."""
     if line is before:
         return 0
@@ -406,8 +407,10 @@ def _with_parts(plan: PlayerPlan, names: tuple[str, ...], *values: tuple[object,
     return msgspec.structs.replace(plan, **dict(zip(names, values, strict=True)))
 
 
-def _with_problems(player_id: str, plan: PlayerPlan | None, frame: TimeFrame, told: tuple[Problem, ...]) -> PlayerPlan:
+def _with_problems(
+    player_id: str, plan: PlayerPlan | None, frame: TimeFrame, reported: tuple[Problem, ...]
+) -> PlayerPlan:
     if plan is None:
-        return PlayerPlan(player_id, frame, (), (), (), (), (), (), (), told)
-    problems = tuple(sorted(told + plan.problems, key=lambda problem: problem.start_s))
+        return PlayerPlan(player_id, frame, (), (), (), (), (), (), (), reported)
+    problems = tuple(sorted(reported + plan.problems, key=lambda problem: problem.start_s))
     return msgspec.structs.replace(plan, problems=problems)

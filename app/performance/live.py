@@ -21,7 +21,7 @@ import numpy.typing as npt
 
 from app.errors import AppError, Message
 from app.motion.model import Motion
-from app.motion.perform import Playing
+from app.motion.perform import PerformanceCurves
 from app.performance.cast import Performer, performers_of
 from app.performance.chunks import Chunk, Grid, Pose, poses_of
 from app.performance.contacts import Break, ContactJudge, contact_problems
@@ -33,15 +33,15 @@ from app.project.model import Dancer, Player
 if TYPE_CHECKING:
     from app.performance.dancers import Dancing
 
-StopWanted = Callable[[], bool]
+StopRequested = Callable[[], bool]
 
 BUDGET_BYTES = 128 * 1024 * 1024
 """Four players for thirteen minutes, fifty for a minute around the playhead; it is made twenty times as fast as it is
 played."""
 SEEN_S = 4.0
-"""Looked at unless somebody says otherwise."""
+"""Looked at unless someone says otherwise."""
 BEHIND_COSTS = 3
-"""What lies before the playhead is wanted as much as what lies this many times as far after it."""
+"""What lies before the playhead is requested as much as what lies this many times as far after it."""
 
 
 class PlayerFault(Exception):
@@ -57,17 +57,17 @@ class _Track:
     player : Player or Dancer
     plan : PlayerPlan
         Of a dancer one without events.
-    playing : Playing, Dancing or None
+    playing : PerformanceCurves, Dancing or None
         None until it is first needed, and for who cannot play.
     chunks : dict of int to Chunk
         Made from ``playing``.
-    basis : Playing, Dancing or None
+    basis : PerformanceCurves, Dancing or None
         What ``unproven`` was made from: chunks of the performance before, some of which are still right.
     unproven, outdated : dict of int to Chunk
         Shown as long as there is nothing better.
     error : Message or None
         Why the player cannot be seen.
-    prepared : Playing, Dancing or None
+    prepared : PerformanceCurves, Dancing or None
         What ``playing`` will be, once the chunks are proven.
     performer : Performer or None
         Whom ``prepared`` and ``playing`` are of.
@@ -78,18 +78,18 @@ class _Track:
     breaks : dict of int to tuple of Break
         The contacts that chunks break; of those that are not judged (again) yet, as they were.
     problems : tuple of Problem
-        The same, told.
+        The same, reported.
     """
 
     player: Player | Dancer
     plan: PlayerPlan
-    playing: Playing | Dancing | None = None
+    playing: PerformanceCurves | Dancing | None = None
     chunks: dict[int, Chunk] = field(default_factory=dict)
-    basis: Playing | Dancing | None = None
+    basis: PerformanceCurves | Dancing | None = None
     unproven: dict[int, Chunk] = field(default_factory=dict)
     outdated: dict[int, Chunk] = field(default_factory=dict)
     error: Message | None = None
-    prepared: Playing | Dancing | None = None
+    prepared: PerformanceCurves | Dancing | None = None
     performer: Performer | None = None
     judge: ContactJudge | None = None
     judged: set[int] = field(default_factory=set)
@@ -130,7 +130,8 @@ class _Shown:
 class LiveMotion:
     """Poses of all players of the newest performance.
 
-    One thread works (`work`); any thread may ask (`pose`), say what is wanted, and have it made at once (`make_now`).
+    One thread works (`work`); any thread may ask (`pose`), say what is requested, and have it made at once
+    (`make_now`).
 
     Parameters
     ----------
@@ -142,12 +143,12 @@ class LiveMotion:
     def __init__(self, performance: Performance, budget_bytes: int = BUDGET_BYTES) -> None:
         self._budget_bytes = budget_bytes
         self._lock = Lock()
-        self._wanted: tuple[float, float, tuple[str, ...]] = (0.0, SEEN_S, ())
+        self._requested: tuple[float, float, tuple[str, ...]] = (0.0, SEEN_S, ())
         self._todo: Iterator[tuple[str, int]] | None = None
         self._unjudged: Iterator[tuple[_Track, int]] | None = None
         self._broken: dict[str, tuple[Problem, ...]] = {}
         self._working = Lock()
-        """Held while something is made that stays."""
+        """SettingBinding while something is made that stays."""
         self._made: list[tuple[_Track, int, Motion]] = []
         """What was made last, until its contacts are judged."""
         self._chunk_bytes = 0
@@ -207,12 +208,12 @@ class LiveMotion:
                 tracks[dancer.id] = old.after(dancer, plan, same_chunks) if old and kept else _Track(dancer, plan)
             self._shown = _Shown(performance, grid, tracks)
             self._todo = self._unjudged = None
-            self._tell(self._shown)
+            self._report(self._shown)
 
     def want(self, time_s: float, span_s: float = SEEN_S, player_ids: tuple[str, ...] = ()) -> None:
         """Say what is looked at: from a time on, for some seconds, these players before the others (empty: all)."""
-        grid, (last_s, last_span_s, last_ids) = self._shown.grid, self._wanted
-        self._wanted = (time_s, span_s, player_ids)
+        grid, (last_s, last_span_s, last_ids) = self._shown.grid, self._requested
+        self._requested = (time_s, span_s, player_ids)
         moved = grid.place(time_s)[0] // grid.length != grid.place(last_s)[0] // grid.length
         if moved or span_s != last_span_s or player_ids != last_ids:
             with self._lock:
@@ -271,11 +272,12 @@ class LiveMotion:
         track = self._shown.tracks.get(player_id)
         return None if track is None else track.error
 
-    def work(self, stop_wanted: StopWanted = lambda: False) -> bool:
-        """Make the most wanted chunk that is missing; whether there was one. Raises PlayerFault, once for a player."""
+    def work(self, stop_requested: StopRequested = lambda: False) -> bool:
+        """Make the most requested chunk that is missing; whether there was one. Raises PlayerFault, once for a
+        player."""
         self._judge_made()
         with self._working:
-            return self._work(stop_wanted)
+            return self._work(stop_requested)
 
     def make_now(self, player_id: str, time_s: float) -> None:
         """Make a player's frames around a time here and now, in any thread.
@@ -293,14 +295,14 @@ class LiveMotion:
         finally:
             self._working.release()
 
-    def _work(self, stop_wanted: StopWanted) -> bool:
+    def _work(self, stop_requested: StopRequested) -> bool:
         with self._lock:
             shown = self._shown
             if self._todo is None:
                 self._todo = self._missing(shown)
             todo = self._todo
         for player_id, index in todo:
-            if stop_wanted():
+            if stop_requested():
                 return True
             made = self._make(shown, shown.tracks[player_id], index)
             if made is not None:
@@ -339,15 +341,15 @@ class LiveMotion:
                 with self._own_fault(track):
                     self._judge(track, index, motion)
 
-    def judge(self, stop_wanted: StopWanted = lambda: False) -> bool:
+    def judge(self, stop_requested: StopRequested = lambda: False) -> bool:
         """Judge the contacts of some frames that there is no room to keep, once `work` is done; whether there were any.
 
         Of the same thread as `work`. Raises PlayerFault.
         """
         with self._working:
-            return self._judge_some(stop_wanted)
+            return self._judge_some(stop_requested)
 
-    def _judge_some(self, stop_wanted: StopWanted) -> bool:
+    def _judge_some(self, stop_requested: StopRequested) -> bool:
         with self._lock:
             shown = self._shown
             if self._unjudged is None:
@@ -355,14 +357,14 @@ class LiveMotion:
                 self._unjudged = ((track, index) for track in tracks for index in range(shown.grid.chunks))
             unjudged = self._unjudged
         for track, index in unjudged:
-            if stop_wanted():
+            if stop_requested():
                 with self._lock:
                     self._unjudged = None
                 return True
             with self._own_fault(track):
                 if track.playing is None or track.basis is not None:
                     self._prove(shown, track)
-                if not isinstance(track.playing, Playing) or track.error is not None or index in track.judged:
+                if not isinstance(track.playing, PerformanceCurves) or track.error is not None or index in track.judged:
                     continue
                 self._judge(track, index, track.playing.motion(shown.grid.fps, *shown.grid.span(index)))
             return True
@@ -370,12 +372,12 @@ class LiveMotion:
 
     @property
     def seen(self) -> int:
-        """Another number once poses around the time that is wanted were made."""
+        """Another number once poses around the time that is requested were made."""
         return self._seen
 
     @property
     def is_seen(self) -> bool:
-        """Whether everything that is looked at is made, so that nobody waits for what is left."""
+        """Whether everything that is looked at is made, so that no one waits for what is left."""
         shown = self._shown
         places = self._in_sight(shown.grid)
         return all(
@@ -399,11 +401,11 @@ class LiveMotion:
             frame = track.plan.time_frame
             track.problems = (Problem(track.error, None, frame.first_frame_s, frame.end_s),)
             with self._lock:
-                self._tell(self._shown)
+                self._report(self._shown)
             raise PlayerFault(f"{track.player.name}: {detail}") from fault
 
     def _judge(self, track: _Track, index: int, motion: Motion) -> None:
-        assert isinstance(track.playing, Playing)
+        assert isinstance(track.playing, PerformanceCurves)
         assert track.performer is not None
         if track.judge is None:
             track.judge = ContactJudge(track.playing, track.performer.character, track.performer.model)
@@ -415,7 +417,7 @@ class LiveMotion:
 
     def _name_problems(self, track: _Track) -> None:
         """Contacts that a player breaks, or corrections that a dance does not hold."""
-        if track.playing is None or isinstance(track.playing, Playing):
+        if track.playing is None or isinstance(track.playing, PerformanceCurves):
             breaks = [item for index in sorted(track.breaks) for item in track.breaks[index]]
             problems = contact_problems(breaks, track.plan)
         else:
@@ -423,9 +425,9 @@ class LiveMotion:
         if problems != track.problems:
             track.problems = problems
             with self._lock:
-                self._tell(self._shown)
+                self._report(self._shown)
 
-    def _tell(self, shown: _Shown) -> None:
+    def _report(self, shown: _Shown) -> None:
         broken = {player_id: track.problems for player_id, track in shown.tracks.items() if track.problems}
         if broken != self._broken:
             self._broken = broken
@@ -435,10 +437,10 @@ class LiveMotion:
         """How much is made of what there is room for, 0..1."""
         shown = self._shown
         ready = sum(len(track.chunks) for track in shown.tracks.values())
-        wanted = shown.grid.chunks * sum(1 for track in shown.tracks.values() if track.error is None)
+        requested = shown.grid.chunks * sum(1 for track in shown.tracks.values() if track.error is None)
         if self._chunk_bytes:
-            wanted = min(wanted, self._budget_bytes // self._chunk_bytes)
-        return min(ready / wanted, 1.0) if wanted else 1.0
+            requested = min(requested, self._budget_bytes // self._chunk_bytes)
+        return min(ready / requested, 1.0) if requested else 1.0
 
     def ready_spans(self, player_id: str) -> tuple[tuple[float, float], ...]:
         """Where a player's motion is made, as spans of seconds in order."""
@@ -461,7 +463,7 @@ class LiveMotion:
         """What all chunks take."""
         return sum(track.bytes for track in tuple(self._shown.tracks.values()))
 
-    def _playing(self, shown: _Shown, track: _Track) -> Playing | Dancing | None:
+    def _playing(self, shown: _Shown, track: _Track) -> PerformanceCurves | Dancing | None:
         if track.playing is not None or track.error is not None or track.prepared is not None:
             return track.playing or track.prepared
         if isinstance(track.player, Dancer):
@@ -475,7 +477,7 @@ class LiveMotion:
                 track.error = found.left_out[0].reason
             else:
                 track.performer = found.made[track.player.id]
-                basis = track.basis if isinstance(track.basis, Playing) else None
+                basis = track.basis if isinstance(track.basis, PerformanceCurves) else None
                 track.prepared = playing_of(shown.performance, track.performer, basis)
         return track.prepared
 
@@ -490,7 +492,7 @@ class LiveMotion:
             frame = track.plan.time_frame
             track.problems = (Problem(error.message, None, frame.first_frame_s, frame.end_s),)
             with self._lock:
-                self._tell(shown)
+                self._report(shown)
             return None
         track.prepared = made
         return made
@@ -518,8 +520,8 @@ class LiveMotion:
             self._name_problems(track)
 
     def _missing(self, shown: _Shown) -> Iterator[tuple[str, int]]:
-        """Players and chunks, the most wanted first: what is looked at, then the rest by its distance in time."""
-        grid, player_ids = shown.grid, self._wanted[2]
+        """Players and chunks, the most requested first: what is looked at, then the rest by its distance in time."""
+        grid, player_ids = shown.grid, self._requested[2]
         asked = [player_id for player_id in player_ids if player_id in shown.tracks]
         everyone = asked + [player_id for player_id in shown.tracks if player_id not in asked]
         # Who is in front first, then everybody at the playhead, then what is seen next.
@@ -530,12 +532,12 @@ class LiveMotion:
 
     def _in_sight(self, grid: Grid) -> range:
         """The chunks that are looked at; the first one holds the playhead."""
-        time_s, span_s, _ = self._wanted
+        time_s, span_s, _ = self._requested
         return range(grid.place(time_s)[0] // grid.length, grid.place(time_s + span_s)[0] // grid.length + 1)
 
     def _make_room(self, shown: _Shown, track: _Track, index: int) -> bool:
         """Let go of what is farther away than a chunk, as much as it needs; False if there is nothing farther."""
-        player_ids, places = self._wanted[2], self._in_sight(shown.grid)
+        player_ids, places = self._requested[2], self._in_sight(shown.grid)
         here = places[0]
 
         def rank(of: _Track, place: int) -> tuple[int, int]:
@@ -564,11 +566,11 @@ class LiveMotion:
         return False
 
 
-def _changed_s(playing: Playing | Dancing, basis: Playing | Dancing) -> npt.NDArray[np.float64]:
+def _changed_s(playing: PerformanceCurves | Dancing, basis: PerformanceCurves | Dancing) -> npt.NDArray[np.float64]:
     """Spans (K, 2) in which the motion of one is not that of the other."""
-    if isinstance(playing, Playing) and isinstance(basis, Playing):
+    if isinstance(playing, PerformanceCurves) and isinstance(basis, PerformanceCurves):
         return playing.changed_s(basis)
-    assert not isinstance(playing, Playing)
+    assert not isinstance(playing, PerformanceCurves)
     return playing.changed_s(basis)
 
 

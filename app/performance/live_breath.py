@@ -1,4 +1,4 @@
-"""Lungs, lips and eyes of somebody who plays now: they follow breath, bite and bend, and breathe in when the breath
+"""Lungs, lips and eyes of someone who plays now: they follow breath, bite and bend, and breathe in when the breath
 pauses."""
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from app.motion.body import EXHALE_S, Levels
+from app.motion.body import EXHALE_S, LayerSamples
 from app.motion.causal import Reach, Spring
 from app.motion.face import FORM_S, HOLD_S, SHALLOWEST, Drivers
 from app.motion.gaze import BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S, HEAD_TURN_S, MUSIC_PITCH_RAD, SACCADE_S, Look
-from app.motion.perform import Playing
+from app.motion.perform import PerformanceCurves
 from app.motion.seed import generator
 from app.performance.live_hands import FRAMES
 from app.plan.embouchure import strain_of, tension_of
@@ -34,9 +34,9 @@ SHUTS_S = 0.06
 OPENS_S = 0.16
 """The mouth opens for a breath."""
 EMPTY_PAUSE_S, FULL_PAUSE_S = 0.12, 0.45
-"""With empty lungs somebody breathes in as soon as the breath pauses; with full ones only where it pauses longer."""
+"""With empty lungs someone breathes in as soon as the breath pauses; with full ones only where it pauses longer."""
 LEAST_SPENT = 0.08
-"""Nobody breathes in who has hardly breathed out."""
+"""No one breathes in who has hardly breathed out."""
 RELAXES_S = 2.0
 """Full lungs are held for so long; then the body lets go."""
 TENSION_S, PRESSED_S, AIR_S, EFFORT_S, RAISES_S = 0.09, 0.05, 0.10, 0.50, 1.6
@@ -54,7 +54,7 @@ BELL_RISES = 0.5
 class Breathing:
     """Body and face at a moment: members as of `app.motion.perform.Frames`, of `FRAMES` equal frames."""
 
-    levels: Levels
+    levels: LayerSamples
     face: Drivers
 
 
@@ -63,12 +63,12 @@ class LiveBreath:
 
     Parameters
     ----------
-    playing : Playing
+    playing : PerformanceCurves
     expressions : dict of str to Expression
         What ``neutral``, ``strained`` and ``puffed`` look like is seen.
     """
 
-    def __init__(self, playing: Playing, expressions: dict[str, Expression]) -> None:
+    def __init__(self, playing: PerformanceCurves, expressions: dict[str, Expression]) -> None:
         self._instrument, self._parameters = playing.instrument_map, playing.parameters
         self._lung_s = lungful_s(playing.parameters, playing.instrument_map.air)
         self._breath: float | None = None
@@ -235,7 +235,7 @@ class LiveBreath:
             mouth_open=pair(self._mouth.at(now_s)),
             expressions=dict(sorted(expressions.items())),
         )
-        levels = Levels(
+        levels = LayerSamples(
             full=np.full(FRAMES, max(self._full.at(now_s), 0.0)),
             leaning=nothing,
             dip=nothing,
@@ -253,7 +253,7 @@ class LiveBreath:
 class LiveLook:
     """Eyes that rest on the music, and lids that close now and then, but not on an entry."""
 
-    def __init__(self, playing: Playing) -> None:
+    def __init__(self, playing: PerformanceCurves) -> None:
         self._random = generator(playing.player_id, playing.parameters.seed, "look")
         self._yaw, self._head_yaw, self._head_pitch = (Reach.at_rest(0.0) for _ in range(3))
         self._pitch = Reach.at_rest(MUSIC_PITCH_RAD)

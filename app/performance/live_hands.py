@@ -1,4 +1,4 @@
-"""Fingers and slide of somebody who plays now: the fingering of every note as it begins, and the way there.
+"""Fingers and slide of someone who plays now: the fingering of every note as it begins, and the way there.
 
 Nothing is known beforehand: a control leaves its place with the onset and is in place as soon as a hand is there. A
 finger goes to its key with it and stays where it is until it is needed elsewhere, or home once it was not for a while
@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from app.motion.causal import Journey, Reach
 from app.motion.controls import RELEASE_S, need_s, release_s
-from app.motion.perform import Playing
+from app.motion.perform import PerformanceCurves
 from app.motion.stations import FAST_NOTE_S, HOME_S, LEAST_TRAVEL_S, NEIGHBOURS, SLOW_NOTE_S, TRAVEL_S
 from app.plan.next_fingering import REMEMBERED, Fingered, NextFingering
 from app.rig.hold import Placed, giving_for
@@ -71,11 +71,11 @@ class LiveHands:
 
     Parameters
     ----------
-    playing : Playing
+    playing : PerformanceCurves
         Whose instrument and hold; its notes are not looked at.
     """
 
-    def __init__(self, playing: Playing) -> None:
+    def __init__(self, playing: PerformanceCurves) -> None:
         instrument = self._instrument = playing.instrument_map
         self._choice = NextFingering(instrument)
         self._before: deque[Fingered] = deque(maxlen=REMEMBERED)

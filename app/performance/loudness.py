@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.identity_cache import IdentityCache
-from app.plan.heard import STOPS_AT, step_means
-from app.plan.line import MEZZOFORTE, Heard, Steps, velocity_loudness
+from app.plan.breath_envelope import STOPS_AT, step_means
+from app.plan.line import MEZZOFORTE, ControllerInput, Steps, velocity_loudness
 from app.score.model import ControllerCurve, Part
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -35,7 +35,7 @@ def note_loudness(part: Part) -> tuple[float, ...]:
     return () if curve is None else tuple(_loudness(part, curve).tolist())
 
 
-def heard(part: Part) -> Heard | None:
+def heard(part: Part) -> ControllerInput | None:
     """The curves that tell how a part was blown and what the lips did; None if none of them moves."""
     breath = speaking_curve(part)
     span = _span(part)
@@ -46,7 +46,7 @@ def heard(part: Part) -> Heard | None:
     }
     if breath is None and not moving:
         return None
-    return Heard(
+    return ControllerInput(
         breath=None if breath is None else _steps(breath), bite=moving.get("bite"), bend=moving.get("pitch_bend")
     )
 

@@ -13,29 +13,29 @@ from app.errors import Cancelled
 from app.identity_cache import IdentityCache
 from app.motion.doubling import Doubling, doubled
 from app.motion.model import Motion
-from app.motion.perform import Playing, prepare
+from app.motion.perform import PerformanceCurves, prepare
 from app.performance.cast import Performer, performers_of
 from app.performance.ensemble import Performance, changes_of
 from app.performance.span import FrameSpan
 
 Progress = Callable[[float], None]
-"""Told the share 0..1 that is done."""
-StopWanted = Callable[[], bool]
+"""Called with the share 0..1 that is done."""
+StopRequested = Callable[[], bool]
 """Asked now and then; true stops the work."""
 
 CHUNK = 16384
 """Frames made between two questions whether to stop."""
 
-_PLAYING: IdentityCache[Playing] = IdentityCache(16)
+_PLAYING: IdentityCache[PerformanceCurves] = IdentityCache(8)
 _DOUBLED: IdentityCache[tuple[Doubling, ...]] = IdentityCache(8)
 
 
 def playing_of(
-    performance: Performance, performer: Performer, before: Playing | None = None, *, danced: bool = True
-) -> Playing:
+    performance: Performance, performer: Performer, before: PerformanceCurves | None = None, *, danced: bool = True
+) -> PerformanceCurves:
     """A player's plan made ready to be seen; made once for each plan, and from what is still right of ``before``.
 
-    ``danced`` says whether the player's choreography is wanted, which may take seconds to generate.
+    ``danced`` says whether the player's choreography is requested, which may take seconds to generate.
     """
     played = performance.project.played_by(performer.player)
     if len(played) == 1:
@@ -51,7 +51,9 @@ def playing_of(
     return found[[one.player.id for one in all_of].index(performer.player.id)]
 
 
-def _alone(performance: Performance, performer: Performer, before: Playing | None, danced: bool) -> Playing:
+def _alone(
+    performance: Performance, performer: Performer, before: PerformanceCurves | None, danced: bool
+) -> PerformanceCurves:
     """A player's plan made ready to be seen, as if the person played nothing else."""
     player, plan, felt_beats = (
         performer.player,
@@ -87,7 +89,7 @@ def player_motion(
     performance: Performance,
     performer: Performer,
     span: FrameSpan,
-    stop_wanted: StopWanted = lambda: False,
+    stop_requested: StopRequested = lambda: False,
     progress: Progress = lambda share: None,
 ) -> Motion:
     """Make one player's motion over some frames. The same frames are the same bits in every span.
@@ -100,7 +102,7 @@ def player_motion(
     playing = playing_of(performance, performer)
     pieces = []
     for first in range(0, span.count, CHUNK):
-        if stop_wanted():
+        if stop_requested():
             raise Cancelled("work.stopped")
         pieces.append(playing.motion(span.fps, span.first + first, min(CHUNK, span.count - first)))
         progress(min(1.0, (first + CHUNK) / span.count))

@@ -1,4 +1,4 @@
-"""The pose of now of somebody who plays: the chosen character fingers, breathes and moves its lips as one plays.
+"""The pose of now of someone who plays: the chosen character fingers, breathes and moves its lips as one plays.
 
 `PlayAlong` takes what a controller says, as it says it, and gives the pose at any later moment. What is seen of a note
 begins with its onset; nothing is known beforehand. The layers of the body, the face and the contacts are those of
@@ -15,7 +15,7 @@ from fractions import Fraction
 import numpy as np
 
 from app.motion.doubling import Doubling
-from app.motion.perform import Frames, Playing
+from app.motion.perform import Frames, PerformanceCurves
 from app.motion.pose import Poses
 from app.motion.reach import Help
 from app.motion.solve import Curves, helped, needs, poses
@@ -24,7 +24,7 @@ from app.performance.live_breath import LiveBreath, LiveLook
 from app.performance.live_hands import FRAMES, LiveHands
 from app.performance.live_help import LiveHelp
 from app.plan.model import PoseEvent
-from app.score.take import SILENCING, Wiring, decoded, is_wired, said
+from app.score.take import SILENCING, ControllerMapping, decoded, is_wired, said
 from instrument_maps.model import Fingering
 from metadata.load import load_expressions
 from metadata.model import Expression
@@ -38,18 +38,18 @@ ONE_FRAME = Fraction(1)
 class PlayAlong:
     """One player, played now.
 
-    Times are seconds of any clock that runs on (``time.perf_counter_ns() / 1e9``); one that lies before what was told
-    or asked last counts as that. Values out of their range are taken for its end.
+    Times are seconds of any clock that runs on (``time.perf_counter_ns() / 1e9``); one that lies before what was
+    reported or asked last counts as that. Values out of their range are taken for its end.
 
     Parameters
     ----------
-    playing : Playing
+    playing : PerformanceCurves
         Who plays, on what and in which posture (`app.performance.motion.playing_of`); its notes are not looked at.
     expressions : mapping of str to Expression, optional
         What the faces look like; the bundled ones without it.
     """
 
-    def __init__(self, playing: Playing, expressions: Mapping[str, Expression] | None = None) -> None:
+    def __init__(self, playing: PerformanceCurves, expressions: Mapping[str, Expression] | None = None) -> None:
         known = dict(load_expressions() if expressions is None else expressions)
         self._whole = playing
         self._playing = replace(playing, expressions=known)
@@ -136,7 +136,7 @@ class PlayAlong:
         self._time(time_s)
         self._breath.bend(min(max(value, -1.0), 1.0))
 
-    def hear(self, time_s: float, raw: str, wiring: Wiring) -> bool:
+    def hear(self, time_s: float, raw: str, wiring: ControllerMapping) -> bool:
         """Take a MIDI message, in hexadecimal, as takes keep them; what says nothing of notes, breath or lips is passed
         over. Whether a note began or ended.
 
@@ -144,7 +144,7 @@ class PlayAlong:
         ----------
         time_s : float
         raw : str
-        wiring : Wiring
+        wiring : ControllerMapping
             With what the controller sends breath and bite.
         """
         message = decoded(raw)

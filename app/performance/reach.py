@@ -24,7 +24,7 @@ from app.rig.skeleton import forward
 from instrument_maps.model import InstrumentMap
 
 MOST_GAP_M = 0.005
-"""A hand may stay this far from its grip before a person sees it."""
+"""A hand may stay this far from its grip before the user sees it."""
 _NOTE_S, _APART_S = 2.0, 4.0
 
 Place = tuple[tuple[str, float], ...]
@@ -71,7 +71,7 @@ def reached(
     """How far the hands come, and what they do not reach.
 
     Looked at are only controls that a whole hand moves, in every place that the plan uses, as the player would hold
-    them standing or sitting still. Where the places are those of ``before``, an edit ago, nobody is posed again.
+    them standing or sitting still. Where the places are those of ``before``, an edit ago, no one is posed again.
 
     Parameters
     ----------
@@ -154,11 +154,11 @@ def _gaps_m(player: Player, instrument: InstrumentMap, examples: list[FingeringE
         wrist = skeleton.index(f"{hand.side}Hand")
         joints = forward(skeleton, motion.rotations[frames].astype(np.float64), motion.hips_m[frames], (wrist,))
         reached_m, _ = joints.of(wrist)
-        wanted_m, _ = hand_targets(
+        requested_m, _ = hand_targets(
             hand,
             motion.instrument_position_m[frames].astype(np.float64),
             motion.instrument_rotation[frames].astype(np.float64),
             asked,
         )
-        gaps = np.maximum(gaps, np.linalg.norm(reached_m - wanted_m, axis=1))
+        gaps = np.maximum(gaps, np.linalg.norm(reached_m - requested_m, axis=1))
     return [float(gap) for gap in gaps]

@@ -1,4 +1,4 @@
-"""Which frames of a performance are wanted."""
+"""Which frames of a performance are requested."""
 
 from __future__ import annotations
 

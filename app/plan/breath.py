@@ -27,10 +27,10 @@ breath.catch_dropped(after_note, phrase_s, lung_s): "A catch breath instead of n
 breath.catch_dropped_two(first_note, after_note, phrase_s, lung_s): "A catch breath instead of notes {first_note} and
     {after_note}, which are left out: {phrase_s} s without a breath in a rest need more than the {lung_s} s of air
     there are, and no note is long enough to take it from."
-breath.heard(gap_s): "Heard in the breath: {gap_s} s without blowing."
+breath.blown(gap_s): "Heard in the breath: {gap_s} s without blowing."
     Within a note too, which is blown on afterwards.
-breath.heard_preparation(gap_s): "Heard in the breath: {gap_s} s without blowing; getting ready to breathe."
-breath.heard_short(gap_s): "Heard in the breath: {gap_s} s without blowing, where air was needed."
+breath.blown_preparation(gap_s): "Heard in the breath: {gap_s} s without blowing; getting ready to breathe."
+breath.blown_short(gap_s): "Heard in the breath: {gap_s} s without blowing, where air was needed."
 """
 
 from __future__ import annotations
@@ -42,10 +42,10 @@ import numpy as np
 
 from app.errors import Argument, Message
 from app.plan.breath_depths import is_within, too_long, with_depths
+from app.plan.breath_envelope import BreathEnvelope, Silences, gaps_within, silences
 from app.plan.catch_lengths import CATCH_MIN_S, Room, catch_lengths_s, drop_lengths_s
 from app.plan.catch_places import catch_places
 from app.plan.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
-from app.plan.heard import Blown, Silences, gaps_within, silences
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import (
     EPSILON,
@@ -61,13 +61,13 @@ from app.plan.lungs import (
 from app.plan.model import BreathEvent, FloatArray, Problem, TimeFrame
 from app.plan.notation import at_score_tempo, notated
 from app.plan.parameters import PlayerParameters
-from app.plan.rest_breaths import heard_breaths, heard_catch, rest_breaths, within_note
+from app.plan.rest_breaths import blown_breaths, heard_catch, rest_breaths, within_note
 from app.plan.rests import rest_ticks
 from app.plan.stagger import ALONE, Shared, within_held
 from app.score.model import Note
 from instrument_maps.model import Air
 
-NOBODY = Seeds()
+NO_SEEDS = Seeds()
 
 
 class BreathPlan(msgspec.Struct, frozen=True):
@@ -98,9 +98,9 @@ def plan_breaths(
     frame: TimeFrame,
     corrections: tuple[Correction, ...] = (),
     shared: Shared = ALONE,
-    seeds: Seeds = NOBODY,
+    seeds: Seeds = NO_SEEDS,
     air: Air | None = None,
-    heard: Blown | None = None,
+    heard: BreathEnvelope | None = None,
 ) -> BreathPlan:
     """Place every breath of a line.
 
@@ -112,8 +112,8 @@ def plan_breaths(
         Where others of a unison breathe.
     seeds : Seeds
         What tells this player from others where places are equally good.
-    heard : Blown or None
-        The breath that was blown. Where it tells of breaths, they are where it has gaps and nowhere else.
+    heard : BreathEnvelope or None
+        The breath that was blown. Where it shows breaths, they are where it has gaps and nowhere else.
     """
     if not notes:
         return BreathPlan((), (), frozenset(), {}, frozenset())
@@ -162,7 +162,7 @@ class _Score(NamedTuple):
     rests : (N,) int64
         Ticks of rest before each note.
     gaps : Silences or None
-        Where the breath that was blown tells of breaths.
+        Where the breath that was blown shows breaths.
     used, steady_used : (N + 1,) float
         `app.plan.lungs.air_used_s` of both.
     lung_s : float
@@ -222,7 +222,7 @@ class _Stock(NamedTuple):
     room: Room
 
 
-def _read(line: _Breather, air: Air | None, heard: Blown | None) -> _Score:
+def _read(line: _Breather, air: Air | None, heard: BreathEnvelope | None) -> _Score:
     times, piece = line.times, line.piece
     gaps = None if heard is None or not heard.tells_breaths(times) else silences(heard, times)
     lung_s = lungful_s(line.parameters, air)
@@ -249,7 +249,7 @@ def _given(
 ) -> _Given:
     notes, times, piece, parameters = line.notes, line.times, line.piece, line.parameters
     if score.gaps is not None:
-        generated = (*heard_breaths(notes, times, piece, parameters, frame, score.gaps), *score.within)
+        generated = (*blown_breaths(notes, times, piece, parameters, frame, score.gaps), *score.within)
     else:
         generated = rest_breaths(notes, times, piece, parameters, frame, score.rests)
         if not parameters.circular_breathing:
@@ -260,7 +260,7 @@ def _given(
     removed, hand_ids = removed_ids(corrections), frozenset(event.id for event in by_hand)
     kept = [event for event in without_removed(generated, removed) if event.id not in hand_ids]
     if score.gaps is None and parameters.breath_need > 0.0:
-        # In a rest too short for it nobody breathes unless the note before is shortened too: a catch breath.
+        # In a rest too short for it no one breathes unless the note before is shortened too: a catch breath.
         kept = [
             event for event in kept if event.kind != "breath" or event.end_s - event.start_s >= CATCH_MIN_S - EPSILON
         ]

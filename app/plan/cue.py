@@ -32,7 +32,7 @@ import numpy as np
 from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, SetCue, removed_ids
 from app.plan.dynamics import vigour_of
-from app.plan.line import BEFORE_FIRST_TICK, IntArray, Line, LineTimes, Piece, Rhythm
+from app.plan.line import BEFORE_FIRST_TICK, IntArray, LineTimes, MonophonicPart, Piece, Rhythm
 from app.plan.model import CueEvent, FloatArray, TimeFrame
 from instrument_maps.vocabulary import vocabulary
 
@@ -40,7 +40,7 @@ COMMON_REST_BARS = 2
 COMMON_REST_S = 4.0
 """A rest of all players this long needs a new start: everyone has lost the beat (either is enough)."""
 COMMON_REST_LEAST_S = 2.0
-"""Short bars rest quickly over: nobody has lost the beat by then."""
+"""Short bars rest quickly over: no one has lost the beat by then."""
 PAUSE_LEAST_S = 1.5
 """A silence of all for a whole bar, and so long, is a general pause."""
 LEAST_BEATS = 2.0
@@ -70,7 +70,7 @@ DOUBLED_SHARE = 0.8
 SMALLEST, LARGEST = 0.4, 1.2
 """A cue to play softly is small, but seen; one to play loudly is no leap."""
 ON_BEAT = 0.12
-"""What is nearer to a beat, in beats, is on it: nobody plays more exactly."""
+"""What is nearer to a beat, in beats, is on it: no one plays more exactly."""
 
 Reason: TypeAlias = Literal[
     "cue.start", "cue.after_rest", "cue.after_pause", "cue.after_fermata", "cue.tempo", "cue.joins"
@@ -100,7 +100,7 @@ class Entry(msgspec.Struct, frozen=True):
 def entries(all_times: tuple[Rhythm, ...], piece: Piece, persons: tuple[str, ...] = ()) -> tuple[Entry, ...]:
     """Every place that asks for a cue, in order: by the rhythm of the lines and the tempo alone.
 
-    ``persons`` says who plays each line, where somebody plays several: whoever changes instruments has not rested.
+    ``persons`` says who plays each line, where someone plays several: whoever changes instruments has not rested.
     """
     sounding = [(line, times) for line, times in enumerate(all_times) if len(times.onset_tick)]
     if not sounding:
@@ -187,7 +187,7 @@ def _common_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Pi
 
 
 def _silence(sounding: list[tuple[int, Rhythm]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
-    """Why everybody needs a cue after a silence of all from ``end`` to ``tick``; None if nobody does."""
+    """Why everybody needs a cue after a silence of all from ``end`` to ``tick``; None if no one does."""
     bars, beats = (tick - end) / piece.metre_map.bar_ticks_at(end), (tick - end) / _beat(piece, tick)
     if beats >= LEAST_BEATS:
         if rest_s >= COMMON_REST_S or (bars >= COMMON_REST_BARS and rest_s >= COMMON_REST_LEAST_S):
@@ -220,7 +220,7 @@ def _tempo_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Pie
         tick, beat = int(beats[place]), _beat(piece, int(beats[place]))
         reason = _new_tempo(lasts_s, place)
         players = _coming_in(sounding, tick, beat)
-        # Somebody alone with an accompaniment goes with it.
+        # Someone alone with an accompaniment goes with it.
         carried = len(sounding) == 1 and accompaniment.sounds_before(tick, beat)
         if reason is None or not players or carried or tick <= lines.starts[0]:
             continue
@@ -290,13 +290,13 @@ def _joining(
 
 
 def leader_of(
-    entry: Entry, lines: tuple[Line, ...], all_times: tuple[LineTimes, ...], piece: Piece
+    entry: Entry, lines: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...], piece: Piece
 ) -> tuple[int | None, str]:
     """Index of the line that gives an entry, and why ("chosen" or "melody").
 
     A player whose ``cue_leader`` is set gives every entry of all; of several, one who comes in here, then the first.
     Who comes in while others play is brought in by one of themselves. Otherwise it is the first part of the section
-    that has the melody, leaving out who must not lead. None where nobody may.
+    that has the melody, leaving out who must not lead. None where no one may.
     """
     chosen = [index for index, line in enumerate(lines) if line.parameters.cue_leader]
     entering = {line for line, _ in entry.players}
@@ -321,7 +321,7 @@ def leader_of(
     return next(line for line in free if sections[line] == section), "melody"
 
 
-def _at_hand(leader: int, tick: int, lines: tuple[Line, ...], all_times: tuple[LineTimes, ...]) -> int:
+def _at_hand(leader: int, tick: int, lines: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...]) -> int:
     """Of all lines of the leader's person the one whose instrument is in the hands: what begins there, or began last
     before it."""
     person = lines[leader].person or lines[leader].player_id
@@ -337,14 +337,14 @@ def _at_hand(leader: int, tick: int, lines: tuple[Line, ...], all_times: tuple[L
     return max(own, key=lambda index: (last(index), index == leader))
 
 
-def _section(line: Line) -> str:
+def _section(line: MonophonicPart) -> str:
     """Who sits together: the family of the instrument, or the instrument."""
     return vocabulary().family(line.instrument_map.plays) or line.instrument_map.id
 
 
 def plan_cues(
     found: tuple[Entry, ...],
-    lines: tuple[Line, ...],
+    lines: tuple[MonophonicPart, ...],
     all_times: tuple[LineTimes, ...],
     piece: Piece,
     frame: TimeFrame,
@@ -366,7 +366,7 @@ def plan_cues(
         loudness = float(np.mean([all_times[line].loudness[index] for line, index in entry.players]))
         amount = round(min(max(float(vigour_of(np.array([loudness]))[0]), SMALLEST), LARGEST), 4)
         cue = _cue(lines[leader].player_id, note, entry, why, piece, frame, amount)
-        # Nobody nods twice at once.
+        # No one nods twice at once.
         if cue.start_s >= busy_until_s.get(leader, -np.inf):
             busy_until_s[leader] = cue.end_s
             generated.append(cue)

@@ -23,7 +23,7 @@ from app.errors import Message
 from app.plan.model import GestureEvent, PlayerPlan, Problem
 
 NEEDED_S: Final = 2.0
-"""A shorter rest is told; assumed."""
+"""A shorter rest is reported; assumed."""
 USUAL_S: Final = 3.4
 """A change that has the time takes so long; assumed."""
 LEAST_S: Final = 0.8
@@ -155,13 +155,15 @@ def held_plan(plan: PlayerPlan, first: str, found: Sequence[Change], names: Mapp
     lowered = [event for event in plan.gestures if event.kind == "lower_instrument"]
     others = _within([event for event in plan.gestures if event.kind != "lower_instrument"], spans)
     gestures: list[GestureEvent] = sorted((*lowered, *others), key=lambda event: event.start_s)
-    told = [_problem(change, names) for change in found if change.after == plan.player_id and change.rest_s < NEEDED_S]
+    reported = [
+        _problem(change, names) for change in found if change.after == plan.player_id and change.rest_s < NEEDED_S
+    ]
     return msgspec.structs.replace(
         plan,
         cues=_within(plan.cues, spans, at_end=True),
         gestures=tuple(gestures),
         expressions=_within(plan.expressions, spans),
-        problems=tuple(sorted((*plan.problems, *told), key=lambda problem: problem.start_s)),
+        problems=tuple(sorted((*plan.problems, *reported), key=lambda problem: problem.start_s)),
     )
 
 

@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from app.plan.heard import Blown
+from app.plan.breath_envelope import BreathEnvelope
 from app.plan.line import MEZZOFORTE, LineTimes
 from app.plan.model import FloatArray
 
@@ -60,7 +60,7 @@ class Dynamics:
     __hash__ = None  # type: ignore[assignment]
 
 
-def dynamics_of(times: LineTimes, heard: Blown | None) -> Dynamics:
+def dynamics_of(times: LineTimes, heard: BreathEnvelope | None) -> Dynamics:
     """The dynamics of a line, by its curve where one was recorded or drawn, else by its notes."""
     lasts_s = times.duration_s
     parts = np.maximum(np.ceil(lasts_s / HELD_S), 1.0).astype(np.int64)

@@ -4,7 +4,7 @@ tongue's stroke before each attack.
 Messages
 --------
 embouchure.register(pitch, low, high, loudness): "{pitch} in a range of {low}-{high}, loudness {loudness}."
-embouchure.heard(pitch, low, high, loudness): "{pitch} in a range of {low}-{high}; loudness, heard in the breath,
+embouchure.controller(pitch, low, high, loudness): "{pitch} in a range of {low}-{high}; loudness, heard in the breath,
     {loudness} on average."
 """
 
@@ -78,7 +78,7 @@ def plan_embouchures(
     tension, effort = strain_of(register, times.loudness, times.duration_s)
     tension = np.clip(tension * parameters.embouchure_tension, 0.0, 1.0)
     low, top = instrument.range.low, instrument.range.high
-    told = "embouchure.heard" if heard else "embouchure.register"
+    reported = "embouchure.controller" if heard else "embouchure.register"
     reasons: dict[tuple[int, float], Message] = {}
     events = []
     rows = zip(
@@ -90,7 +90,7 @@ def plan_embouchures(
         reason = reasons.get((midi, loudness))
         if reason is None:
             arguments = {"pitch": midi, "low": low, "high": top, "loudness": loudness}
-            reason = reasons[midi, loudness] = Message(told, arguments)
+            reason = reasons[midi, loudness] = Message(reported, arguments)
         end_s = early_end_s.get(index, end_s)
         events.append(EmbouchureEvent(f"embouchure:{note.id}", note.id, start_s, end_s, tight, strain, air, reason))
     return tuple(events)

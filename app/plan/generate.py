@@ -11,6 +11,7 @@ import msgspec
 from app.errors import Cancelled
 from app.plan.bar_phase import with_felt_bars
 from app.plan.breath import plan_breaths
+from app.plan.breath_envelope import blown
 from app.plan.corrections import (
     AddExpression,
     AddGesture,
@@ -37,8 +38,7 @@ from app.plan.ending import Ending, ending_of
 from app.plan.expression import SMILE_ID, plan_expressions
 from app.plan.fingering import plan_fingerings
 from app.plan.gesture import Pulse, plan_gestures, pulse
-from app.plan.heard import blown
-from app.plan.line import Line, LineTimes, Piece, Seeds, note_times, without_sound
+from app.plan.line import LineTimes, MonophonicPart, Piece, Seeds, note_times, without_sound
 from app.plan.memo import Memo
 from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, Problem, TimeFrame
 from app.plan.parameters import restricted
@@ -51,7 +51,7 @@ from app.score.tempo import TempoMap
 from metadata.load import load_expressions
 from metadata.model import Expression
 
-__all__ = ["EnsemblePlan", "Line", "Piece", "make_plans", "plan_ensemble", "time_frame"]
+__all__ = ["EnsemblePlan", "MonophonicPart", "Piece", "make_plans", "plan_ensemble", "time_frame"]
 
 PREROLL_BEATS = 4.0
 PREROLL_LEAST_S = 2.0
@@ -59,7 +59,10 @@ AFTER_LAST_S = 2.0
 
 
 def time_frame(
-    lines: tuple[Line, ...], clock: TempoMap, preroll_beats: float = PREROLL_BEATS, beat_ticks: int | None = None
+    lines: tuple[MonophonicPart, ...],
+    clock: TempoMap,
+    preroll_beats: float = PREROLL_BEATS,
+    beat_ticks: int | None = None,
 ) -> TimeFrame:
     """The performance's span: a pre-roll of some beats, at least 2 s, before the first note of all lines, to 2 s
     after the last. Times before the first tick are negative. Without any note: around tick 0.
@@ -109,7 +112,7 @@ class EnsemblePlan:
 
 def make_plans(
     piece: Piece,
-    lines: tuple[Line, ...],
+    lines: tuple[MonophonicPart, ...],
     frame: TimeFrame,
     seed: int = 0,
     expressions: Mapping[str, Expression] | None = None,
@@ -120,12 +123,12 @@ def make_plans(
 
 def plan_ensemble(
     piece: Piece,
-    lines: tuple[Line, ...],
+    lines: tuple[MonophonicPart, ...],
     frame: TimeFrame,
     seed: int = 0,
     expressions: Mapping[str, Expression] | None = None,
     before: EnsemblePlan | None = None,
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
     progress: Callable[[float], None] = lambda share: None,
 ) -> EnsemblePlan:
     """Plan every line of the ensemble, in order.
@@ -141,7 +144,7 @@ def plan_ensemble(
     before : EnsemblePlan, optional
         Of the same ensemble before an edit: what has not changed is taken from there, to the object.
     stop_wanted, progress : callable
-        Asked, and told the share that is done, between two players.
+        Asked, and called with the share that is done, between two players.
 
     Raises
     ------
@@ -151,9 +154,9 @@ def plan_ensemble(
     faces = load_expressions() if expressions is None else expressions
     shared = Memo(None if before is None else before.shared)
     own = {line.player_id: Memo(None if before is None else before.own.get(line.player_id)) for line in lines}
-    playable: list[tuple[Line, LineTimes, tuple[Problem, ...]]] = []
+    playable: list[tuple[MonophonicPart, LineTimes, tuple[Problem, ...]]] = []
     for line in lines:
-        _go_on(stop_wanted)
+        _go_on(stop_requested)
         playable.append(_playable(line, piece.clock, tuple(faces), frame.first_frame_s, own[line.player_id]))
     lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
     piece = shared.step("felt bars", with_felt_bars, piece, all_times)
@@ -168,7 +171,7 @@ def plan_ensemble(
     breathed: list[Breathed] = []
     plans = {}
     for done, (line, times, problems) in enumerate(playable):
-        _go_on(stop_wanted)
+        _go_on(stop_requested)
         this = together[done]
         others = [*together[:done], *together[done + 1 :]]
         shared_breaths = shared_with(this, others, breathed)
@@ -190,34 +193,34 @@ def _cues_of(cues: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...]
     return tuple(cue for cue in cues if cue.player_id == player_id)
 
 
-def _go_on(stop_wanted: Callable[[], bool]) -> None:
-    if stop_wanted():
+def _go_on(stop_requested: Callable[[], bool]) -> None:
+    if stop_requested():
         raise Cancelled("work.stopped")
 
 
 def _playable(
-    line: Line, clock: TempoMap, faces: tuple[str, ...], at_s: float, memo: Memo
-) -> tuple[Line, LineTimes, tuple[Problem, ...]]:
-    """A line as it can be played, with its times, and what to tell of the rest."""
+    line: MonophonicPart, clock: TempoMap, faces: tuple[str, ...], at_s: float, memo: Memo
+) -> tuple[MonophonicPart, LineTimes, tuple[Problem, ...]]:
+    """A line as it can be played, with its times, and what to report about the rest."""
     sound, unsound = memo.step("sound", sound_corrections, line.corrections, faces, at_s)
-    bare = Line(line.player_id, line.notes, line.instrument_map, loudness=line.loudness)
-    single, told = memo.step("single", one_at_a_time, bare, clock)
+    bare = MonophonicPart(line.player_id, line.notes, line.instrument_map, loudness=line.loudness)
+    single, reported = memo.step("single", one_at_a_time, bare, clock)
     times = memo.step("times", note_times, single.notes, single.loudness, clock)
     line = memo.step("playable", _with_notes, line, single.notes, single.loudness, sound)
-    return line, times, unsound + told
+    return line, times, unsound + reported
 
 
 def _with_notes(
-    line: Line, notes: tuple[Note, ...], loudness: tuple[float, ...], corrections: tuple[Correction, ...]
-) -> Line:
+    line: MonophonicPart, notes: tuple[Note, ...], loudness: tuple[float, ...], corrections: tuple[Correction, ...]
+) -> MonophonicPart:
     return msgspec.structs.replace(line, notes=notes, loudness=loudness, corrections=corrections)
 
 
-def _leading(line: Line) -> Line:
+def _leading(line: MonophonicPart) -> MonophonicPart:
     """The line as far as cues depend on it."""
     corrections = _of(line.corrections, SetCue, RemoveEvent, SetBreath)
     parameters = restricted(line.parameters, "cues")
-    return Line(line.player_id, line.notes, line.instrument_map, parameters, corrections, person=line.person)
+    return MonophonicPart(line.player_id, line.notes, line.instrument_map, parameters, corrections, person=line.person)
 
 
 def _of(corrections: tuple[Correction, ...], *kinds: type[Correction]) -> tuple[Correction, ...]:
@@ -229,7 +232,7 @@ class _Given(NamedTuple):
     """What one player's plan is made from."""
 
     piece: Piece
-    line: Line
+    line: MonophonicPart
     times: LineTimes
     frame: TimeFrame
     cues: tuple[CueEvent, ...]
@@ -239,7 +242,7 @@ class _Given(NamedTuple):
     seed: int
     pulse: Pulse
     ending: Ending
-    told: tuple[Problem, ...]
+    reported: tuple[Problem, ...]
     faces: Mapping[str, Expression]
 
 
@@ -319,7 +322,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         made_expressions,
         frame.first_frame_s,
     )
-    problems = (*fingering_problems, *breaths.problems, *pose_problems, *given.told, *lost)
+    problems = (*fingering_problems, *breaths.problems, *pose_problems, *given.reported, *lost)
     plan = PlayerPlan(
         player_id=line.player_id,
         time_frame=frame,

@@ -67,7 +67,7 @@ class Steps:
 
 
 @dataclass(frozen=True)
-class Heard:
+class ControllerInput:
     """What a wind controller, or whoever drew the curves, says about how a line is played; None: nothing.
 
     Attributes
@@ -85,7 +85,7 @@ class Heard:
     bend: Steps | None = None
 
 
-class Line(msgspec.Struct, frozen=True):
+class MonophonicPart(msgspec.Struct, frozen=True):
     """What one player plays, on what, and what the animator said about it.
 
     Attributes
@@ -94,7 +94,7 @@ class Line(msgspec.Struct, frozen=True):
         Monophonic, ordered by onset; neighbours may overlap a little (legato).
     loudness : tuple of float
         Mean loudness 0..1 of every note where a breath, volume or expression curve says it; empty: the velocities do.
-    heard : Heard or None
+    heard : ControllerInput or None
         Those curves, and what else tells about the lips.
     person : str
         Id of the player whose body plays it; empty: one of its own.
@@ -106,7 +106,7 @@ class Line(msgspec.Struct, frozen=True):
     parameters: PlayerParameters = PlayerParameters()
     corrections: tuple[Correction, ...] = ()
     loudness: tuple[float, ...] = ()
-    heard: Heard | None = None
+    heard: ControllerInput | None = None
     person: str = ""
 
 
@@ -119,7 +119,7 @@ class Piece(msgspec.Struct, frozen=True):
     metre_map : MetreMap
         With the beat that is felt, and the bars where they are felt to begin.
     accompaniment : tuple of (start tick, end tick)
-        Where parts sound that nobody plays, in order and apart from each other.
+        Where parts sound that no one plays, in order and apart from each other.
     """
 
     clock: TempoMap
@@ -256,13 +256,13 @@ def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> np
     return short & (between <= STACCATO_QUARTERS * quarter_ticks)
 
 
-def line_times(line: Line, clock: TempoMap) -> LineTimes:
+def line_times(line: MonophonicPart, clock: TempoMap) -> LineTimes:
     """The times of a line's notes. A line without notes gives empty arrays."""
     return note_times(line.notes, line.loudness, clock)
 
 
 def note_times(notes: tuple[Note, ...], loudness: tuple[float, ...], clock: TempoMap) -> LineTimes:
-    """The same of notes, with the loudness that is known of them (see `Line`)."""
+    """The same of notes, with the loudness that is known of them (see `MonophonicPart`)."""
     count = len(notes)
     onset = np.fromiter((note.onset_tick for note in notes), np.int64, count)
     duration = np.fromiter((note.duration_tick for note in notes), np.int64, count)

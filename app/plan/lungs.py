@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from app.plan.breath_envelope import STOPS_AT, BreathEnvelope, step_means
 from app.plan.dynamics import mean_around
-from app.plan.heard import STOPS_AT, Blown, step_means
 from app.plan.line import MEZZOFORTE, IntArray, LineTimes, marked
 from app.plan.model import FloatArray
 from app.plan.parameters import PlayerParameters
@@ -35,12 +35,12 @@ EPSILON = 1e-6
 """Rounding of air summed over an hour of notes, seconds."""
 
 
-def air_used_s(times: LineTimes, air: Air | None = None, heard: Blown | None = None) -> FloatArray:
+def air_used_s(times: LineTimes, air: Air | None = None, heard: BreathEnvelope | None = None) -> FloatArray:
     """(N + 1,): air taken by all notes before each, and by all, in seconds of playing at mezzoforte.
 
     Parameters
     ----------
-    heard : Blown or None
+    heard : BreathEnvelope or None
         The breath, where it tells when air is blown: then all of it counts, also between the notes.
     """
     lasts_s = times.duration_s
@@ -74,7 +74,7 @@ def lungful_s(parameters: PlayerParameters, air: Air | None = None) -> float:
 
 def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
     """(N,): how full the lungs are (0..1) at each note's onset, after the breath before it."""
-    # Nobody enters on empty lungs: without any breath before the first note (removed by hand) a normal one is assumed.
+    # No one enters on empty lungs: without any breath before the first note (removed by hand) a normal one is assumed.
     here, before = (0.5 if refill[0] == 0.0 else 0.0), 0
     breaths = np.flatnonzero(refill > 0.0)
     full = [here]

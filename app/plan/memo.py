@@ -49,7 +49,7 @@ class Memo:
             raise TypeError(f"step {name!r} reads more than its arguments")
         known = self._before.get(name)
         if known is not None and _equal(known[0], inputs):
-            # The inputs of the run before: equal ones that are the same objects are told apart from others at once.
+            # The inputs of the run before: equal ones that are the same objects are distinguished from others at once.
             self._steps[name] = known
             return known[1]  # type: ignore[no-any-return]
         result = function(*given, *inputs)

@@ -186,7 +186,7 @@ class TimeFrame(msgspec.Struct, frozen=True):
 
 
 @dataclass(frozen=True, eq=False)
-class Traces:
+class SampledCurves:
     """What the lips do within the notes too, 0..1, sampled; the ends hold.
 
     Fields as of `EmbouchureEvent`, which has the mean of each note.
@@ -208,7 +208,7 @@ class Traces:
 
     def __eq__(self, other: object) -> bool:
         """Whether they are the same to the last bit, as plans are compared."""
-        if not isinstance(other, Traces):
+        if not isinstance(other, SampledCurves):
             return NotImplemented
         return (
             (self.start_s, self.step_s) == (other.start_s, other.step_s)
@@ -238,7 +238,7 @@ class PlayerPlan(msgspec.Struct, frozen=True):
     expressions: tuple[ExpressionEvent, ...]
     problems: tuple[Problem, ...]
     poses: tuple[PoseEvent, ...] = ()
-    traces: Traces | None = None
+    traces: SampledCurves | None = None
 
     @property
     def grips(self) -> tuple[FingeringEvent, ...]:

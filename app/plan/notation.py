@@ -1,4 +1,4 @@
-"""Where notes that somebody played would stand in a score: a musician decides by that, not by how each turned out."""
+"""Where notes that someone played would stand in a score: a musician decides by that, not by how each turned out."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from app.plan.line import IntArray, LineTimes, Piece
 from app.plan.model import FloatArray
 
 WRITTEN_SHARE = 0.9
-"""Where so many notes lie on fractions of a quarter, nobody played them into the file ..."""
+"""Where so many notes lie on fractions of a quarter, no one played them into the file ..."""
 PLAYED_LEAST = 4
 """... nor where fewer than this lie elsewhere."""
 DIVISIONS = ((1,), (2,), (3, 4), (6, 8), (12,))
@@ -31,7 +31,7 @@ LATE_RELEASE = 0.05
 STEADY_QUARTERS = 24
 """The tempo of the score is the median of so many quarters before and after: a shorter ritardando is none."""
 PLACES = 48
-"""Places of a quarter that are told apart, however finely a file counts."""
+"""Places of a quarter that are distinguished, however finely a file counts."""
 SHORTEST_REST = 0.2
 """Quarters of silence below which no score writes a rest."""
 
@@ -39,7 +39,7 @@ SHORTEST_REST = 0.2
 def written_onsets(
     onsets: IntArray, quarter_ticks: int, bars: IntArray, reach_ticks: IntArray | None = None
 ) -> IntArray:
-    """(N,): where notes that somebody played would stand in a score.
+    """(N,): where notes that someone played would stand in a score.
 
     Onsets that mostly lie on fractions of a quarter are written ones, and are kept as they are.
 

@@ -1,4 +1,4 @@
-"""What a person may set of a performer: each parameter is declared once, where it is a field.
+"""What the user may set of a performer: each parameter is declared once, where it is a field.
 
 Its type, name and default are the field's; all else is said by the `Parameter` in its annotation. Sliders and lists of
 choices, ``--set``, checks, presets, randomising, the history, older files and what is made anew after a change follow
@@ -82,7 +82,7 @@ class Parameter:
 
     @property
     def words(self) -> tuple[str, ...]:
-        """Every text that a person may see."""
+        """Every text that the user may see."""
         return tuple(filter(None, (self.label, self.tip, self.unit, *(word for _, word in self.choices))))
 
     @property

@@ -46,7 +46,7 @@ GENTLE_RAD_S2 = 40.0
 """However short a fade was asked for, nothing is turned with more than this acceleration."""
 LEAST_FADE_S = 0.15
 TOLD_DEG = 1.0
-"""An angle this much beyond what a body does is told."""
+"""An angle this much beyond what a body does is reported."""
 
 _PEAK = 10.0 / math.sqrt(3.0)
 """Peak acceleration of a minimum-jerk move over 1 in 1 s."""

@@ -1,4 +1,4 @@
-"""The breaths that rests give, or the silences of somebody who was heard to blow.
+"""The breaths that rests give, or the silences of someone who was heard to blow.
 
 Their messages are those of `app.plan.breath`.
 """
@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from app.errors import Message
+from app.plan.breath_envelope import BREATH_S, Silences
 from app.plan.corrections import WITHIN
-from app.plan.heard import BREATH_S, Silences
 from app.plan.line import IntArray, LineTimes, Piece
 from app.plan.lungs import EPSILON
 from app.plan.model import BreathEvent, FloatArray, TimeFrame
@@ -33,15 +33,15 @@ def rest_breaths(
     silence[0] = _before_first(times, piece, frame)
     beats = piece.beat_ticks_at(times.onset_tick)
     serving = np.flatnonzero((silence / beats >= parameters.breath_min_beats) & (silence > 0))
-    told = _Told(
+    reported = _Report(
         lambda index, rest, long, prepared: _rest_reason(index, rest, long, prepared, parameters),
         lambda index, rest: _preparation_reason(rest, parameters),
     )
     room = times.silence_tick.astype(np.float64)
-    return _in_silences(notes, serving, silence, room, times.onset_tick, times.onset_s, piece, parameters, told)
+    return _in_silences(notes, serving, silence, room, times.onset_tick, times.onset_s, piece, parameters, reported)
 
 
-def heard_breaths(
+def blown_breaths(
     notes: tuple[Note, ...],
     times: LineTimes,
     piece: Piece,
@@ -49,7 +49,7 @@ def heard_breaths(
     frame: TimeFrame,
     gaps: Silences,
 ) -> tuple[BreathEvent, ...]:
-    """The breaths of somebody who was heard to blow: in the gaps, each shaped by its length as in a rest.
+    """The breaths of someone who was heard to blow: in the gaps, each shaped by its length as in a rest.
 
     What the rests of the score say counts only before the first note and before notes that were not blown.
     """
@@ -70,19 +70,19 @@ def heard_breaths(
 
     def reason(index: int, rest: float, long: bool, prepared: bool) -> Message:
         if heard[index]:
-            return _heard_reason("breath.heard", gaps, index)
+            return _blown_reason("breath.blown", gaps, index)
         return _rest_reason(index, rest, long, prepared, parameters)
 
     def preparation(index: int, rest: float) -> Message:
         if heard[index]:
-            return _heard_reason("breath.heard_preparation", gaps, index)
+            return _blown_reason("breath.blown_preparation", gaps, index)
         return _preparation_reason(rest, parameters)
 
-    told = _Told(reason, preparation)
-    return _in_silences(notes, serving, silence, silence, end_tick, end_s, piece, parameters, told)
+    reported = _Report(reason, preparation)
+    return _in_silences(notes, serving, silence, silence, end_tick, end_s, piece, parameters, reported)
 
 
-class _Told(NamedTuple):
+class _Report(NamedTuple):
     """Why a breath, and the preparation for one, are there: by note, length in beats, and which thresholds it has."""
 
     breath: Callable[[int, float, bool, bool], Message]
@@ -104,7 +104,7 @@ def _in_silences(
     end_s: FloatArray,
     piece: Piece,
     parameters: PlayerParameters,
-    told: _Told,
+    reported: _Report,
 ) -> tuple[BreathEvent, ...]:
     """Breaths in silences, by the thresholds.
 
@@ -142,7 +142,7 @@ def _in_silences(
                     start_s=float(preparation_s[place]),
                     end_s=float(start_s[place]),
                     depth=1.0,
-                    reason=told.preparation(index, rest),
+                    reason=reported.preparation(index, rest),
                 )
             )
         events.append(
@@ -154,13 +154,13 @@ def _in_silences(
                 start_s=float(start_s[place]),
                 end_s=float(end_s[index]),
                 depth=1.0,
-                reason=told.breath(index, rest, bool(long[place]), bool(prepared[place])),
+                reason=reported.breath(index, rest, bool(long[place]), bool(prepared[place])),
             )
         )
     return tuple(events)
 
 
-def _heard_reason(id: str, gaps: Silences, index: int) -> Message:
+def _blown_reason(id: str, gaps: Silences, index: int) -> Message:
     return Message(id, {"gap_s": round(float(gaps.length_s[index]), 2)})
 
 
@@ -195,7 +195,7 @@ def heard_catch(note: Note, piece: Piece, gaps: Silences, index: int) -> BreathE
         start_s=start_s,
         end_s=end_s,
         depth=1.0,
-        reason=_heard_reason("breath.heard_short", gaps, index),
+        reason=_blown_reason("breath.blown_short", gaps, index),
     )
 
 
@@ -208,5 +208,5 @@ def within_note(note: Note, piece: Piece, start_s: float, end_s: float) -> Breat
         start_s=start_s,
         end_s=end_s,
         depth=1.0,
-        reason=Message("breath.heard", {"gap_s": round(end_s - start_s, 2)}),
+        reason=Message("breath.blown", {"gap_s": round(end_s - start_s, 2)}),
     )

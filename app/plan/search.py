@@ -94,11 +94,11 @@ LEGATO_COST = 1.25
 REVERSAL_COST = 0.5
 """Turning the slide back at speed."""
 OTHER_PLACE_COST = 4.0
-"""A note in another place of the slide than the same pitch two notes before, in hurried steps: nobody changes it within
+"""A note in another place of the slide than the same pitch two notes before, in hurried steps: no one changes it within
 a figure for little."""
 
 REPEATED_COST, REPEATED_HOME_COST = 8.0, 0.8
-"""Another fingering for a note that is repeated: nobody changes it without a trill, a correction or a silence, but to
+"""Another fingering for a note that is repeated: no one changes it without a trill, a correction or a silence, but to
 come back to a better one where there is time."""
 REPEATED_HURRIED_S, REPEATED_EASY_S = 0.3, 0.4
 """There is none in steps as short as the one, and enough from the other on."""
@@ -547,7 +547,7 @@ def _chain_of_pairs(local: FloatArray, cost: FloatArray, reversal: FloatArray) -
 
 
 def even_trills(problem: FingeringProblem, path: IntArray) -> IntArray:
-    """Finger the first and the last two notes of every trill as those within: nobody changes while trilling."""
+    """Finger the first and the last two notes of every trill as those within: no one changes while trilling."""
     steps = np.concatenate(([False], problem.in_trill, [False]))
     if not steps.any():
         return path

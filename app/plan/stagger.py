@@ -33,7 +33,7 @@ BREATH_S = 0.4
 APART_S = 2.0
 """Breaths of a section that are this far apart are not noticed."""
 FROM_EDGES_S = 1.0
-"""Nobody breathes so soon after a held note begins, or before it ends."""
+"""No one breathes so soon after a held note begins, or before it ends."""
 TRIED = 17
 """Times that are compared for each breath."""
 
@@ -81,7 +81,7 @@ class Shared(NamedTuple):
     caught : frozenset of int
         Notes before which others of the unison take catch breaths.
     held : tuple of (int, tuple of float)
-        Held notes that others hold too, with the times (seconds) at which those breathe in them.
+        SettingBinding notes that others hold too, with the times (seconds) at which those breathe in them.
     """
 
     caught: frozenset[int] = frozenset()

@@ -1,4 +1,4 @@
-"""A wind player sounds one note at a time: what of a line can be played, and what to tell the animator.
+"""A wind player sounds one note at a time: what of a line can be played, and what to report to the animator.
 
 Messages
 --------
@@ -11,7 +11,7 @@ from __future__ import annotations
 import msgspec
 
 from app.errors import Message
-from app.plan.line import Line
+from app.plan.line import MonophonicPart
 from app.plan.model import Problem
 from app.score.model import Note
 from app.score.tempo import TempoMap
@@ -20,12 +20,12 @@ LEGATO_OVERLAP_S = 0.030
 """Players of keyboards and wind controllers hold a note this long into the next: that is legato, no mistake."""
 
 
-def one_at_a_time(line: Line, clock: TempoMap) -> tuple[Line, tuple[Problem, ...]]:
+def one_at_a_time(line: MonophonicPart, clock: TempoMap) -> tuple[MonophonicPart, tuple[Problem, ...]]:
     """The line without notes that cannot sound beside others: of those struck at one tick the highest is played.
 
     Returns
     -------
-    Line
+    MonophonicPart
         The very same where nothing had to go.
     tuple of Problem
         For every note left out, and for every note that runs into the next for longer than legato.

@@ -11,11 +11,11 @@ from collections.abc import Iterable
 import numpy as np
 import numpy.typing as npt
 
+from app.plan.breath_envelope import BreathEnvelope, step_means
 from app.plan.corrections import Correction, SetEmbouchure
 from app.plan.embouchure import strain_of, tension_of
-from app.plan.heard import Blown, step_means
-from app.plan.line import Heard, LineTimes, Steps
-from app.plan.model import FloatArray, Traces
+from app.plan.line import ControllerInput, LineTimes, Steps
+from app.plan.model import FloatArray, SampledCurves
 from app.plan.parameters import PlayerParameters
 from app.score.model import Note
 from app.score.tempo import TempoMap
@@ -39,16 +39,16 @@ def plan_traces(
     clock: TempoMap,
     instrument: InstrumentMap,
     parameters: PlayerParameters,
-    heard: Heard | None,
-    blown: Blown | None,
+    heard: ControllerInput | None,
+    blown: BreathEnvelope | None,
     corrections: Iterable[Correction] = (),
-) -> Traces | None:
+) -> SampledCurves | None:
     """The traces of a line; None where there are no notes or nothing was heard.
 
     Parameters
     ----------
-    heard : Heard or None
-    blown : Blown or None
+    heard : ControllerInput or None
+    blown : BreathEnvelope or None
         ``heard.breath`` in time.
     """
     if not notes or heard is None:
@@ -82,7 +82,7 @@ def plan_traces(
         if item.tension is not None:
             tension[span], lips[span] = item.tension, 0.0
     tension = _clipped(_smooth(tension, SHIFT_S) + _smooth(lips, LIPS_S))
-    return Traces(first * STEP_S, STEP_S, tension, air, effort)
+    return SampledCurves(first * STEP_S, STEP_S, tension, air, effort)
 
 
 def _spans(
@@ -101,7 +101,7 @@ def _spans(
     return spans
 
 
-def _pressed(heard: Heard, clock: TempoMap, at_s: FloatArray, sounds: npt.NDArray[np.bool_]) -> FloatArray:
+def _pressed(heard: ControllerInput, clock: TempoMap, at_s: FloatArray, sounds: npt.NDArray[np.bool_]) -> FloatArray:
     """What bite and pitch bend add to the tension: the bite by how far it is from the usual one."""
     bite = bend = np.zeros(len(at_s))
     if heard.bite is not None:

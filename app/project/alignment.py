@@ -45,7 +45,7 @@ _MOST_CELLS = 5_000_000
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class AlignmentPart:
     """A line as arrays, all of one length and in the order of onset and pitch; times in quarters."""
 
     onsets: Floats
@@ -53,7 +53,7 @@ class Line:
     pitches: Ints
 
     @classmethod
-    def of(cls, notes: Sequence[Note], ticks_per_quarter: int) -> Line:
+    def of(cls, notes: Sequence[Note], ticks_per_quarter: int) -> AlignmentPart:
         """The arrays of a part's notes."""
         return cls(
             np.array([note.onset_tick for note in notes], np.float64) / ticks_per_quarter,
@@ -64,12 +64,12 @@ class Line:
     def __len__(self) -> int:
         return len(self.onsets)
 
-    def part(self, first: int, end: int) -> Line:
+    def part(self, first: int, end: int) -> AlignmentPart:
         """Notes from ``first`` to before ``end``."""
-        return Line(self.onsets[first:end], self.lengths[first:end], self.pitches[first:end])
+        return AlignmentPart(self.onsets[first:end], self.lengths[first:end], self.pitches[first:end])
 
 
-def align(old: Line, new: Line) -> Ints:
+def align(old: AlignmentPart, new: AlignmentPart) -> Ints:
     """The pairs of notes that are one, as indices.
 
     Returns
@@ -92,7 +92,7 @@ def align(old: Line, new: Line) -> Ints:
     return np.array(sorted(pairs), np.int64).reshape(-1, 2)
 
 
-def pair_costs(old: Line, new: Line, shifts: Sequence[float], transposition: int) -> Floats:
+def pair_costs(old: AlignmentPart, new: AlignmentPart, shifts: Sequence[float], transposition: int) -> Floats:
     """What it costs to take an old note for a new one; shape (old, new).
 
     Parameters
@@ -138,7 +138,7 @@ def cheapest(costs: Floats) -> list[tuple[int, int]]:
     return pairs[::-1]
 
 
-def _distances(old: Line, new: Line) -> tuple[Floats, int]:
+def _distances(old: AlignmentPart, new: AlignmentPart) -> tuple[Floats, int]:
     """The distances in time (new - old, quarters) at which many notes are found again, and the transposition."""
     found, _ = _partners(old, new, 0.0, 0)
     if np.count_nonzero(found >= 0) >= 0.98 * max(len(old), len(new)):
@@ -165,20 +165,20 @@ def _distances(old: Line, new: Line) -> tuple[Floats, int]:
     return np.unique(distances), transposition
 
 
-def _partners(old: Line, new: Line, distance: float, transposition: int) -> tuple[Ints, Floats]:
+def _partners(old: AlignmentPart, new: AlignmentPart, distance: float, transposition: int) -> tuple[Ints, Floats]:
     """The new note where each old one would be, -1 where there is none, and how far it is off (quarters)."""
     width = float(max(old.onsets[-1] + abs(distance), new.onsets[-1]) + 2.0)
     order = np.lexsort((new.onsets, new.pitches))
     keys = new.pitches[order] * 4.0 * width + new.onsets[order]
-    wanted = (old.pitches + transposition) * 4.0 * width + old.onsets + distance
-    after = np.searchsorted(keys, wanted)
+    requested = (old.pitches + transposition) * 4.0 * width + old.onsets + distance
+    after = np.searchsorted(keys, requested)
     above, below = np.minimum(after, len(keys) - 1), np.maximum(after - 1, 0)
-    nearer = np.where(np.abs(keys[above] - wanted) <= np.abs(keys[below] - wanted), above, below)
-    away = np.abs(keys[nearer] - wanted)
+    nearer = np.where(np.abs(keys[above] - requested) <= np.abs(keys[below] - requested), above, below)
+    away = np.abs(keys[nearer] - requested)
     return np.where(away <= SAME_QUARTERS, order[nearer], -1), away
 
 
-def _anchors(old: Line, new: Line, distances: Floats, transposition: int) -> list[tuple[int, int]]:
+def _anchors(old: AlignmentPart, new: AlignmentPart, distances: Floats, transposition: int) -> list[tuple[int, int]]:
     """Notes found again at a distance that holds over a stretch of the line, both indices ascending."""
     partners, away = zip(*(_partners(old, new, distance, transposition) for distance in distances), strict=True)
     found = np.array(partners)
@@ -251,8 +251,10 @@ def _gaps(
         first, new_first = end + 1, new_end + 1
 
 
-def _gap_pairs(old: Line, new: Line, shifts: Sequence[float], transposition: int) -> Iterator[tuple[int, int]]:
-    # What is so long and has nothing in common is cut evenly: nobody could say what belongs to what.
+def _gap_pairs(
+    old: AlignmentPart, new: AlignmentPart, shifts: Sequence[float], transposition: int
+) -> Iterator[tuple[int, int]]:
+    # What is so long and has nothing in common is cut evenly: no one could say what belongs to what.
     blocks = -(-len(old) * len(new) // _MOST_CELLS)
     cuts = [(len(old) * block // blocks, len(new) * block // blocks) for block in range(blocks + 1)]
     for (first, new_first), (end, new_end) in pairwise(cuts):

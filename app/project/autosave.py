@@ -244,7 +244,7 @@ class Autosave:
         self._document = document
         if held is not None:
             self._held = frozenset((held,))
-        self._tell(held)
+        self._report(held)
 
     def changed(self, project: Project, now_s: float) -> None:
         """The project is this now and is not in its file."""
@@ -295,7 +295,7 @@ class Autosave:
         self._newest, self._written, self._held = writing.facts.generation, writing.project, written.held
         if self._project is writing.project:
             self._changed_s = None
-        self._tell(path)
+        self._report(path)
 
     def closed(self) -> None:
         """The editor ends in an orderly way: nothing is left to recover."""
@@ -307,5 +307,5 @@ class Autosave:
             remove(path)
         self._held = frozenset()
 
-    def _tell(self, autosave: Path | None = None) -> None:
-        self.presence.tell(self._document, autosave)
+    def _report(self, autosave: Path | None = None) -> None:
+        self.presence.report(self._document, autosave)

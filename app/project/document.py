@@ -31,7 +31,7 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class Change:
-    """What observers are told: compare what you show by identity (``is``), and never write while told.
+    """What observers receive: compare what you show by identity (``is``), and never write while notified.
 
     ``origin`` is whoever asked for the edit, so that it can skip its own echo; None for undo, redo and opening.
     ``opened`` says that another document has taken the place of the one before.
@@ -169,7 +169,7 @@ class Document:
 
     def _become(self, project: Project, origin: object | None, opened: bool = False) -> None:
         if self._telling:
-            raise RuntimeError("an observer writes while it is told of a change")
+            raise RuntimeError("an observer writes while it is notified of a change")
         before, self._project = self._project, project
         if before is project and not opened:
             return

@@ -1,6 +1,6 @@
 """Doublings: one person who plays several instruments in turn, as flutists change to the piccolo.
 
-A `Player` is what somebody plays on one instrument. Who doubles another shares that one's body: the first instrument's
+A `Player` is what someone plays on one instrument. Who doubles another shares that one's body: the first instrument's
 player is the person, and has what belongs to a person.
 
 Messages

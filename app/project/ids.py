@@ -38,7 +38,7 @@ def fresh_note_ids(project: Project, number: int, prefix: str = DRAWN_NOTE) -> t
 
 
 def new_note_ids(project: Project, prefix: str = DRAWN_NOTE) -> Iterator[str]:
-    """Ids for as many new notes as are wanted: nobody has them, and no correction waits for them."""
+    """Ids for as many new notes as are requested: no one has them, and no correction waits for them."""
     last = max(
         (
             *(_number(note.id, prefix) for part in project.score.parts for note in part.notes),

@@ -1,4 +1,4 @@
-"""From the tracks of a MIDI file to a project, as a person wishes: who plays what, on what, as whom."""
+"""From the tracks of a MIDI file to a project, as the user wishes: who plays what, on what, as whom."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from app.errors import Message
 from app.project.doubling import doubled_parts
 from app.project.model import Project, map_choices, project_from_score
 from app.score.model import Score, UnplayedPart
-from app.score.parts import PartWish, usual_wishes
-from app.score.read import MidiContents, wished_score
+from app.score.parts import PartAssignment, usual_wishes
+from app.score.read import MidiContents, assigned_score
 from instrument_maps.model import InstrumentMap
 
 
@@ -21,15 +21,15 @@ class ImportRow(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    wish : PartWish
-    wanted : bool
+    wish : PartAssignment
+    requested : bool
         False: the tracks are left out.
     character_id : str or None
         None: chosen automatically.
     """
 
-    wish: PartWish
-    wanted: bool = True
+    assignment: PartAssignment
+    requested: bool = True
     character_id: str | None = None
 
 
@@ -48,17 +48,17 @@ class ImportWish(msgspec.Struct, frozen=True):
 
 
 def usual_rows(contents: MidiContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
-    """A row for every track, as it would be imported if nobody said anything."""
-    played = {wish.streams[0] for wish in usual_wishes(contents.streams, map_choices(maps.values()))}
-    return tuple(ImportRow(PartWish((index,)), index in played) for index in range(len(contents.streams)))
+    """A row for every track, as it would be imported if no one said anything."""
+    played = {assignment.streams[0] for assignment in usual_wishes(contents.streams, map_choices(maps.values()))}
+    return tuple(ImportRow(PartAssignment((index,)), index in played) for index in range(len(contents.streams)))
 
 
 def merged(rows: Sequence[ImportRow], places: Sequence[int]) -> tuple[ImportRow, ...]:
     """The rows with those at some places made into one, where the first of them stood."""
     first, *others = sorted(places)
-    streams = tuple(stream for place in (first, *others) for stream in rows[place].wish.streams)
+    streams = tuple(stream for place in (first, *others) for stream in rows[place].assignment.streams)
     together = msgspec.structs.replace(
-        rows[first], wish=msgspec.structs.replace(rows[first].wish, streams=streams), wanted=True
+        rows[first], assignment=msgspec.structs.replace(rows[first].assignment, streams=streams), requested=True
     )
     gone = set(others)
     return tuple(together if place == first else row for place, row in enumerate(rows) if place not in gone)
@@ -68,8 +68,8 @@ def separated(rows: Sequence[ImportRow], place: int) -> tuple[ImportRow, ...]:
     """The rows with the one at a place taken apart into its tracks."""
     row = rows[place]
     alone = tuple(
-        msgspec.structs.replace(row, wish=msgspec.structs.replace(row.wish, streams=(stream,), name=""))
-        for stream in row.wish.streams
+        msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, streams=(stream,), name=""))
+        for stream in row.assignment.streams
     )
     return (*rows[:place], *alone, *rows[place + 1 :])
 
@@ -83,18 +83,18 @@ class Outcome(msgspec.Struct, frozen=True):
         Persons: who plays several instruments in turn is one.
     warnings : tuple of Message
     unplayed : tuple of UnplayedPart
-    instruments : dict of PartWish to tuple of str
+    instruments : dict of PartAssignment to tuple of str
         Wishes without a name, and the ids of the maps that would play them.
     """
 
     players: int
     warnings: tuple[Message, ...]
     unplayed: tuple[UnplayedPart, ...]
-    instruments: dict[PartWish, tuple[str, ...]]
+    instruments: dict[PartAssignment, tuple[str, ...]]
 
-    def instruments_of(self, wish: PartWish) -> tuple[str, ...]:
+    def instruments_of(self, assignment: PartAssignment) -> tuple[str, ...]:
         """The ids of the maps that would play a row if it were imported; empty where that is not known yet."""
-        return self.instruments.get(_unnamed(wish), ())
+        return self.instruments.get(_unnamed(assignment), ())
 
 
 def outcome_of(
@@ -102,7 +102,7 @@ def outcome_of(
     rows: Sequence[ImportRow],
     maps: Mapping[str, InstrumentMap],
     before: Outcome | None = None,
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
 ) -> Outcome:
     """What would come of the rows.
 
@@ -113,44 +113,51 @@ def outcome_of(
     stop_wanted : callable
         Raises Cancelled when it says so.
     """
-    score = score_of_rows(contents, rows, maps, stop_wanted)
+    score = score_of_rows(contents, rows, maps, stop_requested)
     known = {} if before is None else before.instruments
-    instruments: dict[PartWish, tuple[str, ...]] = {}
+    instruments: dict[PartAssignment, tuple[str, ...]] = {}
     for row in rows:
-        for wish in (_unnamed(row.wish), _unnamed(automatic(row.wish))):
-            if wish not in instruments:
-                instruments[wish] = known.get(wish) or _instruments(contents, wish, maps, stop_wanted)
+        for assignment in (_unnamed(row.assignment), _unnamed(automatic(row.assignment))):
+            if assignment not in instruments:
+                instruments[assignment] = known.get(assignment) or _instruments(
+                    contents, assignment, maps, stop_requested
+                )
     doubled = doubled_parts(score.parts, maps, score.tempo_map)
     return Outcome(len(score.parts) - len(doubled), score.warnings, score.unplayed, instruments)
 
 
-def automatic(wish: PartWish) -> PartWish:
+def automatic(assignment: PartAssignment) -> PartAssignment:
     """The wish without an instrument of its own: names, programs and ranges say which."""
-    return msgspec.structs.replace(wish, map_id=None)
+    return msgspec.structs.replace(assignment, map_id=None)
 
 
-def _unnamed(wish: PartWish) -> PartWish:
-    return msgspec.structs.replace(wish, name="")
+def _unnamed(assignment: PartAssignment) -> PartAssignment:
+    return msgspec.structs.replace(assignment, name="")
 
 
 def _instruments(
-    contents: MidiContents, wish: PartWish, maps: Mapping[str, InstrumentMap], stop_wanted: Callable[[], bool]
+    contents: MidiContents,
+    assignment: PartAssignment,
+    maps: Mapping[str, InstrumentMap],
+    stop_requested: Callable[[], bool],
 ) -> tuple[str, ...]:
     """What plays a wish's tracks."""
     # As if the file had no others.
-    own = msgspec.structs.replace(contents, streams=tuple(contents.streams[stream] for stream in wish.streams))
-    alone = msgspec.structs.replace(wish, streams=tuple(range(len(wish.streams))))
-    return tuple(part.map_id for part in score_of_rows(own, [ImportRow(alone)], maps, stop_wanted).parts)
+    own = msgspec.structs.replace(contents, streams=tuple(contents.streams[stream] for stream in assignment.streams))
+    alone = msgspec.structs.replace(assignment, streams=tuple(range(len(assignment.streams))))
+    return tuple(part.map_id for part in score_of_rows(own, [ImportRow(alone)], maps, stop_requested).parts)
 
 
 def score_of_rows(
     contents: MidiContents,
     rows: Sequence[ImportRow],
     maps: Mapping[str, InstrumentMap],
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
 ) -> Score:
     """The score with the parts of the selected rows. Raises Cancelled when ``stop_wanted`` says so."""
-    return wished_score(contents, [row.wish for row in rows if row.wanted], map_choices(maps.values()), stop_wanted)
+    return assigned_score(
+        contents, [row.assignment for row in rows if row.requested], map_choices(maps.values()), stop_requested
+    )
 
 
 def import_project(
@@ -158,9 +165,9 @@ def import_project(
     rows: Sequence[ImportRow],
     maps: Mapping[str, InstrumentMap],
     source: str = "",
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
 ) -> Project:
-    """A project in which the wanted rows are played.
+    """A project in which the requested rows are played.
 
     Parameters
     ----------
@@ -169,11 +176,11 @@ def import_project(
     stop_wanted : callable
         Raises Cancelled when it says so.
     """
-    project = project_from_score(score_of_rows(contents, rows, maps, stop_wanted), maps)
+    project = project_from_score(score_of_rows(contents, rows, maps, stop_requested), maps)
     characters = {}
     for row in rows:
-        if row.wanted and row.character_id is not None:
-            first = contents.streams[row.wish.streams[0]]
+        if row.requested and row.character_id is not None:
+            first = contents.streams[row.assignment.streams[0]]
             characters[first.place] = row.character_id
     players = []
     for player in project.players:

@@ -38,7 +38,7 @@ def journal_path(document: Path | None, *stems: Path) -> Path:
 
 
 def journals_of(document: Path | None, *stems: Path) -> tuple[Path, ...]:
-    """The journals that belong to a project and that nobody writes any more, the oldest first."""
+    """The journals that belong to a project and that no one writes any more, the oldest first."""
     found = []
     for beside in (*stems, *((document,) if document is not None else ())):
         try:
@@ -54,5 +54,5 @@ def journals_of(document: Path | None, *stems: Path) -> tuple[Path, ...]:
 
 
 def _is_left(path: Path) -> bool:
-    """Whether it is a file, which nobody writes any more. A link is none of ours, and where it leads is not opened."""
+    """Whether it is a file, which no one writes any more. A link is none of ours, and where it leads is not opened."""
     return os.path.isfile(path) and not os.path.islink(path) and not is_locked(path)

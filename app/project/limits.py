@@ -20,7 +20,7 @@ TICKS_PER_QUARTER: Final = (1, 32767)
 MICROSECONDS_PER_QUARTER: Final = (5_000.0, 120_000_000.0)
 """Wider than what a MIDI file can say (24 bits) and its reader accepts, so that a tempo can still be scaled."""
 BPM: Final = (5.0, 1000.0)
-"""Quarters per minute that a person may set."""
+"""Quarters per minute that the user may set."""
 TEMPO_RATIO: Final = (0.25, 4.0)
 METRE_NUMERATOR: Final = (1, 255)
 METRE_DENOMINATORS: Final = (1, 2, 4, 8, 16, 32, 64)
@@ -35,7 +35,7 @@ MOST_TEXT: Final = of_score.MOST_TEXT
 """Characters of any one text."""
 MOST_ID: Final = 500
 MOST_NAME: Final = of_score.MOST_NAME
-"""Characters of a name that a person gives."""
+"""Characters of a name that the user gives."""
 MOST_PLAYERS: Final = 1000
 MOST_DANCERS: Final = 200
 CHOREOGRAPHY_INDEX: Final = (0, 2**31 - 1)

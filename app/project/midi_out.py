@@ -1,7 +1,7 @@
 """A project's piece as a MIDI file: what its players play, under their names.
 
 Messages: ``midi.onto_source`` (file, count): "{file} is what the piece was read from, and holds {count} parts more that
-nobody plays here; write to another file".
+no one plays here; write to another file".
 """
 
 from __future__ import annotations

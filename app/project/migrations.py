@@ -21,12 +21,12 @@ VERSION_KEY: Final = "schema_version"
 
 
 def _with_read_notes(raw: Raw) -> Raw:
-    """1 to 2: what the MIDI file held is kept; of an older file nobody knows."""
+    """1 to 2: what the MIDI file held is kept; of an older file no one knows."""
     return {**raw, "edited_notes": {}}
 
 
 def _with_transpositions(raw: Raw) -> Raw:
-    """2 to 3: how a part that the file has in written pitches was transposed; nobody could say so before."""
+    """2 to 3: how a part that the file has in written pitches was transposed; no one could say so before."""
     parts = [{**part, "transposed_semitones": 0} for part in raw["score"]["parts"]]
     return {**raw, "score": {**raw["score"], "parts": parts}}
 

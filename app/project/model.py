@@ -35,7 +35,7 @@ from metadata.model import Expression
 
 
 class Player(msgspec.Struct, frozen=True):
-    """Somebody who plays one part.
+    """Someone who plays one part.
 
     Attributes
     ----------
@@ -253,7 +253,7 @@ class Project:
         return tuple(player for player in self.players if self.person(player) is player)
 
     def person(self, player: Player) -> Player:
-        """The player whose body plays; of who doubles nobody, the player."""
+        """The player whose body plays; of who doubles no one, the player."""
         return self._players.get(player.doubles, player) if player.doubles else player
 
     def played_by(self, player: Player) -> tuple[Player, ...]:
@@ -398,7 +398,7 @@ def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:
 
 
 def with_settings(project: Project, settings: Sequence[Setting], maps: Mapping[str, InstrumentMap]) -> Project:
-    """The project with what a person set for its players; ``None`` as instrument or character keeps the automatic
+    """The project with what the user set for its players; ``None`` as instrument or character keeps the automatic
     choice.
 
     Raises
@@ -411,7 +411,7 @@ def with_settings(project: Project, settings: Sequence[Setting], maps: Mapping[s
     places = {player.id: index for index, player in enumerate(players)}
     persons = [places[project.person(player).id] for player in players]
     for index in range(len(players)):
-        # What is set of an instrument that somebody doubles is, but for the instrument, set of the person.
+        # What is set of an instrument that someone doubles is, but for the instrument, set of the person.
         own = [
             setting
             for setting in settings

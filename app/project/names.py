@@ -36,12 +36,12 @@ def unique_names(names: Iterable[str]) -> tuple[str, ...]:
     A name that stands alone is kept; one that is shared is numbered in order ("trumpet 1", "trumpet 2"), passing over
     numbers that another name already carries.
     """
-    wanted = [clean_name(name) for name in names]
-    counts = Counter(name.casefold() for name in wanted)
-    taken = {name.casefold() for name in wanted if counts[name.casefold()] == 1}
+    requested = [clean_name(name) for name in names]
+    counts = Counter(name.casefold() for name in requested)
+    taken = {name.casefold() for name in requested if counts[name.casefold()] == 1}
     next_number = dict.fromkeys(counts, 1)
     unique = []
-    for name in wanted:
+    for name in requested:
         key = name.casefold()
         if counts[key] == 1:
             unique.append(name)

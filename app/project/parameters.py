@@ -1,4 +1,4 @@
-"""`PLAYER.parameter=value`: what a person sets for one player or for several, checked before anything is made.
+"""`PLAYER.parameter=value`: what the user sets for one player or for several, checked before anything is made.
 
 Raises `UsageError` with these ids: ``set.syntax`` (text), ``set.player_unknown`` (player, possible),
 ``set.parameter_unknown`` (parameter, possible), ``set.value_invalid`` (parameter, value, possible),
@@ -40,29 +40,29 @@ def parameter_names() -> tuple[str, ...]:
     return (*PARAMETERS, *_CASTING)
 
 
-def matching_players(wanted: str, names: Sequence[str]) -> tuple[int, ...]:
+def matching_players(requested: str, names: Sequence[str]) -> tuple[int, ...]:
     """Indices of the players that a name or a pattern (``*``, ``?``, ``[...]``) means; case does not count.
 
     A name that fits exactly is that player, whatever pattern it might be.
     """
-    key = wanted.strip().casefold()
+    key = requested.strip().casefold()
     exact = tuple(index for index, name in enumerate(names) if name.casefold() == key)
     if exact:
         return exact
     return tuple(index for index, name in enumerate(names) if fnmatch.fnmatchcase(name.casefold(), key))
 
 
-def select_players(wanted: Iterable[str], names: Sequence[str]) -> tuple[int, ...]:
-    """Indices of the players named, in the order of the score; all of them where nothing is wanted.
+def select_players(requested: Iterable[str], names: Sequence[str]) -> tuple[int, ...]:
+    """Indices of the players named, in the order of the score; all of them where nothing is requested.
 
     Raises
     ------
     UsageError
-        ``player.unknown`` where a name or pattern means nobody.
+        ``player.unknown`` where a name or pattern means no one.
     """
     chosen: set[int] = set()
     asked = False
-    for name in wanted:
+    for name in requested:
         asked = True
         found = matching_players(name, names)
         if not found:
@@ -79,7 +79,7 @@ def parse_settings(
     Parameters
     ----------
     texts : iterable of str
-        As given by the person. A player may be a pattern: ``*.amplitude=0``.
+        As given by the user. A player may be a pattern: ``*.amplitude=0``.
     names : sequence of str
         The players' names. They may hold dots and equals signs; the reading that names a player is taken.
     instruments, characters : iterable of str

@@ -90,7 +90,7 @@ class Presence:
         """The file for unsaved work in the folder."""
         return self.folder / f"{self.token}{SUFFIX}"
 
-    def tell(self, document: Path | None, autosave: Path | None) -> None:
+    def report(self, document: Path | None, autosave: Path | None) -> None:
         """Note down what this editor works on. Raises FileError where the folder refuses."""
         self.note = note = Note(os.getpid(), str(document or ""), str(autosave or ""))
         was_here = self._is_here()
@@ -166,12 +166,12 @@ def forget(folder: Path, token: str) -> None:
 
 def is_open_elsewhere(document: Path, folder: Path, own_token: str = "") -> bool:
     """Whether another living editor works on this project file."""
-    wanted = os.path.realpath(document)
+    requested = os.path.realpath(document)
     return any(
         alive
         and token != own_token
         and (named := note_of(folder, token).document)
-        and os.path.realpath(named) == wanted
+        and os.path.realpath(named) == requested
         for token, alive in editors(folder)
     )
 

@@ -1,4 +1,4 @@
-"""What a person keeps for other projects: presets of a player's parameters, and expressions of their own.
+"""What the user keeps for other projects: presets of a player's parameters, and expressions of their own.
 
 Each is a small TOML file in a folder of the user's; its name stands in it, and the file is called by a cleaned form of
 that, so that a name can be anything and never becomes a path. A project holds a copy of the expressions it uses and
@@ -70,8 +70,8 @@ def preset_of(parameters: PlayerParameters, name: str, only: Iterable[str] | Non
     cleaned = clean_name(name)[: limits.MOST_NAME]
     if not cleaned:
         raise UsageError("preset.no_name")
-    wanted = _SHARED if only is None else [field for field in _SHARED if field in set(only)]
-    return Preset(cleaned, {field: getattr(parameters, field) for field in wanted})
+    requested = _SHARED if only is None else [field for field in _SHARED if field in set(only)]
+    return Preset(cleaned, {field: getattr(parameters, field) for field in requested})
 
 
 def presets(folder: Path) -> Found[Preset]:

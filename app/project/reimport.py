@@ -2,8 +2,8 @@
 
 Parts are recognised by what they play, by name, track and instrument, notes by alignment (`app.project.alignment`). A
 note found again keeps its id, and with it every correction about it; corrections at places of the score move with the
-notes around them. A note that a person changed and the file did not stays as the person has it (one that was erased
-stays erased); where both changed it the file's version is taken, and told. What a person chose for players stays. A
+notes around them. A note that the user changed and the file did not stays as the user has it (one that was erased
+stays erased); where both changed it the file's version is taken, and reported. What the user chose for players stays. A
 part that is new gets a player; a player whose part is gone leaves, but stays, with an empty part, while there are
 corrections for them. Parts made in the editor stay, and so do notes drawn into the file's parts where they do not
 overlap what the file has there.
@@ -36,7 +36,7 @@ import numpy as np
 
 from app.errors import UsageError
 from app.plan.corrections import Correction, kind
-from app.project.alignment import Floats, Line, align
+from app.project.alignment import AlignmentPart, Floats, align
 from app.project.anchors import moved, note_of
 from app.project.doubling import doubled_parts, without_persons
 from app.project.edit.corrections import put, take_back
@@ -89,7 +89,7 @@ class PartMatch:
 
 @dataclass(frozen=True)
 class Conflict:
-    """A note that both the person and the file changed; the file's version is taken.
+    """A note that both the user and the file changed; the file's version is taken.
 
     Attributes
     ----------
@@ -97,7 +97,7 @@ class Conflict:
     read : Note
         What the file held before.
     by_hand : Note or None
-        What the person made of it; None: erased.
+        What the user made of it; None: erased.
     file : Note or None
         What the file holds now; None: it is gone.
     """
@@ -167,7 +167,8 @@ def reimport(project: Project, score: Score, maps: Mapping[str, InstrumentMap], 
     held = {former: _held_by_file(project, old.parts[former]) for former, _ in partners}
     pairs = {
         former: align(
-            Line.of(held[former], old.ticks_per_quarter), Line.of(score.parts[new].notes, score.ticks_per_quarter)
+            AlignmentPart.of(held[former], old.ticks_per_quarter),
+            AlignmentPart.of(score.parts[new].notes, score.ticks_per_quarter),
         )
         for former, new in partners
     }
@@ -341,7 +342,7 @@ def _kinship(one: Part, other: Part) -> float:
 
 
 def _held_by_file(project: Project, part: Part) -> tuple[Note, ...]:
-    """The notes of a part as the file had them; those that it did not have, or of which nobody knows, as they are."""
+    """The notes of a part as the file had them; those that it did not have, or of which no one knows, as they are."""
     read = project.read_notes.get(part.id)
     if not read:
         return part.notes
@@ -361,12 +362,12 @@ class _Merged:
 def _merged(
     before: Part, was: Sequence[Note], part: Part, pairs: Sequence[tuple[int, int]], scale: Fraction
 ) -> _Merged:
-    """Of three versions of each note one: the person's where the file did not change it, else the file's.
+    """Of three versions of each note one: the user's where the file did not change it, else the file's.
 
     Parameters
     ----------
     before : Part
-        As the person has it.
+        As the user has it.
     was : sequence of Note
         As the file had it.
     part : Part

@@ -317,8 +317,8 @@ def missing(project: Project) -> tuple[Message, ...]:
 
 
 def choreography_missing(dancer: str, choreography: str) -> tuple[Message, ...]:
-    """What to tell of a dancer or player of this name whose choreography is not there; nothing where it is. Messages:
-    see `missing`."""
+    """What to report about a dancer or player of this name whose choreography is not there; nothing where it is.
+    Messages: see `missing`."""
     if os.path.isfile(choreography_path(choreography)):
         return ()
     if is_bundled_name(choreography):

@@ -1,6 +1,6 @@
 """Which bones are which joints, by shape alone: symmetry, chains and extents. For skeletons whose names say nothing.
 
-Everything found here is a guess from a usual figure's proportions and must be told as one.
+Everything found here is a guess from a usual figure's proportions and must be reported as one.
 """
 
 from __future__ import annotations
@@ -150,7 +150,7 @@ class _Halves:
 
 
 def joints_by_shape(tree: Tree) -> dict[str, int]:
-    """Bones by VRM 1.0 joint, as far as they can be told; empty where there is no body to be seen."""
+    """Bones by VRM 1.0 joint, as far as they can be reported; empty where there is no body to be seen."""
     if not tree.parents:
         return {}
     halves = _Halves(tree)

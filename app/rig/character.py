@@ -28,7 +28,7 @@ from app.rig.t_pose import facing_ahead, upright
 from metadata.model import REQUIRED_JOINTS
 
 OURS: Final = "Suisou build_characters"
-"""What writes our own. What somebody has changed, another program has written: vertices are others then."""
+"""What writes our own. What someone has changed, another program has written: vertices are others then."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +91,7 @@ def read_character(
     ----------
     path : Path
     joints, morphs : mapping
-        A person's corrections, as in `load_character`.
+        The user's corrections, as in `load_character`.
     """
     figure = read_figure(path)
     found = map_joints(figure, joints)
@@ -111,7 +111,7 @@ def _ours(source: Source, id: str) -> Character:
     def way(node: int) -> tuple[int, ...]:
         return (node,) if node == root else (*way(nodes[node].parent), node)
 
-    # Children follow their parent closely, as a person would list them.
+    # Children follow their parent closely, as the user would list them.
     joints = sorted((root, *skin.joints), key=way)
     joint_of = {node: joint for joint, node in enumerate(joints)}
     parents = tuple(joint_of.get(nodes[node].parent, -1) for node in joints)

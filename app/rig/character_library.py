@@ -1,6 +1,6 @@
-"""The characters a person can cast: the bundled ones and those of their own folder (see `app.formats.user_folder`).
+"""The characters the user can cast: the bundled ones and those of their own folder (see `app.formats.user_folder`).
 
-A person's own character is a file (VRM, glTF or FBX) and beside it ``<id>.toml``, which names the file and says what
+The user's own character is a file (VRM, glTF or FBX) and beside it ``<id>.toml``, which names the file and says what
 was corrected by hand: which bone is which joint, which morphs make a face.
 
 Messages
@@ -79,7 +79,7 @@ class Source:
     path : Path
         The character's file.
     entry : CharacterEntry or None
-        What a person's own folder says about it; None: bundled.
+        What the user's own folder says about it; None: bundled.
     stamp : frozenset
         The files as they were when they were read.
     """
@@ -95,12 +95,12 @@ class CharacterLibrary(Shelf[Source]):
 
     @property
     def sources(self) -> Mapping[str, Source]:
-        """By id: first the bundled ones, then a person's own, each in the order of the ids."""
+        """By id: first the bundled ones, then the user's own, each in the order of the ids."""
         return self.items
 
     @property
     def own(self) -> Mapping[str, CharacterEntry]:
-        """A person's own characters, by id."""
+        """The user's own characters, by id."""
         return {id: source.entry for id, source in self.sources.items() if source.entry is not None}
 
 
@@ -131,7 +131,7 @@ def _own_source(path: Path) -> Read[Source]:
 
 
 def read_entry(path: Path) -> CharacterEntry:
-    """Read the description of a person's own character. Raises FileError, MapError."""
+    """Read the description of the user's own character. Raises FileError, MapError."""
     entry = shaped(read_toml(path), CharacterEntry, str(path))
     if not _is_plain(entry.file):
         detail = f"{shortened(entry.file)!r} must be the name of a file in this folder ({', '.join(SUFFIXES)})"
@@ -152,13 +152,13 @@ FOLDER_VARIABLE: Final = LIBRARY.variable
 own_folder, begin_characters = LIBRARY.folder, LIBRARY.begin
 character_library, reload_characters = LIBRARY.now, LIBRARY.reload
 _loading = RLock()
-"""Held while a character is loaded, which may take seconds; never waited for with the library's lock."""
+"""SettingBinding while a character is loaded, which may take seconds; never waited for with the library's lock."""
 _good: dict[Path, Character] = {}
-"""The last good version of each of a person's own files."""
+"""The last good version of each of the user's own files."""
 
 
 def characters() -> Mapping[str, Path]:
-    """Return all characters: id and file, first the bundled ones, then a person's own."""
+    """Return all characters: id and file, first the bundled ones, then the user's own."""
     return {id: source.path for id, source in character_library().sources.items()}
 
 
@@ -175,7 +175,7 @@ def character_named(id: str) -> Character:
     UsageError
         There is none of this id.
     FileError
-        A person's own file holds none, and never did since the program began.
+        The user's own file holds none, and never did since the program began.
     """
     sources = character_library().sources
     if id not in sources:
@@ -205,7 +205,7 @@ def _loaded(id: str, path: Path, stamp: Stamp, entry: bytes) -> Character:
 
 
 def character_problems() -> Mapping[str, Message]:
-    """What is wrong with a person's own characters, by id; those whose file has not been opened yet are opened."""
+    """What is wrong with the user's own characters, by id; those whose file has not been opened yet are opened."""
     found = {path.stem: problems[0] for path, problems in character_library().problems.items()}
     for id, source in character_library().sources.items():
         if source.entry is not None and id not in found:
@@ -222,7 +222,7 @@ def add_character(
     joints: Mapping[str, str] | None = None,
     morphs: Mapping[str, Mapping[str, float]] | None = None,
 ) -> str:
-    """Copy a character's file into the person's folder and describe it there.
+    """Copy a character's file into the user's folder and describe it there.
 
     Parameters
     ----------
@@ -255,14 +255,14 @@ def add_character(
         content = read_file(path, MOST_BYTES)
         with atomic_write(folder / f"{id}{suffix}") as stream:
             stream.write(content)
-        # A file without a description is nobody: what fails between the two leaves no half of a character.
+        # A file without a description is no one: what fails between the two leaves no half of a character.
         faces = {name: dict(parts) for name, parts in (morphs or {}).items()}
         write_entry(id, CharacterEntry(f"{id}{suffix}", title, dict(joints or {}), faces))
         return id
 
 
 def write_entry(id: str, entry: CharacterEntry) -> None:
-    """Describe one of a person's own characters, anew or for the first time, and read the folder again.
+    """Describe one of the user's own characters, anew or for the first time, and read the folder again.
 
     Raises FileError ``file.cannot_write``.
     """
@@ -273,7 +273,7 @@ def write_entry(id: str, entry: CharacterEntry) -> None:
 
 
 def remove_character(id: str) -> None:
-    """Remove one of a person's own characters, and its file if no other is made of it. Raises UsageError, FileError."""
+    """Remove one of the user's own characters, and its file if no other is made of it. Raises UsageError, FileError."""
     sources = reload_characters().sources
     source = sources.get(id)
     if source is None or source.entry is None:

@@ -1,7 +1,7 @@
 """Which of a foreign figure's own morphs make the 52 ARKit shapes that faces are played with.
 
 Names come from the tables in ``metadata/faces``. The table that makes most shapes leads; what it leaves out is taken
-from the others. What no table makes is missing, and is told as such.
+from the others. What no table makes is missing, and is reported as such.
 
 Messages
 --------
@@ -48,14 +48,14 @@ class FaceMapping:
     missing: tuple[str, ...]
 
 
-def map_morphs(figure: Figure, wanted: Mapping[str, Mapping[str, float]] | None = None) -> FaceMapping:
+def map_morphs(figure: Figure, requested: Mapping[str, Mapping[str, float]] | None = None) -> FaceMapping:
     """Find what makes the ARKit shapes of a figure's face.
 
     Parameters
     ----------
     figure : Figure
-    wanted : mapping of str to mapping of str to float
-        A person's corrections, weights of own morphs by shape; none: the face does not make it.
+    requested : mapping of str to mapping of str to float
+        The user's corrections, weights of own morphs by shape; none: the face does not make it.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def map_morphs(figure: Figure, wanted: Mapping[str, Mapping[str, float]] | None 
     for name in order:
         for shape, weights in found[name].items():
             morphs.setdefault(shape, weights)
-    for shape, own in (wanted or {}).items():
+    for shape, own in (requested or {}).items():
         _check(figure, shape, own)
         morphs.pop(shape, None)
         if own:

@@ -141,7 +141,7 @@ def _parts(source: Source) -> list[Part]:
 
 
 def morph_name(source: Source, mesh: int, name: str) -> str:
-    """A morph's name; one that the file does not name is told apart from those of other meshes."""
+    """A morph's name; one that the file does not name is distinguished from those of other meshes."""
     if re.fullmatch(r"morph_\d+", name) and len(source.gltf.meshes) > 1:
         return f"{source.gltf.meshes[mesh].name}.{name}"
     return name

@@ -12,11 +12,11 @@ from app.rig import quaternion
 from app.rig.finger_reach import Asked, brought
 from app.rig.hold import (
     FingerTable,
+    GripPose,
     HandHold,
-    Hold,
-    Lean,
     Placed,
     StationTable,
+    WristOffset,
     come_to,
     given_way,
     interpolated,
@@ -37,7 +37,7 @@ the highest (`app.rig.grip_problem.HOVER_MORE`)."""
 
 
 def finger_rotations(
-    hold: Hold,
+    hold: GripPose,
     controls: Controls,
     frames: int,
     placed: Mapping[str, Placed] | None = None,
@@ -47,7 +47,7 @@ def finger_rotations(
 
     Parameters
     ----------
-    hold : Hold
+    hold : GripPose
     controls : dict of str to (F,)
         Values 0..1; a control that is absent is at 0.
     frames : int
@@ -157,8 +157,8 @@ def _posed(
 
 def _solved(asked: Sequence[FloatArray | Asked]) -> list[FloatArray]:
     """Poses, with those that are asked for brought there; what is the same is brought once."""
-    wanted = {id(one): one for one in asked if isinstance(one, Asked)}
-    found = dict(zip(wanted, brought(list(wanted.values())), strict=True))
+    requested = {id(one): one for one in asked if isinstance(one, Asked)}
+    found = dict(zip(requested, brought(list(requested.values())), strict=True))
     return [found[id(one)] if isinstance(one, Asked) else one for one in asked]
 
 
@@ -214,8 +214,8 @@ def _raised(
     # What touches farther out is lifted, or it would dip into what the inner joints are lifted over.
     outer = max(near, far, key=lambda station: station.tip_joint)
     tips = np.broadcast_to(outer.tip_m, (len(share), 3))
-    wanted = _tip(table, rotations, tips, outer.tip_joint) + np.multiply.outer(np.sin(np.pi * share), away_m)
-    return Asked(table.chain, rotations, outer.tip_joint, outer.tip_m, wanted, LIFT_STAY_M)
+    requested = _tip(table, rotations, tips, outer.tip_joint) + np.multiply.outer(np.sin(np.pi * share), away_m)
+    return Asked(table.chain, rotations, outer.tip_joint, outer.tip_m, requested, LIFT_STAY_M)
 
 
 def _sampled(table: FingerTable, controls: Controls, here: IntArray) -> Controls:
@@ -224,7 +224,7 @@ def _sampled(table: FingerTable, controls: Controls, here: IntArray) -> Controls
 
 
 def _at_place(
-    hand: HandHold, table: FingerTable, index: int, rotations: FloatArray, given: list[tuple[Lean, FloatArray]]
+    hand: HandHold, table: FingerTable, index: int, rotations: FloatArray, given: list[tuple[WristOffset, FloatArray]]
 ) -> FloatArray | Asked:
     """Rotations (K, n, 4) at a station, for another wrist than the one they were solved for."""
     station = table.stations[index]
@@ -265,8 +265,8 @@ def _with_wrist(
     """What `with_wrist` asks for."""
     assert table.chain is not None
     tips = np.broadcast_to(station.tip_m, (len(rotations), 3))
-    wanted = own[0] + quaternion.rotate(own[1], _tip(table, rotations, tips, station.tip_joint))
-    local = quaternion.rotate(quaternion.conjugate(wrist[1]), wanted - wrist[0]) + lifted_m
+    requested = own[0] + quaternion.rotate(own[1], _tip(table, rotations, tips, station.tip_joint))
+    local = quaternion.rotate(quaternion.conjugate(wrist[1]), requested - wrist[0]) + lifted_m
     return Asked(table.chain, rotations, station.tip_joint, station.tip_m, np.broadcast_to(local, (len(rotations), 3)))
 
 
@@ -275,7 +275,7 @@ def tip_m(table: FingerTable, station: StationTable, rotations: FloatArray) -> F
     return _tip(table, rotations, np.broadcast_to(station.tip_m, (len(rotations), 3)), station.tip_joint)
 
 
-def _is(lean: Lean, table: FingerTable, station: int) -> bool:
+def _is(lean: WristOffset, table: FingerTable, station: int) -> bool:
     return lean.places == ((table.finger, station),)
 
 

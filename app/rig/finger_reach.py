@@ -46,7 +46,7 @@ class Asked:
     rotations: FloatArray
     joint: int
     tip_m: FloatArray
-    wanted_m: FloatArray
+    requested_m: FloatArray
     stay_m: float = 0.0
 
 
@@ -90,13 +90,13 @@ def brought(asked: Sequence[Asked]) -> list[FloatArray]:
     for length in dict.fromkeys(lengths):
         places = [place for place, own in enumerate(lengths) if own == length]
         together = [asked[place] for place in places]
-        counts = [len(one.wanted_m) for one in together]
+        counts = [len(one.requested_m) for one in together]
         solved = _brought(
             _Rows.of([one.chain for one in together], counts),
             np.concatenate([one.rotations for one in together]),
             np.repeat([one.joint for one in together], counts),
             np.repeat([one.tip_m for one in together], counts, axis=0),
-            np.concatenate([one.wanted_m for one in together]),
+            np.concatenate([one.requested_m for one in together]),
             np.repeat([one.stay_m for one in together], counts),
         )
         for place, own in zip(places, np.split(solved, np.cumsum(counts)[:-1]), strict=True):
@@ -109,7 +109,7 @@ def _brought(
     rotations: FloatArray,
     joint: IntArray,
     tip_m: FloatArray,
-    wanted_m: FloatArray,
+    requested_m: FloatArray,
     stay_m: FloatArray,
 ) -> FloatArray:
     """A few damped Gauss-Newton steps (Wampler 1986) on the angles that a finger has."""
@@ -127,7 +127,7 @@ def _brought(
     for _ in range(ROUNDS):
         places, bases = _forward(chains, turned)
         tip = places[rows, joint] + quaternion.rotate(bases[rows, joint], tip_m)
-        off = wanted_m - tip
+        off = requested_m - tip
         length = np.sqrt(np.einsum("ki,ki->k", off, off))[:, None]
         off = off * np.minimum(1.0, STEP_M / np.maximum(length, 1e-9))
         above[:, 1:] = bases[:, :-1]

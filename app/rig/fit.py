@@ -1,9 +1,9 @@
 """Fitting a hold: how one body's hands lie on one instrument.
 
 For each hand a bounded least-squares problem (`app.rig.grip_problem`): the wrist's place in the instrument's frame, the
-finger joints with every control at rest and again with every control fully worked, and the elbow's swivel. Wanted are
-the map's contacts on the deformed skin, no skin inside the instrument's proxy, fingers that do not pass through each
-other, a straight wrist under a natural elbow, and fingers near their relaxed curl (`app.rig.grip_residuals`). The
+finger joints with every control at rest and again with every control fully worked, and the elbow's swivel. Requested
+are the map's contacts on the deformed skin, no skin inside the instrument's proxy, fingers that do not pass through
+each other, a straight wrist under a natural elbow, and fingers near their relaxed curl (`app.rig.grip_residuals`). The
 fingers that work a control are then solved for values between (`app.rig.grip_fingers`).
 
 Messages
@@ -25,13 +25,13 @@ from app.errors import UsageError
 from app.rig import quaternion
 from app.rig.carriage import Upright, upright
 from app.rig.grip_beside import leans_beside
-from app.rig.grip_fingers import MOVED_VALUES, STILL_VALUES, Scene, finger_tables, solve_tables
+from app.rig.grip_fingers import MOVED_VALUES, STILL_VALUES, GripScene, finger_tables, solve_tables
 from app.rig.grip_judge import judge
 from app.rig.grip_lean import Leaning, lean_of, leanings, whole_hand
 from app.rig.grip_problem import Problem, grip_problem, joint_angles, travel, wrist_transform
-from app.rig.grip_search import Told, finished, search_knots, starts, unheard
+from app.rig.grip_search import Progress, finished, no_progress, search_knots, starts
 from app.rig.grip_ways import lifted_ways
-from app.rig.hold import ContactFit, HandHold, Hold, NodeMotion, Reach, StationTable
+from app.rig.hold import ContactFit, GripPose, HandHold, NodeMotion, Reach, StationTable
 from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
 from app.rig.stations import asked_together
@@ -57,8 +57,8 @@ def fit_hold(
     model: InstrumentModel,
     instrument_map: InstrumentMap,
     body: Body,
-    told: Told = unheard,
-) -> Hold:
+    progress: Progress = no_progress,
+) -> GripPose:
     """Fit how a character holds an instrument; deterministic, and slow: `app.rig.hold_file.hold_for` keeps the results.
 
     Parameters
@@ -68,12 +68,12 @@ def fit_hold(
     instrument_map : InstrumentMap
     body : Body
         Limits of the joints and posture.
-    told : callable
-        Told the share 0..1 that is done; what it raises stops the work.
+    progress : callable
+        Called with the share 0..1 that is done; what it raises stops the work.
 
     Returns
     -------
-    Hold
+    GripPose
         What could not be met stands in its ``contacts``, ``penetration_m`` and ``reach``.
 
     Raises
@@ -97,16 +97,16 @@ def fit_hold(
     with threadpool_limits(limits=1, user_api="blas"):
         fitted = []
         for number, seed in enumerate(instrument_map.hands):
-            part = _part(told, number / len(instrument_map.hands), (number + 1) / len(instrument_map.hands))
+            part = _part(progress, number / len(instrument_map.hands), (number + 1) / len(instrument_map.hands))
             fitted.append(_fit_hand(character, model, instrument_map, body, seed, stand, size, part))
     hands = tuple(sized(hand, size) for hand, _ in fitted)
     reach = tuple(sized(reach, size) for _, reach in fitted)
-    return Hold(character.id, instrument_map.id, hands, lips, reach)
+    return GripPose(character.id, instrument_map.id, hands, lips, reach)
 
 
-def _part(told: Told, first: float, last: float) -> Told:
+def _part(progress: Progress, first: float, last: float) -> Progress:
     """Tells of a part of the work as of that share of the whole."""
-    return lambda share: told(first + (last - first) * share)
+    return lambda share: progress(first + (last - first) * share)
 
 
 def require_landmarks(character: Character, instrument_map: InstrumentMap) -> None:
@@ -126,20 +126,20 @@ def _fit_hand(
     seed: HandSeed,
     stand: Upright,
     size: float,
-    told: Told,
+    progress: Progress,
 ) -> tuple[HandHold, Reach]:
     """Fit one hand. Where the best start does not end well, the next ones are tried; the best end counts."""
     problem, carrier = grip_problem(character, model, instrument_map, body, seed, stand)
     if carrier is not None:
-        knots, holds = search_knots(problem, model, instrument_map, carrier, _part(told, 0.0, 0.55))
+        knots, holds = search_knots(problem, model, instrument_map, carrier, _part(progress, 0.0, 0.55))
         from scipy.interpolate import PchipInterpolator  # heavy; holds are fitted seldom
 
         # A wrist between knots follows a smooth curve; the fingers are then solved for it.
         path = PchipInterpolator(knots, holds)(MOVED_VALUES)
-        return _held(problem, model, instrument_map, carrier, holds[0], path, seed, stand, _part(told, 0.55, 1.0))
+        return _held(problem, model, instrument_map, carrier, holds[0], path, seed, stand, _part(progress, 0.55, 1.0))
     best: tuple[HandHold, Reach] | None = None
-    for number, start in enumerate(starts(problem, _part(told, 0.0, 0.4))):
-        part = _part(told, 0.4 + 0.2 * number, 0.6 + 0.2 * number)
+    for number, start in enumerate(starts(problem, _part(progress, 0.0, 0.4))):
+        part = _part(progress, 0.4 + 0.2 * number, 0.6 + 0.2 * number)
         part(0.0)
         whole = finished(problem, start)
         found = _held(problem, model, instrument_map, None, whole, whole[None], seed, stand, part)
@@ -151,7 +151,7 @@ def _fit_hand(
     return best
 
 
-def missed(hold: Hold) -> tuple[ContactFit, ...]:
+def missed(hold: GripPose) -> tuple[ContactFit, ...]:
     """The touches that a hold does not meet however a player moves, the worst first: hands and instrument do not go
     together. Those that only guide or rest are not among them."""
     touches = [one for hand in hold.hands for one in hand.contacts if one.firm]
@@ -175,7 +175,7 @@ def _held(
     path: FloatArray,
     seed: HandSeed,
     stand: Upright,
-    told: Told,
+    progress: Progress,
 ) -> tuple[HandHold, Reach]:
     """A solved hand: its fingers at all their places, how it gives way for them, and how well it all meets.
 
@@ -184,9 +184,9 @@ def _held(
     hand = problem.hand
     values = MOVED_VALUES if carrier is not None or problem.worked else STILL_VALUES
     position, turn = wrist_transform(problem, path)
-    scene = Scene(model, instrument_map, carrier, position, quaternion.to_matrix(turn))
-    solved = solve_tables(problem, scene, joint_angles(problem, path), best, _part(told, 0.0, 0.3))
-    leant = leanings(problem, scene, best, solved, _part(told, 0.3, 0.9))
+    scene = GripScene(model, instrument_map, carrier, position, quaternion.to_matrix(turn))
+    solved = solve_tables(problem, scene, joint_angles(problem, path), best, _part(progress, 0.0, 0.3))
+    leant = leanings(problem, scene, best, solved, _part(progress, 0.3, 0.9))
     leans = tuple(lean_of(problem, scene, one) for one in leant)
     at_leans = {(one.solved.number, one.solved.station): one.solved for one in leant}
     solved = tuple(at_leans.get((one.number, one.station), one) for one in solved)
@@ -219,7 +219,7 @@ def _held(
 
 def _leant_tables(
     problem: Problem, leant: Sequence[Leaning]
-) -> dict[tuple[int, int], tuple[Scene, dict[int, StationTable]]]:
+) -> dict[tuple[int, int], tuple[GripScene, dict[int, StationTable]]]:
     """The wrist and the other fingers wherever the hand gives way."""
     result = {}
     for one in leant:

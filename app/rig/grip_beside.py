@@ -16,7 +16,7 @@ import numpy.typing as npt
 from app.rig import quaternion
 from app.rig.finger_poses import tip_m, with_wrist
 from app.rig.grip_problem import METRES
-from app.rig.hold import FingerTable, HandHold, Lean, wrist_given
+from app.rig.hold import FingerTable, HandHold, WristOffset, wrist_given
 
 FloatArray = npt.NDArray[np.float64]
 Place: TypeAlias = tuple[str, int]
@@ -51,7 +51,7 @@ class _Pair:
         """Places (B, 3) and turns (B, 4) of the wrist for parameters (B, 6)."""
         ones = np.ones(len(x))
         given = [(one, ones) for one in self.hand.leans if self.stations.items() >= set(one.places)]
-        extra = [(Lean("", 0, np.eye(6)[k, :3] * METRES, np.eye(6)[k, 3:]), x[:, k]) for k in range(6)]
+        extra = [(WristOffset("", 0, np.eye(6)[k, :3] * METRES, np.eye(6)[k, 3:]), x[:, k]) for k in range(6)]
         return wrist_given(self.hand, [*given, *extra])
 
     def missed_m(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -91,7 +91,9 @@ class _Pair:
         return x
 
 
-def leans_beside(hand: HandHold, whole_m: FloatArray, together: Sequence[tuple[Place, Place]]) -> tuple[Lean, ...]:
+def leans_beside(
+    hand: HandHold, whole_m: FloatArray, together: Sequence[tuple[Place, Place]]
+) -> tuple[WristOffset, ...]:
     """What a hand must give way more for two fingers at once than for each of them.
 
     Parameters
@@ -114,7 +116,7 @@ def leans_beside(hand: HandHold, whole_m: FloatArray, together: Sequence[tuple[P
             continue
         x = pair.solved()
         if pair.worst_m(x) < missed - WORTH_M:
-            found.append(Lean(*first, moved_m=x[:3] * METRES, turned=x[3:], beside=(second,)))
+            found.append(WristOffset(*first, moved_m=x[:3] * METRES, turned=x[3:], beside=(second,)))
     return tuple(found)
 
 
@@ -122,7 +124,7 @@ def _missed(hand: HandHold, table: FingerTable, index: int, wrist: tuple[FloatAr
     """How far (B, 3) a finger is from its place, in the instrument's frame, with what it works there fully worked."""
     station = table.stations[index]
     own = wrist_given(hand, [(one, np.ones(1)) for one in hand.leans if one.places == ((table.finger, index),)])
-    wanted = own[0] + quaternion.rotate(own[1], tip_m(table, station, station.rotations[-1:]))
+    requested = own[0] + quaternion.rotate(own[1], tip_m(table, station, station.rotations[-1:]))
     rotations = np.repeat(station.rotations[-1:], len(wrist[0]), axis=0)
     there = with_wrist(table, station, rotations, own, wrist)
-    return wrist[0] + quaternion.rotate(wrist[1], tip_m(table, station, there)) - wanted
+    return wrist[0] + quaternion.rotate(wrist[1], tip_m(table, station, there)) - requested

@@ -62,7 +62,7 @@ STILL_VALUES = np.zeros(1)
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class GripScene:
     """A solved wrist on its instrument."""
 
     model: InstrumentModel
@@ -79,11 +79,11 @@ class Scene:
         """Likewise for directions."""
         return vectors @ self.basis.transpose(0, 2, 1)
 
-    def only(self, which: IntArray) -> Scene:
+    def only(self, which: IntArray) -> GripScene:
         """The scene at some of its samples."""
         return replace(self, position_m=self.position_m[which], basis=self.basis[which])
 
-    def over(self, values: FloatArray) -> Scene:
+    def over(self, values: FloatArray) -> GripScene:
         """The scene at some values of what a finger works: a wrist that nothing carries is the same at all of them."""
         return self if len(self.position_m) == len(values) else self.only(np.zeros(len(values), dtype=np.intp))
 
@@ -98,7 +98,7 @@ class Solved:
     angles: FloatArray
 
 
-def values_of(scene: Scene, station: Station) -> FloatArray:
+def values_of(scene: GripScene, station: Station) -> FloatArray:
     """Values at which a finger is solved at a station."""
     if scene.carrier is None and not station.controls:
         return STILL_VALUES
@@ -107,10 +107,10 @@ def values_of(scene: Scene, station: Station) -> FloatArray:
 
 def solve_tables(
     problem: Problem,
-    scene: Scene,
+    scene: GripScene,
     angles: FloatArray,
     elsewhere: FloatArray,
-    told: Callable[[float], None] = lambda share: None,
+    reported: Callable[[float], None] = lambda share: None,
 ) -> tuple[Solved, ...]:
     """Solve the fingers at each of their stations over the values of their controls, the wrist held; a finger that
     touches nothing keeps its relaxed bend.
@@ -130,7 +130,7 @@ def solve_tables(
     others = {(one.number, one.station.controls): elsewhere[one.angles] for one in problem.elsewhere}
     for number, places in enumerate(problem.stations):
         for index, station in enumerate(places or (Station("", (), ()),)):
-            told((number + index / (len(places) + 1)) / len(problem.stations))
+            reported((number + index / (len(places) + 1)) / len(problem.stations))
             values = values_of(scene, station)
             pose = angles[:, 0] if len(angles) == len(values) else np.repeat(angles[:1, 0], len(values), axis=0)
             if not station.contacts:
@@ -150,7 +150,7 @@ def solve_tables(
     return tuple(result)
 
 
-def followed_table(problem: Problem, scene: Scene, number: int, station: Station, angles: FloatArray) -> Solved:
+def followed_table(problem: Problem, scene: GripScene, number: int, station: Station, angles: FloatArray) -> Solved:
     """Solve one finger at a station, from the angles (16, 3) of a hand whose controls there are fully worked."""
     values = values_of(scene, station)
     pose = np.repeat(angles[None], len(values), axis=0)
@@ -162,7 +162,7 @@ def followed_table(problem: Problem, scene: Scene, number: int, station: Station
     return Solved(number, station, values, pose)
 
 
-def solved_about(problem: Problem, scene: Scene, home: Solved, values: FloatArray, angles: FloatArray) -> Solved:
+def solved_about(problem: Problem, scene: GripScene, home: Solved, values: FloatArray, angles: FloatArray) -> Solved:
     """Solve a finger at home again for another wrist, about the angles (16, 3) of a hand that works its controls there
     fully."""
     pose = home.angles[np.searchsorted(home.values, values)].copy()
@@ -175,7 +175,7 @@ def solved_about(problem: Problem, scene: Scene, home: Solved, values: FloatArra
     return Solved(home.number, home.station, values, pose)
 
 
-def missed_m(problem: Problem, scene: Scene, one: Solved) -> float:
+def missed_m(problem: Problem, scene: GripScene, one: Solved) -> float:
     """How far a finger stays from its touch points while what it works is fully worked."""
     if not one.station.contacts:
         return 0.0
@@ -222,7 +222,7 @@ class _Finger:
     def __init__(
         self,
         problem: Problem,
-        scene: Scene,
+        scene: GripScene,
         number: int,
         station: Station,
         values: FloatArray,
@@ -365,7 +365,7 @@ class _Finger:
         return np.concatenate(parts, axis=2), scene.placed(flesh.reshape(shape))
 
 
-def _kept_open(problem: Problem, scene: Scene, number: int, station: Station) -> list[tuple[str, FloatArray]]:
+def _kept_open(problem: Problem, scene: GripScene, number: int, station: Station) -> list[tuple[str, FloatArray]]:
     """Holes that a finger closes elsewhere and must leave open here: the part that would, and where they are."""
     instrument, found = scene.instrument_map, []
     for place in problem.stations[number]:
@@ -377,7 +377,7 @@ def _kept_open(problem: Problem, scene: Scene, number: int, station: Station) ->
     return found
 
 
-def touches_at(scene: Scene, station: Station, values: FloatArray) -> list[Touch]:
+def touches_at(scene: GripScene, station: Station, values: FloatArray) -> list[Touch]:
     """The touches of a finger at a station over values of what it works there."""
     instrument, moved = scene.instrument_map, frozenset(station.controls)
     return [
@@ -386,7 +386,7 @@ def touches_at(scene: Scene, station: Station, values: FloatArray) -> list[Touch
     ]
 
 
-def finger_tables(problem: Problem, scene: Scene, solved: Sequence[Solved]) -> tuple[FingerTable, ...]:
+def finger_tables(problem: Problem, scene: GripScene, solved: Sequence[Solved]) -> tuple[FingerTable, ...]:
     """The solved angles as rotations, finger by finger."""
     hand = problem.hand
     tables = []
@@ -404,7 +404,7 @@ def finger_tables(problem: Problem, scene: Scene, solved: Sequence[Solved]) -> t
     return tuple(tables)
 
 
-def _tip(problem: Problem, scene: Scene, one: Solved) -> tuple[int, FloatArray]:
+def _tip(problem: Problem, scene: GripScene, one: Solved) -> tuple[int, FloatArray]:
     """The joint of a finger that carries what touches at a station, and where that is in its frame."""
     if not one.station.contacts:
         return -1, np.zeros(3)

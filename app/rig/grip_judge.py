@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
-from app.rig.grip_fingers import Scene
+from app.rig.grip_fingers import GripScene
 from app.rig.grip_problem import Problem, contact_at, counts, home_controls, nodes_at
 from app.rig.grip_residuals import inside_proxy
 from app.rig.hand import ball_centres, flesh_radius, skinned, turned, wrist_from_joint, wrist_from_mesh
@@ -20,10 +20,10 @@ FloatArray = npt.NDArray[np.float64]
 
 def judge(
     problem: Problem,
-    scene: Scene,
+    scene: GripScene,
     fingers: tuple[FingerTable, ...],
     values: FloatArray,
-    leant: Mapping[tuple[int, int], tuple[Scene, Mapping[int, StationTable]]],
+    leant: Mapping[tuple[int, int], tuple[GripScene, Mapping[int, StationTable]]],
 ) -> tuple[tuple[ContactFit, ...], float]:
     """Measure the hold over all its samples and half way between them, on the whole skin of the hand: all fingers at
     home together, then every finger at its other stations alone.
@@ -49,7 +49,7 @@ def judge(
     return tuple(contacts), depth
 
 
-def _finer(scene: Scene, values: FloatArray, fine: FloatArray) -> Scene:
+def _finer(scene: GripScene, values: FloatArray, fine: FloatArray) -> GripScene:
     """The scene between its samples."""
     if len(values) == 1:
         return scene
@@ -74,7 +74,7 @@ def _posed(tables: Mapping[int, StationTable], values: Mapping[int, FloatArray],
 
 def _judged(
     problem: Problem,
-    scene: Scene,
+    scene: GripScene,
     rotations: FloatArray,
     moved: frozenset[str],
     own: Sequence[int],

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
-from app.rig.grip_fingers import Scene, Solved, followed_table, missed_m, solved_about
+from app.rig.grip_fingers import GripScene, Solved, followed_table, missed_m, solved_about
 from app.rig.grip_problem import (
     Problem,
     Touch,
@@ -28,7 +28,7 @@ from app.rig.grip_problem import (
 from app.rig.grip_residuals import Residuals
 from app.rig.grip_search import solve
 from app.rig.hand import FINGERS
-from app.rig.hold import Lean
+from app.rig.hold import WristOffset
 from app.rig.stations import Station
 
 FloatArray = npt.NDArray[np.float64]
@@ -58,17 +58,17 @@ class Leaning:
     """
 
     index: int
-    scene: Scene
+    scene: GripScene
     solved: Solved
     others: tuple[Solved, ...]
 
 
 def leanings(
     problem: Problem,
-    scene: Scene,
+    scene: GripScene,
     x: FloatArray,
     solved: Sequence[Solved],
-    told: Callable[[float], None] = lambda share: None,
+    reported: Callable[[float], None] = lambda share: None,
 ) -> tuple[Leaning, ...]:
     """Let the hand give way for every station that its finger misses."""
     found = []
@@ -76,7 +76,7 @@ def leanings(
         return ()
     homes = {one.number: one for one in reversed(solved)}
     for place, one in enumerate(solved):
-        told(place / len(solved))
+        reported(place / len(solved))
         index = problem.stations[one.number].index(one.station) if one.station in problem.stations[one.number] else 0
         missed = missed_m(problem, scene, one)
         if not index or missed <= LEAN_FROM_M:
@@ -95,7 +95,7 @@ def leanings(
 
 def _leant(
     problem: Problem,
-    scene: Scene,
+    scene: GripScene,
     x: FloatArray,
     one: Solved,
     index: int,
@@ -106,7 +106,7 @@ def _leant(
     assert there.anchor is not None
     best = np.asarray(solve(Residuals(there, 1.0), there.anchor, ROUNDS).x)[None]
     position, turn = wrist_transform(there, best)
-    moved = Scene(scene.model, scene.instrument_map, None, position, quaternion.to_matrix(turn))
+    moved = GripScene(scene.model, scene.instrument_map, None, position, quaternion.to_matrix(turn))
     angles = joint_angles(there, best)[0, 0]
     solved = followed_table(problem, moved, one.number, one.station, angles)
     others = tuple(
@@ -118,7 +118,7 @@ def _leant(
 
 
 def _lean_problem(
-    problem: Problem, scene: Scene, number: int, station: Station, x: FloatArray, eased: float
+    problem: Problem, scene: GripScene, number: int, station: Station, x: FloatArray, eased: float
 ) -> Problem:
     """All fingers at work at once: one at its station, the others at home, the wrist near where it was."""
     instrument, hand = scene.instrument_map, problem.hand
@@ -168,10 +168,10 @@ def whole_hand(side: str) -> tuple[str, ...]:
     return f"{side}.palm", f"{side}.thumb_web"
 
 
-def lean_of(problem: Problem, scene: Scene, leaning: Leaning) -> Lean:
+def lean_of(problem: Problem, scene: GripScene, leaning: Leaning) -> WristOffset:
     """A leaning as a difference to the wrist at home."""
     before, after = quaternion.from_matrix(scene.basis[0]), quaternion.from_matrix(leaning.scene.basis[0])
-    return Lean(
+    return WristOffset(
         finger=f"{problem.hand.side}.{FINGERS[leaning.solved.number]}",
         station=leaning.index,
         moved_m=leaning.scene.position_m[0] - scene.position_m[0],

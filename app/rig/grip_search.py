@@ -16,8 +16,8 @@ from instrument_maps.model import Control, InstrumentMap
 
 FloatArray = npt.NDArray[np.float64]
 
-Told = Callable[[float], None]
-"""Told the share 0..1 that is done; what it raises stops the work."""
+Progress = Callable[[float], None]
+"""Called with the share 0..1 that is done; what it raises stops the work."""
 
 KNOTS = (0.25, 0.0, 0.5, 0.75, 1.0)
 """Values of the control that carries a hand at which its hold is solved: the first from the seed, the others each from
@@ -40,20 +40,20 @@ TILTS = (
 """Turns of the seed (rotation vectors in the instrument's frame) that are tried."""
 
 
-def unheard(share: float) -> None:
-    """Nobody wants to know."""
+def no_progress(share: float) -> None:
+    """No one wants to know."""
 
 
-def starts(problem: Problem, told: Told = unheard) -> list[FloatArray]:
+def starts(problem: Problem, progress: Progress = no_progress) -> list[FloatArray]:
     """Start from the seed and from tilts of it with soft contacts; the best few go on with harder ones. Best first."""
     loose = []
     for number, tilt in enumerate(TILTS):
-        told(0.8 * number / len(TILTS))
+        progress(0.8 * number / len(TILTS))
         loose.append(solve(Residuals(problem, 6.0), start_at(problem, np.array(tilt)), 8))
     loose.sort(key=lambda found: float(found.cost))
     middle = []
     for number, found in enumerate(loose[:3]):
-        told(0.8 + 0.2 * number / 3.0)
+        progress(0.8 + 0.2 * number / 3.0)
         middle.append(solve(Residuals(problem, 2.0), found.x, 10))
     return [found.x for found in sorted(middle, key=lambda found: float(found.cost))]
 
@@ -65,7 +65,11 @@ def finished(problem: Problem, start: FloatArray) -> FloatArray:
 
 
 def search_knots(
-    problem: Problem, model: InstrumentModel, instrument_map: InstrumentMap, carrier: Control, told: Told = unheard
+    problem: Problem,
+    model: InstrumentModel,
+    instrument_map: InstrumentMap,
+    carrier: Control,
+    progress: Progress = no_progress,
 ) -> tuple[FloatArray, FloatArray]:
     """Solve the hold of a carried hand at `KNOTS`: values ascending (K,) and parameters (K, n)."""
     found: dict[float, FloatArray] = {}
@@ -80,9 +84,9 @@ def search_knots(
             anchor=found[min(found, key=lambda other: abs(other - value))] if found else None,
         )
         if here.anchor is None:
-            found[value] = finished(here, starts(here, lambda share: told(0.5 * share))[0])
+            found[value] = finished(here, starts(here, lambda share: progress(0.5 * share))[0])
         else:
-            told(0.6 + 0.4 * len(found) / len(KNOTS))
+            progress(0.6 + 0.4 * len(found) / len(KNOTS))
             found[value] = np.asarray(solve(Residuals(here, 1.0, stiff=True), here.anchor, 20).x)
     knots = np.array(sorted(found))
     return knots, np.stack([found[value] for value in knots])

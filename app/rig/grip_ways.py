@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from app.rig import quaternion
 from app.rig.finger_poses import LOW_HOVER, raised_way, with_wrist
-from app.rig.grip_fingers import Scene
+from app.rig.grip_fingers import GripScene
 from app.rig.grip_problem import HOVER_MORE, Problem, nodes_at
 from app.rig.grip_residuals import inside_proxy
 from app.rig.hand import skinned, wrist_from_joint, wrist_from_mesh
@@ -55,7 +55,7 @@ class _Height:
 
 
 def lifted_ways(
-    problem: Problem, scene: Scene, tables: tuple[FingerTable, ...], wrists: Mapping[tuple[int, int], Scene]
+    problem: Problem, scene: GripScene, tables: tuple[FingerTable, ...], wrists: Mapping[tuple[int, int], GripScene]
 ) -> tuple[FingerTable, ...]:
     """Find how high fingers are lifted on their ways between home and their other stations."""
     result = []
@@ -70,7 +70,7 @@ def lifted_ways(
 
 
 def _lifted(
-    problem: Problem, scene: Scene, table: FingerTable, number: int, index: int, place: Station, wrist: Scene
+    problem: Problem, scene: GripScene, table: FingerTable, number: int, index: int, place: Station, wrist: GripScene
 ) -> StationTable:
     home, there = table.stations[0], table.stations[index]
     if table.chain is None or home.tip_joint < 0 or there.tip_joint < 0 or set(home.controls) & set(there.controls):
@@ -98,12 +98,12 @@ def _unit(vector: FloatArray) -> FloatArray:
 
 def _lifted_along(
     problem: Problem,
-    scene: Scene,
+    scene: GripScene,
     table: FingerTable,
     number: int,
     index: int,
     place: Station,
-    wrist: Scene,
+    wrist: GripScene,
     away: FloatArray,
     off: FloatArray,
 ) -> tuple[StationTable, _Height]:
@@ -149,7 +149,7 @@ def _waiting(station: StationTable) -> FloatArray:
 
 
 def _least_lift(
-    problem: Problem, scene: Scene, number: int, lifted: Callable[[float], FloatArray], lifts_m: FloatArray
+    problem: Problem, scene: GripScene, number: int, lifted: Callable[[float], FloatArray], lifts_m: FloatArray
 ) -> tuple[float, float]:
     """The first of some heights at which a finger's poses (K, n, 4) all keep clear of the instrument, or the best; and
     how deep the deepest is there."""

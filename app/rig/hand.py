@@ -73,7 +73,7 @@ class HandModel:
     ball_pairs : (N, 2) int
         Balls of different fingers.
     ball_gaps_m : (N,) float64
-        Least distance wanted between the centres of a pair.
+        Least distance required between the centres of a pair.
     """
 
     side: Side

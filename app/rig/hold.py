@@ -1,9 +1,10 @@
 """How one body holds one instrument: fixed hand frames, finger poses over the controls, the lips.
 
-A `Hold` is fitted once per character and instrument (`app.rig.fit.fit_hold`) and then only evaluated, vectorised
+A `GripPose` is fitted once per character and instrument (`app.rig.fit.fit_hold`) and then only evaluated, vectorised
 over frames:
 
-1. ``Lips.contact_m`` gives where the lips are in the head's frame; with the head's transform and the wanted rotation of
+1. ``Lips.contact_m`` gives where the lips are in the head's frame; with the head's transform and the requested rotation
+of
    the instrument that gives ``world_from_instrument``.
 2. `hand_targets` gives ``world_from_hand`` of both wrists (a hand that lies on a moving node moves with it).
 3. `app.rig.ik.solve_limb` turns a shoulder and a target into rotations of upper arm, lower arm and hand;
@@ -153,7 +154,7 @@ class ContactFit:
 
 
 @dataclass(frozen=True)
-class Lean:
+class WristOffset:
     """How a hand gives way so that one finger reaches one of its stations.
 
     Attributes
@@ -205,7 +206,7 @@ class HandHold:
         Deepest vertex of hand and fingers inside the instrument's proxy, over all samples.
     values : (S,) float64
         Values of the control in ``motion`` at which the wrist is given; ascending, from 0.
-    leans : tuple of Lean
+    leans : tuple of WristOffset
     """
 
     side: Side
@@ -218,7 +219,7 @@ class HandHold:
     contacts: tuple[ContactFit, ...]
     penetration_m: float
     values: FloatArray = field(default_factory=lambda: np.zeros(1))
-    leans: tuple[Lean, ...] = ()
+    leans: tuple[WristOffset, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -318,7 +319,7 @@ class Lips:
 
 
 @dataclass(frozen=True)
-class Hold:
+class GripPose:
     """A character's hold of an instrument; see the module.
 
     Attributes
@@ -392,17 +393,17 @@ def giving_for(finger: str) -> str:
     return f"{finger}.hand"
 
 
-def given_way(lean: Lean, placed: Mapping[str, Placed] | None) -> FloatArray | None:
+def given_way(lean: WristOffset, placed: Mapping[str, Placed] | None) -> FloatArray | None:
     """How far (F,) a hand gives way, 0..1; None where it never does."""
     return _all_at(lean, placed, [giving_for(finger) for finger, _ in lean.places])
 
 
-def come_to(lean: Lean, placed: Mapping[str, Placed] | None) -> FloatArray | None:
+def come_to(lean: WristOffset, placed: Mapping[str, Placed] | None) -> FloatArray | None:
     """How far (F,) fingers have come to where their hand gives way for them, 0..1; None where they never do."""
     return _all_at(lean, placed, [finger for finger, _ in lean.places])
 
 
-def _all_at(lean: Lean, placed: Mapping[str, Placed] | None, names: Sequence[str]) -> FloatArray | None:
+def _all_at(lean: WristOffset, placed: Mapping[str, Placed] | None, names: Sequence[str]) -> FloatArray | None:
     weight: FloatArray | None = None
     for (finger, station), name in zip(lean.places, names, strict=True):
         where = None if placed is None else placed.get(name, placed.get(finger))
@@ -419,7 +420,7 @@ def _share_at(where: Placed, station: int) -> FloatArray | None:
     return weight if np.any(weight) else None
 
 
-def wrist_given(hand: HandHold, given: Sequence[tuple[Lean, FloatArray]]) -> tuple[FloatArray, FloatArray]:
+def wrist_given(hand: HandHold, given: Sequence[tuple[WristOffset, FloatArray]]) -> tuple[FloatArray, FloatArray]:
     """Wrist (F, 3) and (F, 4) of a hand on the root, in the instrument's frame, as far (F,) as it gives way."""
     place, turn = np.atleast_2d(hand.instrument_from_hand_m), np.atleast_2d(hand.instrument_from_hand_rotation)
     if not given:

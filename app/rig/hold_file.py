@@ -1,7 +1,7 @@
 """Holds kept in files, because fitting one takes seconds and its inputs seldom change.
 
 A hold is found by the digest of everything it was fitted from: first among those that come with the program, then in
-the person's cache. A file that is absent, damaged or of other inputs is as good as none: the hold is fitted again.
+the user's cache. A file that is absent, damaged or of other inputs is as good as none: the hold is fitted again.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ from app.formats.files import read_file
 from app.formats.json_data import decode_json
 from app.rig.carriage import usual_posture
 from app.rig.fit import FIT_VERSION, PLACES_VERSION, fit_hold, require_landmarks
-from app.rig.grip_search import Told, unheard
-from app.rig.hold import HandHold, Hold, Lips, Reach
+from app.rig.grip_search import Progress, no_progress
+from app.rig.hold import GripPose, HandHold, Lips, Reach
 from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
 from app.rig.stations import asked_together, only_at
@@ -117,21 +117,21 @@ def usual_wrists(instrument_id: str) -> Mapping[str, tuple[npt.NDArray[np.float6
     return {}
 
 
-def write_hold(path: Path, digest: str, hold: Hold) -> None:
+def write_hold(path: Path, digest: str, hold: GripPose) -> None:
     """Write a hold; the file appears whole or not at all. Raises FileError."""
     with atomic_write(path) as file:
         stored = _StoredHold(digest, hold.character_id, hold.instrument_id, hold.hands, hold.reach)
         file.write(msgspec.json.encode(stored, enc_hook=_plain))
 
 
-def stored(hold: Hold) -> Hold:
+def stored(hold: GripPose) -> GripPose:
     """The hold as it comes back from a file: with rounded numbers."""
     kept = _StoredHold("", hold.character_id, hold.instrument_id, hold.hands, hold.reach)
     back = msgspec.json.decode(msgspec.json.encode(kept, enc_hook=_plain), type=_StoredHold, dec_hook=_array)
     return replace(hold, hands=back.hands, reach=back.reach)
 
 
-def read_hold(path: Path, digest: str, lips: Lips) -> Hold | None:
+def read_hold(path: Path, digest: str, lips: Lips) -> GripPose | None:
     """Read the hold fitted from inputs of this digest; None where the file holds no such thing."""
     try:
         stored = _read(path)
@@ -139,15 +139,19 @@ def read_hold(path: Path, digest: str, lips: Lips) -> Hold | None:
         return None
     if stored.digest != digest:
         return None
-    return Hold(stored.character_id, stored.instrument_id, stored.hands, lips, stored.reach)
+    return GripPose(stored.character_id, stored.instrument_id, stored.hands, lips, stored.reach)
 
 
 def hold_for(
-    character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body, told: Told = unheard
-) -> Hold:
+    character: Character,
+    model: InstrumentModel,
+    instrument: InstrumentMap,
+    body: Body,
+    progress: Progress = no_progress,
+) -> GripPose:
     """Return how a body holds an instrument: the stored hold, or a new fit, which is then kept in the cache.
 
-    ``told`` hears of the fit, and may stop it (`fit_hold`).
+    ``progress`` is called during the fit, and may stop it (`fit_hold`).
     """
     require_landmarks(character, instrument)
     digest = digest_of(character, model, instrument, body)
@@ -157,7 +161,7 @@ def hold_for(
         hold = read_hold(path, digest, lips)
         if hold is not None:
             return hold
-    hold = stored(fit_hold(character, model, instrument, body, told))
+    hold = stored(fit_hold(character, model, instrument, body, progress))
     # A cache that cannot be written costs the next run some seconds and nothing else.
     with contextlib.suppress(OSError, FileError):
         cached.parent.mkdir(parents=True, exist_ok=True)

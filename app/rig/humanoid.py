@@ -85,14 +85,14 @@ class _Found:
         return len(self.bones) + self.required - 2.0 * len(self.astray) + 3.0 * self.skinned
 
 
-def map_joints(figure: Figure, wanted: Mapping[str, str] | None = None) -> JointMapping:
+def map_joints(figure: Figure, requested: Mapping[str, str] | None = None) -> JointMapping:
     """Find the joints of a figure.
 
     Parameters
     ----------
     figure : Figure
-    wanted : mapping of str to str
-        A person's corrections, bone by joint; empty: the figure has no such joint.
+    requested : mapping of str to str
+        The user's corrections, bone by joint; empty: the figure has no such joint.
 
     Raises
     ------
@@ -104,7 +104,7 @@ def map_joints(figure: Figure, wanted: Mapping[str, str] | None = None) -> Joint
     doubtful = set(found.astray) | guessed
     doubtful |= _turn_sides(tree, bones)
     _place_thumbs(tree, bones)
-    for joint, bone in _corrections(figure, wanted or {}).items():
+    for joint, bone in _corrections(figure, requested or {}).items():
         if bone is not None:
             for other in [one for one, held in bones.items() if held == bone]:
                 del bones[other]
@@ -135,7 +135,7 @@ def _without_help(figure: Figure) -> tuple[Tree, _Found, set[str]]:
 
 
 def _automatic(figure: Figure, tree: Tree) -> tuple[_Found, set[str]]:
-    """The best mapping without a person's help, and which joints of it are guessed."""
+    """The best mapping without the user's help, and which joints of it are guessed."""
     named = _by_names(figure, tree)
     joints = _joints()
     if figure.humanoid:
@@ -291,10 +291,10 @@ def _place_thumbs(tree: Tree, bones: dict[str, int]) -> None:
             bones[next_] = bones.pop(base)
 
 
-def _corrections(figure: Figure, wanted: Mapping[str, str]) -> dict[str, int | None]:
-    """A person's corrections as bones."""
+def _corrections(figure: Figure, requested: Mapping[str, str]) -> dict[str, int | None]:
+    """The user's corrections as bones."""
     found: dict[str, int | None] = {}
-    for joint, name in wanted.items():
+    for joint, name in requested.items():
         if joint not in _joints():
             raise FileError("figure.no_joint", file=figure.file, joint=joint, joints=", ".join(_joints()))
         if name and name not in figure.bone_names:

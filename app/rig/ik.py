@@ -115,7 +115,7 @@ def solve_limb(
     parent_rotation : (F, 4) float64
         World rotation of the upper joint's parent.
     target_m, target_rotation : (F, 3) and (F, 4) float64
-        Wanted world transform of the end joint.
+        Target world transform of the end joint.
     pole : (F, 3) or (3,) float64
         World direction in which the middle joint points off the line from root to target; need not be a unit vector
         nor orthogonal.
@@ -126,9 +126,9 @@ def solve_limb(
     """
     a, b = limb.upper_m, limb.lower_m
     line = target_m - root_m
-    wanted = np.sqrt(np.einsum("fi,fi->f", line, line))
-    direction = line / np.maximum(wanted, 1e-9)[:, None]
-    distance = _soft_limit(wanted, a + b, abs(a - b))
+    requested = np.sqrt(np.einsum("fi,fi->f", line, line))
+    direction = line / np.maximum(requested, 1e-9)[:, None]
+    distance = _soft_limit(requested, a + b, abs(a - b))
     off = pole - direction * np.einsum("fi,fi->f", np.broadcast_to(pole, direction.shape), direction)[:, None]
     off /= np.maximum(np.sqrt(np.einsum("fi,fi->f", off, off)), 1e-9)[:, None]
     # Law of cosines: the middle joint lies `along` the line and `aside` of it.
@@ -149,7 +149,7 @@ def solve_limb(
         upper=quaternion.multiply(quaternion.conjugate(parent_rotation), upper_world),
         lower=quaternion.multiply(quaternion.conjugate(upper_world), lower_world),
         end=quaternion.multiply(quaternion.conjugate(lower_world), target_rotation),
-        miss_m=np.abs(wanted - distance),
+        miss_m=np.abs(requested - distance),
     )
 
 

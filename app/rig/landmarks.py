@@ -274,8 +274,8 @@ def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
     # Eyes are half way up a head, wherever it has none.
     top_m = float(skin.positions[_own(skin, head.joints, 0.5), 1].max())
     eyes_m = head.eyes_m if head.eyes_m is not None else (chin_m + top_m) / 2.0
-    wanted_m = _notch_m(at[forward], eyes_m, chin_m)
-    nearest = front[np.argsort(np.abs(at[:, 1] - wanted_m), kind="stable")[:LIP_VERTICES]]
+    requested_m = _notch_m(at[forward], eyes_m, chin_m)
+    nearest = front[np.argsort(np.abs(at[:, 1] - requested_m), kind="stable")[:LIP_VERTICES]]
     depth_m = float(skin.positions[nearest, 2].max())
     contact = nearest[skin.positions[nearest, 2] > depth_m - PATCH_M * head.size]
     heights = skin.positions[contact, 1]

@@ -91,14 +91,14 @@ def forward(
     -------
     JointTransforms
     """
-    wanted = closure(skeleton, range(len(skeleton.names)) if joints is None else joints)
-    place = {joint: index for index, joint in enumerate(wanted)}
+    requested = closure(skeleton, range(len(skeleton.names)) if joints is None else joints)
+    place = {joint: index for index, joint in enumerate(requested)}
     frames = len(rotations)
     hips = _hips(skeleton) if hips_m is not None else -1
     # One contiguous plane per joint while walking down; frames come first only in the result.
-    turned = np.empty((len(wanted), frames, 4))
-    placed = np.empty((len(wanted), frames, 3))
-    for index, joint in enumerate(wanted):
+    turned = np.empty((len(requested), frames, 4))
+    placed = np.empty((len(requested), frames, 3))
+    for index, joint in enumerate(requested):
         local = rotations[:, joint]
         offset = hips_m if joint == hips and hips_m is not None else skeleton.offsets_m[joint]
         parent = skeleton.parents[joint]
@@ -109,7 +109,7 @@ def forward(
             above = place[parent]
             turned[index] = quaternion.multiply(turned[above], local)
             placed[index] = placed[above] + quaternion.rotate(turned[above], offset)
-    return JointTransforms(wanted, placed.transpose(1, 0, 2), turned.transpose(1, 0, 2))
+    return JointTransforms(requested, placed.transpose(1, 0, 2), turned.transpose(1, 0, 2))
 
 
 @lru_cache(maxsize=64)

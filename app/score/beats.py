@@ -35,7 +35,7 @@ def find_beats(onsets_s: Floats, ends_s: Floats, start_bpm: float = 100.0) -> Fl
     onsets_s, ends_s : float64, shape (n,)
         Of the notes. Longer notes begin on beats more often.
     start_bpm : float
-        What tempo is likely; beats twice as fast or slow are told apart by it.
+        What tempo is likely; beats twice as fast or slow are distinguished by it.
 
     Returns
     -------

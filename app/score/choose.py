@@ -54,7 +54,7 @@ class MapChoice(msgspec.Struct, frozen=True):
         return 0 if low <= min(pitches) and max(pitches) <= high else sum(not low <= pitch <= high for pitch in pitches)
 
 
-class Stream(msgspec.Struct, frozen=True):
+class TrackChannel(msgspec.Struct, frozen=True):
     """The notes of one track on one channel, as read.
 
     Attributes
@@ -68,7 +68,7 @@ class Stream(msgspec.Struct, frozen=True):
     onset_ticks, end_ticks, pitches, velocities, numbers : list of int
         One entry per note, by onset; ``numbers`` is the note's place among the track's note-ons, from 1.
     curves : tuple of ControllerCurve
-    told : tuple of str
+    reported : tuple of str
         Of a track that says nothing itself: ids of the instruments that the file's name says it may be for.
     played_on : str
         Id of the instrument that its player changes to for these notes (`app.score.doublings`); empty: that of the
@@ -90,7 +90,7 @@ class Stream(msgspec.Struct, frozen=True):
     velocities: list[int]
     numbers: list[int]
     curves: tuple[ControllerCurve, ...]
-    told: tuple[str, ...] = ()
+    reported: tuple[str, ...] = ()
     played_on: str = ""
     change: int = 0
     muted: tuple[tuple[int, int], ...] = ()
@@ -114,7 +114,7 @@ _PLAYERS = re.compile(
 _SAYS_NOTHING = re.compile(
     r"(?:midi|new|part|track|staff|voice|channel|untitled|パート|トラック|[\W\d_])*", re.IGNORECASE
 )
-"""What programs call a track that nobody has named."""
+"""What programs call a track that no one has named."""
 _UNISON = re.compile(r"(?<!\w)[aà] ?([2-4])(?!\w)")
 _NUMERALS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
@@ -156,7 +156,7 @@ class Candidates(msgspec.Struct, frozen=True):
     exact : frozenset of str
         Ids of the maps that play just this instrument, not a kind of it.
     unknown : bool
-        The track has a name, and nothing says what it means: any of the maps might play it, so a person must say.
+        The track has a name, and nothing says what it means: any of the maps might play it, so the user must say.
     """
 
     how: How
@@ -194,7 +194,7 @@ class Candidates(msgspec.Struct, frozen=True):
 
 
 def require_map(map_id: str, known: Collection[str]) -> str:
-    """The id of an instrument map that a person assigns to a part or a player.
+    """The id of an instrument map that the user assigns to a part or a player.
 
     Raises
     ------
@@ -206,13 +206,13 @@ def require_map(map_id: str, known: Collection[str]) -> str:
     return map_id
 
 
-def recognised(stream: Stream) -> Instrument | None:
+def recognised(stream: TrackChannel) -> Instrument | None:
     """The instrument that a track's names or numbers, or else the file's name, give to it; None if they give none."""
     said = _said(stream)
-    return vocabulary().instruments[stream.told[0]] if said is None and len(stream.told) == 1 else said
+    return vocabulary().instruments[stream.reported[0]] if said is None and len(stream.reported) == 1 else said
 
 
-def _said(stream: Stream) -> Instrument | None:
+def _said(stream: TrackChannel) -> Instrument | None:
     """What a track says of itself."""
     words = vocabulary()
     if stream.played_on:
@@ -232,7 +232,7 @@ def _said(stream: Stream) -> Instrument | None:
     return numbered if says_more else vague
 
 
-def told_by_file(streams: Sequence[Stream], title: str) -> list[Stream]:
+def named_by_file(streams: Sequence[TrackChannel], title: str) -> list[TrackChannel]:
     """Give the winds that a file's name or title names to the tracks that say nothing themselves.
 
     As many as there are such tracks go to them in their order ("oboe and bassoon"); else each of them may be any of
@@ -242,21 +242,21 @@ def told_by_file(streams: Sequence[Stream], title: str) -> list[Stream]:
     winds = [found for found in vocabulary().all_by_name(title) if found.kind == "wind"]
     sections = [found.id for found in winds if found.any_pitch]
     named = [found.id for found in winds if not found.any_pitch] or sections[:1]
-    told = list(streams)
+    reported = list(streams)
     for place, index in enumerate(silent):
         own = (named[place],) if len(named) == len(silent) else tuple(dict.fromkeys(named))
-        told[index] = msgspec.structs.replace(streams[index], told=own)
-    return told
+        reported[index] = msgspec.structs.replace(streams[index], reported=own)
+    return reported
 
 
-def candidates(streams: Sequence[Stream], maps: Sequence[MapChoice]) -> Candidates:
+def candidates(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> Candidates:
     """The maps that tracks which are played as one may go to; those whose range fits where nothing is said."""
     said = next((found for found in map(_said, streams) if found is not None), None)
     if said is not None and not said.any_pitch:
         return _of_instrument(How.SAID, said, maps)
-    told = dict.fromkeys(id for stream in streams for id in stream.told) if said is None else {}
+    reported = dict.fromkeys(id for stream in streams for id in stream.reported) if said is None else {}
     pitches = [pitch for stream in streams for pitch in stream.pitches]
-    named = [vocabulary().instruments[id] for id in told]
+    named = [vocabulary().instruments[id] for id in reported]
     found = [_of_instrument(How.FILE, one, maps) for one in named if not one.any_pitch]
     fitting = [one for one in found if any(_share(pitches, choice) > _NEEDED_SHARE for choice in one.maps)]
     if len(fitting) == 1:
@@ -271,8 +271,8 @@ def candidates(streams: Sequence[Stream], maps: Sequence[MapChoice]) -> Candidat
     return Candidates(How.RANGE, section, tuple(usual or maps), unknown=section is None and named_so)
 
 
-def refusal(stream: Stream, maps: Sequence[MapChoice]) -> Message | None:
-    """Why nobody plays a track; None if somebody does."""
+def refusal(stream: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
+    """Why no one plays a track; None if someone does."""
     instrument = _said(stream)
     found = candidates([stream], maps)
     if instrument is not None and not instrument.any_pitch:
@@ -288,7 +288,7 @@ def refusal(stream: Stream, maps: Sequence[MapChoice]) -> Message | None:
     return None
 
 
-def is_drum_kit(stream: Stream) -> bool:
+def is_drum_kit(stream: TrackChannel) -> bool:
     """Whether its notes name the percussion sounds of General MIDI: a percussion track on channel 10."""
     said = _said(stream)
     return stream.channel == PERCUSSION_CHANNEL and said is not None and said.kind == "percussion"
@@ -311,10 +311,10 @@ def _of_instrument(how: How, instrument: Instrument, maps: Sequence[MapChoice]) 
     return Candidates(how, instrument, tuple(own), exact)
 
 
-def _where(maps: Iterable[MapChoice], wanted: Callable[[Instrument], bool]) -> list[MapChoice]:
-    """The maps of which something they play is wanted; also those that play nothing the vocabulary knows."""
+def _where(maps: Iterable[MapChoice], requested: Callable[[Instrument], bool]) -> list[MapChoice]:
+    """The maps of which something they play is requested; also those that play nothing the vocabulary knows."""
     known = vocabulary().instruments
-    return [choice for choice in maps if any(id not in known or wanted(known[id]) for id in choice.plays)]
+    return [choice for choice in maps if any(id not in known or requested(known[id]) for id in choice.plays)]
 
 
 def _share(pitches: Sequence[int], choice: MapChoice, written: bool = False) -> float:

@@ -1,8 +1,8 @@
-"""The notes of a take without what nobody meant to play.
+"""The notes of a take without what no one meant to play.
 
 A wind controller sends a note for whatever the fingers and the breath do: for a finger that is late a note between two
-others, for a key that springs back the same note twice, for a breath that fades a note that nobody hears. Legato
-notes overlap. What is left out is told, so that it can be shown.
+others, for a key that springs back the same note twice, for a breath that fades a note that no one hears. Legato
+notes overlap. What is left out is reported, so that it can be shown.
 """
 
 from __future__ import annotations

@@ -110,7 +110,7 @@ class Part(msgspec.Struct, frozen=True, dict=True):
     program : int or None
         General MIDI program 0..127; None if the file does not say.
     instrument : str or None
-        Id in the vocabulary of instruments; None if neither name nor program told.
+        Id in the vocabulary of instruments; None if neither name nor program says.
     map_id : str
         The instrument map that plays it.
     notes : tuple of Note
@@ -153,9 +153,9 @@ class Part(msgspec.Struct, frozen=True, dict=True):
 
 
 class UnplayedPart(msgspec.Struct, frozen=True):
-    """A part that nobody plays, and why. Its last note ends at ``end_tick``.
+    """A part that no one plays, and why. Its last note ends at ``end_tick``.
 
-    ``sounding`` are the spans of ticks, in order, in which it is heard; pauses shorter than a quarter are not told
+    ``sounding`` are the spans of ticks, in order, in which it is heard; pauses shorter than a quarter are not counted
     apart. Empty where nothing accompanies (key switches, stray notes), or where an old project did not keep it.
     """
 
@@ -217,7 +217,7 @@ class Score(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def accompaniment(self) -> tuple[tuple[int, int], ...]:
-        """Spans of ticks, in order, in which something sounds that nobody plays."""
+        """Spans of ticks, in order, in which something sounds that no one plays."""
         return sounding_spans((span for part in self.unplayed for span in part.sounding), self.ticks_per_quarter)
 
     @property

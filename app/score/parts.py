@@ -27,7 +27,7 @@ Those about notes name the first of them: ``bar``, ``beat`` and ``pitch``.
 
 score.substituted : part, instrument, map
     "{part}: there is no instrument map for {instrument}; {map} plays it instead"
-score.told_by_file : part, map
+score.instrument_from_file_name : part, map
     "{part}: neither its name nor its program says what it is; the file's name does, so {map} plays it"
 score.chosen_by_range : part, map
     "{part}: neither its name nor its program says what it is; {map} plays it because the range fits"
@@ -64,7 +64,7 @@ from app.score.choose import (
     Candidates,
     How,
     MapChoice,
-    Stream,
+    TrackChannel,
     candidates,
     players_named,
     plays,
@@ -84,26 +84,26 @@ LEAST_OUTSIDE = 0.01
 
 
 def parts_of(
-    streams: Sequence[Stream], maps: Sequence[MapChoice], piece: Score
+    streams: Sequence[TrackChannel], maps: Sequence[MapChoice], piece: Score
 ) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
     """Sort tracks into parts with players and parts without, and say what was guessed.
 
     Parameters
     ----------
-    streams : sequence of Stream
+    streams : sequence of TrackChannel
     maps : sequence of MapChoice
         Earlier ones are preferred where all else is equal.
     piece : Score
         Its tempo and metres.
     """
-    return wished_parts(streams, usual_wishes(streams, maps), maps, piece)
+    return assigned_parts(streams, usual_wishes(streams, maps), maps, piece)
 
 
 Split: TypeAlias = Literal["sustained", "every", "never"]
 
 
-class PartWish(msgspec.Struct, frozen=True):
-    """What a person wants of some tracks.
+class PartAssignment(msgspec.Struct, frozen=True):
+    """What the user wants of some tracks.
 
     Attributes
     ----------
@@ -126,24 +126,24 @@ class PartWish(msgspec.Struct, frozen=True):
     written: bool = False
 
 
-def usual_wishes(streams: Sequence[Stream], maps: Sequence[MapChoice]) -> tuple[PartWish, ...]:
-    """What names, programs and ranges say: a wish, which a person may change, for every stream somebody can play."""
-    return tuple(PartWish((index,)) for index, stream in enumerate(streams) if refusal(stream, maps) is None)
+def usual_wishes(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> tuple[PartAssignment, ...]:
+    """What names, programs and ranges say: a wish, which the user may change, for every stream someone can play."""
+    return tuple(PartAssignment((index,)) for index, stream in enumerate(streams) if refusal(stream, maps) is None)
 
 
-def wished_parts(
-    streams: Sequence[Stream],
-    wishes: Sequence[PartWish],
+def assigned_parts(
+    streams: Sequence[TrackChannel],
+    assignments: Sequence[PartAssignment],
     maps: Sequence[MapChoice],
     piece: Score,
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
 ) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
-    """Sort tracks into the parts that a person wants and those nobody plays, and say what was guessed.
+    """Sort tracks into the parts that the user wants and those no one plays, and say what was guessed.
 
     Parameters
     ----------
-    streams : sequence of Stream
-    wishes : sequence of PartWish
+    streams : sequence of TrackChannel
+    wishes : sequence of PartAssignment
         A stream is asked for at most once.
     maps : sequence of MapChoice
     piece : Score
@@ -162,32 +162,32 @@ def wished_parts(
     silent: list[UnplayedPart] = []
     asked: set[int] = set()
     crowded: set[int] = set()
-    for wish in wishes:
-        if stop_wanted():
+    for assignment in assignments:
+        if stop_requested():
             raise Cancelled("work.stopped")
         room = MOST_PARTS - len(parts)
         if not room:
-            crowded.update(wish.streams)
+            crowded.update(assignment.streams)
             continue
-        found = _found([streams[index] for index in wish.streams], wish.map_id, maps)
+        found = _found([streams[index] for index in assignment.streams], assignment.map_id, maps)
         if found.unknown:
             continue
-        read = [without_key_switches(streams[index], found, maps, piece.tempo_map) for index in wish.streams]
+        read = [without_key_switches(streams[index], found, maps, piece.tempo_map) for index in assignment.streams]
         chosen = [stream for stream, _ in read]
         if any(places for _, places in read):
-            found = _found(chosen, wish.map_id, maps)
-        asked.update(wish.streams)
+            found = _found(chosen, assignment.map_id, maps)
+        asked.update(assignment.streams)
         notes = [note for stream in chosen for note in stream.notes()]
         notes.sort(key=lambda note: (note.onset_tick, note.pitch))
-        shared = _shared(wish, chosen, notes, piece.tempo_map, min(MOST_VOICES, room))
+        shared = _shared(assignment, chosen, notes, piece.tempo_map, min(MOST_VOICES, room))
         curves = next((stream.curves for stream in chosen if stream.curves), ())
-        name = wish.name or chosen[0].name or chosen[0].instrument_name
+        name = assignment.name or chosen[0].name or chosen[0].instrument_name
         muted = tuple(sorted({span for stream in chosen for span in stream.muted}))
         lead = msgspec.structs.replace(chosen[0], curves=curves, muted=muted)
-        mine = _parts(lead, name, found, shared.voices, wish.written)
+        mine = _parts(lead, name, found, shared.voices, assignment.written)
         parts += mine
         slurred += [(mine[0].name, note) for note in shared.shortened]
-        switches = _switches(streams, wish.streams, [places for _, places in read])
+        switches = _switches(streams, assignment.streams, [places for _, places in read])
         silent += _silent("score.key_switches", mine[0].name, switches, piece)
         if lead.change and len(chosen) == 1:
             instrument = vocabulary().instruments[lead.played_on].names[0]
@@ -198,7 +198,7 @@ def wished_parts(
             warnings.append(_about("score.notes_left_out", mine[0].name, shared.left_out, piece, most=len(mine)))
         else:
             silent += _silent("score.stray_notes", mine[0].name, shared.left_out, piece)
-        warnings += _instrument_warnings(mine, found, wish, maps, piece)
+        warnings += _instrument_warnings(mine, found, assignment, maps, piece)
     if slurred:
         part, first = min(slurred, key=lambda row: row[1].onset_tick)
         warnings.append(_about("score.slurred", part, [first], piece, count=len(slurred)))
@@ -221,9 +221,11 @@ def _once(messages: Sequence[Message]) -> list[Message]:
     return [message for place, message in enumerate(messages) if message not in messages[:place]]
 
 
-def _shared(wish: PartWish, chosen: Sequence[Stream], notes: Sequence[Note], tempo_map: TempoMap, most: int) -> Shared:
+def _shared(
+    assignment: PartAssignment, chosen: Sequence[TrackChannel], notes: Sequence[Note], tempo_map: TempoMap, most: int
+) -> Shared:
     """The notes among their players."""
-    if wish.split == "never":
+    if assignment.split == "never":
         return Shared([tuple(notes)], [], [], [])
     alone = len(chosen) == 1
     said = vocabulary().by_name(chosen[0].name or chosen[0].instrument_name) if alone else None
@@ -232,13 +234,13 @@ def _shared(wish: PartWish, chosen: Sequence[Stream], notes: Sequence[Note], tem
         tempo_map,
         most,
         least=players_named(chosen[0].name) if said is not None else 1,
-        every_chord=wish.split == "every",
+        every_chord=assignment.split == "every",
         unison=said is not None and not said.vague,
     )
 
 
-def _reason(stream: Stream, crowded: bool, maps: Sequence[MapChoice]) -> Message:
-    """Why nobody plays a stream."""
+def _reason(stream: TrackChannel, crowded: bool, maps: Sequence[MapChoice]) -> Message:
+    """Why no one plays a stream."""
     if crowded:
         return Message("score.too_many_players", {"most": MOST_PARTS})
     return refusal(stream, maps) or Message("score.left_out")
@@ -252,7 +254,7 @@ def _about(id_: str, part: str, notes: Sequence[Note], piece: Score, **more: Arg
     return Message(id_, {"part": part, "count": len(notes), **place, **more})
 
 
-def _switches(streams: Sequence[Stream], own: Sequence[int], places: Sequence[Sequence[int]]) -> list[Note]:
+def _switches(streams: Sequence[TrackChannel], own: Sequence[int], places: Sequence[Sequence[int]]) -> list[Note]:
     """The key switches of some streams, by onset."""
     found = []
     for index, switches in zip(own, places, strict=True):
@@ -263,26 +265,26 @@ def _switches(streams: Sequence[Stream], own: Sequence[int], places: Sequence[Se
 
 
 def _silent(id_: str, part: str, notes: Sequence[Note], piece: Score) -> list[UnplayedPart]:
-    """The notes of a part that its players leave out, as something that nobody plays or hears: few stray notes and key
-    switches accompany nobody."""
+    """The notes of a part that its players leave out, as something that no one plays or hears: few stray notes and key
+    switches accompany no one."""
     if not notes:
         return []
     return [UnplayedPart(part, _about(id_, part, notes, piece), len(notes), max(note.end_tick for note in notes))]
 
 
 def _instrument_warnings(
-    parts: Sequence[Part], found: Candidates, wish: PartWish, maps: Sequence[MapChoice], piece: Score
+    parts: Sequence[Part], found: Candidates, assignment: PartAssignment, maps: Sequence[MapChoice], piece: Score
 ) -> list[Message]:
     """What was guessed about the instrument."""
     warnings = []
-    if found.how is not How.RANGE and not wish.written:
+    if found.how is not How.RANGE and not assignment.written:
         warnings += _written_warnings(parts, maps, piece)
-    if wish.map_id is not None:
+    if assignment.map_id is not None:
         return warnings
     if found.how is How.RANGE:
         return [*warnings, *(_range_warning(part, maps, piece) for part in parts)]
     if found.how is How.FILE:
-        warnings.append(Message("score.told_by_file", {"part": parts[0].name, "map": parts[0].map_id}))
+        warnings.append(Message("score.instrument_from_file_name", {"part": parts[0].name, "map": parts[0].map_id}))
     if found.instrument is not None:
         warnings += _substitutions(parts, found.instrument, maps)
     return warnings
@@ -297,27 +299,27 @@ def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence
     ]
 
 
-def _found(chosen: Sequence[Stream], map_id: str | None, maps: Sequence[MapChoice]) -> Candidates:
-    """The maps a wish may be given to: the one a person named, else what the tracks say and fit. Raises as
+def _found(chosen: Sequence[TrackChannel], map_id: str | None, maps: Sequence[MapChoice]) -> Candidates:
+    """The maps a wish may be given to: the one the user named, else what the tracks say and fit. Raises as
     `require_map`."""
     found = candidates(chosen, maps)
     if map_id is not None:
         by_id = {choice.map_id: choice for choice in maps}
         return Candidates(How.SAID, found.instrument, (by_id[require_map(map_id, by_id)],))
     if not found.maps:
-        # A person wants it played though no map is for it, and must say what plays it.
+        # The user wants it played though no map is for it, and must say what plays it.
         return Candidates(How.RANGE, None, tuple(maps), unknown=True)
     return found
 
 
-def stream_name(stream: Stream) -> str:
-    """What a person calls a stream."""
+def stream_name(stream: TrackChannel) -> str:
+    """What the user calls a stream."""
     instrument = recognised(stream)
     return stream.name or stream.instrument_name or (instrument.names[0] if instrument else f"Track {stream.track + 1}")
 
 
 def _parts(
-    stream: Stream, name: str, found: Candidates, voices: Sequence[tuple[Note, ...]], written: bool
+    stream: TrackChannel, name: str, found: Candidates, voices: Sequence[tuple[Note, ...]], written: bool
 ) -> list[Part]:
     """A part for every voice."""
     parts = []

@@ -62,14 +62,14 @@ import msgspec
 
 from app.encoding import shown
 from app.errors import FileError, Message
-from app.score.choose import PERCUSSION_CHANNEL, MapChoice, Stream, is_drum_kit, told_by_file
+from app.score.choose import PERCUSSION_CHANNEL, MapChoice, TrackChannel, is_drum_kit, named_by_file
 from app.score.chunks import Container, Track, read_container
 from app.score.doublings import doubled_instruments
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
 from app.score.metre_map import Metre
 from app.score.model import MOST_VOICES, Marker, Part, PercussionHit, Score, UnplayedPart
 from app.score.mutes import muted_spans
-from app.score.parts import PartWish, parts_of, stream_name, wished_parts
+from app.score.parts import PartAssignment, assigned_parts, parts_of, stream_name
 from app.score.repair import Repaired, last_suspicious, repaired
 from app.score.tempo import TempoChange, TempoMap
 from app.score.texts import decoded
@@ -99,7 +99,7 @@ class MidiContents(msgspec.Struct, frozen=True):
     tempo_map : TempoMap
     metres : tuple of Metre
     pickup_ticks : int
-    streams : tuple of Stream
+    streams : tuple of TrackChannel
         The notes of each track, by channel.
     warnings : tuple of Message
         What was repaired or left out.
@@ -110,7 +110,7 @@ class MidiContents(msgspec.Struct, frozen=True):
     tempo_map: TempoMap
     metres: tuple[Metre, ...]
     pickup_ticks: int
-    streams: tuple[Stream, ...]
+    streams: tuple[TrackChannel, ...]
     warnings: tuple[Message, ...]
     markers: tuple[Marker, ...] = ()
 
@@ -136,14 +136,14 @@ def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoi
     return _score(contents, parts, unplayed, (*contents.warnings, *warnings))
 
 
-def wished_score(
+def assigned_score(
     contents: MidiContents,
-    wishes: Sequence[PartWish],
+    assignments: Sequence[PartAssignment],
     maps: Sequence[MapChoice],
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
 ) -> Score:
     """The score in which the parts are those that the user requests. Raises Cancelled as `wished_parts`."""
-    parts, unplayed, warnings = wished_parts(contents.streams, wishes, maps, _score(contents), stop_wanted)
+    parts, unplayed, warnings = assigned_parts(contents.streams, assignments, maps, _score(contents), stop_requested)
     return _score(contents, parts, unplayed, (*contents.warnings, *warnings))
 
 
@@ -189,7 +189,7 @@ def _score(
     )
 
 
-def _percussion(streams: Sequence[Stream]) -> tuple[PercussionHit, ...]:
+def _percussion(streams: Sequence[TrackChannel]) -> tuple[PercussionHit, ...]:
     """Every note of the percussion tracks."""
     hits = (
         hit
@@ -233,7 +233,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         tempo_map=tempo_map,
         metres=metres,
         pickup_ticks=pickup_ticks,
-        streams=tuple(told_by_file(streams, stem)),
+        streams=tuple(named_by_file(streams, stem)),
         warnings=(*warnings, *tempo_warnings, *metre_warnings),
         markers=_markers(tracks, encoding),
     )
@@ -383,7 +383,7 @@ def _title(tracks: Sequence[TrackEvents], encoding: str | None) -> str:
     return decoded(first.name, encoding)[:MOST_NAME]
 
 
-def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[Stream]:
+def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[TrackChannel]:
     lilypond = any(b"LilyPond" in text for _, text in tracks[0].texts)
     given: dict[int, set[int]] = {}
     for events in tracks:
@@ -407,7 +407,7 @@ def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[Stream
             for change, instrument in enumerate(sorted(dict.fromkeys(played_on), key=bool)):
                 own = notes.where([one == instrument for one in played_on])
                 streams.append(
-                    Stream(
+                    TrackChannel(
                         track=index,
                         channel=first,
                         name=_doubled_name(name, instrument)[:MOST_NAME] if change else name,

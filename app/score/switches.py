@@ -1,6 +1,6 @@
 """Key switches: notes far from an instrument's range with which a sequencer tells a sampler how to play.
 
-They choose an articulation, sound nothing, and nobody plays them: short notes before a phrase, or held below it.
+They choose an articulation, sound nothing, and no one plays them: short notes before a phrase, or held below it.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
-from app.score.choose import Candidates, How, MapChoice, Stream, candidates
+from app.score.choose import Candidates, How, MapChoice, TrackChannel, candidates
 from app.score.tempo import TempoMap
 
 _AWAY: Final = 5
@@ -32,13 +32,13 @@ _MOST_ODD: Final = 0.2
 
 
 def without_key_switches(
-    stream: Stream, found: Candidates, maps: Sequence[MapChoice], tempo_map: TempoMap
-) -> tuple[Stream, tuple[int, ...]]:
+    stream: TrackChannel, found: Candidates, maps: Sequence[MapChoice], tempo_map: TempoMap
+) -> tuple[TrackChannel, tuple[int, ...]]:
     """A stream without its key switches, and their places among its notes; the very same stream where it has none.
 
     Parameters
     ----------
-    stream : Stream
+    stream : TrackChannel
     found : Candidates
         The maps it may go to.
     maps : sequence of MapChoice
@@ -69,7 +69,7 @@ def _far(pitches: npt.NDArray[np.int64]) -> list[npt.NDArray[np.bool_]]:
     return [part for part in few if len(np.unique(pitches[part])) <= _MOST_PITCHES]
 
 
-def _switch(stream: Stream, away: npt.NDArray[np.bool_], tempo_map: TempoMap) -> bool:
+def _switch(stream: TrackChannel, away: npt.NDArray[np.bool_], tempo_map: TempoMap) -> bool:
     """Whether notes are played as key switches are: short, before the music, or held while it sounds."""
     onsets = tempo_map.seconds(np.array(stream.onset_ticks))
     ends = tempo_map.seconds(np.array(stream.end_ticks))
@@ -83,7 +83,7 @@ def _switch(stream: Stream, away: npt.NDArray[np.bool_], tempo_map: TempoMap) ->
     return bool(np.count_nonzero(odd) <= _MOST_ODD * len(odd))
 
 
-def _kept(stream: Stream, kept: npt.NDArray[np.bool_]) -> Stream:
+def _kept(stream: TrackChannel, kept: npt.NDArray[np.bool_]) -> TrackChannel:
     """Some notes of a stream."""
     places = np.flatnonzero(kept).tolist()
     columns = ("onset_ticks", "end_ticks", "pitches", "velocities", "numbers")

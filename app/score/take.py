@@ -1,6 +1,6 @@
-"""A take: what a wind controller sent while somebody played, kept as it came, and what was played in it.
+"""A take: what a wind controller sent while someone played, kept as it came, and what was played in it.
 
-A take is never changed: it is cleaned, quantised and cut anew from the same events whenever somebody wants it
+A take is never changed: it is cleaned, quantised and cut anew from the same events whenever someone wants it
 otherwise.
 """
 
@@ -29,7 +29,7 @@ SILENCING: Final = (120, 123)
 _BEND_RANGE = 8192
 
 
-class Wiring(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class ControllerMapping(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """With what a controller sends the player's breath and lips.
 
     Attributes
@@ -89,8 +89,8 @@ class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True):
     device : str
         The port it came from.
     recorded : str
-        When, as ISO 8601 in UTC; empty where nobody knows.
-    wiring : Wiring
+        When, as ISO 8601 in UTC; empty where no one knows.
+    wiring : ControllerMapping
     cleaning : Cleaning
     tempo_map : TempoMap
         What was heard while it was played: the events keep their places in the music when the piece's tempo changes.
@@ -107,7 +107,7 @@ class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True):
     colour: str
     device: str
     recorded: str
-    wiring: Wiring
+    wiring: ControllerMapping
     cleaning: Cleaning
     tempo_map: TempoMap
     start_us: int
@@ -221,7 +221,7 @@ def played(take: Take) -> Played:
     )
 
 
-def is_wired(message: mido.Message, wiring: Wiring) -> bool:
+def is_wired(message: mido.Message, wiring: ControllerMapping) -> bool:
     """Whether a message comes on the wired channel."""
     return not wiring.channel or bool(message.channel + 1 == wiring.channel)
 
@@ -245,7 +245,7 @@ def is_message(raw: str) -> bool:
     return True
 
 
-def said(message: mido.Message, wiring: Wiring) -> Iterator[tuple[CurveKind, float]]:
+def said(message: mido.Message, wiring: ControllerMapping) -> Iterator[tuple[CurveKind, float]]:
     """What a message says of breath, bite and bend, as values of a part's curves."""
     source, value = _source(message)
     if source == wiring.bite:
@@ -263,7 +263,7 @@ _USUAL: Final[Mapping[str, CurveKind]] = {
     "channel_pressure": "aftertouch",
     "pitch_bend": "pitch_bend",
 }
-"""What carries what where nobody says otherwise."""
+"""What carries what where no one says otherwise."""
 
 
 def _source(message: mido.Message) -> tuple[str, float]:

@@ -1,9 +1,9 @@
 """Who plays what in one track: how many players share its notes, and which notes are whose.
 
 Notes that overlap are legato: a player of keys or of a wind controller holds a note some way into the next. Only where
-notes go on sounding together beyond that, over several notes and for a while, or in much of the track, somebody else
+notes go on sounding together beyond that, over several notes and for a while, or in much of the track, someone else
 plays too (`_players`). A note that lasts into the next of its player is shortened to a legato overlap that planning
-accepts (`LEGATO_OVERLAP_S`), so that the slur can still be seen. What nobody can play is left out: the notes struck
+accepts (`LEGATO_OVERLAP_S`), so that the slur can still be seen. What no one can play is left out: the notes struck
 together with those of the players there are, the lowest first. `split_voices` tells both.
 
 Voice 0 is the highest. Notes struck together go to voices in their order, so player 1 has the upper note of a chord of
@@ -108,7 +108,7 @@ class Shared(NamedTuple):
     together : list of Note
         The notes that call for another player: those struck while others sound, beyond what is legato.
     left_out : list of Note
-        Those nobody plays, by onset.
+        Those no one plays, by onset.
     shortened : list of Note
         Those that lasted further into the next note of their player than legato notes do, as they were.
     """

@@ -4,12 +4,12 @@ What the file holds comes back as it was when `app.score.read` reads it: title, 
 markers; of every part its name, what plays it, every note's onset, length, pitch and velocity, and every step of its
 controller curves. What a MIDI file has no place for does not:
 
-- The notes of parts nobody plays, the percussion among them; ids of notes and parts, which count tracks and
+- The notes of parts no one plays, the percussion among them; ids of notes and parts, which count tracks and
   note-ons. Voices that shared a track get one each. A part without notes is written and not read as one.
-- Who plays on, where a name says otherwise: a name beats everything else, so a "Violin" that a person gave to a flutist
-  is a violin again. A part of which notes sound together is shared among players again. Both are told.
+- Who plays on, where a name says otherwise: a name beats everything else, so a "Violin" that the user gave to a flutist
+  is a violin again. A part of which notes sound together is shared among players again. Both are reported.
 - Which of two notes of one pitch ends first, where one sounds within the other: a note-off ends the oldest, so the two
-  exchange their ends. This is told. (Notes that only overlap end as they did.)
+  exchange their ends. This is reported. (Notes that only overlap end as they did.)
 - A channel that another part has already, or that is the percussion's: the part gets a free one as long as there is
   one; then channels repeat, and tracks keep the parts apart. Without a program a part gets its instrument's, for it
   would sound like a piano elsewhere.

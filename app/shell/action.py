@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Action:
-    """Something a person can do; menus, palette, tool tips and shortcuts all read this row.
+    """Something the user can do; menus, palette, tool tips and shortcuts all read this row.
 
     Attributes
     ----------

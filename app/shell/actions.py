@@ -141,7 +141,7 @@ class ActionTable(QObject):
     session : Session
         Gets the actions by id.
     settings : Settings
-        Knows a person's own shortcuts.
+        Knows the user's own shortcuts.
     table : sequence of Action
 
     Signals
@@ -185,13 +185,13 @@ class ActionTable(QObject):
             session.viewport.changed,
         ):
             signal.connect(self.refresh_soon)
-        session.theme_changed.connect(self._dress)
+        session.theme_changed.connect(self._apply_theme)
         session.playhead_changed.connect(self._playhead_moved)
         application = QApplication.instance()
         if isinstance(application, QApplication):
             application.focusChanged.connect(self._focus_moved)
         self._give_shortcuts()
-        self._dress()
+        self._apply_theme()
         self.retranslate()
 
     def _action(self, row: Action) -> QAction:
@@ -205,7 +205,7 @@ class ActionTable(QObject):
         action.triggered.connect(partial(self._run, row))
         return action
 
-    def _run(self, row: Action, *_told: bool) -> None:
+    def _run(self, row: Action, *_reported: bool) -> None:
         if row.checked is None:
             row.run(self.session)
         else:
@@ -235,14 +235,14 @@ class ActionTable(QObject):
 
     def conflicts(self, action_id: str, keys: str) -> tuple[str, ...]:
         """Actions that one of these shortcuts would do as well, in the same place."""
-        wanted = {sequence.toString() for sequence in sequences(keys)}
+        requested = {sequence.toString() for sequence in sequences(keys)}
         context = self.rows[action_id].context
         return tuple(
             other.id
             for other in self.rows.values()
             if other.id != action_id
             and other.context == context
-            and wanted & {sequence.toString() for sequence in sequences(self.keys(other.id))}
+            and requested & {sequence.toString() for sequence in sequences(self.keys(other.id))}
         )
 
     def _focus_moved(self, before: QWidget | None, now: QWidget | None) -> None:
@@ -269,10 +269,10 @@ class ActionTable(QObject):
         everywhere = of_context.get("window", set())
         for row in self.rows.values():
             taken = here if row.context == "window" else set() if row.context == self._context else everywhere | here
-            wanted = [sequence for sequence in sequences(self.keys(row.id)) if sequence.toString() not in taken]
+            requested = [sequence for sequence in sequences(self.keys(row.id)) if sequence.toString() not in taken]
             action = self.actions[row.id]
-            if action.shortcuts() != wanted:
-                action.setShortcuts(wanted)
+            if action.shortcuts() != requested:
+                action.setShortcuts(requested)
 
     # State and texts
 
@@ -328,7 +328,7 @@ class ActionTable(QObject):
             action.setToolTip(f"{plain(text)} ({keys})" if keys else plain(text))
         self._name_steps()
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         for row in self.rows.values():
             if row.icon:
                 self.actions[row.id].setIcon(icon(row.icon, self.session.tokens))
@@ -348,9 +348,9 @@ def plain_menu(text: str) -> str:
 
 def menu_with_keys(keys: str) -> str:
     """Name of the menu that one of these shortcuts opens in the language of the editor; empty: none."""
-    wanted = {sequence.toString() for sequence in sequences(keys)}
+    requested = {sequence.toString() for sequence in sequences(keys)}
     titles = map(menu_text, MENUS)
-    return next((plain_menu(title) for title in titles if QKeySequence.mnemonic(title).toString() in wanted), "")
+    return next((plain_menu(title) for title in titles if QKeySequence.mnemonic(title).toString() in requested), "")
 
 
 class Menus(QObject):

@@ -23,8 +23,8 @@ from app.project.edit.piece import new_piece
 from app.project.presence import Presence, recovery_folder
 from app.rig.character_library import begin_characters
 from app.shell.actions import ActionTable, KeyboardButtons, rows
+from app.shell.crash_handler import CrashHandler, log_path
 from app.shell.editor import Editor
-from app.shell.faults import Faults, log_path
 from app.shell.files import Files
 from app.shell.garbage import Garbage
 from app.shell.generator import Generator
@@ -62,7 +62,7 @@ class Start:
         Draw the window once, write it there, and end.
     time_s : float
     view, language, theme : str
-        Empty: as the person left it.
+        Empty: as the user left it.
     size : (int, int)
         Of the picture, in device-independent pixels.
     """
@@ -132,8 +132,8 @@ class Program(QObject):
         self.language.set(settings.language)
         self.editor = Editor(self.session, settings, self.language, asked)
         self.editor.files = Files(self.session, settings, asked, autosave)
-        self.session.theme_changed.connect(self._dress)
-        self._dress()
+        self.session.theme_changed.connect(self._apply_theme)
+        self._apply_theme()
         self.generator = Generator(self.session, self.tasks)
         # Children of the session: they stay.
         Sound(self.session, playback, heard)
@@ -153,7 +153,7 @@ class Program(QObject):
     def _warn(self, message: Message) -> None:
         self.session.notice(message, Severity.WARNING)
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         apply_theme(self._application, self.session.tokens)
 
     def end(self) -> None:
@@ -184,18 +184,18 @@ def run(start: Start) -> int:
     program = Program(settings, autosave=Autosave(presence))
     if isinstance(program.tasks, ThreadTasks):
         program.tasks.failed.connect(lambda error: program.session.notice(error.message, Severity.ERROR))
-    faults = Faults(program.session, program.editor.files.write_now, log_path())
+    faults = CrashHandler(program.session, program.editor.files.write_now, log_path())
     faults.install()
     if isinstance(program.tasks, ThreadTasks):
-        program.tasks.unexpected.connect(faults.tell)
+        program.tasks.unexpected.connect(faults.report)
     _end_on_signal(application)
     if start.theme or start.language:
-        _wish(program, start)
+        _assignment(program, start)
     program.window.show()
     QTimer.singleShot(0, program.recorder, program.recorder.begin_where_remembered)
     if presence.refusal is not None:
         program.editor.files.warn_once(presence.refusal.message)
-    program.tasks.run(Message("work.clean_up"), lambda progress, stop_wanted: _clean_up(), lambda nothing: None)
+    program.tasks.run(Message("work.clean_up"), lambda progress, stop_requested: _clean_up(), lambda nothing: None)
     if start.file is not None:
         program.editor.files.open(start.file, ask=False)
     try:
@@ -209,7 +209,7 @@ def run(start: Start) -> int:
         settings.sync()
 
 
-def _wish(program: Program, start: Start) -> None:
+def _assignment(program: Program, start: Start) -> None:
     if start.theme:
         program.session.actions[f"theme.{start.theme}"].trigger()
     if start.language:
@@ -231,7 +231,7 @@ def _end_on_signal(application: QApplication) -> None:
 
 
 def picture(start: Start, target: Path) -> int:
-    """Draw the real window once, whatever the person's settings are, write it to a file, and end."""
+    """Draw the real window once, whatever the user's settings are, write it to a file, and end."""
     application = make_application()
     stopped = threading.Event()
     signal.signal(signal.SIGINT, lambda number, frame: stopped.set())

@@ -87,7 +87,7 @@ class Banner(QFrame):
         self._close.setToolTip(self.tr("banner.not_now"))
         if self._texts is not None:
             text, answers = self._texts()
-            # Names of files may break where a person would break them.
+            # Names of files may break where the user would break them.
             self._text.setText(_BREAKS.sub("\\1\u200b", text))
             for button, answer in zip(self._buttons, answers, strict=True):
                 button.setText(answer)

@@ -79,7 +79,7 @@ _calls: Calls | None = None
 
 
 def window_calls() -> Calls:
-    """The program's; made where it is first wanted, which is the window's thread."""
+    """The program's; made where it is first requested, which is the window's thread."""
     global _calls
     if _calls is None or not isValid(_calls):
         _calls = Calls(QCoreApplication.instance())

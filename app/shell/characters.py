@@ -1,4 +1,4 @@
-"""A person's own characters: brought from a file, changed and removed, with their dialogs."""
+"""The user's own characters: brought from a file, changed and removed, with their dialogs."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from app.rig.read_figure import SUFFIXES
 from app.shell.editor import Editor
 from widgets.common.instrument_name import character_name
 from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 from widgets.common.translated import tr
 from widgets.dialogs.character import CharacterDialog
 from widgets.dialogs.character_draft import Draft
@@ -32,7 +32,7 @@ from widgets.dialogs.characters import CharactersDialog
 
 
 def show_characters(editor: Editor) -> None:
-    """Show a person's own characters; once."""
+    """Show the user's own characters; once."""
     dialog = editor.window.findChild(CharactersDialog)
     if dialog is None:
         dialog = CharactersDialog(editor.session, editor.window)
@@ -67,7 +67,7 @@ def bring_character(editor: Editor, path: Path) -> None:
 
 
 def edit_character(editor: Editor, id: str) -> None:
-    """Change what is known of one of the person's own characters."""
+    """Change what is known of one of the user's own characters."""
     source = character_library().sources.get(id)
     if source is None or source.entry is None:
         return
@@ -82,7 +82,7 @@ def edit_character(editor: Editor, id: str) -> None:
 
 
 def remove(editor: Editor, id: str) -> None:
-    """Remove one of the person's own characters; asked first."""
+    """Remove one of the user's own characters; asked first."""
     session = editor.session
     project = session.project
     used = [player.name for player in project.players if player.character_id == id]
@@ -97,7 +97,7 @@ def remove(editor: Editor, id: str) -> None:
 
 
 def _read(session: Session, path: Path, done: Callable[[Figure], None]) -> None:
-    def work(progress: Progress, stop_wanted: StopWanted) -> Figure:
+    def work(progress: Progress, stop_requested: StopRequested) -> Figure:
         # Turned to face ahead, as it will play.
         return read_character(path).figure
 
@@ -121,7 +121,7 @@ def _keep(editor: Editor, path: Path, draft: Draft, give: bool) -> None:
     session = editor.session
     chosen = session.players
 
-    def work(progress: Progress, stop_wanted: StopWanted) -> str:
+    def work(progress: Progress, stop_requested: StopRequested) -> str:
         return add_character(path, draft.title, draft.joints, draft.morphs)
 
     def done(id: str) -> None:

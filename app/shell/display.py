@@ -29,7 +29,7 @@ def why_no_display(environment: Mapping[str, str] = os.environ, platform: str = 
     if (wayland and _answers(_wayland_socket(wayland, environment))) or (display and _x_answers(display)):
         return None
     asked = " and ".join(filter(None, (wayland, display)))
-    return f"the editor needs a display, and nobody answers at {asked}. {INSTEAD}"
+    return f"the editor needs a display, and none answers at {asked}. {INSTEAD}"
 
 
 def _wayland_socket(name: str, environment: Mapping[str, str]) -> Path:

@@ -45,15 +45,15 @@ class Dock(QDockWidget):
         line.addWidget(self._float)
         line.addWidget(self._close)
         self.setTitleBarWidget(self._bar)
-        session.theme_changed.connect(self._dress)
+        session.theme_changed.connect(self._apply_theme)
         self.windowTitleChanged.connect(self._title.setText)
-        self._dress()
+        self._apply_theme()
         self.retranslate()
 
     def _toggle_floating(self) -> None:
         self.setFloating(not self.isFloating())
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         tokens = self._session.tokens
         self._float.setIcon(icon("float", tokens, tokens.text_dim))
         self._close.setIcon(icon("close", tokens, tokens.text_dim))

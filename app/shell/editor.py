@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject
 
-from app.shell.held import Held
+from app.shell.setting_bindings import SettingBinding
 from app.shell.settings import SETTINGS, Setting
 from widgets.common.session import Session
 
@@ -29,7 +29,7 @@ class Editor(QObject):
     settings : Settings
     language : Language
     questions : Questions
-        How the person is asked.
+        How the user is asked.
     """
 
     files: Files
@@ -52,8 +52,8 @@ class Editor(QObject):
             if setting.held is not None:
                 setting.held.set(self.session, getattr(self.settings, setting.name))
 
-    def _remember(self, setting: Setting[Any], held: Held) -> None:
-        # Told of much else, as of every phrase that is made: only what the person chose is written.
+    def _remember(self, setting: Setting[Any], held: SettingBinding) -> None:
+        # Notified of much else, as of every phrase that is made: only what the user chose is written.
         value = held.get(self.session)
         if getattr(self.settings, setting.name) != value:
             setattr(self.settings, setting.name, value)

@@ -66,7 +66,7 @@ class Files(QObject):
     missing(Path)
         The recording of the project that was just opened is not where it was.
     overtaken(Path, Then or None)
-        The project was not saved: somebody else wrote its file since it was opened. `save_over` would replace that.
+        The project was not saved: someone else wrote its file since it was opened. `save_over` would replace that.
     """
 
     changed = Signal()
@@ -178,7 +178,7 @@ class Files(QObject):
             self.open(path, ask=False)
 
     def open_danced_example(self) -> None:
-        """The bundled piece with drums, and somebody who dances the bundled choreography to it."""
+        """The bundled piece with drums, and someone who dances the bundled choreography to it."""
         name = tr("action.dancer")
 
         def danced(project: Project) -> Project:
@@ -206,7 +206,7 @@ class Files(QObject):
     def _load(self, path: Path) -> None:
         presence = self.autosave.presence if self.autosave is not None else None
 
-        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Opened:
+        def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> Opened:
             _read_own()
             content = storage.read(path)
             project = storage.decode(content, Path(os.path.realpath(path)), str(path))
@@ -231,21 +231,21 @@ class Files(QObject):
     def _read(self, path: Path, ask: bool, arranged: Callable[[Project], Project] = lambda project: project) -> None:
         source = str(path)
 
-        def read(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> MidiContents:
+        def read(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> MidiContents:
             _read_own()
             return read_contents(path)
 
         def asked(contents: MidiContents) -> None:
-            wish = self.questions.import_midi(contents, self.session.tokens, self.session.tasks) if ask else None
-            if ask and wish is None:
+            assignment = self.questions.import_midi(contents, self.session.tokens, self.session.tasks) if ask else None
+            if ask and assignment is None:
                 return
             called = tr("action.dancer")
 
-            def build(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Project:
+            def build(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> Project:
                 maps = all_maps()
-                wanted = usual_rows(contents, maps) if wish is None else wish.rows
-                project = import_project(contents, wanted, maps, source, stop_wanted)
-                if wish is not None and wish.dances:
+                requested = usual_rows(contents, maps) if assignment is None else assignment.rows
+                project = import_project(contents, requested, maps, source, stop_requested)
+                if assignment is not None and assignment.dances:
                     project, _ = add_dancer(project, bundled_choreographies()[0], called)
                 return arranged(project)
 
@@ -254,7 +254,7 @@ class Files(QObject):
         def done(project: Project) -> None:
             self._become(project, None)
             self.settings.folder = str(path.parent)
-            # The bundled example is offered by itself; it is no file of this person's.
+            # The bundled example is offered by itself; it is no file of this user's.
             if not path.is_relative_to(Path(str(files("resources")))):
                 self.settings.add_recent(path)
             for warning in project.score.warnings[:1]:
@@ -355,8 +355,8 @@ class Files(QObject):
         """Save to a file; with `over` only to one of which the content is one of these."""
         project = self.session.project
 
-        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> str | None:
-            if stop_wanted():
+        def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> str | None:
+            if stop_requested():
                 raise Cancelled("work.stopped")
             if over is not None and storage.file_hash(path) not in over:
                 return None
@@ -398,7 +398,7 @@ class Files(QObject):
         """The project is as in its file, or as in `held`: nothing else is to be recovered."""
         self.risk = None
         self._timer.stop()
-        self._tell(lambda autosave: autosave.opened(self.path, self._base, former, held))
+        self._report(lambda autosave: autosave.opened(self.path, self._base, former, held))
 
     def _note_unsaved(self) -> None:
         """The project is not as in its file."""
@@ -447,7 +447,7 @@ class Files(QObject):
         return self.autosave.take(now_s)
 
     def _write(self, writing: Writing) -> None:
-        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Written:
+        def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> Written:
             return writing.run()
 
         def ended() -> None:
@@ -458,7 +458,7 @@ class Files(QObject):
         def done(written: Written) -> None:
             if self.autosave is None:
                 return
-            self._tell(lambda autosave: autosave.written(writing, written))
+            self._report(lambda autosave: autosave.written(writing, written))
             self._schedule()
             if self.autosave.has(writing.project):
                 self.saved_s, self.autosaved, self.risk = time.monotonic(), True, None
@@ -481,7 +481,7 @@ class Files(QObject):
             self._warned.add(message.id)
             self.session.notice(message, Severity.WARNING)
 
-    def _tell(self, say: Callable[[Autosave], None]) -> None:
+    def _report(self, say: Callable[[Autosave], None]) -> None:
         if self.autosave is None:
             return
         try:
@@ -496,7 +496,7 @@ class Files(QObject):
             return
         folder = self.autosave.presence.folder
 
-        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> tuple[Recoverable, ...]:
+        def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> tuple[Recoverable, ...]:
             return recoverable(folder)
 
         self.session.tasks.run(Message("work.recoverable"), work, found, key="recoverable")
@@ -504,7 +504,7 @@ class Files(QObject):
     def recover(self, item: Recoverable) -> None:
         """Go on with unsaved work."""
 
-        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> tuple[Project, str]:
+        def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> tuple[Project, str]:
             _read_own()
             return load_work(item)
 

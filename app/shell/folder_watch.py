@@ -1,4 +1,4 @@
-"""A folder of a person's own files, watched for changes."""
+"""A folder of the user's own files, watched for changes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from app.errors import FileError
 from app.formats.files import files_in
 
 QUIET_MS = 250
-"""A program that writes a file touches it several times: it is told when nothing was heard of it for so long."""
+"""A program that writes a file touches it several times: it is reported when nothing was heard of it for so long."""
 
 
 class FolderWatch(QObject):
@@ -44,15 +44,15 @@ class FolderWatch(QObject):
     def look(self) -> None:
         """Watch the folder and its files as they are now; a folder that is not there yet, by the one it would be in."""
         folder = self._folder()
-        wanted = {str(next(place for place in (folder, *folder.parents) if os.path.isdir(place)))}
+        requested = {str(next(place for place in (folder, *folder.parents) if os.path.isdir(place)))}
         with contextlib.suppress(FileError):  # Who reads the folder says that it cannot be listed.
-            wanted |= {str(path) for path in files_in(folder, *self._suffixes) if os.path.exists(path)}
+            requested |= {str(path) for path in files_in(folder, *self._suffixes) if os.path.exists(path)}
         # Of what is not UTF-8 Qt would watch something else.
-        wanted = set(filter(is_text, wanted))
+        requested = set(filter(is_text, requested))
         watched = {*self._watcher.directories(), *self._watcher.files()}
-        if gone := watched - wanted:
+        if gone := watched - requested:
             self._watcher.removePaths(sorted(gone))
-        if new := wanted - watched:
+        if new := requested - watched:
             self._watcher.addPaths(sorted(new))
 
     def _touched(self) -> None:

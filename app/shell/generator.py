@@ -26,22 +26,22 @@ from app.rig.character_library import character_library
 from app.shell.calls import window_calls
 from instrument_maps.library import library
 from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopWanted, Tasks
+from widgets.common.tasks import Progress, StopRequested, Tasks
 
 AT_ONCE_NOTES = 2500
 """So many notes are planned within the time of two pictures ..."""
 AT_ONCE_S = 0.1
 """... unless they turn out to cost more of the processor than this: many players, or what no musician writes."""
 TOLD_NOTES = 6000
-"""So many take long enough that the person sees how far it is, and may stop it."""
+"""So many take long enough that the user sees how far it is, and may stop it."""
 SWITCH_S = 0.001
 """The window gets the interpreter back from the worker within this time."""
 TELL_S = 0.04
-"""The window is told of other poses at the playhead at once, but no more often than this ..."""
+"""The window is reported of other poses at the playhead at once, but no more often than this ..."""
 TELL_READY_S = 0.25
 """... and of how much is made this often."""
 GIVE_WAY = 3.0
-"""Where the window or another thread worked too while something was made that nobody waits for, the worker rests so
+"""Where the window or another thread worked too while something was made that no one waits for, the worker rests so
 many times as long as that took: two threads of Python hold each other up far more than they compute."""
 OTHERS_S = 0.0005
 """Less than this is no work: timers."""
@@ -50,7 +50,7 @@ TELL_BROKEN_S = 0.5
 """Of contacts that are found broken while much is made, this often: every list of problems shows them anew."""
 REST_WHILE_JUDGING = 3.0
 """Contacts of motion that there is no room to keep are judged while nothing plays, resting this many times as long as
-the work took: an hour of an orchestra takes minutes, and nobody waits for it."""
+the work took: an hour of an orchestra takes minutes, and no one waits for it."""
 REST_WHILE_PLAYING = 1.0
 """While the performance plays the worker rests this many times as long as it worked."""
 
@@ -90,12 +90,12 @@ class Generator(QObject):
         """Whether a long planning is under way."""
         self._holding: frozenset[tuple[str, str]] = frozenset()
         """Characters and instruments whose holds are being found ..."""
-        self._hold_stopped: StopWanted = _goes_on
-        """... and whether the person has stopped that."""
+        self._hold_stopped: StopRequested = _goes_on
+        """... and whether the user has stopped that."""
         self._ready = -1.0
         self.live = LiveMotion(session.performance)
         """The motion of all players: the viewport draws `LiveMotion.pose`."""
-        self._worker = _Worker(self.live, _Teller(self))
+        self._worker = _Worker(self.live, _MainThreadNotifier(self))
         self._end = weakref.finalize(self, self._worker.close)
         session.changed.connect(self._project_changed)
         session.performance_changed.connect(self._show)
@@ -148,12 +148,12 @@ class Generator(QObject):
             self._session.notice(error.message, Severity.ERROR)
             return
         if unheld:
-            self._hold_told(performance)
+            self._hold_reported(performance)
         self._asked += 1
         notes = performance.unplanned_notes
         if notes > TOLD_NOTES:
             self._worker.drop()
-            self._plan_told(performance)
+            self._plan_reported(performance)
         elif notes > AT_ONCE_NOTES or self._worker.planning:
             self._worker.plan(performance, self._asked)
         else:
@@ -182,35 +182,35 @@ class Generator(QObject):
             for player_id in self._session.players[:1]:
                 self.live.make_now(player_id, self._session.playhead_s)
 
-    def _hold_told(self, performance: Performance) -> None:
-        """Find out how instruments are held that nobody held before; the others play on meanwhile. Where the person
+    def _hold_reported(self, performance: Performance) -> None:
+        """Find out how instruments are held that no one held before; the others play on meanwhile. Where the user
         stops that, the next edit asks again."""
-        wanted = frozenset((player.character_id, player.instrument_id) for player in performance.unheld)
-        if wanted <= self._holding and not self._hold_stopped():
+        requested = frozenset((player.character_id, player.instrument_id) for player in performance.unheld)
+        if requested <= self._holding and not self._hold_stopped():
             return
-        self._holding, self._hold_stopped = wanted, _goes_on
+        self._holding, self._hold_stopped = requested, _goes_on
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> None:
-            self._hold_stopped = stop_wanted
-            performance.hold(stop_wanted, progress)
+        def work(progress: Progress, stop_requested: StopRequested) -> None:
+            self._hold_stopped = stop_requested
+            performance.hold(stop_requested, progress)
 
         def ended() -> None:
             # Also what was stopped because other players came has ended then: theirs go on.
-            if self._holding is wanted:
+            if self._holding is requested:
                 self._holding = frozenset()
 
         name = Message("work.hold", {"players": len(performance.unheld)})
         self._tasks.run(name, work, lambda _: self._plan_again(), key="hold", ended=ended)
 
-    def _plan_told(self, performance: Performance) -> None:
+    def _plan_reported(self, performance: Performance) -> None:
         number = self._asked
         self._long = True
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> Performance:
+        def work(progress: Progress, stop_requested: StopRequested) -> Performance:
             try:
-                performance.prepare(lambda: stop_wanted() or self._shown >= number, progress)
+                performance.prepare(lambda: stop_requested() or self._shown >= number, progress)
             finally:
-                # Also where the person stopped it: then nobody is told.
+                # Also where the user stopped it: then no one is reported.
                 if self._shown < number:
                     self._long = False
             return performance
@@ -255,32 +255,32 @@ class Generator(QObject):
             self.ready_changed.emit(ready)
 
     def _fell(self, fault: BaseException) -> None:
-        """A fault of the program that the worker met is told like one that the window met."""
+        """A fault of the program that the worker met is reported like one that the window met."""
         raise fault
 
 
-class _Teller:
+class _MainThreadNotifier:
     """Carries what the worker says into the window's thread, as long as there is a generator to hear it."""
 
     def __init__(self, generator: Generator) -> None:
         self._ask, self._generator = window_calls().ask, weakref.ref(generator)
 
     def planned(self, performance: Performance, number: int, error: AppError | None) -> None:
-        self._tell(lambda generator: generator._planned(performance, number, error))
+        self._report(lambda generator: generator._planned(performance, number, error))
 
     def fell(self, fault: BaseException) -> None:
-        self._tell(lambda generator: generator._fell(fault))
+        self._report(lambda generator: generator._fell(fault))
 
     def moved(self) -> None:
-        self._tell(lambda generator: generator.motion_changed.emit())
+        self._report(lambda generator: generator.motion_changed.emit())
 
     def worked(self, ready: float) -> None:
-        self._tell(lambda generator: generator._worked(ready))
+        self._report(lambda generator: generator._worked(ready))
 
     def judged(self, broken: Mapping[str, tuple[Problem, ...]]) -> None:
-        self._tell(lambda generator: generator._judged(broken))
+        self._report(lambda generator: generator._judged(broken))
 
-    def _tell(self, say: Callable[[Generator], None]) -> None:
+    def _report(self, say: Callable[[Generator], None]) -> None:
         listening = self._generator
 
         def call() -> None:
@@ -306,8 +306,8 @@ class _Clock(Protocol):
 class _Worker:
     """The thread: plans first, then motion. Holds nothing of the window, so that it may end without a goodbye."""
 
-    def __init__(self, live: LiveMotion, teller: _Teller, clock: _Clock = time) -> None:
-        self._live, self._teller, self._clock = live, teller, clock
+    def __init__(self, live: LiveMotion, notifier: _MainThreadNotifier, clock: _Clock = time) -> None:
+        self._live, self._notifier, self._clock = live, notifier, clock
         self._changed = threading.Condition()
         self._pending: tuple[Performance, int] | None = None
         self._planning = False
@@ -317,13 +317,13 @@ class _Worker:
         """The wishes up to this one are met."""
         self._closed = False
         self._playing = False
-        self._told_s = 0.0
-        self._told_seen = live.seen
-        self._told_seen_s = 0.0
+        self._reported_s = 0.0
+        self._reported_seen = live.seen
+        self._reported_seen_s = 0.0
         self._judging = True
         """Whether there may be contacts to judge beside what is made to be seen."""
-        self._told_broken = live.broken
-        self._told_broken_s = 0.0
+        self._reported_broken = live.broken
+        self._reported_broken_s = 0.0
         self._thread = threading.Thread(target=self._run, name="generator", daemon=True)
         self._switch_s = sys.getswitchinterval()
 
@@ -348,7 +348,7 @@ class _Worker:
             self._dropped.set()
 
     def wake(self) -> None:
-        """Something else is wanted."""
+        """Something else is requested."""
         with self._changed:
             self._wishes += 1
             self._changed.notify()
@@ -395,49 +395,49 @@ class _Worker:
             return
         except AppError as error:
             failed = error
-        except Exception as fault:  # noqa: BLE001 - told in the window's thread
-            self._teller.fell(fault)
+        except Exception as fault:  # noqa: BLE001 - reported in the window's thread
+            self._notifier.fell(fault)
             return
         finally:
             self._planning = False
-        self._teller.planned(performance, number, failed)
+        self._notifier.planned(performance, number, failed)
 
     def _make_motion(self) -> None:
-        clock, wishes = self._clock, self._wishes
+        clock, requests = self._clock, self._wishes
         start_s, others_s = clock.monotonic(), clock.process_time() - clock.thread_time()
         try:
             more = self._live.work(self._interrupted)
         except PlayerFault as fault:
             # The others go on.
-            self._teller.fell(fault)
+            self._notifier.fell(fault)
             return
-        except Exception as fault:  # noqa: BLE001 - told in the window's thread
-            self._met = wishes
-            self._teller.fell(fault)
+        except Exception as fault:  # noqa: BLE001 - reported in the window's thread
+            self._met = requests
+            self._notifier.fell(fault)
             return
         now_s = clock.monotonic()
         others_s = clock.process_time() - clock.thread_time() - others_s
         if not more:
-            self._met = wishes
+            self._met = requests
             self._judging = True
         awaited = not self._live.is_seen
-        self._tell_broken(now_s, not more)
-        if self._live.seen != self._told_seen and (now_s - self._told_seen_s >= TELL_S or not awaited):
-            self._told_seen, self._told_seen_s = self._live.seen, now_s
-            self._teller.moved()
-        if now_s - self._told_s >= TELL_READY_S or not more:
-            self._told_s = now_s
-            self._teller.worked(self._live.ready_share)
+        self._report_broken(now_s, not more)
+        if self._live.seen != self._reported_seen and (now_s - self._reported_seen_s >= TELL_S or not awaited):
+            self._reported_seen, self._reported_seen_s = self._live.seen, now_s
+            self._notifier.moved()
+        if now_s - self._reported_s >= TELL_READY_S or not more:
+            self._reported_s = now_s
+            self._notifier.worked(self._live.ready_share)
         if self._playing:
             clock.sleep(REST_WHILE_PLAYING * (now_s - start_s))
         elif not awaited and others_s > OTHERS_S:
-            self._rest(min(GIVE_WAY * (now_s - start_s), MOST_REST_S), wishes)
+            self._rest(min(GIVE_WAY * (now_s - start_s), MOST_REST_S), requests)
 
-    def _rest(self, rest_s: float, wishes: int) -> None:
-        """Until something else is wanted than these wishes, at most so long."""
+    def _rest(self, rest_s: float, requests: int) -> None:
+        """Until something else is requested than these wishes, at most so long."""
         with self._changed:
             self._changed.wait_for(
-                lambda: self._closed or self._pending is not None or self._wishes != wishes, timeout=rest_s
+                lambda: self._closed or self._pending is not None or self._wishes != requests, timeout=rest_s
             )
 
     def _judge(self) -> None:
@@ -445,23 +445,23 @@ class _Worker:
         try:
             self._judging = self._live.judge(lambda: not self._idle)
         except PlayerFault as fault:
-            self._teller.fell(fault)
+            self._notifier.fell(fault)
             return
-        except Exception as fault:  # noqa: BLE001 - told in the window's thread
+        except Exception as fault:  # noqa: BLE001 - reported in the window's thread
             self._judging = False
-            self._teller.fell(fault)
+            self._notifier.fell(fault)
             return
         now_s = self._clock.monotonic()
-        self._tell_broken(now_s, not self._judging)
+        self._report_broken(now_s, not self._judging)
         with self._changed:
             if self._judging and self._idle:
                 self._changed.wait(REST_WHILE_JUDGING * (now_s - start_s))
 
-    def _tell_broken(self, now_s: float, at_once: bool) -> None:
+    def _report_broken(self, now_s: float, at_once: bool) -> None:
         broken = self._live.broken
-        if broken is not self._told_broken and (at_once or now_s - self._told_broken_s >= TELL_BROKEN_S):
-            self._told_broken, self._told_broken_s = broken, now_s
-            self._teller.judged(broken)
+        if broken is not self._reported_broken and (at_once or now_s - self._reported_broken_s >= TELL_BROKEN_S):
+            self._reported_broken, self._reported_broken_s = broken, now_s
+            self._notifier.judged(broken)
 
     def _interrupted(self) -> bool:
         return self._closed or self._pending is not None

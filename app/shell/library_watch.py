@@ -1,4 +1,4 @@
-"""What a person has of a kind in a folder of their own, read again as soon as its files change."""
+"""What the user has of a kind in a folder of their own, read again as soon as its files change."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from app.rig.character_library import LIBRARY as CHARACTERS
 from app.shell.folder_watch import FolderWatch
 from instrument_maps.library import LIBRARY as INSTRUMENTS
 from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 
 
 class LibraryWatch(QObject):
     """Watches the folder of a kind for a session.
 
-    What became wrong is told with its place in the file, and its last good version stays in use; everybody hears the
-    session's signal ``{name}_changed``, and ``{name}_saved`` says that the program itself wrote into the folder.
+    What became wrong is reported with its place in the file, and its last good version stays in use; everybody hears
+    the session's signal ``{name}_changed``, and ``{name}_saved`` says that the program itself wrote into the folder.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class LibraryWatch(QObject):
         """Read the folder again now."""
         self._watch.look()
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> Shelf[Any]:
+        def work(progress: Progress, stop_requested: StopRequested) -> Shelf[Any]:
             now: Shelf[Any] = self._library.reload()
             return now
 
@@ -77,10 +77,10 @@ class LibraryWatch(QObject):
 
 
 def watch_instruments(session: Session) -> LibraryWatch:
-    """Watch a person's own instruments."""
+    """Watch the user's own instruments."""
     return LibraryWatch(session, INSTRUMENTS, "instruments.read_again")
 
 
 def watch_characters(session: Session) -> LibraryWatch:
-    """Watch a person's own characters."""
+    """Watch the user's own characters."""
     return LibraryWatch(session, CHARACTERS)

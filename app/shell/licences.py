@@ -27,7 +27,7 @@ _SOURCES: Final = ("source", "source code", "repository", "homepage", "home")
 
 
 class Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Somebody else's work within a package, or among the program's data.
+    """Someone else's work within a package, or among the program's data.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Package(msgspec.Struct, frozen=True):
-    """An installed package; its licence is empty where nobody says it."""
+    """An installed package; its licence is empty where no one says it."""
 
     name: str
     version: str
@@ -96,8 +96,8 @@ def distributions() -> dict[str, Distribution]:
         for text in waiting.pop().requires or ():
             requirement = Requirement(text)
             name = canonicalize_name(requirement.name)
-            wanted = requirement.marker is None or any(requirement.marker.evaluate({"extra": e}) for e in _EXTRAS)
-            if not wanted or name in found:
+            requested = requirement.marker is None or any(requirement.marker.evaluate({"extra": e}) for e in _EXTRAS)
+            if not requested or name in found:
                 continue
             try:
                 found[name] = distribution(name)

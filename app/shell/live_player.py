@@ -1,4 +1,4 @@
-"""Whoever is recorded plays along in the viewport while somebody plays the controller."""
+"""Whoever is recorded plays along in the viewport while someone plays the controller."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.performance.cast import performers_of
 from app.performance.motion import playing_of
 from app.performance.play_along import PlayAlong
 from app.plan.model import PoseEvent
-from app.score.take import Wiring
+from app.score.take import ControllerMapping
 from widgets.common.session import Session
 
 REST_S: Final = 4.0
@@ -26,7 +26,7 @@ class LivePlayer(QObject):
     ----------
     session : Session
     chosen : callable
-        Id of that player; None: nobody.
+        Id of that player; None: no one.
     parent : QObject
     """
 
@@ -40,7 +40,7 @@ class LivePlayer(QObject):
         self._rest = QTimer(self, singleShot=True, interval=round(1000 * REST_S))
         self._rest.timeout.connect(self._rested)
 
-    def tell(self, time_s: float, raw: str, wiring: Wiring) -> None:
+    def report(self, time_s: float, raw: str, wiring: ControllerMapping) -> None:
         """Something was played.
 
         Parameters
@@ -49,7 +49,7 @@ class LivePlayer(QObject):
             Of `time.perf_counter`.
         raw : str
             A message of MIDI in hexadecimal.
-        wiring : Wiring
+        wiring : ControllerMapping
         """
         playing = self._ready()
         if playing is not None:

@@ -1,4 +1,4 @@
-"""What the editor asks a person in a dialog: which file, and what becomes of unsaved work."""
+"""What the editor asks the user in a dialog: which file, and what becomes of unsaved work."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Questions:
     """How the person is asked: in dialogs. Tests answer by themselves."""
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
-        """An existing file; None: the person thought better of it."""
+        """An existing file; None: the user thought better of it."""
         return ask_for_file(_parent(), title, Path(folder), filters)
 
     def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
@@ -65,7 +65,7 @@ class Questions:
 
         dialog = ImportDialog(contents, all_maps(), tokens, tasks, _parent())
         try:
-            return dialog.wish if dialog.exec() == QDialog.DialogCode.Accepted else None
+            return dialog.assignment if dialog.exec() == QDialog.DialogCode.Accepted else None
         finally:
             dialog.deleteLater()
 
@@ -77,8 +77,8 @@ class Questions:
         box.setWindowTitle(tr("questions.remove_character"))
         box.setText(tr("questions.remove_and_its_file_for").format(name=name))
         if players:
-            told = tr("questions.these_players_are_this_character")
-            box.setInformativeText(told.format(players=", ".join(players)))
+            reported = tr("questions.these_players_are_this_character")
+            box.setInformativeText(reported.format(players=", ".join(players)))
         remove = box.addButton(tr("questions.remove"), MessageBox.ButtonRole.DestructiveRole)
         cancel = box.addButton(tr("questions.cancel"), MessageBox.ButtonRole.RejectRole)
         box.setDefaultButton(cancel)

@@ -1,7 +1,7 @@
 """Recording in the editor: the device, the running take, and what becomes of it.
 
-The events are stamped and written by a process of their own (`app.capture.recorder`), which is told all the while what
-is heard. When it has finished its journal, the passes of it become takes of the project, in one edit; the journal
+The events are stamped and written by a process of their own (`app.capture.recorder`), which is reported all the while
+what is heard. When it has finished its journal, the passes of it become takes of the project, in one edit; the journal
 stays until they are in a file.
 """
 
@@ -41,7 +41,7 @@ from app.errors import AppError, Message
 from app.project.edit.takes import add_takes, comp
 from app.project.journals import journal_path, journals_of
 from app.project.model import Project
-from app.score.take import Take, Wiring, decoded, is_wired, said
+from app.score.take import ControllerMapping, Take, decoded, is_wired, said
 from app.shell.calls import window_calls
 from app.shell.files import Files
 from app.shell.live_player import LivePlayer
@@ -55,7 +55,7 @@ from widgets.common.translated import tr
 EARLY_S: Final = 0.12
 """So much before the beginning of a take a note may be struck that is meant for it."""
 SYNC_MS: Final = 40
-"""How often the recorder is told what is heard."""
+"""How often the recorder is reported what is heard."""
 _STILL_S: Final = 1e-6
 
 _JUMP_S: Final = 0.25
@@ -83,7 +83,7 @@ class _Running:
     player_id: str
     start_s: float
     loop_s: tuple[float, float] | None
-    wiring: Wiring
+    wiring: ControllerMapping
     project: Project
     passes: int = 1
     first_s: float | None = None
@@ -92,7 +92,7 @@ class _Running:
 
 
 class Recorder(QObject):
-    """The editor's recorder. The process behind it is started when a device is first wanted.
+    """The editor's recorder. The process behind it is started when a device is first requested.
 
     Parameters
     ----------
@@ -183,7 +183,7 @@ class Recorder(QObject):
         self._settings.set_midi_device(self._state.port, "breath", "")
         self._know(self._state.port)
 
-    def set_wiring(self, wiring: Wiring) -> None:
+    def set_wiring(self, wiring: ControllerMapping) -> None:
         """Say with what the device sends breath and bite, as it was learned or chosen."""
         for name, value in (("channel", str(wiring.channel)), ("breath", wiring.breath), ("bite", wiring.bite)):
             self._settings.set_midi_device(self._state.port, name, value)
@@ -204,18 +204,18 @@ class Recorder(QObject):
             latency_s = float(self._settings.midi_device(port, "latency_s") or 0.0)
         except ValueError:
             latency_s = 0.0
-        # Also where somebody wrote nan or an hour into the settings.
+        # Also where someone wrote nan or an hour into the settings.
         latency_s = latency_s if abs(latency_s) <= LARGEST_LATENCY_S else 0.0
         self._state.set(controller=controller, latency_s=latency_s, wiring=self._wiring(port, controllers[controller]))
 
-    def _wiring(self, port: str, controller: Controller) -> Wiring:
+    def _wiring(self, port: str, controller: Controller) -> ControllerMapping:
         """With what a device sends breath and bite: as was said, else as its kind does."""
         said = {name: self._settings.midi_device(port, name) for name in ("channel", "breath", "bite")}
         try:
-            return msgspec.convert({**said, "channel": int(said["channel"])}, Wiring)
+            return msgspec.convert({**said, "channel": int(said["channel"])}, ControllerMapping)
         except (ValueError, msgspec.ValidationError):
-            # Nothing was said, or somebody edited the settings by hand.
-            return Wiring(controller.channel, controller.breath[0], controller.bite)
+            # Nothing was said, or someone edited the settings by hand.
+            return ControllerMapping(controller.channel, controller.breath[0], controller.bite)
 
     # News
 
@@ -223,41 +223,41 @@ class Recorder(QObject):
         """Take what the recorder tells."""
         if self._link is None:
             return
-        for told in self._link.poll():
-            self._take(told)
+        for reported in self._link.poll():
+            self._take(reported)
 
-    def _take(self, told: News) -> None:
+    def _take(self, reported: News) -> None:
         state = self._state
-        match told:
+        match reported:
             case Ports():
-                state.set(ports=told.inputs)
-                # What held us up is no more; whether the device can be had now is told next.
-                if told.system and state.refusal is not None and state.port not in told.inputs:
+                state.set(ports=reported.inputs)
+                # What held us up is no more; whether the device can be had now is reported next.
+                if reported.system and state.refusal is not None and state.port not in reported.inputs:
                     state.set(connection="waiting" if state.port else "none", refusal=None)
             case Opened() | Back():
                 state.set(connection="open", refusal=None)
-                if isinstance(told, Back):
-                    self._session.notice(Message("record.device_back", {"device": told.port}))
+                if isinstance(reported, Back):
+                    self._session.notice(Message("record.device_back", {"device": reported.port}))
             case Lost():
                 state.set(connection="lost")
                 state.set_played(0.0, None)
                 self._live.silence()
                 id = "record.device_lost_running" if state.running else "record.device_lost"
-                self._session.notice(Message(id, {"device": told.port}), Severity.WARNING)
+                self._session.notice(Message(id, {"device": reported.port}), Severity.WARNING)
             case Refused():
-                self._refused(told.reason)
+                self._refused(reported.reason)
             case NotStarted():
-                self._session.notice(told.reason, Severity.ERROR)
+                self._session.notice(reported.reason, Severity.ERROR)
                 self._running = None
                 self._ended()
             case Restarted():
-                self._session.notice(told.reason, Severity.WARNING)
+                self._session.notice(reported.reason, Severity.WARNING)
             case Events():
-                self._hear(told)
+                self._hear(reported)
             case Written():
-                state.set(events=told.count)
+                state.set(events=reported.count)
             case Finished():
-                self._finished(Path(os.fsdecode(told.path)))
+                self._finished(Path(os.fsdecode(reported.path)))
 
     def _refused(self, reason: Message) -> None:
         """Something cannot be done: the device be had, or something beside it."""
@@ -268,12 +268,12 @@ class Recorder(QObject):
             return
         if reason.id in _NO_DEVICE:
             # That it has gone, and that the take is kept, was said just now; why it is not back stands in the dialog.
-            is_told = state.connection == "lost"
+            is_reported = state.connection == "lost"
             is_ours = reason.arguments.get("port", state.port) == state.port
             if is_ours:
                 state.set(connection="refused" if state.port else "none", refusal=reason)
-            if not state.port or is_told:
-                # Or nobody wanted one yet: whoever looks for devices reads it there.
+            if not state.port or is_reported:
+                # Or no one requested one yet: whoever looks for devices reads it there.
                 return
         self._session.notice(reason, Severity.ERROR)
 
@@ -289,7 +289,7 @@ class Recorder(QObject):
             elif message.type in ("note_on", "note_off") and message.note == pitch:
                 pitch = None
             breath = next((value for kind, value in said(message, wiring) if kind == "breath"), breath)
-            self._live.tell(ns / 1e9, raw.hex(), wiring)
+            self._live.report(ns / 1e9, raw.hex(), wiring)
         self._state.set_played(breath, pitch)
         self._state.heard.emit(events)
 
@@ -362,7 +362,7 @@ class Recorder(QObject):
     def stop(self) -> None:
         """End the take; the performance stops."""
         if self._session.playback is not None and self._session.playback.is_playing:
-            # Told of it, `_playing_changed` ends the take.
+            # Notified of it, `_playing_changed` ends the take.
             self._session.playback.stop()
         else:
             self._end_take()
@@ -390,7 +390,7 @@ class Recorder(QObject):
         running.last_ns, running.last_s = ns, position_s
 
     def _turn(self, running: _Running, ns: int, position_s: float, speed: float) -> None:
-        """The loop has returned, or somebody went elsewhere: a new pass begins."""
+        """The loop has returned, or someone went elsewhere: a new pass begins."""
         assert self._link is not None
         if running.loop_s is not None and position_s < running.last_s:
             begin_s, end_s = running.loop_s
@@ -499,7 +499,7 @@ class Recorder(QObject):
         project = self._session.project
         known = {take.recorded for recorded in project.takes.values() for take in recorded.takes}
         controller = load_controllers().get(journal.header.controller) or recognised_controller(journal.header.port)
-        wiring = Wiring(controller.channel, controller.breath[0], controller.bite)
+        wiring = ControllerMapping(controller.channel, controller.breath[0], controller.bite)
         name = tr("recorder.recovered_take")
         takes = takes_of(journal, project.score.tempo_map, wiring, name, taken=_names(project, journal.header.player))
         if not takes or journal.header.started in known:

@@ -26,8 +26,8 @@ from app import encoding
 from app.errors import AppError, FileError, MapError, Message
 from app.formats.atomic import atomic_write
 from app.formats.toml import read_toml, shaped, toml
-from app.shell.held import FOLDED, THEME, TIME, Held, in_listening, in_pitches
 from app.shell.language import LANGUAGES
+from app.shell.setting_bindings import FOLDED, THEME, TIME, SettingBinding, in_listening, in_pitches
 from app.stream.sender import LEAST_PORT, MOST_PORT
 from widgets.common.listening import Source
 
@@ -54,7 +54,7 @@ class Setting(Generic[T]):
     default : T
     kind : type, optional
         What is possible, as msgspec understands it; by default the default's type.
-    held : Held, optional
+    held : SettingBinding, optional
         It is restored at the start, and remembered whenever it changes there.
     label : str
         In the preferences; empty: it is not there.
@@ -68,7 +68,7 @@ class Setting(Generic[T]):
         default: T,
         kind: Any = None,
         *,
-        held: Held | None = None,
+        held: SettingBinding | None = None,
         label: str = "",
         options: tuple[tuple[T, str], ...] = (),
     ) -> None:
@@ -149,7 +149,7 @@ class Settings(QObject):
     Signals
     -------
     failed(Message)
-        The file can no longer be read or written; told once.
+        The file can no longer be read or written; reported once.
     """
 
     failed = Signal(object)
@@ -248,7 +248,7 @@ class Settings(QObject):
         self.path = path
         self.problems: tuple[Message, ...] = ()
         """What is wrong with the file, as it was found at the start."""
-        self._is_told = False
+        self._is_reported = False
         self._changes: dict[tuple[str, str], object] = {}
         self._timer = QTimer(self, interval=WRITE_MS, singleShot=True)
         self._timer.timeout.connect(self.sync)
@@ -256,7 +256,7 @@ class Settings(QObject):
             self._table = self._possible(self._read())
         except AppError as error:
             self._table = {}
-            self._is_told = True
+            self._is_reported = True
             self.problems = (error.message, Message("settings.set_aside", {"file": os.fspath(path)}))
 
     # What is in the file
@@ -290,8 +290,8 @@ class Settings(QObject):
             with atomic_write(self.path) as stream:
                 stream.write(toml(table).encode("utf-8", "replace"))
         except (AppError, OSError) as error:
-            if not self._is_told:
-                self._is_told = True
+            if not self._is_reported:
+                self._is_reported = True
                 self.failed.emit(error.message if isinstance(error, AppError) else _cannot_write(self.path, error))
                 self.failed.emit(Message("settings.set_aside", {"file": os.fspath(self.path)}))
             return
@@ -351,7 +351,7 @@ class Settings(QObject):
         return self._shortcuts.get(action_id)
 
     def set_shortcut(self, action_id: str, keys: str | None) -> None:
-        """Give an action a shortcut of one's own; None: as it comes."""
+        """Give an action a shortcut custom; None: as it comes."""
         others = {id: own for id, own in self._shortcuts.items() if id != action_id}
         self._shortcuts = others if keys is None else {**others, action_id: keys}
 

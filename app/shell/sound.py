@@ -26,9 +26,9 @@ from app.project.edit.takes import comp_whole
 from app.project.edit.tempo import scale_tempo
 from app.project.model import Project
 from app.shell.stems import Stems
-from widgets.common.listening import HeardTake
+from widgets.common.listening import RecordedTake
 from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 
 _FRAME_MS = 16
 _TAKE_WAIT_MS = 1000
@@ -41,7 +41,7 @@ SAME_TEMPO = 0.002
 
 
 _CLICKS_ON_S = 1800.0
-"""Clicks beyond the end of the piece, while somebody records there."""
+"""Clicks beyond the end of the piece, while someone records there."""
 
 
 class Sound(QObject):
@@ -78,11 +78,11 @@ class Sound(QObject):
         """Source and metronome of the mix that was made last."""
         self._counted_s: tuple[float, float] | None = None
         """While a take is recorded: where counting in begins, and where the take does."""
-        self._as_heard: tuple[Project, HeardTake, Project] | None = None
+        self._as_heard: tuple[Project, RecordedTake, Project] | None = None
         """The project with a take in the place of a part, and what it was made from."""
         self._take_waits_ms = 0
         self._own_move = False
-        self._told_silent = False
+        self._reported_silent = False
         self._frame_timer = QTimer(self, interval=_FRAME_MS, timerType=Qt.TimerType.PreciseTimer)
         self._frame_timer.timeout.connect(self._follow_sound)
         self._take_timer = QTimer(self, interval=_TAKE_LOOK_MS)
@@ -116,7 +116,7 @@ class Sound(QObject):
             self._own_move = False
 
     def _playhead_moved(self, playhead_s: float) -> None:
-        project = self._heard_project()
+        project = self._sounding_project()
         if self._synthesiser_heard(project) and not self._stems.covers(playhead_s):
             self._stems.follow(project, playhead_s)
         if self._own_move or not self._heard:
@@ -137,13 +137,13 @@ class Sound(QObject):
 
     def _silent_changed(self, silent: bool) -> None:
         self._session.listening.set(silent=silent)
-        if silent and not self._told_silent:
-            self._told_silent = True
+        if silent and not self._reported_silent:
+            self._reported_silent = True
             self._session.notice(Message("audio.no_device"), Severity.WARNING)
 
     # Takes
 
-    def listen(self, take: HeardTake, from_s: float) -> None:
+    def listen(self, take: RecordedTake, from_s: float) -> None:
         """Play a take without taking it, as soon as its beginning is rendered; it is over when the sound stops."""
         self.playback.stop()
         self._session.set_playhead(from_s)
@@ -166,7 +166,7 @@ class Sound(QObject):
             self._take_timer.stop()
             self.playback.play(self._session.playhead_s)
 
-    def _heard_project(self) -> Project:
+    def _sounding_project(self) -> Project:
         """The project as it is heard: the take that is listened to stands in the place of the part."""
         project, take = self._session.project, self._session.listening.take
         recorded = project.takes.get(take.player_id) if take is not None else None
@@ -195,7 +195,7 @@ class Sound(QObject):
             self._unplaced = ""
         elif change.before.audio is None and change.after.audio is not None:
             audio = change.after.audio
-            # An offset that is there already, or was there before an undo, is the person's.
+            # An offset that is there already, or was there before an undo, is the user's.
             fresh = audio.offset_s == 0.0 and audio.confidence is None and audio.path not in self._estimated
             self._unplaced = audio.path if fresh else ""
         self._take()
@@ -212,7 +212,7 @@ class Sound(QObject):
 
     def _take(self) -> None:
         """Let the project be heard as it is now."""
-        project = self._heard_project()
+        project = self._sounding_project()
         self._set_span(project)
         path = project.audio.path if project.audio is not None else ""
         if path != self._path:
@@ -225,7 +225,7 @@ class Sound(QObject):
         """A take is recorded: it is counted in from a moment to another, and the performance goes on without an end.
         None: no more."""
         self._counted_s = counted_s
-        self._set_span(self._heard_project())
+        self._set_span(self._sounding_project())
         self._set_mix()
 
     def _set_span(self, project: Project) -> None:
@@ -243,7 +243,7 @@ class Sound(QObject):
 
     def _set_mix(self) -> None:
         session = self._session
-        project, listening = self._heard_project(), session.listening
+        project, listening = self._sounding_project(), session.listening
         tracks: list[Track] = []
         alone = listening.take is not None and listening.take.alone
         if (
@@ -281,8 +281,8 @@ class Sound(QObject):
         if not path:
             return
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> tuple[Recording, Peaks]:
-            recording = decode(path, progress, stop_wanted)
+        def work(progress: Progress, stop_requested: StopRequested) -> tuple[Recording, Peaks]:
+            recording = decode(path, progress, stop_requested)
             return recording, Peaks(recording.samples, RATE_HZ)
 
         def done(result: tuple[Recording, Peaks]) -> None:
@@ -300,7 +300,7 @@ class Sound(QObject):
         def failed(error: AppError) -> None:
             self._session.notice(error.message, Severity.ERROR)
 
-        # Later: whoever adds a recording is still being told of it.
+        # Later: whoever adds a recording is still being reported of it.
         QTimer.singleShot(
             0,
             self,
@@ -315,7 +315,7 @@ class Sound(QObject):
         Parameters
         ----------
         unasked : bool
-            The recording was just added: an uncertain offset is told, but not taken.
+            The recording was just added: an uncertain offset is reported, but not taken.
         with_tempo : bool
             Fit the score's tempo to the recording's as well.
         """
@@ -325,8 +325,8 @@ class Sound(QObject):
         self._estimated.add(recording.path)
         self._unplaced = ""
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> Estimate:
-            return estimate_offset(recording.samples, RATE_HZ, project.score, progress, stop_wanted)
+        def work(progress: Progress, stop_requested: StopRequested) -> Estimate:
+            return estimate_offset(recording.samples, RATE_HZ, project.score, progress, stop_requested)
 
         def done(estimate: Estimate) -> None:
             audio = self._session.project.audio

@@ -155,12 +155,12 @@ class StartPage(QScrollArea):
             changed = QDateTime.fromSecsSinceEpoch(round(item.changed_s))
             when = QLocale().toString(changed, QLocale.FormatType.ShortFormat)
             name = item.name or self.tr("start_page.piece_that_was_never_saved")
-            told = self.tr("start_page.unsaved_work_was_found").format(name=name, when=when)
+            reported = self.tr("start_page.unsaved_work_was_found").format(name=name, when=when)
             if item.is_file_missing:
-                told = "\n".join((told, self.tr("start_page.projects_file_no_longer_exists")))
+                reported = "\n".join((reported, self.tr("start_page.projects_file_no_longer_exists")))
             elif item.is_file_changed:
-                told = "\n".join((told, self.tr("start_page.projects_file_has_changed_since")))
-            text = Label(told)
+                reported = "\n".join((reported, self.tr("start_page.projects_file_has_changed_since")))
+            text = Label(reported)
             text.setWordWrap(True)
             go_on, throw = QPushButton(self.tr("start_page.recover")), QPushButton(self.tr("start_page.discard"))
             go_on.setObjectName("recover")

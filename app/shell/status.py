@@ -56,13 +56,13 @@ class StatusLine(QStatusBar):
     Signals
     -------
     problems_asked()
-        The person wants to see the problems.
+        The user wants to see the problems.
     instruments_asked()
-        The person wants to see what is wrong with instruments of their own.
+        The user wants to see what is wrong with instruments of their own.
     devices_asked()
-        The person wants to see the MIDI devices.
+        The user wants to see the MIDI devices.
     streaming_asked()
-        The person wants to see what is streamed.
+        The user wants to see what is streamed.
     """
 
     problems_asked = Signal()
@@ -81,7 +81,7 @@ class StatusLine(QStatusBar):
         self._log: deque[tuple[Message, Severity]] = deque(maxlen=MOST_NOTICES)
         self._frames: deque[float] = deque(maxlen=120)
         self._ready = 1.0
-        self._told_device: tuple[object, ...] = ()
+        self._reported_device: tuple[object, ...] = ()
 
         self._work = QWidget()
         self._work_line = QHBoxLayout(self._work)
@@ -137,18 +137,18 @@ class StatusLine(QStatusBar):
         self._poll.timeout.connect(self._look)
         self._age = QTimer(self)
         self._age.setInterval(5000)
-        self._age.timeout.connect(self._tell_saved)
+        self._age.timeout.connect(self._report_saved)
         self._age.start()
 
-        session.noticed.connect(self.tell)
-        session.performance_changed.connect(self._tell_problems)
-        session.problems_changed.connect(self._tell_problems)
-        session.instruments_changed.connect(self._tell_instruments)
-        session.recording.changed.connect(self._tell_device)
-        session.streaming.changed.connect(self._tell_stream)
+        session.noticed.connect(self.report)
+        session.performance_changed.connect(self._report_problems)
+        session.problems_changed.connect(self._report_problems)
+        session.instruments_changed.connect(self._report_instruments)
+        session.recording.changed.connect(self._report_device)
+        session.streaming.changed.connect(self._report_stream)
         session.theme_changed.connect(self.retranslate)
         session.playing_changed.connect(self._played)
-        files.changed.connect(self._tell_saved)
+        files.changed.connect(self._report_saved)
         files.opened.connect(self._opened)
         if tasks is not None:
             tasks.changed.connect(self._tasks_changed)
@@ -190,7 +190,7 @@ class StatusLine(QStatusBar):
 
     # Notices
 
-    def tell(self, message: Message, severity: Severity) -> None:
+    def report(self, message: Message, severity: Severity) -> None:
         """Say something."""
         # A drag to where nothing can go says so with every move of the mouse.
         if not self._log or self._log[-1] != (message, severity):
@@ -233,11 +233,11 @@ class StatusLine(QStatusBar):
     def _opened(self) -> None:
         for widget in (self._saved, self._problems, self._rate, self._motion, self._motion_bar):
             widget.setVisible(self._files.is_open)
-        self._tell_saved()
-        self._tell_problems()
-        self._tell_motion()
+        self._report_saved()
+        self._report_problems()
+        self._report_motion()
 
-    def _tell_problems(self) -> None:
+    def _report_problems(self) -> None:
         count = problem_count(self._session) if self._files.is_open else 0
         tokens = self._session.tokens
         self._problems.setVisible(self._files.is_open)
@@ -245,23 +245,23 @@ class StatusLine(QStatusBar):
         text = self.tr("status_line.problems").format(count=count) if count else self.tr("status_line.no_problems")
         self._problems.setText(f" {text}")
 
-    def _tell_instruments(self) -> None:
+    def _report_instruments(self) -> None:
         """Until the last file is mended: a notice goes with the next one."""
         wrong = library().problems
         tokens = self._session.tokens
         self._instruments.setVisible(bool(wrong))
         self._instruments.setIcon(icon("error", tokens, tokens.error))
         self._instruments.setText(" " + self.tr("status_line.faulty_instruments").format(count=len(wrong)))
-        told = "\n".join(sentence(problems[0], self._session) for problems in wrong.values())
-        self._instruments.setToolTip(told + "\n\n" + self.tr("status_line.show_instruments"))
+        reported = "\n".join(sentence(problems[0], self._session) for problems in wrong.values())
+        self._instruments.setToolTip(reported + "\n\n" + self.tr("status_line.show_instruments"))
 
-    def _tell_device(self) -> None:
-        """Which device is recorded from, and whether it is there; nothing where nobody has one."""
+    def _report_device(self) -> None:
+        """Which device is recorded from, and whether it is there; nothing where no one has one."""
         recording, tokens = self._session.recording, self._session.tokens
-        told = (recording.port, recording.connection, bool(recording.ports), tokens.name)
-        if told == self._told_device:
+        reported = (recording.port, recording.connection, bool(recording.ports), tokens.name)
+        if reported == self._reported_device:
             return
-        self._told_device = told
+        self._reported_device = reported
         self._device.setVisible(bool(recording.port or recording.ports))
         text, name, colour = {
             "none": (self.tr("status_line.choose_midi_device"), "record", tokens.text_dim),
@@ -276,7 +276,7 @@ class StatusLine(QStatusBar):
         self._device.setText(verbatim(" " + text.format(device=device)))
         self._device.setToolTip(self.tr("status_line.midi_devices_choose_watch_what"))
 
-    def _tell_stream(self) -> None:
+    def _report_stream(self) -> None:
         """What is streamed, and how fast; nothing where nothing is."""
         streaming, tokens = self._session.streaming, self._session.tokens
         self._stream.setVisible(streaming.state != "off")
@@ -297,7 +297,7 @@ class StatusLine(QStatusBar):
         who = [f"{names[line.player_id]}: {line.port}" for line in lines if line.player_id in names]
         self._stream.setToolTip("\n".join([*who, "", self.tr("status_line.live_stream_what_is_sent")]).strip())
 
-    def _tell_risk(self) -> None:
+    def _report_risk(self) -> None:
         """For as long as unsaved work is in no file."""
         risk, tokens = self._files.risk, self._session.tokens
         self._risk.setVisible(risk is not None)
@@ -306,8 +306,8 @@ class StatusLine(QStatusBar):
             self._risk.setText(" " + self.tr("status_line.unsaved_work_at_risk_save"))
             self._risk.setToolTip(sentence(risk, self._session))
 
-    def _tell_saved(self) -> None:
-        self._tell_risk()
+    def _report_saved(self) -> None:
+        self._report_risk()
         files = self._files
         if not files.is_open:
             self._saved.clear()
@@ -347,9 +347,9 @@ class StatusLine(QStatusBar):
     def set_ready(self, share: float) -> None:
         """How much of the motion is made, 0..1."""
         self._ready = share
-        self._tell_motion()
+        self._report_motion()
 
-    def _tell_motion(self) -> None:
+    def _report_motion(self) -> None:
         busy = self._ready < 1.0 and self._files.is_open
         self._motion_bar.setVisible(busy)
         _show_value(self._motion_bar, int(MOTION_PX * self._ready))
@@ -372,11 +372,11 @@ class StatusLine(QStatusBar):
         if not self._notice.isHidden():
             self._show_notice()
         for task, row in self._rows.items():
-            row.tell(task, tokens)
-        self._tell_instruments()
-        self._told_device = ()
-        self._tell_device()
-        self._tell_stream()
+            row.report(task, tokens)
+        self._report_instruments()
+        self._reported_device = ()
+        self._report_device()
+        self._report_stream()
         self._opened()
 
     def changeEvent(self, event: QEvent) -> None:
@@ -428,9 +428,9 @@ class _TaskRow(QWidget):
         line.addWidget(self._name)
         line.addWidget(self._bar)
         line.addWidget(self.stop)
-        self.tell(task, tokens)
+        self.report(task, tokens)
 
-    def tell(self, task: Task, tokens: Tokens) -> None:
+    def report(self, task: Task, tokens: Tokens) -> None:
         """Set texts and colours."""
         name = message_text(task.name)
         self._name.setText(name[:1].upper() + name[1:])

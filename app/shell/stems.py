@@ -15,15 +15,15 @@ from app.audio.synth import Phrase, Synthesiser
 from app.audio.track import RATE_HZ, Track
 from app.errors import Cancelled, Message
 from app.project.model import Player, Project
-from widgets.common.tasks import Progress, StopWanted, Tasks
+from widgets.common.tasks import Progress, StopRequested, Tasks
 
 _SETTLE_MS = 120
 """Rendering waits until a drag rests for so long."""
 _LOOK_MS = 250
 """How often what was rendered meanwhile is added to what is heard."""
 _MOST_BYTES = 256 * 1024 * 1024
-"""Of sound that is wanted: four players for ten minutes, fifty for fifty seconds. Of what is longer, the part that is
-heard next is kept, and the window moves along."""
+"""Of sound that is requested: four players for ten minutes, fifty for fifty seconds. Of what is longer, the part that
+is heard next is kept, and the window moves along."""
 _AHEAD_S = 20.0
 """The next window is begun so long before the end of this one is heard."""
 
@@ -77,7 +77,7 @@ class Stems(QObject):
         self._synthesiser = Synthesiser(RenderProcess())
         self._made: dict[str, _Made] = {}
         self._job: _Job | None = None
-        self._wanted: tuple[Project, float] | None = None
+        self._requested: tuple[Project, float] | None = None
         self._tracks: dict[str, tuple[_Made, tuple[float, float], Track]] = {}
         """By player, with what it was made from."""
         self._stale: deque[str] = deque()
@@ -103,7 +103,7 @@ class Stems(QObject):
         from_s : float
             What is heard from here on comes first.
         """
-        self._wanted = (project, from_s)
+        self._requested = (project, from_s)
         job = self._job
         if job is not None and job.project is project and (not job.has_ended or self.covers(from_s)):
             return
@@ -138,31 +138,31 @@ class Stems(QObject):
 
     def _render(self) -> None:
         """Make what is missing, what is heard next first."""
-        if self._wanted is None:
+        if self._requested is None:
             return
-        project, from_s = self._wanted
+        project, from_s = self._requested
         synthesiser, before, stale = self._synthesiser, self._made, self._stale
         job = self._job = _Job(project)
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> None:
+        def work(progress: Progress, stop_requested: StopRequested) -> None:
             try:
                 made = {}
                 for player in project.players:
                     made[player.id] = _made(project, player, before.get(player.id))
-                    if stop_wanted():
+                    if stop_requested():
                         raise Cancelled("work.stopped")
                 everything = [(player_id, phrase) for player_id, one in made.items() for phrase in one.phrases]
-                wanted, job.window_s = _next_heard(everything, from_s)
-                gone = synthesiser.forget(phrase for _, phrase in wanted)
+                requested, job.window_s = _next_heard(everything, from_s)
+                gone = synthesiser.forget(phrase for _, phrase in requested)
                 stale.extend({player_id for player_id, phrase in everything if phrase.midi in gone} if gone else ())
-                missing = [item for item in wanted if synthesiser.ready(item[1]) is None]
+                missing = [item for item in requested if synthesiser.ready(item[1]) is None]
                 job.made, job.is_cut = made, True
                 for index, (player_id, phrase) in enumerate(missing):
-                    if stop_wanted():
+                    if stop_requested():
                         raise Cancelled("work.stopped")
                     synthesiser.render(phrase)
                     stale.append(player_id)
-                    job.share = (len(wanted) - len(missing) + index + 1) / len(wanted)
+                    job.share = (len(requested) - len(missing) + index + 1) / len(requested)
                     progress((index + 1) / len(missing))
                 job.share = 1.0
             finally:

@@ -2,7 +2,7 @@
 
 A thread sends, so that neither waits for the other: the window says what is wished, where the sound is and that
 something moves. A frame that the network does not take at once is dropped. While nothing moves it goes on slowly, so
-that who receives knows that somebody is there.
+that who receives knows that someone is there.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from app.stream.sender import MOST_PORT, TO_MANY, Address, Outcome, Sender, Stre
 from app.stream.vmc import IN_THE_MIDDLE, Sent
 from widgets.common.session import Session, Severity
 from widgets.common.streaming import RATES_HZ, StreamState
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 from widgets.viewport.live_poses import LivePoses
 from widgets.viewport.poses import Poses
 
@@ -42,7 +42,7 @@ SETTLED_S: Final = 0.5
 RETRY_S: Final = 2.0
 """After nothing could be sent."""
 TELL_S: Final = 0.5
-"""How often is told how it goes."""
+"""How often is reported how it goes."""
 ALONE_S: Final = 1.0
 """A window that says nothing of where the sound is for so long hangs: nothing goes on without it."""
 _SECOND_S: Final = 1.0
@@ -71,13 +71,13 @@ class Streamer(QObject):
         """What the address was, or is, looked up from, and whether it may be that of many computers."""
         self._thread: _Thread | None = None
         self._ending: weakref.finalize[[], Streamer] | None = None
-        """Closes the thread, also where nobody says good-bye."""
+        """Closes the thread, also where no one says good-bye."""
         self._restore()
         self._settled = self._wished()
         self._state.changed.connect(self._changed)
-        session.changed.connect(self._wish)
-        session.players_changed.connect(self._wish)
-        session.dancer_changed.connect(self._wish)
+        session.changed.connect(self._request)
+        session.players_changed.connect(self._request)
+        session.dancer_changed.connect(self._request)
         live = session.live_players
         for signal in (
             *(session.playhead_changed, session.playing_changed, session.performance_changed),
@@ -121,7 +121,7 @@ class Streamer(QObject):
         elif (state.host, state.port, self._broadcast) != self._asked:
             self._look_up()
         else:
-            self._wish()
+            self._request()
 
     def _look_up(self) -> None:
         """A computer with a name may take seconds to be found."""
@@ -130,7 +130,7 @@ class Streamer(QObject):
         self._asked = asked
         self._state.set(state="looking")
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> Address:
+        def work(progress: Progress, stop_requested: StopRequested) -> Address:
             address = find_address(host, port)
             if not broadcast and reaches_many(address):
                 raise StreamError(TO_MANY, host=host)
@@ -149,10 +149,10 @@ class Streamer(QObject):
     def _begin(self, address: Address) -> None:
         self._address = address
         self._state.set(state="sending", trouble=None)
-        self._thread = _Thread(self._poses, _Teller(self))
+        self._thread = _Thread(self._poses, _MainThreadNotifier(self))
         self._ending = weakref.finalize(self, self._thread.close)
         self._thread.begin()
-        self._wish()
+        self._request()
 
     def close(self) -> None:
         """Send no more."""
@@ -162,7 +162,7 @@ class Streamer(QObject):
         self._thread = self._ending = None
         self._state.set(state="off", lines=(), sent_hz=0, trouble=None)
 
-    def _wish(self, *_: object) -> None:
+    def _request(self, *_: object) -> None:
         """Who is sent where."""
         if self._address is None or self._thread is None:
             return
@@ -171,16 +171,16 @@ class Streamer(QObject):
         if lines != state.lines:
             state.set(lines=lines)
             if state.everyone and len(lines) < len(project.seen):
-                told = Message(
+                reported = Message(
                     "stream.no_room",
                     {"count": len(project.seen), "port": state.port, "most": MOST_PORT},
                 )
-                self._session.notice(told, Severity.WARNING)
+                self._session.notice(reported, Severity.WARNING)
         everyone = {performer.id: performer for performer in project.performers}
         performers = [everyone[line.player_id] for line in lines]
         beside = [project.played_by(one)[1:] if isinstance(one, Player) else () for one in performers]
-        self._thread.wish(
-            _Wish(
+        self._thread.request(
+            _Request(
                 address=self._address,
                 performers=tuple(performers),
                 beside=tuple(beside),
@@ -206,12 +206,12 @@ class Streamer(QObject):
 
     # How it goes
 
-    def _tell(self, sent_hz: int, unheard: bool) -> None:
+    def _report(self, sent_hz: int, unheard: bool) -> None:
         state: StreamState = "unheard" if unheard else "sending"
         self._state.set(state=state, sent_hz=sent_hz, trouble=None)
 
     def _fail(self, message: Message) -> None:
-        """Said once; it is tried again as long as it is wanted and the computer is known."""
+        """Said once; it is tried again as long as it is requested and the computer is known."""
         if self._state.trouble != message:
             self._session.notice(message, Severity.ERROR)
         self._state.set(state="failed", trouble=message, sent_hz=0)
@@ -223,7 +223,7 @@ class Streamer(QObject):
 
 
 @dataclass(frozen=True)
-class _Wish:
+class _Request:
     """What the thread sends; ``beside`` is what each performer plays besides."""
 
     address: Address
@@ -253,13 +253,13 @@ class _Anchor:
         return position_s
 
 
-class _Teller:
+class _MainThreadNotifier:
     """Carries what the thread says into the window's thread, as long as there is a streamer that has it."""
 
     def __init__(self, streamer: Streamer) -> None:
         self._ask, self._streamer = window_calls().ask, weakref.ref(streamer)
 
-    def tell(self, thread: _Thread, say: Callable[[Streamer], None]) -> None:
+    def report(self, thread: _Thread, say: Callable[[Streamer], None]) -> None:
         listening = self._streamer
 
         def call() -> None:
@@ -273,10 +273,10 @@ class _Teller:
 class _Thread:
     """Sends at its rate until it is closed. Holds nothing of the window."""
 
-    def __init__(self, poses: LivePoses, teller: _Teller) -> None:
-        self._poses, self._teller = poses, teller
+    def __init__(self, poses: LivePoses, notifier: _MainThreadNotifier) -> None:
+        self._poses, self._notifier = poses, notifier
         self._changed = threading.Condition()
-        self._wish: _Wish | None = None
+        self._request: _Request | None = None
         self._anchor = _Anchor(0.0, 0.0, 0.0, None)
         self._moved_s = 0.0
         self._closed = False
@@ -284,7 +284,7 @@ class _Thread:
         self._senders: dict[int, Sender] = {}
         self._sent: dict[str, tuple[tuple[Character, str | None, FaceNames, tuple[str, ...]], Sent]] = {}
         self._frames: deque[float] = deque()
-        self._told_s = self._began_s
+        self._reported_s = self._began_s
         self._thread = threading.Thread(target=self._run, name="streamer", daemon=True)
 
     # Called by the window
@@ -292,9 +292,9 @@ class _Thread:
     def begin(self) -> None:
         self._thread.start()
 
-    def wish(self, wish: _Wish) -> None:
+    def request(self, request: _Request) -> None:
         with self._changed:
-            self._wish = wish
+            self._request = request
             self._changed.notify()
 
     def move(self, anchor: _Anchor) -> None:
@@ -318,9 +318,9 @@ class _Thread:
         try:
             while not self._closed:
                 due_s = self._step(due_s)
-        except Exception as error:  # noqa: BLE001 - told in the window's thread
+        except Exception as error:  # noqa: BLE001 - reported in the window's thread
             fault = error
-            self._teller.tell(self, lambda streamer: streamer._fell(fault))
+            self._notifier.report(self, lambda streamer: streamer._fell(fault))
         finally:
             self._close_senders()
 
@@ -329,25 +329,25 @@ class _Thread:
         with self._changed:
             moved_s = self._moved_s
             # Woken early where something moves again, or something else is wished.
-            while not self._closed and (self._wish is None or time.perf_counter() < due_s):
-                if self._wish is not None and self._moved_s != moved_s and self._rests(moved_s):
+            while not self._closed and (self._request is None or time.perf_counter() < due_s):
+                if self._request is not None and self._moved_s != moved_s and self._rests(moved_s):
                     break
-                self._changed.wait(None if self._wish is None else max(due_s - time.perf_counter(), 0.0))
-            wish, anchor = self._wish, self._anchor
-        if self._closed or wish is None:
+                self._changed.wait(None if self._request is None else max(due_s - time.perf_counter(), 0.0))
+            request, anchor = self._request, self._anchor
+        if self._closed or request is None:
             return due_s
         now_s = time.perf_counter()
         try:
-            unheard = self._send(wish, anchor.position(now_s), now_s)
+            unheard = self._send(request, anchor.position(now_s), now_s)
         except AppError as error:
             message = error.message
             self._close_senders()
-            self._teller.tell(self, lambda streamer: streamer._fail(message))
+            self._notifier.report(self, lambda streamer: streamer._fail(message))
             return time.perf_counter() + RETRY_S
-        self._tell(now_s, unheard)
+        self._report(now_s, unheard)
         if anchor.speed or self._poses.is_live:
             self._moved_s = max(self._moved_s, now_s)
-        step_s = RESTING_S if self._rests(self._moved_s) else 1.0 / wish.rate_hz
+        step_s = RESTING_S if self._rests(self._moved_s) else 1.0 / request.rate_hz
         # By the clock and not by the last frame, so that the rate is kept; what was missed is not made up for.
         due_s += step_s
         return due_s if now_s - step_s < due_s <= now_s + step_s else now_s + step_s
@@ -356,30 +356,30 @@ class _Thread:
     def _rests(moved_s: float) -> bool:
         return time.perf_counter() - moved_s > SETTLED_S
 
-    def _send(self, wish: _Wish, time_s: float, now_s: float) -> bool:
-        """Everybody's pose of now; whether nobody listens anywhere."""
-        for port in self._senders.keys() - set(wish.ports):
+    def _send(self, request: _Request, time_s: float, now_s: float) -> bool:
+        """Everybody's pose of now; whether no one listens anywhere."""
+        for port in self._senders.keys() - set(request.ports):
             self._senders.pop(port).close()
-        everything = [*(one.id for one in wish.performers), *(one.id for played in wish.beside for one in played)]
+        everything = [*(one.id for one in request.performers), *(one.id for played in request.beside for one in played)]
         posed = dict(zip(everything, self._poses.poses(everything, time_s), strict=True))
         # What is played besides and cannot be seen is not sent.
         beside = {
             performer.id: [one for one in played if posed[one.id] is not None]
-            for performer, played in zip(wish.performers, wish.beside, strict=True)
+            for performer, played in zip(request.performers, request.beside, strict=True)
         }
         # Whose character is gone since the pose was made is among the problems.
         sent = attempt(
-            wish.performers, lambda performer: self._sent_of(performer, wish.faces, beside[performer.id])
+            request.performers, lambda performer: self._sent_of(performer, request.faces, beside[performer.id])
         ).made
         outcomes = list[Outcome]()
-        for performer, port, stage in zip(wish.performers, wish.ports, wish.stages, strict=True):
+        for performer, port, stage in zip(request.performers, request.ports, request.stages, strict=True):
             pose = posed[performer.id]
             others = [other for one in beside[performer.id] if (other := posed[one.id]) is not None]
             # What is not made yet is not sent: who receives it keeps the last one.
             if pose is not None and performer.id in sent:
                 datagrams = sent[performer.id].datagrams(pose, now_s - self._began_s, stage, others)
                 if port not in self._senders:
-                    self._senders[port] = Sender(wish.address.port(port), wish.broadcast)
+                    self._senders[port] = Sender(request.address.port(port), request.broadcast)
                 outcomes.append(self._senders[port].send(datagrams))
         if outcomes and Outcome.DROPPED not in outcomes:
             self._frames.append(now_s)
@@ -394,14 +394,14 @@ class _Thread:
             known = self._sent[performer.id] = (of, Sent(*of))
         return known[1]
 
-    def _tell(self, now_s: float, unheard: bool) -> None:
-        if now_s - self._told_s < TELL_S:
+    def _report(self, now_s: float, unheard: bool) -> None:
+        if now_s - self._reported_s < TELL_S:
             return
-        self._told_s = now_s
+        self._reported_s = now_s
         while self._frames and now_s - self._frames[0] > _SECOND_S:
             self._frames.popleft()
         count = len(self._frames)
-        self._teller.tell(self, lambda streamer: streamer._tell(count, unheard))
+        self._notifier.report(self, lambda streamer: streamer._report(count, unheard))
 
     def _close_senders(self) -> None:
         for sender in self._senders.values():

@@ -1,4 +1,4 @@
-"""Slow work beside the window: in threads, with progress, stopped on request, its errors told.
+"""Slow work beside the window: in threads, with progress, stopped on request, its errors reported.
 
 A thread never lets go of anything last: what its work knew may be of the window, and an object of Qt that dies in a
 thread not its own takes the program with it. The window's thread waits for the thread's end before it lets go.
@@ -18,7 +18,7 @@ from shiboken6 import isValid
 
 from app.errors import AppError, Cancelled, Message
 from app.shell.calls import Ask, window_calls
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 
 T = TypeVar("T")
 
@@ -37,7 +37,7 @@ class Task:
 
     name: Message
     key: str | None
-    work: Callable[[Progress, StopWanted], object]
+    work: Callable[[Progress, StopRequested], object]
     done: Callable[[Any], None]
     failed: Callable[[AppError], None] | None
     ended: Callable[[], None] | None
@@ -57,7 +57,7 @@ class ThreadTasks(QObject):
     changed()
         Work began or ended.
     failed(AppError)
-        Work without a ``failed`` of its own met an error that a person can act on.
+        Work without a ``failed`` of its own met an error that the user can act on.
     unexpected(BaseException)
         Work met a fault of the program.
     """
@@ -73,7 +73,7 @@ class ThreadTasks(QObject):
 
     @property
     def running(self) -> tuple[Task, ...]:
-        """Work that nobody stopped, oldest first."""
+        """Work that no one stopped, oldest first."""
         return tuple(task for task in self._running if not task.stop.is_set())
 
     @property
@@ -84,7 +84,7 @@ class ThreadTasks(QObject):
     def run(
         self,
         name: Message,
-        work: Callable[[Progress, StopWanted], T],
+        work: Callable[[Progress, StopRequested], T],
         done: Callable[[T], None],
         failed: Callable[[AppError], None] | None = None,
         key: str | None = None,
@@ -122,11 +122,11 @@ class ThreadTasks(QObject):
         try:
             if task.ended is not None and _is_there(task.ended):
                 task.ended()
-            self._tell(task)
+            self._report(task)
         finally:
             self.changed.emit()
 
-    def _tell(self, task: Task) -> None:
+    def _report(self, task: Task) -> None:
         error = task.error
         if task.stop.is_set() or isinstance(error, Cancelled):
             return
@@ -149,7 +149,7 @@ def _work(task: Task, ask: Ask) -> None:
 
     try:
         task.result = task.work(progress, task.stop.is_set)
-    except BaseException as problem:  # noqa: BLE001 - told in the window's thread
+    except BaseException as problem:  # noqa: BLE001 - reported in the window's thread
         task.error = problem
     finally:
         ask(partial(_take_back, task))
@@ -165,6 +165,6 @@ def _take_back(task: Task) -> None:
 
 
 def _is_there(callback: Callable[..., None]) -> bool:
-    """Whether who is to be told has not been closed meanwhile."""
-    told = getattr(callback, "__self__", None)
-    return not isinstance(told, QObject) or isValid(told)
+    """Whether who is to be reported has not been closed meanwhile."""
+    reported = getattr(callback, "__self__", None)
+    return not isinstance(reported, QObject) or isValid(reported)

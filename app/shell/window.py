@@ -138,12 +138,12 @@ class Window(QMainWindow):
         recent.aboutToShow.connect(self._fill_recent)
         self._place_recent()
 
-        self._files.changed.connect(self._tell_title)
+        self._files.changed.connect(self._report_title)
         self._files.opened.connect(self._show_page)
         self._files.found.connect(self._offer_recovery)
         self._files.missing.connect(self._ask_for_media)
         self._files.overtaken.connect(self._ask_to_save_over)
-        self.session.theme_changed.connect(self._dress)
+        self.session.theme_changed.connect(self._apply_theme)
         self.status.problems_asked.connect(self._next_problem)
         self.status.streaming_asked.connect(self.show_streaming)
         self.status.instruments_asked.connect(self.show_instruments)
@@ -155,7 +155,7 @@ class Window(QMainWindow):
         self._arrange()
         self._default_layout = self.saveState(LAYOUT_VERSION)
         self._restore()
-        self._dress()
+        self._apply_theme()
         self.retranslate()
         self._show_page()
         self._table.refresh()
@@ -172,7 +172,7 @@ class Window(QMainWindow):
         self._size_docks()
 
     def _size_docks(self) -> None:
-        """As large as panels are in a window of this size where nobody said otherwise."""
+        """As large as panels are in a window of this size where no one said otherwise."""
         # The timeline has the whole width: time is read from edge to edge.
         self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.BottomDockWidgetArea)
         right = (
@@ -239,7 +239,7 @@ class Window(QMainWindow):
             # Keys belong to the notes, not to whichever button Qt finds first.
             self.timeline.setFocus(Qt.FocusReason.OtherFocusReason)
         self._table.refresh_soon()
-        self._tell_title()
+        self._report_title()
 
     def show_panel(self, name: str, shown: bool) -> None:
         """Show or hide a panel."""
@@ -307,7 +307,7 @@ class Window(QMainWindow):
         dialog.activateWindow()
 
     def show_characters(self) -> None:
-        """Show the person's own characters; once."""
+        """Show the user's own characters; once."""
         from app.shell.characters import show_characters
 
         show_characters(self.editor)
@@ -385,10 +385,10 @@ class Window(QMainWindow):
     def _offer_recovery(self, item: Recoverable) -> None:
         def texts() -> tuple[str, tuple[str, ...]]:
             if item.is_file_changed:
-                told = self.tr("window.there_is_unsaved_work_on")
+                reported = self.tr("window.there_is_unsaved_work_on")
             else:
-                told = self.tr("window.there_is_unsaved_work_on_this_project")
-            return told, (self.tr("window.recover"), self.tr("window.discard"))
+                reported = self.tr("window.there_is_unsaved_work_on_this_project")
+            return reported, (self.tr("window.recover"), self.tr("window.discard"))
 
         self.banner.ask(
             texts,
@@ -427,7 +427,7 @@ class Window(QMainWindow):
 
     # Looks
 
-    def _tell_title(self) -> None:
+    def _report_title(self) -> None:
         if self._files.is_open:
             self.setWindowTitle(f"{verbatim_title(self._files.name)}[*] — Suisou")
         else:
@@ -435,7 +435,7 @@ class Window(QMainWindow):
         self.setWindowModified(not self._files.is_saved)
         self._table.refresh_soon()
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         tokens = self.session.tokens
         self.palette_field.setIcon(icon("search", tokens, tokens.text_dim))
         self.palette_field.setStyleSheet(
@@ -454,7 +454,7 @@ class Window(QMainWindow):
         keys = self._table.actions["application.palette"].shortcut().toString(QKeySequence.SequenceFormat.NativeText)
         self.palette_field.setText(self.tr("window.search").format(keys=keys))
         self.palette_field.setAccessibleName(self.tr("window.search_commands"))
-        self._tell_title()
+        self._report_title()
 
     # Qt
 

@@ -51,7 +51,7 @@ class FaceLayout:
 
 
 def face_layout(naming: FaceNames, morphs: Sequence[str]) -> FaceLayout:
-    """How a face with these morphs, which have ARKit's names, is told."""
+    """How a face with these morphs, which have ARKit's names, is reported."""
     if naming == "arkit":
         return FaceLayout(tuple(morphs), tuple(morphs))
     if naming == "arkit_capital":

@@ -67,7 +67,7 @@ class Outcome(Enum):
     DROPPED = "dropped"
     """The system has no room: this frame is not sent, and not kept either."""
     UNHEARD = "unheard"
-    """It went out, but nobody listens there."""
+    """It went out, but no one listens there."""
 
 
 def is_loopback(host: str) -> bool:
@@ -95,17 +95,17 @@ def find_address(host: str, port: int) -> Address:
     StreamError
         ``stream.host_unknown``, ``stream.port``.
     """
-    wanted = host.strip()
-    if not wanted:
+    requested = host.strip()
+    if not requested:
         # The system would take it for any computer.
-        raise StreamError("stream.host_unknown", host=wanted)
+        raise StreamError("stream.host_unknown", host=requested)
     try:
-        found = socket.getaddrinfo(wanted, checked_port(port), type=socket.SOCK_DGRAM)
+        found = socket.getaddrinfo(requested, checked_port(port), type=socket.SOCK_DGRAM)
     except (socket.gaierror, UnicodeError) as error:
-        raise StreamError("stream.host_unknown", host=wanted) from error
+        raise StreamError("stream.host_unknown", host=requested) from error
     # A name that has both is reached by the older one: receivers listen on that.
     family, _, _, _, at = sorted(found, key=lambda row: row[0] != socket.AF_INET)[0]
-    return Address(wanted, family, at)  # type: ignore[arg-type]
+    return Address(requested, family, at)  # type: ignore[arg-type]
 
 
 def reaches_many(address: Address) -> bool:
@@ -148,7 +148,7 @@ class Sender:
         self._socket.setblocking(False)
         try:
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, int(broadcast))
-            # Told where it goes, the system says when nobody listens there.
+            # Informed where it goes, the system says when no one listens there.
             self._socket.connect(address.at)
         except OSError as error:
             self._socket.close()

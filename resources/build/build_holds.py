@@ -20,15 +20,15 @@ from instrument_maps.load import bundled_maps, model_path
 from metadata.load import load_body
 
 
-def main(wanted: list[str]) -> None:
+def main(requested: list[str]) -> None:
     """Fit what is not up to date: of everybody and everything, or of those named."""
     body, maps = load_body(), bundled_maps()
-    unknown = set(wanted) - set(bundled_characters()) - set(maps)
+    unknown = set(requested) - set(bundled_characters()) - set(maps)
     if unknown:
         sys.exit(f"no character and no instrument has this name: {', '.join(sorted(unknown))}")
-    for character_id in [name for name in bundled_characters() if name in wanted] or bundled_characters():
+    for character_id in [name for name in bundled_characters() if name in requested] or bundled_characters():
         character = character_named(character_id)
-        for instrument in [maps[name] for name in maps if name in wanted] or maps.values():
+        for instrument in [maps[name] for name in maps if name in requested] or maps.values():
             model = load_instrument(model_path(instrument), instrument)
             path, digest = bundled_path(character_id, instrument.id), digest_of(character, model, instrument, body)
             if read_hold(path, digest, fit_lips(character, instrument, body)) is not None:

@@ -56,7 +56,7 @@ def pad(on: Wall, along: float, angle_deg: float, radius: float, rim_m: float = 
 
 
 def around(start: Array, end: Array, outward: Array, radius: float) -> dict[str, object]:
-    """The collision body of a half circle of tube: the whole ring, whose other half lies where nobody reaches."""
+    """The collision body of a half circle of tube: the whole ring, whose other half lies where no one reaches."""
     across = (end - start) / 2
     return {"shape": "ring", "centre_m": (start + end) / 2, "axis": unit(np.cross(across, outward)),
             "radius_m": float(np.linalg.norm(across)), "tube_radius_m": radius}  # fmt: skip

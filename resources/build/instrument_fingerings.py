@@ -98,7 +98,7 @@ def trumpet() -> list[dict[str, object]]:
         others = sorted(
             (label for label in found if label != first), key=lambda label: abs(found[label]) + 12 * len(label)
         )
-        # two and three valves where none or one serve, and 123 above the staff, are what nobody takes
+        # two and three valves where none or one serve, and 123 above the staff, are what no one takes
         others = [label for label in others if abs(found[label]) <= 60]
         for rank, label in enumerate((first, *others), start=1):
             tags = _tags(rank, label, first)
@@ -129,7 +129,7 @@ class Side(NamedTuple):
     """The slide with some of the triggers worked.
 
     ``sign`` is their labels, ``tubes`` what each lowers the tube by when alone, ``places`` how many positions the slide
-    has, ``partials`` the harmonics in use: above the sixth the valve tubes are stuffy and nobody plays them there.
+    has, ``partials`` the harmonics in use: above the sixth the valve tubes are stuffy and no one plays them there.
     """
 
     sign: str
@@ -172,9 +172,9 @@ def trombone(
                     semitones, deviation = partial_cents(partial)
                     if partial == 11 or 34 - side.semitones + semitones - (position - 1) != written:
                         continue
-                    wanted_m = TROMBONE_TUBE_M * 2 ** ((34 + semitones + deviation / 100 - written) / 12)
-                    place_m = min(max((wanted_m - closed_m) / 2, 0.0), SLIDE_TRAVEL_M)
-                    cents = 1200 * math.log2(wanted_m / (closed_m + 2 * place_m))
+                    requested_m = TROMBONE_TUBE_M * 2 ** ((34 + semitones + deviation / 100 - written) / 12)
+                    place_m = min(max((requested_m - closed_m) / 2, 0.0), SLIDE_TRAVEL_M)
+                    cents = 1200 * math.log2(requested_m / (closed_m + 2 * place_m))
                     if abs(cents) > 25:
                         continue
                     found[label] = {"place": place_m, "cents": cents, "partial": partial, "side": side}

@@ -1,6 +1,6 @@
 """Parts that woodwinds share: tone holes, rings, padded cups, rods on posts, touch pieces, reeds; and the book of keys.
 
-A key is told in one line of a family's script: where its rod lies, what the finger touches, which cups hang on it.
+A key is reported in one line of a family's script: where its rod lies, what the finger touches, which cups hang on it.
 From that follow its shapes, how far it turns, how high an open cup stands over its hole, the touch point of the
 contact and the tables ``[[controls]]`` and ``[[links]]`` of the map (`Keywork`). A family's script says::
 

@@ -24,10 +24,10 @@ def test_nothing_but_a_refusal_escapes(group: str, pytestconfig: pytest.Config, 
     tallies = attack(kinds, pytestconfig.getoption("--fuzz") * 60.0 / len(GROUPS), seed)
     for kind, tally in tallies.items():
         record_property("fuzz", _row(kind, tally))
-    told = [
+    reported = [
         _kept(kind, failure, tally) for kind, tally in tallies.items() for failure in list(tally.failures)[:MOST_KEPT]
     ]
-    assert not told, "\n\n".join(told)
+    assert not reported, "\n\n".join(reported)
     assert all(tally.tries for tally in tallies.values())
 
 

@@ -86,8 +86,8 @@ def test_what_others_open_opens(what: str, tmp_path: Path, capsys: pytest.Captur
     path.write_bytes(data)
     assert main(["inspect", str(path), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
-    told = sorted(note_["onset_s"] for player in found["players"] for note_ in player["notes"])
-    assert told == pytest.approx(onsets_s)
+    reported = sorted(note_["onset_s"] for player in found["players"] for note_ in player["notes"])
+    assert reported == pytest.approx(onsets_s)
     assert main(["inspect", str(path)]) == 0
 
 

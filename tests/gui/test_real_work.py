@@ -36,9 +36,9 @@ def test_killed_in_mid_edit_nothing_done_by_hand_is_lost(tmp_path: Path) -> None
     assert QGuiApplication.platformName() != "offscreen"
     with person("work", tmp_path) as at_work:
         assert at_work.stdout is not None
-        told = at_work.stdout.readline()
+        reported = at_work.stdout.readline()
         at_work.send_signal(signal.SIGKILL)
-    assert told == "ready to be killed\n", (tmp_path / "work.log").read_text()
+    assert reported == "ready to be killed\n", (tmp_path / "work.log").read_text()
 
     saved = storage.load(tmp_path / "work.suisou")
     before = {note.id: note for part in saved.score.parts for note in part.notes}

@@ -1,6 +1,6 @@
 """A synthetic wind player: takes whose breaths, dynamics and vibrato are known because they were made here.
 
-No recording of a person: a breath sensor is modelled as a rise of some milliseconds to the dynamics asked for, noise of
+No recording of the user: a breath sensor is modelled as a rise of some milliseconds to the dynamics asked for, noise of
 a step or two, and a fall to zero, sent at a controller's rate as steps of 1/127.
 """
 

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.performance.ensemble import Performance
-from app.plan.line import Line, line_times
+from app.plan.line import MonophonicPart, line_times
 from app.plan.model import PlayerPlan
 from app.project.model import map_choices, project_from_score
 from app.score.read import read_midi
@@ -26,7 +26,7 @@ from instrument_maps.load import bundled_maps
 SHORT_S = 1.5
 """A breath after less playing than this is one too many, unless a long rest asks for it."""
 GASP_S = 0.2
-"""Nobody breathes in so short a time."""
+"""No one breathes in so short a time."""
 
 
 class Measures(msgspec.Struct, frozen=True):
@@ -72,7 +72,7 @@ def performance_of(path: Path) -> Performance:
     return Performance(project_from_score(read_midi(path, maps=map_choices(maps.values())), maps))
 
 
-def measures(performance: Performance, line: Line, plan: PlayerPlan) -> Measures:
+def measures(performance: Performance, line: MonophonicPart, plan: PlayerPlan) -> Measures:
     """What there is to count about one player's breaths."""
     times = line_times(line, performance.piece.clock)
     index_of = {note.id: index for index, note in enumerate(line.notes)}

@@ -1,7 +1,7 @@
 """Draws the pictures of ``docs/bring-your-own-character.md``: a foreign character brought, corrected and played.
 
 Run from the repository: ``python -m tests.support.character_pictures FOLDER``; needs a display (without a screen:
-``xvfb-run -a -s "-screen 0 2560x1600x24"``). The person's own characters are not touched.
+``xvfb-run -a -s "-screen 0 2560x1600x24"``). The user's own characters are not touched.
 """
 
 from __future__ import annotations
@@ -151,5 +151,5 @@ def draw(target: Path, language: str, theme: str) -> None:
 if __name__ == "__main__":
     make_application()
     chosen = sys.argv[2:] or ["en:dark"]
-    for wish in chosen:
-        draw(Path(sys.argv[1]), *wish.split(":"))
+    for assignment in chosen:
+        draw(Path(sys.argv[1]), *assignment.split(":"))

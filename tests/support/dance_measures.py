@@ -28,7 +28,7 @@ from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.dance import Dance, Manner
-from app.choreography.derived_rhythm import heard_rhythm
+from app.choreography.derived_rhythm import audible_rhythm
 from app.choreography.features import facing, height_m, points_m
 from app.choreography.generate import Choreographer
 from app.choreography.hands import depths_m
@@ -297,7 +297,7 @@ class Measured:
 
 def measured(model: ChoreographyModel, piece: Path, seed: int, folder: Path, fps: Fraction = Fraction(60)) -> Measured:
     """Dance to a piece, and measure the file."""
-    rhythm = first_part(heard_rhythm(uncast_score(read_contents(piece))))
+    rhythm = first_part(audible_rhythm(uncast_score(read_contents(piece))))
     choreographer = Choreographer(model)
     choreographer.candidates  # noqa: B018 - the model's share is not the piece's
     began = time.thread_time()

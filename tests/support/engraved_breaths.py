@@ -10,7 +10,7 @@ from typing import Any
 
 import msgspec
 
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.line import Piece, line_times
 from app.plan.parameters import PlayerParameters
 from app.score.felt_beat import felt_beats
@@ -63,7 +63,7 @@ def agreement(row: dict[str, Any], parameters: PlayerParameters = USUAL) -> Agre
     metre_map = MetreMap(TICKS, (Metre(pickup - bar if pickup else 0, *row["metre"]),))
     felt = felt_beats(clock, metre_map, metre_map.bars(-1 if pickup else 0, notes[-1].onset_tick + bar))
     piece = Piece(clock, msgspec.structs.replace(metre_map, felt=felt))
-    line = Line("1", notes, bundled_maps()[row["instrument"]], parameters)
+    line = MonophonicPart("1", notes, bundled_maps()[row["instrument"]], parameters)
     plan = make_plans(piece, (line,), time_frame((line,), clock))["1"]
     times = line_times(line, clock)
     number = {note.id: index for index, note in enumerate(notes)}

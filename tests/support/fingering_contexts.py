@@ -19,7 +19,7 @@ from functools import cache
 from pathlib import Path
 
 from app.plan.fingering import plan_fingerings
-from app.plan.generate import Line
+from app.plan.generate import MonophonicPart
 from app.plan.line import line_times
 from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, line_of
@@ -103,7 +103,7 @@ def planned_labels(context: Context) -> tuple[str, ...]:
             for place, name in enumerate(context.notes)
         )
     )
-    times = line_times(Line("p", notes, instrument), PlainClock(((0, BPM),)))
+    times = line_times(MonophonicPart("p", notes, instrument), PlainClock(((0, BPM),)))
     return tuple(event.label for event in plan_fingerings(notes, times, instrument, {})[0])
 
 

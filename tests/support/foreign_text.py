@@ -93,7 +93,7 @@ class Spoken(SpokenFor):
 
     def __init__(self, on_news: Callable[[], None], port: str) -> None:
         super().__init__(on_news, Clock())
-        self.told = [Ports((port,), (), "test")]
+        self.reported = [Ports((port,), (), "test")]
 
     def open(self, port: str | None) -> None:
         if port:

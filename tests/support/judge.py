@@ -42,7 +42,7 @@ FIRST = {
 }
 HELD_S = 0.35
 SLOW_S = 0.4
-"""Neighbouring onsets further apart than this force nobody to an alternate."""
+"""Neighbouring onsets further apart than this force no one to an alternate."""
 TUBE_M = 2.76
 TRAVEL_M = 0.62
 
@@ -144,21 +144,21 @@ def faults(
 def _notes(path: Path, found: Inspection, changes: Sequence[tuple[int, int]], quarter: int) -> list[str]:
     wrong = []
     truth = Counter(note for _, _, note in sounding_notes(path))
-    told: Counter[Sounding] = Counter()
+    reported: Counter[Sounding] = Counter()
     for player in found["players"]:
         ids = [note["id"] for note in player["notes"]]
         if len(set(ids)) < len(ids):
             wrong.append(f"{player['name']}: ids repeat")
-        told.update((n["onset_tick"], n["duration_tick"], n["pitch"], n["velocity"]) for n in player["notes"])
+        reported.update((n["onset_tick"], n["duration_tick"], n["pitch"], n["velocity"]) for n in player["notes"])
         for note in player["notes"]:
             onset_s = slow_seconds(note["onset_tick"], changes, quarter)
             end_s = slow_seconds(note["onset_tick"] + note["duration_tick"], changes, quarter)
             if abs(note["onset_s"] - onset_s) > 1e-6 or abs(note["duration_s"] - (end_s - onset_s)) > 1e-6:
                 wrong.append(f"{player['name']}: note {note['id']} at {note['onset_s']} instead of {onset_s}")
-    extra = told - truth
+    extra = reported - truth
     if extra:
         wrong.append(f"{sum(extra.values())} notes that mido does not read, such as {next(iter(extra))}")
-    missing = truth.total() - told.total() - sum(part["note_count"] for part in found["unplayed"])
+    missing = truth.total() - reported.total() - sum(part["note_count"] for part in found["unplayed"])
     if missing:
         wrong.append(f"{missing} notes neither played nor listed")
     ids = [note["id"] for player in found["players"] for note in player["notes"]]
@@ -182,7 +182,7 @@ def _cues(
         if abs(cue["end_s"] - first_s) < 1e-6
     ]
     if found["unplayed"]:
-        # What nobody plays may have begun, and says when they come in.
+        # What no one plays may have begun, and says when they come in.
         return [] if len(leaders) <= 1 else [f"{len(leaders)} players give the start"]
     if len(leaders) != 1:
         return [f"{len(leaders)} players give the start"]
@@ -292,21 +292,21 @@ def _unserved(
     """What is wrong with the breath in a rest of so many beats, `late` more in the score."""
     least, last, prepare = thresholds
     if rest + late >= prepare:
-        wanted: tuple[float, ...] = (onset - min(2 * beat, rest * beat), onset - beat, onset)
+        requested: tuple[float, ...] = (onset - min(2 * beat, rest * beat), onset - beat, onset)
     elif rest + late >= last:
-        wanted = (onset - min(beat, rest * beat), onset)
+        requested = (onset - min(beat, rest * beat), onset)
     elif rest + late >= least:
-        wanted = (onset - rest * beat, onset)
+        requested = (onset - rest * beat, onset)
     else:
         return []
     if breath is None:
         return [f"no breath in {rest} beats of rest before note {note_id}"]
     wrong = []
-    start_s, end_s = seconds(wanted[-2]), seconds(wanted[-1])
+    start_s, end_s = seconds(requested[-2]), seconds(requested[-1])
     if abs(breath["start_s"] - start_s) > 1e-6 or not -1e-9 <= end_s - breath["end_s"] <= 0.05:
         wrong.append(f"breath {breath['start_s']}..{breath['end_s']} instead of {start_s}..{end_s}")
-    if len(wanted) == 3:
-        start_s, end_s = seconds(wanted[0]), seconds(wanted[1])
+    if len(requested) == 3:
+        start_s, end_s = seconds(requested[0]), seconds(requested[1])
         if not any(
             abs(event["start_s"] - start_s) < 1e-6 and abs(event["end_s"] - end_s) < 1e-6 for event in preparations
         ):

@@ -23,22 +23,22 @@ class Ear:
 
     def __init__(self, link: RecorderLink) -> None:
         self.link = link
-        self.told: list[News] = []
+        self.reported: list[News] = []
 
     def look(self) -> None:
         """Take what has come."""
-        self.told += self.link.poll()
+        self.reported += self.link.poll()
 
-    def wait(self, kind: type[T], where: Callable[[T], bool] = lambda told: True, *, after: int = 0) -> T:
-        """The first of a kind, of all that was told from place `after` on."""
+    def wait(self, kind: type[T], where: Callable[[T], bool] = lambda reported: True, *, after: int = 0) -> T:
+        """The first of a kind, of all that was reported from place `after` on."""
         end_s = time.monotonic() + PATIENCE_S
         while True:
             self.look()
-            for told in self.told[after:]:
-                if isinstance(told, kind) and where(told):
-                    return told
+            for reported in self.reported[after:]:
+                if isinstance(reported, kind) and where(reported):
+                    return reported
             if time.monotonic() > end_s:
-                pytest.fail(f"no {kind.__name__} came; there came {self.told[after:]}"[:2000])
+                pytest.fail(f"no {kind.__name__} came; there came {self.reported[after:]}"[:2000])
             time.sleep(0.005)
 
     def wait_for_messages(self, count: int) -> list[tuple[int, bytes]]:
@@ -65,14 +65,14 @@ class Ear:
         """All messages that have come."""
         return [
             pair
-            for told in self.told
-            if isinstance(told, Events)
-            for pair in zip(told.times_ns, told.messages, strict=True)
+            for reported in self.reported
+            if isinstance(reported, Events)
+            for pair in zip(reported.times_ns, reported.messages, strict=True)
         ]
 
     def of(self, *kinds: type[News]) -> list[News]:
-        """What was told of these kinds."""
-        return [told for told in self.told if isinstance(told, kinds)]
+        """What was reported of these kinds."""
+        return [reported for reported in self.reported if isinstance(reported, kinds)]
 
 
 def assert_mostly_in_order(heard: Sequence[bytes], played: Sequence[bytes]) -> None:

@@ -1,4 +1,4 @@
-"""A performance played to somebody who does not know what comes, frame by frame."""
+"""A performance played to someone who does not know what comes, frame by frame."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.motion.model import Motion
-from app.motion.perform import Playing
+from app.motion.perform import PerformanceCurves
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.performance.play_along import PlayAlong
@@ -38,7 +38,7 @@ class Played:
 
     Attributes
     ----------
-    playing : Playing
+    playing : PerformanceCurves
         The same notes as a performance has them.
     motion : Motion
         The live poses.
@@ -46,7 +46,7 @@ class Played:
         What was fingered, `LATE_S` after each onset.
     """
 
-    playing: Playing
+    playing: PerformanceCurves
     motion: Motion
     plan: PlayerPlan
     hands: dict[str, npt.NDArray[np.float64]]
@@ -59,22 +59,22 @@ class Played:
 
     @property
     def player(self) -> object:
-        """As of `Playing`, for the judge of contacts."""
+        """As of `PerformanceCurves`, for the judge of contacts."""
         return self.playing.player
 
     @property
     def instrument_map(self) -> object:
-        """As of `Playing`."""
+        """As of `PerformanceCurves`."""
         return self.playing.instrument_map
 
     @property
     def body(self) -> object:
-        """As of `Playing`."""
+        """As of `PerformanceCurves`."""
         return self.playing.body
 
     @property
     def controls(self) -> dict[str, object]:
-        """As of `Playing`: none, for nobody knows beforehand where they are asked to be."""
+        """As of `PerformanceCurves`: none, for no one knows beforehand where they are asked to be."""
         return {}
 
     def placed(self, times_s: npt.NDArray[np.float64]) -> dict[str, Placed]:
@@ -103,14 +103,14 @@ def line(instrument_id: str, count: int, seed: int = 1) -> Notes:
     return notes
 
 
-def playing_alone(instrument_id: str, notes: Notes) -> Playing:
+def playing_alone(instrument_id: str, notes: Notes) -> PerformanceCurves:
     """One player's playing."""
     performance = performance_of(instrument_id, notes)
     return playing_of(performance, performance.project.players[0])
 
 
-def played(playing: Playing, notes: Notes) -> Played:
-    """Play the notes of a playing to somebody, and look on."""
+def played(playing: PerformanceCurves, notes: Notes) -> Played:
+    """Play the notes of a playing to someone, and look on."""
     along, plan = PlayAlong(playing), playing.plan
     events = [
         (time_s, on, note[2])

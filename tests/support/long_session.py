@@ -110,7 +110,7 @@ def _children() -> list[str]:
 
 
 class LongDay:
-    """Somebody who does it all again and again.
+    """Someone who does it all again and again.
 
     Parameters
     ----------

@@ -74,18 +74,18 @@ def _faults_of(widget: QWidget) -> Iterator[str]:
 
 
 def _cut(widget: QWidget) -> Iterator[str]:
-    wanted = widget.sizeHint().width()
+    requested = widget.sizeHint().width()
     match widget:
         case QLabel() if widget.text() and not widget.wordWrap():
-            if wanted > widget.width() + 1 and not widget.toolTip():
-                yield f"{widget.text()!r} needs {wanted} px and has {widget.width()}"
+            if requested > widget.width() + 1 and not widget.toolTip():
+                yield f"{widget.text()!r} needs {requested} px and has {widget.width()}"
         case QLabel() if widget.text() and widget.wordWrap():
             needed = widget.heightForWidth(widget.width())
             if needed > widget.height() + 1:
                 yield f"{widget.text()!r} needs {needed} px of height and has {widget.height()}"
-        case QAbstractButton() if _words(widget) and wanted > widget.width() + 1:
+        case QAbstractButton() if _words(widget) and requested > widget.width() + 1:
             if widget.objectName() not in ELIDED:
-                yield f"{widget.text()!r} needs {wanted} px and has {widget.width()}"
+                yield f"{widget.text()!r} needs {requested} px and has {widget.width()}"
         case QComboBox() if widget.objectName() not in ELIDED:
             option = QStyleOptionComboBox()
             widget.initStyleOption(option)
@@ -307,9 +307,11 @@ class Look:
         canvas = self.window.viewport.findChild(QOpenGLWidget)
         assert isinstance(canvas, QOpenGLWidget)
         shot, ratio = canvas.grabFramebuffer(), canvas.devicePixelRatioF()
-        wanted = (round(canvas.width() * ratio), round(canvas.height() * ratio))
-        if abs(shot.width() - wanted[0]) > 1 or abs(shot.height() - wanted[1]) > 1:
-            self.found[f"the players are drawn with {shot.width()} x {shot.height()} pixels instead of {wanted}"] = "gl"
+        requested = (round(canvas.width() * ratio), round(canvas.height() * ratio))
+        if abs(shot.width() - requested[0]) > 1 or abs(shot.height() - requested[1]) > 1:
+            self.found[f"the players are drawn with {shot.width()} x {shot.height()} pixels instead of {requested}"] = (
+                "gl"
+            )
         print(f"scale {ratio:g}")
 
 

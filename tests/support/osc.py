@@ -13,20 +13,20 @@ from typing import Self
 
 
 @dataclass(frozen=True)
-class Told:
+class Reported:
     """A message: its address and arguments."""
 
     address: str
     arguments: tuple[object, ...]
 
 
-def read_packet(data: bytes) -> list[Told]:
+def read_packet(data: bytes) -> list[Reported]:
     """All messages of a packet, those within bundles in their order. ValueError where it is no OSC."""
     if len(data) % 4:
         raise ValueError(f"a packet's size is a multiple of 4, not {len(data)}")
     if not data.startswith(b"#bundle\0"):
         return [_message(data)]
-    at, found = 16, list[Told]()
+    at, found = 16, list[Reported]()
     while at < len(data):
         (size,) = struct.unpack_from(">i", data, at)
         at += 4
@@ -37,7 +37,7 @@ def read_packet(data: bytes) -> list[Told]:
     return found
 
 
-def _message(data: bytes) -> Told:
+def _message(data: bytes) -> Reported:
     address, at = _string(data, 0)
     if not address.startswith("/"):
         raise ValueError(f"{address!r} is no address")
@@ -56,7 +56,7 @@ def _message(data: bytes) -> Told:
             raise ValueError(f"type {tag!r} is not used by VMC")
     if at != len(data):
         raise ValueError(f"{len(data) - at} bytes too many in {address}")
-    return Told(address, tuple(arguments))
+    return Reported(address, tuple(arguments))
 
 
 def _string(data: bytes, at: int) -> tuple[str, int]:
@@ -84,31 +84,31 @@ def frames(packets: list[tuple[float, bytes]]) -> list[Frame]:
     """Packets with the moments they came as frames: each begins with ``/VMC/Ext/OK``."""
     found = list[Frame]()
     for at_s, packet in packets:
-        for told in read_packet(packet):
-            if told.address == "/VMC/Ext/OK":
-                assert told.arguments == (1,)
+        for message in read_packet(packet):
+            if message.address == "/VMC/Ext/OK":
+                assert message.arguments == (1,)
                 found.append(Frame(at_s))
                 continue
-            if told.address == "/VMC/Ext/Blend/Apply":
-                assert told.arguments == ()
+            if message.address == "/VMC/Ext/Blend/Apply":
+                assert message.arguments == ()
                 found[-1].applied = True
                 continue
-            name, *rest = told.arguments
+            name, *rest = message.arguments
             values = tuple(float(value) for value in rest)  # type: ignore[arg-type]
-            if told.address == "/VMC/Ext/T":
+            if message.address == "/VMC/Ext/T":
                 found[-1].time_s = float(name)  # type: ignore[arg-type]
-            elif told.address == "/VMC/Ext/Root/Pos":
+            elif message.address == "/VMC/Ext/Root/Pos":
                 assert name == "root"
                 found[-1].root = values
-            elif told.address == "/VMC/Ext/Bone/Pos":
+            elif message.address == "/VMC/Ext/Bone/Pos":
                 found[-1].bones[str(name)] = values
-            elif told.address == "/VMC/Ext/Tra/Pos":
+            elif message.address == "/VMC/Ext/Tra/Pos":
                 found[-1].trackers[str(name)] = values
-            elif told.address == "/VMC/Ext/Blend/Val":
+            elif message.address == "/VMC/Ext/Blend/Val":
                 assert not found[-1].applied
                 found[-1].face[str(name)] = values[0]
             else:
-                raise ValueError(f"nobody knows {told.address}")
+                raise ValueError(f"nobody knows {message.address}")
     return found
 
 

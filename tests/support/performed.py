@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.motion.model import Motion
-from app.motion.perform import Playing
+from app.motion.perform import PerformanceCurves
 from app.performance import motion
 from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
@@ -13,7 +13,7 @@ from app.project.edit.corrections import put
 from app.project.model import Player, Project
 
 
-def playing_of(performance: Performance, player: Player, before: Playing | None = None) -> Playing:
+def playing_of(performance: Performance, player: Player, before: PerformanceCurves | None = None) -> PerformanceCurves:
     """The player's plan, ready to be seen."""
     return motion.playing_of(performance, performer_of(performance, player), before)
 

@@ -1,4 +1,4 @@
-"""An engraved MIDI file as somebody might have played it into a sequencer. Synthetic: made by rule and by chance.
+"""An engraved MIDI file as someone might have played it into a sequencer. Synthetic: made by rule and by chance.
 
 Every note begins up to 20 ms early or late; in some half bars the notes are slurred, each lasting 5 to 60 ms into the
 next; velocities follow a phrase arch; controllers 1, 2 and 11 move around mezzoforte; the tempo bends by 8 % and slows

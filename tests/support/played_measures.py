@@ -45,7 +45,7 @@ class Planned(NamedTuple):
         Of (track, instrument map).
     fingerings : dict
     breaths : set
-        The notes before which somebody breathes in, after the first of each player.
+        The notes before which someone breathes in, after the first of each player.
     warnings : Counter
         By message id.
     slurred_to : set

@@ -121,7 +121,7 @@ class RandomAnswers(Answers):
         return None if self.chance.random() < 0.2 else self.chance.choice(sorted(self.folder.iterdir()))
 
     def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
-        """A file there, or a new one with a name that nobody expects."""
+        """A file there, or a new one with a name that no one expects."""
         self.path = None if self.chance.random() < 0.1 else self.folder / file_name(self.chance)
         path = super().save_file(title, proposal, filters, suffixes)
         self.log.note("named", path=str(path or ""))

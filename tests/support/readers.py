@@ -1,6 +1,6 @@
 """Other programs' readers judge a file: `judge` runs `check_animation_file.py` beside this module.
 
-Where the readers live is told by the environment: ``CHECK_ANIM_PYTHONS`` (interpreters, separated by colons) and
+Where the readers live is reported by the environment: ``CHECK_ANIM_PYTHONS`` (interpreters, separated by colons) and
 ``CHECK_ANIM_NODE_MODULES``, as ``./test`` sets them. The quick ones come with the development dependencies and are
 asked in every run; the slow ones in tests marked ``readers``.
 """

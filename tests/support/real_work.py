@@ -43,7 +43,7 @@ PATIENCE_S = 240.0
 
 
 class Work:
-    """An editor and a person at it."""
+    """An editor and the user at it."""
 
     def __init__(self, folder: Path) -> None:
         self.application: QApplication = make_application()
@@ -53,7 +53,7 @@ class Work:
         self.answers = Answers()
         self.program = Program(settings, questions=self.answers, autosave=Autosave(Presence(folder / "recovery"), 1.0))
         self.session = self.program.session
-        self.session.noticed.connect(self._told)
+        self.session.noticed.connect(self._reported)
         self.window = self.program.window
         self.window.resize(1600, 1000)
         self.window.show()
@@ -61,7 +61,7 @@ class Work:
         self.pictures = 0
 
     @staticmethod
-    def _told(message: Message, severity: Severity) -> None:
+    def _reported(message: Message, severity: Severity) -> None:
         if severity is Severity.ERROR:
             raise AssertionError(message)
 

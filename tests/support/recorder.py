@@ -38,14 +38,14 @@ class SpokenFor(RecorderLink):
 
     def __init__(self, on_news: Callable[[], None], clock: Clock) -> None:
         self.on_news, self.clock = on_news, clock
-        self.told: list[News] = [Ports((EWI,), (), "test")]
-        self.wanted: list[str | None] = []
+        self.reported: list[News] = [Ports((EWI,), (), "test")]
+        self.requested: list[str | None] = []
         self.writer: JournalWriter | None = None
         self.syncs: list[tuple[int, float, int]] = []
         self.closed = False
 
     def open(self, port: str | None) -> None:
-        self.wanted.append(port)
+        self.requested.append(port)
         if port == EWI:
             self.say(Opened(EWI, 0))
 
@@ -72,13 +72,13 @@ class SpokenFor(RecorderLink):
             self.writer.event(ns, message)
         self.say(Events((ns,), (message,)))
 
-    def say(self, *told: News) -> None:
-        self.told += told
+    def say(self, *reported: News) -> None:
+        self.reported += reported
         self.on_news()
 
     def poll(self) -> list[News]:
-        told, self.told = self.told, []
-        return told
+        reported, self.reported = self.reported, []
+        return reported
 
     def close(self) -> None:
         self.closed = True

@@ -1,8 +1,8 @@
 """Draws the pictures of ``docs/record-your-first-take.md``: a whole recording in the real window.
 
 Run from the repository: ``python -m tests.support.recording_pictures``; needs jackd, Pillow and a display (without a
-screen: ``xvfb-run -a -s "-screen 0 2560x1600x24"``). What is played is made by rule, not by a person; so that the
-window looks as with an audio device, one that nobody hears stands in for it.
+screen: ``xvfb-run -a -s "-screen 0 2560x1600x24"``). What is played is made by rule, not by the user; so that the
+window looks as with an audio device, one that no one hears stands in for it.
 """
 
 from __future__ import annotations
@@ -134,7 +134,7 @@ class Film:
         self.wind.play([(begin_ns + round(due_s * 1e9), message) for due_s, message in played])
 
     def part_played(self, seed: int) -> list[Played]:
-        """The part of the player in front as somebody might play it: a little uneven, breath by phrase."""
+        """The part of the player in front as someone might play it: a little uneven, breath by phrase."""
         chance = random.Random(seed)
         project, score = self.session.project, self.session.project.score
         first, last = score.metre_map.tick_of_bar(FIRST_BAR), score.metre_map.tick_of_bar(LAST_BAR)
@@ -204,18 +204,18 @@ def devices(film: Film) -> None:
 
 
 def latency(film: Film) -> None:
-    """Somebody blows on the clicks."""
+    """Someone blows on the clicks."""
     film.session.actions["record.latency"].trigger()
     dialog = child(film.window, LatencyDialog, "latency")
     film.rest(0.5)
     QTest.mouseClick(child(dialog, QPushButton, "latency_start"), Qt.MouseButton.LeftButton)
-    film.wait(lambda: dialog.heard_s() > 0.0)
+    film.wait(lambda: dialog.sounding_s() > 0.0)
     blown: list[Played] = []
     for number, click_s in enumerate(CLICKS_S):
         late_s = LATE_S + film.chance.gauss(0.0, UNEVEN_S) + (0.13 if number == LEAD + 3 else 0.0)
         if number != LEAD + 7:
             blown += [(click_s + late_s, bytes((0x90, 67, 90))), (click_s + late_s + 0.1, bytes((0x80, 67, 0)))]
-    film.play(blown, dialog.heard_s)
+    film.play(blown, dialog.sounding_s)
     film.wait(lambda: not dialog.is_measuring)
     film.rest(0.3)
     film.picture("latency", dialog)

@@ -56,7 +56,7 @@ BUTTONS = (*([Qt.MouseButton.LeftButton] * 8), Qt.MouseButton.MiddleButton, Qt.M
 
 
 class Restless:
-    """A person at the whole editor who knows no fear.
+    """The user at the whole editor who knows no fear.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ class Restless:
             self.random.randint(bounds.top(), max(bounds.top(), bounds.bottom())),
         )
 
-    def _told(self, what: str, widget: QWidget, place: QPoint) -> None:
+    def _reported(self, what: str, widget: QWidget, place: QPoint) -> None:
         self.deeds.append(f"{what} {type(widget).__name__} {widget.objectName()} {place.x()},{place.y()}")
 
     # What
@@ -186,7 +186,7 @@ class Restless:
             return
         place, button, keys = self._place(widget), self.random.choice(BUTTONS), self.random.choice(MODIFIERS)
         twice = self.random.random() < 0.2
-        self._told("double-click" if twice else "click", widget, place)
+        self._reported("double-click" if twice else "click", widget, place)
         QTest.mouseMove(widget, place)
         if twice:
             QTest.mouseDClick(widget, button, keys, place)
@@ -199,7 +199,7 @@ class Restless:
         if widget is None:
             return
         place, button, keys = self._place(widget), self.random.choice(BUTTONS), self.random.choice(MODIFIERS)
-        self._told("drag", widget, place)
+        self._reported("drag", widget, place)
         gone = [False]
         widget.destroyed.connect(lambda: gone.__setitem__(0, True))
         self._mouse(widget, QEvent.Type.MouseButtonPress, place, button, button, keys)
@@ -232,7 +232,7 @@ class Restless:
         if widget is None:
             return
         place, keys = self._place(widget), self.random.choice(MODIFIERS)
-        self._told("wheel", widget, place)
+        self._reported("wheel", widget, place)
         event = QWheelEvent(
             QPointF(place),
             QPointF(widget.mapToGlobal(place)),
@@ -283,7 +283,7 @@ class Restless:
         if widget is None:
             return
         place = self._place(widget)
-        self._told("menu", widget, place)
+        self._reported("menu", widget, place)
         event = QContextMenuEvent(QContextMenuEvent.Reason.Mouse, place, widget.mapToGlobal(place))
         QApplication.sendEvent(widget, event)
         QApplication.processEvents()
@@ -298,7 +298,7 @@ class Restless:
         QTest.qWait(self.random.randint(1, 40))
 
     def record(self) -> None:
-        """Somebody has played something on a wind controller."""
+        """Someone has played something on a wind controller."""
         player = self.session.player
         if player is None:
             return
@@ -360,7 +360,7 @@ class Restless:
 
 
 def by_hand(project: Project) -> object:
-    """Everything a person decides, as a value."""
+    """Everything the user decides, as a value."""
     return (
         tuple((part.id, part.notes) for part in project.score.parts),
         project.players,
@@ -372,7 +372,7 @@ def by_hand(project: Project) -> object:
 
 
 class Complaints:
-    """What Qt logs and what nobody caught."""
+    """What Qt logs and what no one caught."""
 
     def __init__(self) -> None:
         self.found: list[str] = []

@@ -1,10 +1,10 @@
-"""Takes of a synthetic wind player, made note by note; nobody played them."""
+"""Takes of a synthetic wind player, made note by note; no one played them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from app.score.take import Cleaning, Take, Wiring
+from app.score.take import Cleaning, ControllerMapping, Take
 from app.score.tempo import TempoMap
 
 PlayedNote = tuple[float, float, int, float]
@@ -19,7 +19,7 @@ def take_of(
     start_s: float = 0.0,
     end_s: float | None = None,
     cleaning: Cleaning | None = None,
-    wiring: Wiring | None = None,
+    wiring: ControllerMapping | None = None,
     breathes: bool = True,
     more: Sequence[tuple[float, str]] = (),
     velocity: int = 90,
@@ -42,7 +42,7 @@ def take_of(
         colour="",
         device="EWI5000",
         recorded="2026-11-21T12:00:00+00:00",
-        wiring=wiring or Wiring(),
+        wiring=wiring or ControllerMapping(),
         cleaning=cleaning or Cleaning(),
         tempo_map=tempo_map or TempoMap(480),
         start_us=round(start_s * 1e6),

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from app.errors import AppError, Cancelled, Message
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 
 T = TypeVar("T")
 
@@ -21,7 +21,7 @@ class ImmediateTasks:
     def run(
         self,
         name: Message,
-        work: Callable[[Progress, StopWanted], T],
+        work: Callable[[Progress, StopRequested], T],
         done: Callable[[T], None],
         failed: Callable[[AppError], None] | None = None,
         key: str | None = None,

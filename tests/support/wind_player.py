@@ -1,4 +1,4 @@
-"""A synthetic wind player: NOT a person's playing, but what one does to a recorder, made by rule.
+"""A synthetic wind player: NOT the user's playing, but what one does to a recorder, made by rule.
 
 Phrases with a breath curve on controller 2 (and the same as channel pressure, as an EWI USB sends it), legato overlaps,
 ghost notes, bite vibrato as pitch bend, bursts of 1,000 messages a second; through a virtual port of JACK's.

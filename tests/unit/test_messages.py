@@ -130,14 +130,14 @@ def test_the_arguments_fill_the_templates() -> None:
 
 
 @pytest.mark.parametrize(
-    ("count", "told"), [(0, "Move 0 Notes"), (1, "Move 1 Note"), (2, "Move 2 Notes"), (21, "Move 21 Notes")]
+    ("count", "reported"), [(0, "Move 0 Notes"), (1, "Move 1 Note"), (2, "Move 2 Notes"), (21, "Move 21 Notes")]
 )
-def test_one_is_not_many(count: int, told: str) -> None:
-    assert text(Message("edit.move_notes", {"count": count})) == told
+def test_one_is_not_many(count: int, reported: str) -> None:
+    assert text(Message("edit.move_notes", {"count": count})) == reported
 
 
 def test_no_template_counts_one_of_many() -> None:
-    """Told of one thing, no message says "1 notes"."""
+    """Notified of one thing, no message says "1 notes"."""
     for id, (template, _) in WORDINGS.items():
         if "count" in fields(template):
             arguments = dict.fromkeys(fields(template), 2) | {"count": 1}

@@ -21,7 +21,7 @@ class Chip(QAbstractButton):
     session : Session
     text, note : str
     by_hand : bool
-        It is a person's choice.
+        It is the user's choice.
     outlined : bool
         It is what the generator chose.
     """
@@ -52,7 +52,7 @@ class Chip(QAbstractButton):
 
     @property
     def by_hand(self) -> bool:
-        """Whether it is marked as a person's choice."""
+        """Whether it is marked as the user's choice."""
         return self._by_hand
 
     @property

@@ -30,7 +30,7 @@ class Combo(ComboBox):
     Signals
     -------
     chosen(str)
-        The person chose the option of this id.
+        The user chose the option of this id.
     """
 
     chosen = Signal(str)

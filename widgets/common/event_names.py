@@ -1,4 +1,4 @@
-"""What kinds of events and expressions are called in the person's language."""
+"""What kinds of events and expressions are called in the user's language."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def kind_name(kind: str) -> str:
 
 
 def expression_name(name: str) -> str:
-    """The name of a bundled expression; one's own are called what they are called."""
+    """The name of a bundled expression; custom are called what they are called."""
     match name:
         case "neutral":
             return tr("expression_name.neutral")

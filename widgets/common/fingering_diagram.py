@@ -89,7 +89,7 @@ class FingeringDiagram(QWidget):
     Signals
     -------
     pressed(str)
-        A key, valve or hole of this name was clicked, where the diagram was told to listen (`set_editable`).
+        A key, valve or hole of this name was clicked, where the diagram was set to listen (`set_editable`).
     """
 
     pressed = Signal(str)

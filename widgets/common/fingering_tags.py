@@ -1,4 +1,4 @@
-"""Why one would take an alternate fingering, in the person's language: maps say it in fixed English words."""
+"""Why one would take an alternate fingering, in the user's language: maps say it in fixed English words."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ def tag_words() -> dict[str, str]:
 
 
 def words_of_tags(tags: Iterable[str]) -> list[str]:
-    """Tags in words; one of a person's own is shown as it is."""
+    """Tags in words; one of the user's own is shown as it is."""
     words = tag_words()
     return [words.get(tag, tag) for tag in tags]
 
 
 def tags_of_text(text: str) -> list[str]:
-    """The tags that a person typed with commas between them: in words, as they stand in maps, or of their own."""
+    """The tags that the user typed with commas between them: in words, as they stand in maps, or of their own."""
     known = {word.casefold(): tag for tag, word in tag_words().items()}
     typed = [word.strip() for word in _BETWEEN.split(text)]
     return [known.get(word.casefold(), word) for word in typed if word]

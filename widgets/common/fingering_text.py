@@ -15,8 +15,8 @@ def short_label(label: str) -> str:
     words = label.split(" ")
     if len(words) < 2:
         return label
-    told: list[str] = []
+    reported: list[str] = []
     for letters, run in groupby(words, lambda word: found[1] if (found := _NUMBERED.match(word)) else ""):
         own = list(run)
-        told += [letters + "".join(word[len(letters) :] for word in own)] if letters else own
-    return " ".join(told)
+        reported += [letters + "".join(word[len(letters) :] for word in own)] if letters else own
+    return " ".join(reported)

@@ -16,7 +16,7 @@ LEAST_SPEED, MOST_SPEED = 0.25, 2.0
 
 
 @dataclass(frozen=True)
-class HeardTake:
+class RecordedTake:
     """A take that is listened to without being taken.
 
     Attributes
@@ -24,7 +24,7 @@ class HeardTake:
     player_id, take_id : str
         ``take_id`` is empty for what was there before the first take.
     alone : bool
-        Whether nobody else is heard.
+        Whether no one else is heard.
     """
 
     player_id: str
@@ -33,7 +33,7 @@ class HeardTake:
 
 
 class Listening(QObject):
-    """How the person listens.
+    """How the user listens.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class Listening(QObject):
         self.silent = False
         self.ready = 1.0
         self.waveform: Peaks | None = None
-        self.take: HeardTake | None = None
+        self.take: RecordedTake | None = None
 
     def set(
         self,
@@ -102,7 +102,7 @@ class Listening(QObject):
         if before != self._state():
             self.changed.emit()
 
-    def set_take(self, take: HeardTake | None) -> None:
+    def set_take(self, take: RecordedTake | None) -> None:
         """Hear a take in the place of its player's part; None: the part."""
         if take != self.take:
             self.take = take

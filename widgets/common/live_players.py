@@ -13,7 +13,7 @@ from PySide6.QtCore import QObject, Signal
 
 from app.performance.chunks import Floats, Pose
 from app.performance.play_along import PlayAlong
-from app.score.take import Wiring
+from app.score.take import ControllerMapping
 
 SAME_S: Final = 0.006
 """A pose that is asked for again so soon is the same: the window shows it, and the network is sent it."""
@@ -44,7 +44,7 @@ class LivePlayers(QObject):
     Signals
     -------
     changed()
-        Others are played now, or somebody otherwise.
+        Others are played now, or someone otherwise.
     struck()
         A note began or ended: whoever draws need not wait.
     """
@@ -68,7 +68,7 @@ class LivePlayers(QObject):
 
     @property
     def is_shown(self) -> bool:
-        """Whether somebody is played now, or has just ended and is on the way back to the performance."""
+        """Whether someone is played now, or has just ended and is on the way back to the performance."""
         with self._lock:
             now_s = perf_counter()
             return bool(self._playing) or any(blend.at(now_s) > 0.0 for blend in self._blends.values())
@@ -90,7 +90,7 @@ class LivePlayers(QObject):
         if gone is not None:
             self.changed.emit()
 
-    def hear(self, player_id: str, time_s: float, raw: str, wiring: Wiring) -> None:
+    def hear(self, player_id: str, time_s: float, raw: str, wiring: ControllerMapping) -> None:
         """A player is played so: a MIDI message in hexadecimal, see `PlayAlong.hear`."""
         with self._lock:
             play_along = self._playing.get(player_id)

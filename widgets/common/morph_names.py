@@ -1,4 +1,4 @@
-"""The 52 morph targets of a face in the person's language."""
+"""The 52 morph targets of a face in the user's language."""
 
 from __future__ import annotations
 

@@ -76,10 +76,10 @@ class NumberSlider(QWidget):
     Signals
     -------
     changed(float, object)
-        The person wants this value. The object is a token shared by all the values of one drag, None for a value in
+        The user wants this value. The object is a token shared by all the values of one drag, None for a value in
         one go.
     reset(float)
-        The person wants the default; emitted instead of `changed` where something is connected that knows better than
+        The user wants the default; emitted instead of `changed` where something is connected that knows better than
         to store the default's value.
     released()
         A drag or turn of the wheel is over: end the gesture.
@@ -153,7 +153,7 @@ class NumberSlider(QWidget):
 
     @property
     def by_hand(self) -> bool:
-        """Whether the value is marked as a person's."""
+        """Whether the value is marked as the user's."""
         if self._by_hand is not None:
             return self._by_hand
         return self._resets and (self._value != self._default or self._mixed)
@@ -306,7 +306,7 @@ class NumberSlider(QWidget):
     def _cancel_drag(self) -> None:
         if self._dragging:
             self._dragging, self._after_drag = False, None
-            # Each of several things has its own value again, and what nobody had set is not set: no value says that.
+            # Each of several things has its own value again, and what no one had set is not set: no value says that.
             if self._token is not None and self._session.document.cancel_gesture(self._token):
                 self._value, self._mixed = self._press_value, self._press_mixed
                 self.update()

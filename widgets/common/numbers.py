@@ -1,4 +1,4 @@
-"""Numbers as a person types and reads them."""
+"""Numbers as the user types and reads them."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ def number_from(text: str, unit: str = "") -> float | None:
     unit itself are understood.
     """
     plain = unicodedata.normalize("NFKC", text).strip().replace("−", "-").replace("×", "*").replace("÷", "/")
-    wanted_unit = unicodedata.normalize("NFKC", unit).strip()
-    if wanted_unit and plain.endswith(wanted_unit):
-        plain = plain[: -len(wanted_unit)].rstrip()
+    requested_unit = unicodedata.normalize("NFKC", unit).strip()
+    if requested_unit and plain.endswith(requested_unit):
+        plain = plain[: -len(requested_unit)].rstrip()
     plain = plain.replace(",", ".")
     if not plain or len(plain) > _LONGEST:
         return None

@@ -1,4 +1,4 @@
-"""Names of pitches, as a person reads them."""
+"""Names of pitches, as the user reads them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def syllables() -> tuple[str, ...]:
 
 
 def pitch_text(display: PitchDisplay, concert_pitch: int, transposition_semitones: int = 0) -> str:
-    """A sounding pitch as the person wants it named.
+    """A sounding pitch as the user wants it named.
 
     Parameters
     ----------

@@ -8,7 +8,7 @@ from typing import Literal
 from PySide6.QtCore import QObject, Signal
 
 from app.errors import Message
-from app.score.take import Wiring
+from app.score.take import ControllerMapping
 
 Connection = Literal["none", "waiting", "open", "lost", "refused"]
 """Of the chosen device: none is chosen; it is not there (yet); it is listened to; it has gone; it cannot be had."""
@@ -28,7 +28,7 @@ class Recording(QObject):
         Why the device, or every device, cannot be had.
     controller : str
         Id of the preset in ``metadata/controllers``.
-    wiring : Wiring
+    wiring : ControllerMapping
         With what the device sends breath and bite.
     armed : str
         Id of the player who is recorded; empty: the one in front.
@@ -74,7 +74,7 @@ class Recording(QObject):
         self.connection: Connection = "none"
         self.refusal: Message | None = None
         self.controller = ""
-        self.wiring = Wiring()
+        self.wiring = ControllerMapping()
         self.armed = ""
         self.running = False
         self.start_s = 0.0

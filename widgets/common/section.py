@@ -121,7 +121,7 @@ class Section(QWidget):
     name : str
         Object name; whether it is folded is remembered by it.
     folded : bool
-        Until a person folds or unfolds it.
+        Until the user folds or unfolds it.
     remembers : bool
         False: it is so at every start.
     parent : QWidget, optional
@@ -159,7 +159,7 @@ class Section(QWidget):
         self.header.toggled.connect(self._content.setVisible)
         was_folded = session.folded.get(name, folded) if remembers else folded
         self.header.set_open(not was_folded)
-        # From now on it is the person who folds.
+        # From now on it is the user who folds.
         self.header.toggled.connect(self._keep)
 
     def _keep(self, is_open: bool) -> None:

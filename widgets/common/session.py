@@ -86,17 +86,17 @@ class Session(QObject):
     preview_changed()
         The face that is being made is another.
     noticed(object, object)
-        Somebody tells the person something: a `Message` and a `Severity`.
+        Someone tells the user something: a `Message` and a `Severity`.
     revealed(float)
         This time (seconds) should come into view.
     instruments_changed()
         Some instrument is another one, or is there no more (`instrument_maps.library`).
     instruments_saved()
-        A map was written into the person's own folder.
+        A map was written into the user's own folder.
     characters_changed()
         Some character is another one, or is there no more (`app.rig.character_library`).
     characters_saved()
-        A character was written into the person's own folder, or removed from it.
+        A character was written into the user's own folder, or removed from it.
     choreographies_changed()
         A choreography's file was written; dancers may dance it.
     """
@@ -213,7 +213,7 @@ class Session(QObject):
         gesture: object | None = None,
         origin: object | None = None,
     ) -> bool:
-        """Edit with a function that may refuse: the person is told why; whether it was done."""
+        """Edit with a function that may refuse: the user is informed why; whether it was done."""
         try:
             project = edit(self.project)
         except AppError as error:
@@ -382,7 +382,7 @@ class Session(QObject):
 
     @property
     def folded(self) -> Mapping[str, bool]:
-        """Which parts of panels are folded (or not), by name; what a person never folded or unfolded is not there."""
+        """Which parts of panels are folded (or not), by name; what the user never folded or unfolded is not there."""
         return self._folded
 
     def set_folded(self, name: str, folded: bool) -> None:
@@ -394,7 +394,7 @@ class Session(QObject):
     @property
     def preview_morphs(self) -> dict[str, float] | None:
         """Morph weights that the player in front wears instead of the performance's while a face is being made; None:
-        nobody makes one."""
+        no one makes one."""
         return self._preview_morphs
 
     def set_preview_morphs(self, morphs: dict[str, float] | None) -> None:
@@ -404,7 +404,7 @@ class Session(QObject):
             self.preview_changed.emit()
 
     def notice(self, message: Message, severity: Severity = Severity.INFORMATION) -> None:
-        """Tell the person something, in the status line."""
+        """Tell the user something, in the status line."""
         self.noticed.emit(message, severity)
 
     def reveal(self, time_s: float) -> None:

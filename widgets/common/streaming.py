@@ -15,14 +15,14 @@ from app.stream.faces import FaceNames
 from app.stream.sender import LOOPBACK, MOST_PORT, PORT
 
 StreamState = Literal["off", "looking", "sending", "unheard", "failed"]
-"""Nothing is sent; the computer is looked up; it is sent; it is sent, but nobody listens; nothing can be sent."""
+"""Nothing is sent; the computer is looked up; it is sent; it is sent, but no one listens; nothing can be sent."""
 
 RATES_HZ: Final = (24, 30, 60, 90)
 USUAL_RATE_HZ: Final = 60
 
 
 @dataclass(frozen=True)
-class Line:
+class StreamTarget:
     """A player or dancer and the port they are sent to."""
 
     player_id: str
@@ -49,7 +49,7 @@ class Streaming(QObject):
     rate_hz : int
         Frames in a second while something moves.
     state : StreamState
-    lines : tuple of Line
+    lines : tuple of StreamTarget
         Who is sent where.
     sent_hz : int
         Frames of a performer that were sent in the last second.
@@ -74,11 +74,11 @@ class Streaming(QObject):
         self.faces: FaceNames = "arkit"
         self.rate_hz = USUAL_RATE_HZ
         self.state: StreamState = "off"
-        self.lines: tuple[Line, ...] = ()
+        self.lines: tuple[StreamTarget, ...] = ()
         self.sent_hz = 0
         self.trouble: Message | None = None
 
-    def planned(self, project: Project, front: Sequence[str]) -> tuple[Line, ...]:
+    def planned(self, project: Project, front: Sequence[str]) -> tuple[StreamTarget, ...]:
         """Who is sent where, or would be; who has no port left is not.
 
         Parameters
@@ -91,7 +91,9 @@ class Streaming(QObject):
         # A person who plays several instruments is sent once.
         in_front = [project.person(players[id]).id if id in players else id for id in front[:1]]
         ids = [performer.id for performer in project.seen] if self.everyone else in_front
-        return tuple(Line(id, self.port + place) for place, id in enumerate(ids) if self.port + place <= MOST_PORT)
+        return tuple(
+            StreamTarget(id, self.port + place) for place, id in enumerate(ids) if self.port + place <= MOST_PORT
+        )
 
     def set(self, **values: object) -> None:
         """Change some attributes; `changed` once if any is another."""

@@ -6,13 +6,13 @@ from PySide6.QtCore import QDateTime, QLocale, Qt
 
 
 def when_text(recorded: str) -> str:
-    """Day and time; empty where nobody knows."""
+    """Day and time; empty where no one knows."""
     moment = _moment(recorded)
     return QLocale().toString(moment, QLocale.FormatType.ShortFormat) if moment.isValid() else ""
 
 
 def clock_text(recorded: str) -> str:
-    """The time alone; empty where nobody knows."""
+    """The time alone; empty where no one knows."""
     moment = _moment(recorded)
     return QLocale().toString(moment.time(), QLocale.FormatType.ShortFormat) if moment.isValid() else ""
 

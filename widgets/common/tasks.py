@@ -10,8 +10,8 @@ from app.errors import AppError, Message
 T = TypeVar("T")
 
 Progress = Callable[[float], None]
-"""Told the share 0..1 that is done; may be called from the worker."""
-StopWanted = Callable[[], bool]
+"""Called with the share 0..1 that is done; may be called from the worker."""
+StopRequested = Callable[[], bool]
 """Asked now and then by the worker; true stops the work."""
 
 
@@ -21,7 +21,7 @@ class Tasks(Protocol):
     def run(
         self,
         name: Message,
-        work: Callable[[Progress, StopWanted], T],
+        work: Callable[[Progress, StopRequested], T],
         done: Callable[[T], None],
         failed: Callable[[AppError], None] | None = None,
         key: str | None = None,
@@ -38,10 +38,10 @@ class Tasks(Protocol):
         done : callable
             Gets the result. Not called after a cancel.
         failed : callable, optional
-            Gets an error a person can act on; without it the session shows it.
+            Gets an error the user can act on; without it the session shows it.
         key : str, optional
             Work with a key takes the place of work with the same key, which is stopped.
         ended : callable, optional
-            Called in the window's thread when the work is over, however it went and before anything else is told.
+            Called in the window's thread when the work is over, however it went and before anything else is reported.
         """
         ...

@@ -1,4 +1,4 @@
-"""Wording in the person's language."""
+"""Wording in the user's language."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ def message_text(message: Message, session: Session | None = None, player_id: st
     ----------
     message : Message
     session : Session or None
-        With it notes are told by pitch and place, as the person wants pitches named; without it notes by their ids.
+        With it notes are reported by pitch and place, as the user wants pitches named; without it notes by their ids.
     player_id : str or None
         Whose message it is; None: that of the player in front.
     """
     template = tr(message.id)
-    arguments = {name: _told(message, name, session, player_id) for name in message.arguments}
+    arguments = {name: _reported(message, name, session, player_id) for name in message.arguments}
     if session is None:
         named = PITCHES.get(message.id, ())
         arguments |= {name: pitch_name(float(message.arguments[name])) for name in named}
@@ -48,7 +48,7 @@ def sentence(message: Message, session: Session | None = None, player_id: str | 
 
 
 def note_text(session: Session, note: Note, player: Player | None) -> str:
-    """A note as a person finds it: its pitch, and bar and beat."""
+    """A note as the user finds it: its pitch, and bar and beat."""
     score = session.project.score
     bar, beat = score.metre_map.bar_of_tick(note.onset_tick), score.metre_map.beat_of_tick(note.onset_tick)
     return tr("word.bar_beat").format(
@@ -56,7 +56,7 @@ def note_text(session: Session, note: Note, player: Player | None) -> str:
     )
 
 
-def _told(message: Message, name: str, session: Session | None, player_id: str | None) -> Argument:
+def _reported(message: Message, name: str, session: Session | None, player_id: str | None) -> Argument:
     value = message.arguments[name]
     if session is not None:
         player = _player(session, player_id)
@@ -103,7 +103,7 @@ def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -
 _NOTE_ID = re.compile(r"\d+:\d+")
 
 _indexed: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
-"""Notes by id of each part that somebody asked for, by part; made anew where the part has other notes."""
+"""Notes by id of each part that someone asked for, by part; made anew where the part has other notes."""
 
 
 def _note(score: Score, id: str, player: Player | None) -> Note | None:

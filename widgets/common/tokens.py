@@ -1,7 +1,7 @@
 """Design tokens: the one table of colours and sizes that Qt and vispy are drawn from.
 
-Player colours are Okabe and Ito's (2008, "Color Universal Design"), told apart by colour-blind eyes, lightened for the
-dark surface and darkened for the light one.
+Player colours are Okabe and Ito's (2008, "Color Universal Design"), distinguished by colour-blind eyes, lightened for
+the dark surface and darkened for the light one.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class Tokens(msgspec.Struct, frozen=True):
     accent, accent_text : str
         Selection, focus, the playhead; text upon it.
     by_hand : str
-        The mark of what a person made.
+        The mark of what the user made.
     warning, error, good : str
     players : tuple of str
     """

@@ -93,9 +93,9 @@ class BodyMap(QWidget):
     Signals
     -------
     chosen(str)
-        The person chose a joint.
+        The user chose a joint.
     opened(str)
-        The person wants to give it another bone.
+        The user wants to give it another bone.
     """
 
     chosen = Signal(str)
@@ -197,7 +197,7 @@ class BodyMap(QWidget):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawEllipse(QPointF(x, y), _DOT * 1.75, _DOT * 1.75)
         painter.setPen(QPen(QColor(colour if state == "missing" else tokens.surface), 0.003))
-        # Told apart without colours too: hollow where there is none, with a notch where it is guessed.
+        # Distinguished without colours too: hollow where there is none, with a notch where it is guessed.
         painter.setBrush(QColor(tokens.surface if state == "missing" else colour))
         painter.drawEllipse(QPointF(x, y), _DOT, _DOT)
         if state == "doubtful":

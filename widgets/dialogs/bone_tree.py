@@ -23,7 +23,7 @@ class BoneTree(QWidget):
     Signals
     -------
     chosen(str)
-        The person wants this bone.
+        The user wants this bone.
     """
 
     chosen = Signal(str)
@@ -82,15 +82,15 @@ class BoneTree(QWidget):
 
     def _filter(self, text: str) -> None:
         """Show the bones whose name holds the text, and those above them."""
-        wanted = text.strip().casefold()
+        requested = text.strip().casefold()
         first: QTreeWidgetItem | None = None
         # Children come after their parents.
         for item in reversed(self._items):
-            hit = wanted in item.text(0).casefold()
+            hit = requested in item.text(0).casefold()
             children = [item.child(number) for number in range(item.childCount())]
             below = any(child is not None and not child.isHidden() for child in children)
-            item.setHidden(bool(wanted) and not hit and not below)
-            if hit and wanted:
+            item.setHidden(bool(requested) and not hit and not below)
+            if hit and requested:
                 first = item
         if first is not None:
             self.tree.setCurrentItem(first)

@@ -35,7 +35,7 @@ from widgets.common.character_picture import Crop, Seen, picture, seen
 from widgets.common.icons import icon
 from widgets.common.plain import Label, verbatim, verbatim_title
 from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import message_text
 from widgets.dialogs.body_map import BodyMap, joints
 from widgets.dialogs.bone_tree import BoneTree
@@ -68,13 +68,13 @@ class CharacterDialog(QDialog):
     draft : Draft
         What is known of it already.
     offered : str
-        Name of the player it may be given to, or of several; empty: nobody.
+        Name of the player it may be given to, or of several; empty: no one.
     parent : QWidget, optional
 
     Signals
     -------
     agreed(object, bool)
-        The person wants the character of this `Draft`; and whether the selected players become it.
+        The user wants the character of this `Draft`; and whether the selected players become it.
     """
 
     agreed = Signal(object, bool)
@@ -101,10 +101,10 @@ class CharacterDialog(QDialog):
         self._wants_picture = False
         self.title = QLineEdit(draft.title)
         self.title.setObjectName("character_title")
-        self._source, self._told, self._picture = Label(), Label(), Label()
+        self._source, self._reported, self._picture = Label(), Label(), Label()
         self._legend = [(Label(sign), Label()) for sign in ("●", "◉", "○")]
         self._picture.setObjectName("character_picture")
-        self._told.setObjectName("character_told")
+        self._reported.setObjectName("character_told")
         self.body = BodyMap(session, self._joint_text)
         self.rows = QTreeWidget()
         self.rows.setObjectName("joint_list")
@@ -152,10 +152,10 @@ class CharacterDialog(QDialog):
         for joint, item in self._items.items():
             item.setData(0, Qt.ItemDataRole.UserRole, joint)
             self.rows.addTopLevelItem(item)
-        for label in (self._source, self._told):
+        for label in (self._source, self._reported):
             label.setWordWrap(True)
-        self._told.setAlignment(Qt.AlignmentFlag.AlignTop)
-        self._told.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self._reported.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self._reported.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._picture.setFixedSize(PICTURE_PX)
         self._picture.setAlignment(Qt.AlignmentFlag.AlignCenter)
         body_page = QWidget()
@@ -191,7 +191,7 @@ class CharacterDialog(QDialog):
         side.addWidget(self._source)
         side.addWidget(self._picture, 0, Qt.AlignmentFlag.AlignHCenter)
         words = QScrollArea()
-        words.setWidget(self._told)
+        words.setWidget(self._reported)
         words.setWidgetResizable(True)
         words.setFrameShape(QScrollArea.Shape.NoFrame)
         words.setMinimumHeight(_LEAST_WORDS_PX)
@@ -233,7 +233,7 @@ class CharacterDialog(QDialog):
         self._buttons.rejected.connect(self.reject)
         self._session.theme_changed.connect(self._show)
 
-    # What the person does
+    # What the user does
 
     @property
     def draft(self) -> Draft:
@@ -327,11 +327,13 @@ class CharacterDialog(QDialog):
             item.setToolTip(0, self._joint_text(joint))
         self.bones.show_used({bone: joint_name(joint) for joint, bone in made.joints.bones.items()})
         self.faces.show_parts(made.faces.morphs, frozenset(self.draft.morphs))
-        told = not_played(made)
-        self._told.setText(
-            "\n".join(f"• {text}" for text in told) if told else self.tr("character_dialog.everything_will_be_played")
+        reported = not_played(made)
+        self._reported.setText(
+            "\n".join(f"• {text}" for text in reported)
+            if reported
+            else self.tr("character_dialog.everything_will_be_played")
         )
-        self._told.setStyleSheet(f"color: {tokens.error if made.lacking else tokens.text};")
+        self._reported.setStyleSheet(f"color: {tokens.error if made.lacking else tokens.text};")
         self._picture.setStyleSheet(
             f"#character_picture {{ background: {tokens.sunken}; border: 1px solid {tokens.line};"
             " border-radius: 6px; }"
@@ -386,7 +388,7 @@ class CharacterDialog(QDialog):
         face, ratio = self.faces.face if crop == "head" else "", self.devicePixelRatioF()
         width, height = round(PICTURE_PX.width() * ratio), round(PICTURE_PX.height() * ratio)
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> tuple[Seen, QImage]:
+        def work(progress: Progress, stop_requested: StopRequested) -> tuple[Seen, QImage]:
             shown = known[1] if known is not None and known[0] == key else seen(character_of(figure, made))
             return shown, picture(shown, width, height, crop, {face: 1.0} if face else None)
 

@@ -1,4 +1,4 @@
-"""A foreign character while a person says what its bones and morphs are: values, and what follows from them."""
+"""A foreign character while the user says what its bones and morphs are: values, and what follows from them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _MOST_STEPS: Final = 200
 
 @dataclass(frozen=True)
 class Draft:
-    """What a person said of a character.
+    """What the user said of a character.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class Mapped:
 
     @property
     def lacking(self) -> tuple[str, ...]:
-        """Joints without which nobody can play."""
+        """Joints without which no one can play."""
         return tuple(joint for joint in REQUIRED_JOINTS if joint not in self.joints.bones)
 
     def state(self, joint: str) -> State:
@@ -151,10 +151,10 @@ class Steps:
 
 def not_played(made: Mapped) -> tuple[str, ...]:
     """What a character will not do, in words, the gravest first."""
-    _translate, told = QCoreApplication.translate, list[str]()
+    _translate, reported = QCoreApplication.translate, list[str]()
     bones, faces = made.joints.bones, made.faces.morphs
     if made.lacking:
-        told.append(
+        reported.append(
             tr("character_words.it_cannot_play_yet_choose").format(
                 joints=", ".join(joint_name(joint) for joint in made.lacking)
             )
@@ -166,28 +166,28 @@ def not_played(made: Mapped) -> tuple[str, ...]:
         if not any(joint.startswith(side + finger) for joint in bones)
     ]
     if len(without) == 2 * len(_FINGERS):
-        told.append(tr("character_words.it_has_no_finger_bones"))
+        reported.append(tr("character_words.it_has_no_finger_bones"))
     elif without:
-        told.append(
+        reported.append(
             tr("character_words.these_fingers_do_not_move").format(
                 fingers=", ".join(joint_name(side + finger) for side, finger in without)
             )
         )
     if "leftEye" not in bones and "rightEye" not in bones and not any(name.startswith("eyeLook") for name in faces):
-        told.append(tr("character_words.eyes_do_not_look_around"))
+        reported.append(tr("character_words.eyes_do_not_look_around"))
     if "jaw" not in bones and "jawOpen" not in faces:
-        told.append(tr("character_words.mouth_does_not_open_it"))
+        reported.append(tr("character_words.mouth_does_not_open_it"))
     if not any(name in faces for name in _LIPS):
-        told.append(tr("character_words.lips_do_not_form_embouchure"))
+        reported.append(tr("character_words.lips_do_not_form_embouchure"))
     if not any(name.startswith("eyeBlink") for name in faces):
-        told.append(tr("character_words.it_does_not_blink_it"))
+        reported.append(tr("character_words.it_does_not_blink_it"))
     if "cheekPuff" not in faces:
-        told.append(tr("character_words.cheeks_do_not_fill_it"))
-    return tuple(told)
+        reported.append(tr("character_words.cheeks_do_not_fill_it"))
+    return tuple(reported)
 
 
 def joint_name(joint: str) -> str:
-    """A joint in the person's language."""
+    """A joint in the user's language."""
     for side, sign in (("left", tr("joint.l")), ("right", tr("joint.r"))):
         if joint.startswith(side):
             return sign.format(part=joint_name(joint.removeprefix(side)))

@@ -1,4 +1,4 @@
-"""A person's own characters: which there are, what is wrong with them; more of them, changed, removed."""
+"""The user's own characters: which there are, what is wrong with them; more of them, changed, removed."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from widgets.common.instrument_name import character_name
 from widgets.common.paths import dropped_paths
 from widgets.common.plain import Label
 from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import message_text
 
 _PICTURE_PX = QSize(72, 96)
 
 
 class CharactersDialog(QDialog):
-    """The person's own characters.
+    """The user's own characters.
 
     Signals
     -------
@@ -124,10 +124,10 @@ class CharactersDialog(QDialog):
             self._wrong.hide()
             return
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> tuple[dict[str, QImage], dict[str, Message]]:
+        def work(progress: Progress, stop_requested: StopRequested) -> tuple[dict[str, QImage], dict[str, Message]]:
             wrong, drawn = dict(character_problems()), {}
             for number, id in enumerate(ids):
-                if stop_wanted():
+                if stop_requested():
                     break
                 if id not in wrong:
                     shown = seen(character_named(id))
@@ -146,7 +146,7 @@ class CharactersDialog(QDialog):
         for row in range(self.list.count()):
             item = self.list.item(row)
             item.setIcon(self._pictures.get(item.data(Qt.ItemDataRole.UserRole), QIcon()))
-        self._wrong.setText("\n".join(message_text(told, self._session) for told in wrong.values()))
+        self._wrong.setText("\n".join(message_text(reported, self._session) for reported in wrong.values()))
         self._wrong.setStyleSheet(f"color: {self._session.tokens.error};")
         self._wrong.setVisible(bool(wrong))
 

@@ -28,7 +28,7 @@ from widgets.common.dance_figures import Floats
 from widgets.common.percussion_names import percussion_names
 from widgets.common.plain import Label, verbatim_title
 from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import sentence
 from widgets.dialogs.motion_gallery import MotionGallery
 from widgets.dialogs.probability_table import ProbabilityTable, Side
@@ -348,8 +348,8 @@ class ChoreographyDialog(QDialog):
         super().changeEvent(event)
 
 
-def _finder(performance: Performance, dancer: Dancer) -> Callable[[Progress, StopWanted], Shown]:
-    def work(progress: Progress, stop_wanted: StopWanted) -> Shown:
+def _finder(performance: Performance, dancer: Dancer) -> Callable[[Progress, StopRequested], Shown]:
+    def work(progress: Progress, stop_requested: StopRequested) -> Shown:
         from app.choreography.library import choreography_path
         from app.choreography.model_file import read_model
         from app.choreography.overview import basic_motions, learned_symbols

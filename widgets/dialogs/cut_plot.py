@@ -47,7 +47,7 @@ _LEFT, _MIDDLE = Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton
 
 
 @dataclass(frozen=True)
-class Line:
+class CutLine:
     """A line of the plot: a bound, or the accent of a motion, by its place in their order."""
 
     kind: Kind
@@ -58,7 +58,7 @@ class Line:
 class _Drag:
     """What the mouse moves: a line of these cuts, or the view where it is None."""
 
-    line: Line | None
+    line: CutLine | None
     cuts: Cuts
     x_px: float
     view_s: tuple[float, float]
@@ -93,10 +93,10 @@ class CutPlot(QWidget):
         self._hits_s: FloatArray = np.zeros(0)
         self._extrema: dict[Kind, FloatArray] = {"bound": np.zeros(0), "accent": np.zeros(0)}
         self._cuts: Cuts = ()
-        self._selected: Line | None = None
+        self._selected: CutLine | None = None
         self._drag: _Drag | None = None
         self._token: object = None
-        # Not a PlotWidget, which leaves menus behind that nobody sees.
+        # Not a PlotWidget, which leaves menus behind that no one sees.
         self.plot: Any = pg.GraphicsView(self)
         self.plot.setObjectName("cut_plot")
         self.view: Any = pg.ViewBox(enableMenu=False, enableMouse=False)
@@ -143,7 +143,7 @@ class CutPlot(QWidget):
         return self._cuts
 
     @property
-    def selected(self) -> Line | None:
+    def selected(self) -> CutLine | None:
         """The line that keys move."""
         return self._selected
 
@@ -243,24 +243,24 @@ class CutPlot(QWidget):
         frame = round((time_s - self._start_s) * float(self._fps))
         return min(max(frame, 0), max(len(self._curve) - 1, 0))
 
-    def _line_at(self, x_px: float) -> Line | None:
+    def _line_at(self, x_px: float) -> CutLine | None:
         """The line under the mouse; the nearest of several."""
         # In frames: asking the view for the place of each of many lines takes longer than drawing them.
         frame_px = max(self.x_px(1.0) - self.x_px(0.0), 1e-9)
         under = (x_px - self.x_px(0.0)) / frame_px
-        found: list[tuple[float, Line]] = []
+        found: list[tuple[float, CutLine]] = []
         for kind in KINDS:
             frames = self._frames(kind)
             if frames:
                 aside = np.abs(np.array(frames) - under)
                 number = int(np.argmin(aside))
-                found.append((float(aside[number]) * frame_px, Line(kind, number)))
+                found.append((float(aside[number]) * frame_px, CutLine(kind, number)))
         near, line = min(found, key=lambda one: one[0], default=(math.inf, None))
         return line if near <= NEAR_PX else None
 
     # Editing
 
-    def _move(self, line: Line, cuts: Cuts, frame: int, token: object) -> None:
+    def _move(self, line: CutLine, cuts: Cuts, frame: int, token: object) -> None:
         """Move a line of cuts to a frame."""
         if line.kind == "bound":
             moved = moved_bound(cuts, bounds(cuts)[line.number], frame, len(self._curve))
@@ -282,7 +282,7 @@ class CutPlot(QWidget):
         """Cut at a frame."""
         cuts = added_bound(self._cuts, frame, self._curve)
         if cuts != self._cuts:
-            self._selected = Line("bound", bounds(cuts).index(frame))
+            self._selected = CutLine("bound", bounds(cuts).index(frame))
             self._ask(cuts)
 
     def delete(self) -> None:
@@ -315,10 +315,10 @@ class CutPlot(QWidget):
         lines = sorted((frame, kind, number) for kind in KINDS for number, frame in enumerate(self._frames(kind)))
         if not lines:
             return
-        here = [at for at, (_, kind, number) in enumerate(lines) if Line(kind, number) == self._selected]
+        here = [at for at, (_, kind, number) in enumerate(lines) if CutLine(kind, number) == self._selected]
         at = min(max(here[0] + by, 0), len(lines) - 1) if here else 0
         frame, kind, number = lines[at]
-        self._selected = Line(kind, number)
+        self._selected = CutLine(kind, number)
         time_s = float(self.time_s(frame))
         left, right = self._span_s()
         if not left <= time_s <= right:

@@ -79,7 +79,7 @@ def foresee(
     Raises
     ------
     FileError
-        There is no project, or something of somebody else's is in the way.
+        There is no project, or something of someone else's is in the way.
     """
     if destination == "unreal":
         unreal = find_project(place)
@@ -98,29 +98,29 @@ def foresee(
         *player_ids,
         *(one.id for one in project.players if one.doubles in player_ids and project.person(one) is not one),
     ]
-    wanted = [name for player_id in everything for name in names[player_id].values()] + [REPORT]
+    requested = [name for player_id in everything for name in names[player_id].values()] + [REPORT]
     if sound:
-        wanted.append(sound_name(source))
-    return Foreseen(len(wanted), tuple(name for name in wanted if os.path.exists(place / name)))
+        requested.append(sound_name(source))
+    return Foreseen(len(requested), tuple(name for name in requested if os.path.exists(place / name)))
 
 
 def write(
     destination: Destination,
     request: Request,
-    stop_wanted: Callable[[], bool],
+    stop_requested: Callable[[], bool],
     progress: Callable[[float, str], None],
 ) -> Done:
     """Write an export; the request's folder is the place."""
     if destination == "unreal":
         project = find_project(request.folder)
-        written = export_into(request, project, message_text, stop_wanted, progress)
+        written = export_into(request, project, message_text, stop_requested, progress)
         kept = tuple(message_text(message) for message in written.plan.kept)
         folder = project.folder / written.plan.layout.sources
         warnings = kept + written.report.warnings
         return Done(
             len(written.plan.written), folder, _left_out(written.report), warnings, project, bool(written.plan.plugin)
         )
-    report = export(request, message_text, stop_wanted, progress)
+    report = export(request, message_text, stop_requested, progress)
     return Done(report.file_count, request.folder, _left_out(report), report.warnings)
 
 

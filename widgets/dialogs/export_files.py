@@ -35,7 +35,7 @@ from metadata.load import load_bone_names
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import message_text, sentence
 from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.dialogs.export_destination import Destination, Done, foresee, write
@@ -201,7 +201,7 @@ class ExportDialog(QDialog):
         layout.addWidget(self._progress)
         layout.addWidget(self._buttons)
 
-    # What is wanted
+    # What is requested
 
     @property
     def player_ids(self) -> tuple[str, ...]:
@@ -237,8 +237,8 @@ class ExportDialog(QDialog):
         )
 
     def _chosen_players(self) -> tuple[Player, ...]:
-        wanted = set(self.player_ids)
-        return tuple(player for player in self._project.players if player.id in wanted)
+        requested = set(self.player_ids)
+        return tuple(player for player in self._project.players if player.id in requested)
 
     # Doing it
 
@@ -256,12 +256,12 @@ class ExportDialog(QDialog):
         self.retranslate()
         request, destination = self._request(), self._place.destination
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> Done:
-            def told(share: float, label: str) -> None:
+        def work(progress: Progress, stop_requested: StopRequested) -> Done:
+            def reported(share: float, label: str) -> None:
                 progress(share)
                 written[0] = share
 
-            return write(destination, request, lambda: stop.is_set() or stop_wanted(), told)
+            return write(destination, request, lambda: stop.is_set() or stop_requested(), reported)
 
         self._timer.start()
         self._session.tasks.run(
@@ -274,20 +274,20 @@ class ExportDialog(QDialog):
     def _done(self, done: Done) -> None:
         if done.project is None:
             text = self.tr("export_dialog.files_written_to").format(folder=shown(done.folder), count=done.count)
-            told = Message("export.done", {"count": done.count, "folder": str(done.folder)})
+            reported = Message("export.done", {"count": done.count, "folder": str(done.folder)})
         else:
             text = self.tr("export_dialog.files_written_into_project_in").format(
                 name=done.project.name, count=done.count
             )
             if done.new_plugin:
                 text += "\n" + self.tr("export_dialog.if_unreal_has_project_open")
-            told = Message("unreal.done", {"count": done.count, "project": done.project.name})
+            reported = Message("unreal.done", {"count": done.count, "project": done.project.name})
         # Whoever is left out comes first, all of them.
         lines = [sentence(message) for message in done.left_out] + list(done.warnings[:6])
         self._files.setText(text + "".join(f"\n⚠ {line}" for line in lines))
         self._shown_folder = done.folder
         self._show.show()
-        self._session.notice(told)
+        self._session.notice(reported)
         for message in done.left_out[:1]:
             self._session.notice(message, Severity.WARNING)
         self.exported.emit(self._place.destination, self._place.path)

@@ -80,7 +80,7 @@ class PlaceChooser(QWidget):
         self.changed.emit()
 
     def _change(self) -> None:
-        # Told once, and of the new destination's path.
+        # Reported once, and of the new destination's path.
         self._path.blockSignals(True)
         self._path.setText(self._paths[self.destination])
         self._path.blockSignals(False)

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.errors import AppError, Message
-from app.export.check_skeleton import told
+from app.export.check_skeleton import reported
 from app.export.target import SkeletonChoice
 from app.export.targets import CheckedTarget, checked_targets
 from app.performance.bodies import character_of
@@ -27,12 +27,12 @@ from app.rig.read_figure import SUFFIXES, read_figure
 from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import sentence
 
-Wanted: TypeAlias = tuple[SkeletonChoice, Path | None, tuple[str, ...]]
+Requested: TypeAlias = tuple[SkeletonChoice, Path | None, tuple[str, ...]]
 """Choice, asset, and the characters of the players."""
-Found: TypeAlias = tuple[Wanted, dict[str, CheckedTarget], AppError | None]
+Found: TypeAlias = tuple[Requested, dict[str, CheckedTarget], AppError | None]
 CHOICES: tuple[SkeletonChoice, ...] = ("own", "ue5", "suisou")
 MOST_LINES = 5
 _KEY = "compare_skeleton"
@@ -56,7 +56,7 @@ class SkeletonChooser(QWidget):
     ) -> None:
         super().__init__(parent)
         self._session, self._players = session, players
-        self._wanted: Wanted | None = None
+        self._requested: Requested | None = None
         """What the last comparison was of: what it found for anything else is out of date."""
         self._checked: dict[str, CheckedTarget] = {}
         self._error: AppError | None = None
@@ -71,9 +71,9 @@ class SkeletonChooser(QWidget):
         self._choose = QPushButton()
         self._choose.setAutoDefault(False)
         self._choose.clicked.connect(self._choose_asset)
-        self._told = Label()
-        self._told.setObjectName("export_differences")
-        self._told.setWordWrap(True)
+        self._reported = Label()
+        self._reported.setObjectName("export_differences")
+        self._reported.setWordWrap(True)
         asset = QHBoxLayout()
         asset.addWidget(self._asset, 1)
         asset.addWidget(self._choose)
@@ -81,7 +81,7 @@ class SkeletonChooser(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._box)
         layout.addLayout(asset)
-        layout.addWidget(self._told)
+        layout.addWidget(self._reported)
         self._box.currentIndexChanged.connect(self.compare)
         self._asset.textChanged.connect(self.compare)
         self.retranslate()
@@ -113,19 +113,19 @@ class SkeletonChooser(QWidget):
         """Compare what is chosen with the asset's file, in the background."""
         players, choice, asset = self._players(), self.choice, self.asset
         # Typing a path gives many that are none; reading what was read already tells nothing new.
-        wanted = (choice, asset, tuple(player.character_id for player in players))
-        if wanted == self._wanted:
+        requested = (choice, asset, tuple(player.character_id for player in players))
+        if requested == self._requested:
             return
-        self._wanted, self._checked, self._error = wanted, {}, None
+        self._requested, self._checked, self._error = requested, {}, None
         self._comparing = asset is not None and os.path.isfile(asset)
         if self._comparing and asset is not None:
             name = Message("work.compare_skeleton", {"file": asset.name})
-            self._session.tasks.run(name, _comparison(wanted, players, choice, asset), self._found, key=_KEY)
+            self._session.tasks.run(name, _comparison(requested, players, choice, asset), self._found, key=_KEY)
         self._show()
 
     def _found(self, found: Found) -> None:
-        wanted, checked, error = found
-        if wanted == self._wanted:  # something else may have been chosen meanwhile
+        requested, checked, error = found
+        if requested == self._requested:  # something else may have been chosen meanwhile
             self._checked, self._error, self._comparing = checked, error, False
             self._show()
 
@@ -142,14 +142,14 @@ class SkeletonChooser(QWidget):
                 *lines[: MOST_LINES - 1],
                 self.tr("skeleton_chooser.and_more").format(count=len(lines) - MOST_LINES + 1),
             ]
-        self._told.setText("\n".join(lines))
-        self._told.setVisible(bool(lines))
+        self._reported.setText("\n".join(lines))
+        self._reported.setVisible(bool(lines))
         self._fit()
         self.changed.emit()
 
     def _fit(self) -> None:
         """Keep the layout from squeezing wrapped lines where the window is low."""
-        self._told.setMinimumHeight(max(self._told.heightForWidth(self.width()), 0))
+        self._reported.setMinimumHeight(max(self._reported.heightForWidth(self.width()), 0))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
@@ -162,7 +162,7 @@ class SkeletonChooser(QWidget):
         spoilt = not all(map(_fits, self._checked.values()))
         for player, checked in self._checked.items():
             # What has to be put right comes alone.
-            grave = told([difference for difference in checked.differences if difference.grave])
+            grave = reported([difference for difference in checked.differences if difference.grave])
             for message in grave if spoilt else checked.messages:
                 said.setdefault(sentence(message), []).append(names.get(player, ""))
         everybody = len(self._checked)
@@ -203,16 +203,16 @@ def _fits(checked: CheckedTarget) -> bool:
 
 
 def _comparison(
-    wanted: Wanted, players: tuple[Player, ...], choice: SkeletonChoice, asset: Path
-) -> Callable[[Progress, StopWanted], Found]:
+    requested: Requested, players: tuple[Player, ...], choice: SkeletonChoice, asset: Path
+) -> Callable[[Progress, StopRequested], Found]:
     """The work of comparing: it knows nothing of the window."""
 
-    def work(progress: Progress, stop_wanted: StopWanted) -> Found:
+    def work(progress: Progress, stop_requested: StopRequested) -> Found:
         try:
             # Who has no character is left out of the export, and among the problems.
             characters = attempt(players, character_of).made
-            return wanted, checked_targets(characters, choice, read_figure(asset)), None
+            return requested, checked_targets(characters, choice, read_figure(asset)), None
         except AppError as error:
-            return wanted, {}, error
+            return requested, {}, error
 
     return work

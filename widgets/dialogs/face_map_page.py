@@ -41,7 +41,7 @@ class FaceMapPage(QWidget):
     Signals
     -------
     chosen(str)
-        The person looks at a face: an ARKit name.
+        The user looks at a face: an ARKit name.
     changed(str, object, object)
         A face is made of these morphs (a mapping of factors; None: as found by itself); the token of a gesture.
     released()
@@ -112,11 +112,11 @@ class FaceMapPage(QWidget):
         self.list.setCurrentItem(self._items[face])
 
     def show_parts(self, parts: Mapping[str, Mapping[str, float]], own: frozenset[str]) -> None:
-        """Show what the faces are made of, and which of them a person said."""
+        """Show what the faces are made of, and which of them the user said."""
         self._parts, self._own = {face: dict(made) for face, made in parts.items()}, own
         self._show()
 
-    # What the person does
+    # What the user does
 
     def _chosen(self, item: QTreeWidgetItem | None, before: QTreeWidgetItem | None = None) -> None:
         if item is not None:

@@ -12,7 +12,7 @@ from instrument_maps.model import InstrumentMap
 
 @dataclass
 class Draft:
-    """What a person made of one instrument's table, with every state before and after.
+    """What the user made of one instrument's table, with every state before and after.
 
     Attributes
     ----------

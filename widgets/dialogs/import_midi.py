@@ -42,14 +42,14 @@ from app.project.importing import (
     usual_rows,
 )
 from app.rig.character_library import characters
-from app.score.choose import Stream, is_drum_kit
+from app.score.choose import TrackChannel, is_drum_kit
 from app.score.model import UnplayedPart
-from app.score.parts import PartWish, stream_name
+from app.score.parts import PartAssignment, stream_name
 from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
 from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.plain import ComboBox, Label
-from widgets.common.tasks import Progress, StopWanted, Tasks
+from widgets.common.tasks import Progress, StopRequested, Tasks
 from widgets.common.text import message_text
 from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 
@@ -168,11 +168,11 @@ class ImportDialog(QDialog):
 
     @property
     def rows(self) -> tuple[ImportRow, ...]:
-        """What is wanted so far; empty until it is known what the file says."""
+        """What is requested so far; empty until it is known what the file says."""
         return self._rows
 
     @property
-    def wish(self) -> ImportWish:
+    def assignment(self) -> ImportWish:
         """Rows, and whether a dancer comes with them."""
         return ImportWish(self._rows, self._dancer.isChecked())
 
@@ -188,7 +188,7 @@ class ImportDialog(QDialog):
     def separate_selected(self) -> None:
         """Take the selected part apart into its tracks."""
         for place in reversed(self._selected()):
-            if len(self._rows[place].wish.streams) > 1:
+            if len(self._rows[place].assignment.streams) > 1:
                 self._rows = separated(self._rows, place)
         self._fill()
         self._work_out(self._rows)
@@ -260,9 +260,9 @@ class ImportDialog(QDialog):
         """Find out what comes of these rows, or of the usual ones."""
         contents, maps, before, closing = self._contents, self._maps, self._outcome, self._closing
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> tuple[tuple[ImportRow, ...], Outcome]:
+        def work(progress: Progress, stop_requested: StopRequested) -> tuple[tuple[ImportRow, ...], Outcome]:
             asked = usual_rows(contents, maps) if rows is None else rows
-            return asked, outcome_of(contents, asked, maps, before, lambda: stop_wanted() or closing.is_set())
+            return asked, outcome_of(contents, asked, maps, before, lambda: stop_requested() or closing.is_set())
 
         self._slow.start()
         self._tasks.run(Message("work.open"), work, self._worked_out, key="import")
@@ -288,17 +288,17 @@ class ImportDialog(QDialog):
     def _fill_row(self, place: int, row: ImportRow) -> None:
         use = _Tick()
         use.setObjectName(f"play_{place}")
-        use.setChecked(row.wanted)
-        use.toggled.connect(lambda wanted: self._set(place, wanted=wanted))
+        use.setChecked(row.requested)
+        use.toggled.connect(lambda requested: self._set(place, requested=requested))
         self._table.setCellWidget(place, _USE, _centred(use))
 
-        name = QLineEdit(row.wish.name or self._name(row))
+        name = QLineEdit(row.assignment.name or self._name(row))
         name.setObjectName(f"name_{place}")
         name.setMinimumWidth(130)
-        name.textEdited.connect(lambda text: self._wish(place, name=text.strip()))
+        name.textEdited.connect(lambda text: self._assignment(place, name=text.strip()))
         self._table.setCellWidget(place, _NAME, name)
 
-        streams = [self._contents.streams[stream] for stream in row.wish.streams]
+        streams = [self._contents.streams[stream] for stream in row.assignment.streams]
         self._table.setCellWidget(place, _PREVIEW, NotesPreview(streams, self._end_tick, self._tokens))
         count = Label(
             self.tr("import_dialog.notes_to").format(
@@ -315,9 +315,9 @@ class ImportDialog(QDialog):
         split.addItem(self.tr("import_dialog.automatic"), "sustained")
         split.addItem(self.tr("import_dialog.share_among_players"), "every")
         split.addItem(self.tr("import_dialog.one_player"), "never")
-        split.setCurrentIndex(split.findData(row.wish.split))
+        split.setCurrentIndex(split.findData(row.assignment.split))
         split.setToolTip(self.tr("import_dialog.automatic_another_player_for_notes"))
-        split.currentIndexChanged.connect(lambda _, box=split: self._wish(place, split=box.currentData()))
+        split.currentIndexChanged.connect(lambda _, box=split: self._assignment(place, split=box.currentData()))
         self._table.setCellWidget(place, _SPLIT, split)
 
         instrument = ComboBox()
@@ -327,7 +327,7 @@ class ImportDialog(QDialog):
         instrument.addItem(self.tr("import_dialog.automatic"), None)
         for text, id_ in self._instruments:
             instrument.addItem(text, id_)
-        instrument.setCurrentIndex(max(instrument.findData(row.wish.map_id), 0))
+        instrument.setCurrentIndex(max(instrument.findData(row.assignment.map_id), 0))
         instrument.currentIndexChanged.connect(lambda _, box=instrument: self._choose(place, box.currentData()))
         instrument.currentTextChanged.connect(lambda text: instrument.setToolTip(self._tip(place) or text))
         self._table.setCellWidget(place, _INSTRUMENT, instrument)
@@ -336,8 +336,10 @@ class ImportDialog(QDialog):
         pitches.setObjectName(f"pitches_{place}")
         pitches.addItem(self.tr("import_dialog.sounding"), False)
         pitches.addItem(self.tr("import_dialog.written"), True)
-        pitches.setCurrentIndex(1 if row.wish.written else 0)
-        pitches.currentIndexChanged.connect(lambda _, box=pitches: self._wish(place, written=bool(box.currentData())))
+        pitches.setCurrentIndex(1 if row.assignment.written else 0)
+        pitches.currentIndexChanged.connect(
+            lambda _, box=pitches: self._assignment(place, written=bool(box.currentData()))
+        )
         pitches.setToolTip(self.tr("import_dialog.which_pitches_file_has_of"))
         self._table.setCellWidget(place, _PITCHES, pitches)
 
@@ -352,13 +354,13 @@ class ImportDialog(QDialog):
         self._enable(place)
         self._show_instruments(place)
 
-    def _played_on(self, wish: PartWish) -> list[InstrumentMap]:
-        """What a row is played on, were it wanted; nothing where that is not known yet."""
-        return [] if self._outcome is None else [self._maps[id_] for id_ in self._outcome.instruments_of(wish)]
+    def _played_on(self, assignment: PartAssignment) -> list[InstrumentMap]:
+        """What a row is played on, were it requested; nothing where that is not known yet."""
+        return [] if self._outcome is None else [self._maps[id_] for id_ in self._outcome.instruments_of(assignment)]
 
     def _asks(self, row: ImportRow) -> bool:
         """Whether nothing says what plays a row."""
-        return self._outcome is not None and row.wish.map_id is None and not self._played_on(row.wish)
+        return self._outcome is not None and row.assignment.map_id is None and not self._played_on(row.assignment)
 
     def _show_instruments(self, place: int) -> None:
         """Say which instruments a row's names, programs and ranges choose, and whether its pitches can be written."""
@@ -366,12 +368,12 @@ class ImportDialog(QDialog):
         instrument, pitches = self._table.cellWidget(place, _INSTRUMENT), self._table.cellWidget(place, _PITCHES)
         assert isinstance(instrument, ComboBox)
         assert pitches is not None
-        names = dict.fromkeys(map(instrument_name, self._played_on(automatic(row.wish))))
+        names = dict.fromkeys(map(instrument_name, self._played_on(automatic(row.assignment))))
         if names:
             instrument.setItemText(0, self.tr("import_dialog.automatic_2").format(name=" + ".join(names)))
         elif self._is_percussion(row):
             instrument.setItemText(0, self.tr("import_dialog.percussion_for_dancers"))
-        elif self._outcome is not None and not row.wish.map_id:
+        elif self._outcome is not None and not row.assignment.map_id:
             instrument.setItemText(0, self.tr("import_dialog.choose_instrument"))
         tip = self._tip(place)
         instrument.setToolTip(tip or instrument.currentText())
@@ -379,13 +381,13 @@ class ImportDialog(QDialog):
             widget = self._table.cellWidget(place, column)
             if widget is not None:
                 widget.setToolTip(tip)
-        instrument.setEnabled(row.wanted or self._asks(row))
+        instrument.setEnabled(row.requested or self._asks(row))
         # Only there is a difference.
-        transposes = any(table.transposition_semitones for table in self._played_on(row.wish))
-        pitches.setEnabled(row.wanted and transposes)
+        transposes = any(table.transposition_semitones for table in self._played_on(row.assignment))
+        pitches.setEnabled(row.requested and transposes)
 
     def _is_percussion(self, row: ImportRow) -> bool:
-        return self._percussion.issuperset(row.wish.streams)
+        return self._percussion.issuperset(row.assignment.streams)
 
     def _tip(self, place: int) -> str:
         """What there is to know of a row; empty for most."""
@@ -394,19 +396,19 @@ class ImportDialog(QDialog):
         return self.tr("import_dialog.percussion_track_no_player_plays")
 
     def _name(self, row: ImportRow) -> str:
-        return " + ".join(stream_name(self._contents.streams[stream]) for stream in row.wish.streams)
+        return " + ".join(stream_name(self._contents.streams[stream]) for stream in row.assignment.streams)
 
     def _choose(self, place: int, map_id: str | None) -> None:
         """Take an instrument for a row; one that was asked for is what lets it be played."""
         asked = self._asks(self._rows[place])
-        self._wish(place, map_id=map_id)
+        self._assignment(place, map_id=map_id)
         tick = self._table.cellWidget(place, _USE)
         box = tick.findChild(QCheckBox) if tick is not None else None
         if asked and map_id is not None and box is not None:
             box.setChecked(True)
 
-    def _wish(self, place: int, **changes: object) -> None:
-        self._set(place, wish=msgspec.structs.replace(self._rows[place].wish, **changes))
+    def _assignment(self, place: int, **changes: object) -> None:
+        self._set(place, assignment=msgspec.structs.replace(self._rows[place].assignment, **changes))
 
     def _set(self, place: int, **changes: object) -> None:
         changed = msgspec.structs.replace(self._rows[place], **changes)
@@ -420,17 +422,17 @@ class ImportDialog(QDialog):
             widget = self._table.cellWidget(place, column)
             if widget is not None:
                 # Where nothing says what the instrument is, it is asked for.
-                widget.setEnabled(row.wanted or (column == _INSTRUMENT and self._asks(row)))
+                widget.setEnabled(row.requested or (column == _INSTRUMENT and self._asks(row)))
 
     def _show_tools(self) -> None:
         places = self._selected()
         self._merge.setEnabled(len(places) > 1)
-        self._separate.setEnabled(any(len(self._rows[place].wish.streams) > 1 for place in places))
+        self._separate.setEnabled(any(len(self._rows[place].assignment.streams) > 1 for place in places))
 
     def _show_outcome(self) -> None:
         """Say what will come of it: the reader's warnings where nothing was changed, the players in any case."""
         outcome = self._outcome
-        asking = [row for row in self._rows if row.wanted and self._asks(row)]
+        asking = [row for row in self._rows if row.requested and self._asks(row)]
         self._buttons.button(QDialogButtonBox.StandardButton.Ok).setEnabled(outcome is not None and not asking)
         self._warnings.clear()
         if outcome is not None:
@@ -470,7 +472,7 @@ class ImportDialog(QDialog):
 class NotesPreview(QWidget):
     """A track's notes over the whole piece, as a small piano roll."""
 
-    def __init__(self, streams: Sequence[Stream], end_tick: int, tokens: Tokens) -> None:
+    def __init__(self, streams: Sequence[TrackChannel], end_tick: int, tokens: Tokens) -> None:
         super().__init__()
         self._onsets = np.concatenate([np.asarray(stream.onset_ticks, np.float64) for stream in streams])
         self._ends = np.concatenate([np.asarray(stream.end_ticks, np.float64) for stream in streams])

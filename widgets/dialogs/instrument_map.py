@@ -1,6 +1,6 @@
-"""The instruments and their fingerings: a table that can be edited beside the drawn fingering, saved as one's own.
+"""The instruments and their fingerings: a table that can be edited beside the drawn fingering, saved as custom.
 
-What the bundled map says stays what it is: a change makes a map of the person's own that extends it.
+What the bundled map says stays what it is: a change makes a map of the user's own that extends it.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ from widgets.dialogs.fingering_draft import Draft, base_of
 
 WRITTEN, SOUNDS, RANK, LABEL, CENTS, TAGS = range(6)
 MOST_WRONG = 6
-"""So much of what is wrong with files is told at once."""
+"""So much of what is wrong with files is reported at once."""
 _PLACE = Qt.ItemDataRole.UserRole
 
 
@@ -221,7 +221,7 @@ class InstrumentsDialog(QDialog):
         return self._drafts[id]
 
     def _library_changed(self) -> None:
-        """Files changed: what nobody edits here is read anew, what somebody edits stays."""
+        """Files changed: what no one edits here is read anew, what someone edits stays."""
         now, shown = library(), self.draft
         for id, draft in list(self._drafts.items()):
             instrument = now.maps.get(id)
@@ -251,15 +251,15 @@ class InstrumentsDialog(QDialog):
         self._show_state()
 
     def _show_wrong(self) -> None:
-        """What keeps files of the person's own from being used; there may be no instrument of theirs to show it at."""
-        told = [problem for problems in library().problems.values() for problem in problems]
+        """What keeps files of the user's own from being used; there may be no instrument of theirs to show it at."""
+        reported = [problem for problems in library().problems.values() for problem in problems]
         lines = [self.tr("instruments_dialog.files_of_your_own_that")]
-        lines += [message_text(problem, self._session) for problem in told[:MOST_WRONG]]
-        if len(told) > MOST_WRONG:
-            lines.append(self.tr("instruments_dialog.and_more").format(count=len(told) - MOST_WRONG))
+        lines += [message_text(problem, self._session) for problem in reported[:MOST_WRONG]]
+        if len(reported) > MOST_WRONG:
+            lines.append(self.tr("instruments_dialog.and_more").format(count=len(reported) - MOST_WRONG))
         self._wrong.setText("\n".join(lines))
         self._wrong.setStyleSheet(f"color: {self._session.tokens.error};")
-        self._wrong.setVisible(bool(told))
+        self._wrong.setVisible(bool(reported))
 
     def _facts_of(self, instrument: InstrumentMap) -> str:
         low, high, shift = instrument.range.low, instrument.range.high, instrument.transposition_semitones
@@ -364,7 +364,7 @@ class InstrumentsDialog(QDialog):
         }
         for name, is_enabled in enabled.items():
             self._buttons[name].setEnabled(is_enabled)
-        self._tell("\n".join(f"{_named(path, draft.table, self._name)}: {detail}" for path, detail in wrong[:3]))
+        self._report("\n".join(f"{_named(path, draft.table, self._name)}: {detail}" for path, detail in wrong[:3]))
         faulty = {path.stem for path in library().problems}
         for row in range(self._list.count()):
             item = self._list.item(row)
@@ -377,7 +377,7 @@ class InstrumentsDialog(QDialog):
             item.setIcon(icon("error", tokens, tokens.error) if id in faulty else QIcon())
             item.setForeground(QColor(tokens.by_hand if is_own or unsaved else tokens.text))
 
-    def _tell(self, text: str) -> None:
+    def _report(self, text: str) -> None:
         self._problem.setStyleSheet(f"color: {self._session.tokens.error};")
         self._problem.setText(text)
 
@@ -393,7 +393,7 @@ class InstrumentsDialog(QDialog):
     # Editing
 
     def _do(self, change: Callable[[Draft], edit.Table], chosen: tuple[int, int] | None = None) -> bool:
-        """Change the table by one step; what cannot be is told beside it."""
+        """Change the table by one step; what cannot be is reported beside it."""
         draft = self.draft
         if draft is None:
             return False
@@ -401,7 +401,7 @@ class InstrumentsDialog(QDialog):
             table = change(draft)
         except AppError as error:
             self._fill_table(draft)
-            self._tell(message_text(error.message, self._session))
+            self._report(message_text(error.message, self._session))
             return False
         if table != draft.table:
             del draft.states[draft.at + 1 :]
@@ -439,7 +439,7 @@ class InstrumentsDialog(QDialog):
             return
         label, written = edit.free_label(draft.instrument, draft.table, one.written_pitch), one.written_pitch
         if label is None:
-            self._tell(self.tr("instruments_dialog.every_fingering_that_is_right"))
+            self._report(self.tr("instruments_dialog.every_fingering_that_is_right"))
             return
         place = (written, len(edit.of_pitch(draft.table, written)) + 1)
         if self._do(lambda draft: edit.added(draft.instrument, draft.table, written, label), place):
@@ -482,14 +482,14 @@ class InstrumentsDialog(QDialog):
     # Files
 
     def save(self) -> bool:
-        """Write the shown instrument's table as the person's own; whether it was done, or there was nothing to do."""
+        """Write the shown instrument's table as the user's own; whether it was done, or there was nothing to do."""
         draft = self.draft
         if draft is None or draft.is_saved:
             return True
         try:
             edit.save_own(draft.instrument, draft.table, library().folder)
         except AppError as error:
-            self._tell(message_text(error.message, self._session))
+            self._report(message_text(error.message, self._session))
             self._session.notice(error.message, Severity.ERROR)
             return False
         # The watch reads it now; until then it is known already.
@@ -602,7 +602,7 @@ class _Completing(QStyledItemDelegate):
 
 
 def _named(path: str, table: edit.Table, name: Callable[[int], str]) -> str:
-    """The place of a problem as a person knows it: the note instead of the row's number."""
+    """The place of a problem as the user knows it: the note instead of the row's number."""
     head, bracket, rest = path.partition("[")
     row, _, key = rest.partition("]")
     if head == "fingerings" and bracket and row.isdigit() and int(row) < len(table):

@@ -1,4 +1,4 @@
-"""Finds out how late a device comes: clicks are heard, and somebody blows on each of them."""
+"""Finds out how late a device comes: clicks are heard, and someone blows on each of them."""
 
 from __future__ import annotations
 
@@ -63,8 +63,8 @@ class LatencyDialog(QDialog):
         self._heard: list[tuple[int, float]] = []
         self._found: Measured | None = None
         self._stopped_why = ""
-        self._explained, self._told, self._value_name = Label(), Label(), Label()
-        self._told.setObjectName("latency_told")
+        self._explained, self._reported, self._value_name = Label(), Label(), Label()
+        self._reported.setObjectName("latency_told")
         self.chart = HitChart(session)
         self.value = QDoubleSpinBox()
         self.value.setObjectName("latency_value")
@@ -92,10 +92,10 @@ class LatencyDialog(QDialog):
         self.resize(600, 400)
 
     def _build(self) -> None:
-        for label in (self._explained, self._told):
+        for label in (self._explained, self._reported):
             label.setWordWrap(True)
-        self._told.setMinimumHeight(3 * self._told.fontMetrics().lineSpacing())
-        self._told.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self._reported.setMinimumHeight(3 * self._reported.fontMetrics().lineSpacing())
+        self._reported.setAlignment(Qt.AlignmentFlag.AlignTop)
         for button in (self._take, self._close):
             button.setAutoDefault(False)
         self._start.setDefault(True)
@@ -109,7 +109,7 @@ class LatencyDialog(QDialog):
         page = QVBoxLayout(self)
         page.addWidget(self._explained)
         page.addWidget(self.chart, 1)
-        page.addWidget(self._told)
+        page.addWidget(self._reported)
         page.addLayout(bottom)
 
     # Measuring
@@ -119,7 +119,7 @@ class LatencyDialog(QDialog):
         """Whether it clicks."""
         return self._running
 
-    def heard_s(self) -> float:
+    def sounding_s(self) -> float:
         """The moment of the clicks that is heard now."""
         return self._playback.position_s()
 
@@ -209,9 +209,9 @@ class LatencyDialog(QDialog):
         self._take.setEnabled(bool(recording.port) and is_new and not self._running)
         text, colour = self._words()
         style = f"color: {getattr(tokens, colour)};"
-        if (text, style) != (self._told.text(), self._told.styleSheet()):
-            self._told.setText(text)
-            self._told.setStyleSheet(style)
+        if (text, style) != (self._reported.text(), self._reported.styleSheet()):
+            self._reported.setText(text)
+            self._reported.setStyleSheet(style)
 
     def _words(self) -> tuple[str, str]:
         recording = self._session.recording
@@ -241,12 +241,12 @@ class LatencyDialog(QDialog):
             text = self.tr("latency_dialog.hits_differ_by_ms_too")
             return text.format(spread=spread), "warning"
         text = self.tr("latency_dialog.comes_ms_late_of_hits")
-        told = text.format(
+        reported = text.format(
             device=recording.port, count=f"{1000 * found.latency_s:.0f}", used=used, all=COUNTED, spread=spread
         )
         if round(self.value.value()) == round(1000.0 * recording.latency_s):
-            told += " " + self.tr("latency_dialog.it_is_taken_off_from")
-        return told, "good"
+            reported += " " + self.tr("latency_dialog.it_is_taken_off_from")
+        return reported, "good"
 
     def retranslate(self) -> None:
         """Set every text anew."""

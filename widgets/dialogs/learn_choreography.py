@@ -36,7 +36,7 @@ from app.errors import AppError, Cancelled, Message
 from widgets.common.paths import PathEdit, ask_for_files, ask_where_to_save, dropped_paths
 from widgets.common.plain import Label
 from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import message_text, sentence
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX, AutomaticNumber
 from widgets.dialogs.cut_panel import CutHistory, CutPanel
@@ -307,7 +307,7 @@ class LearnDialog(QDialog):
         row.reading = number
         motion, music = draft.motion, draft.music
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> _Read:
+        def work(progress: Progress, stop_requested: StopRequested) -> _Read:
             try:
                 read = read_pair(motion, music, fps=draft.fps, credits=draft.credits)
                 return _Read(number, Found(read, analyse(read.pair)))
@@ -348,9 +348,9 @@ class LearnDialog(QDialog):
         # The thread gets what it needs, not the dialog.
         stop, shares = self._stop, self._shares
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> _Learned:
+        def work(progress: Progress, stop_requested: StopRequested) -> _Learned:
             def went(share: float, label: str) -> None:
-                if stop.is_set() or stop_wanted():
+                if stop.is_set() or stop_requested():
                     raise Cancelled("work.stopped")
                 shares[0] = share
                 progress(share)

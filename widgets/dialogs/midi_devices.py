@@ -82,7 +82,7 @@ class MidiDevicesDialog(QDialog):
         self._listed: tuple[object, ...] = ()
         self._list = QTreeWidget()
         self._list.setObjectName("midi_device_list")
-        self._hint, self._told, self._heard, self._late = (Label() for _ in range(4))
+        self._hint, self._reported, self._heard, self._late = (Label() for _ in range(4))
         self._kind, self._channel, self._breath, self._bite = (Combo() for _ in range(4))
         self._rows = {widget: Label() for widget in (self._kind, self._channel, self._breath, self._bite)}
         self._late_name = Label()
@@ -103,7 +103,7 @@ class MidiDevicesDialog(QDialog):
         named: dict[QWidget, str] = {self._kind: "midi_kind", self._channel: "midi_wired_channel"}
         named |= {self._breath: "midi_breath_source", self._bite: "midi_bite_source", self._learn: "midi_learn"}
         named |= {self._measure: "midi_measure", self._beep: "midi_beep", self._close: "midi_close"}
-        named |= {self._hint: "midi_hint", self._told: "midi_learned", self._heard: "midi_beep_told"}
+        named |= {self._hint: "midi_hint", self._reported: "midi_learned", self._heard: "midi_beep_told"}
         named[self._late] = "midi_latency"
         for widget, name in named.items():
             widget.setObjectName(name)
@@ -116,7 +116,7 @@ class MidiDevicesDialog(QDialog):
         header.setStretchLastSection(False)
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
-        for label in (self._hint, self._told, self._heard):
+        for label in (self._hint, self._reported, self._heard):
             label.setWordWrap(True)
         for button in (self._learn, self._measure, self._beep, self._close):
             # Enter in the list is no answer.
@@ -128,7 +128,7 @@ class MidiDevicesDialog(QDialog):
         for widget, name in self._rows.items():
             form.addRow(name, widget)
         form.addRow(self._learn)
-        form.addRow(self._told)
+        form.addRow(self._reported)
         form.addRow(self._late_name, late)
         left = QVBoxLayout()
         left.addWidget(self._list, 1)
@@ -166,13 +166,13 @@ class MidiDevicesDialog(QDialog):
         recording.heard.connect(self._hear)
         session.theme_changed.connect(self._show)
 
-    # What the person does
+    # What the user does
 
     def _choose(self, item: QTreeWidgetItem, column: int = 0) -> None:
         self.chosen.emit(item.data(0, Qt.ItemDataRole.UserRole))
 
     def _choose_kind(self, controller: str) -> None:
-        self._told.clear()
+        self._reported.clear()
         self.controller_chosen.emit(controller)
 
     def _wire(self, **values: object) -> None:
@@ -180,7 +180,7 @@ class MidiDevicesDialog(QDialog):
         if wiring.bite == wiring.breath:
             # One message cannot tell of both.
             wiring = msgspec.structs.replace(wiring, bite="none")
-        self._told.clear()
+        self._reported.clear()
         self.wiring_chosen.emit(wiring)
 
     def beep(self) -> None:
@@ -192,18 +192,18 @@ class MidiDevicesDialog(QDialog):
         playback.set_span(0.0, BEEP_S)
         playback.play(0.0)
         if playback.is_silent:
-            self._tell(self._heard, self.tr("midi_devices_dialog.there_is_no_audio_device"), wrong=True)
+            self._report(self._heard, self.tr("midi_devices_dialog.there_is_no_audio_device"), wrong=True)
         elif volume == 0.0:
-            self._tell(self._heard, self.tr("midi_devices_dialog.volume_of_transport_is_0"), wrong=True)
+            self._report(self._heard, self.tr("midi_devices_dialog.volume_of_transport_is_0"), wrong=True)
         else:
-            self._tell(self._heard, self.tr("midi_devices_dialog.you_should_hear_short_tone"))
+            self._report(self._heard, self.tr("midi_devices_dialog.you_should_hear_short_tone"))
 
     # Learning
 
     def _toggle_learning(self) -> None:
         if self._learning is not None:
             self._stop_learning()
-            self._told.clear()
+            self._reported.clear()
         else:
             self._start_learning()
 
@@ -236,7 +236,7 @@ class MidiDevicesDialog(QDialog):
             why = self.tr("midi_devices_dialog.no_breath_came_in_blow")
             if not events:
                 why = self.tr("midi_devices_dialog.nothing_came_in_from_device")
-            self._tell(self._told, why, wrong=True)
+            self._report(self._reported, why, wrong=True)
             return
         self._wire(breath=found.source, channel=found.channel)
         self._blown = found, events
@@ -250,11 +250,11 @@ class MidiDevicesDialog(QDialog):
         else:
             text = self.tr("midi_devices_dialog.found_breath_channel_no_bite")
         names = {"source": source_name(breath.source), "bite": source_name(bite or "none")}
-        self._tell(self._told, text.format(**names, number=breath.channel))
+        self._report(self._reported, text.format(**names, number=breath.channel))
 
     # What is shown
 
-    def _tell(self, label: Label, text: str, wrong: bool = False) -> None:
+    def _report(self, label: Label, text: str, wrong: bool = False) -> None:
         tokens = self._session.tokens
         style = f"color: {tokens.warning if wrong else tokens.good};"
         if (text, style) != (label.text(), label.styleSheet()):
@@ -266,7 +266,7 @@ class MidiDevicesDialog(QDialog):
         if self._learning is not None and recording.connection != "open":
             self._learning = self._blown = None
             self._second.stop()
-            self._told.clear()
+            self._reported.clear()
         self._show_devices()
         self._show_kind()
         is_open, is_learning = recording.connection == "open", self._learning is not None
@@ -278,7 +278,7 @@ class MidiDevicesDialog(QDialog):
             text = self.tr("midi_devices_dialog.blow_now_soft_loud_and")
             if self._blown is not None:
                 text = self.tr("midi_devices_dialog.now_blow_evenly_bite_and")
-            self._tell(self._told, text.format(count=self._left_s))
+            self._report(self._reported, text.format(count=self._left_s))
         self._late.setText(self.tr("midi_devices_dialog.ms").format(count=f"{1000 * recording.latency_s:.0f}"))
 
     def _show_devices(self) -> None:
@@ -288,22 +288,22 @@ class MidiDevicesDialog(QDialog):
             names.append(recording.port)
         current = self._list.currentItem()
         at = recording.port if current is None else current.data(0, Qt.ItemDataRole.UserRole)
-        wanted = [("", self.tr("midi_devices_dialog.no_device"), "")]
-        wanted += [(name, name, self._state(name)) for name in names]
-        shown = (wanted, recording.port, tokens.name)
+        requested = [("", self.tr("midi_devices_dialog.no_device"), "")]
+        requested += [(name, name, self._state(name)) for name in names]
+        shown = (requested, recording.port, tokens.name)
         if shown != self._listed:
             # A list that is made anew under the mouse would not feel the click.
             self._listed = shown
-            self._fill(wanted, at)
+            self._fill(requested, at)
         self._hint.setText(self._advice())
         self._hint.setVisible(bool(self._hint.text()))
         is_wrong = recording.refusal is not None
         self._hint.setStyleSheet(f"color: {tokens.warning if is_wrong else tokens.text_dim};")
 
-    def _fill(self, wanted: list[tuple[str, str, str]], at: str) -> None:
+    def _fill(self, requested: list[tuple[str, str, str]], at: str) -> None:
         recording, tokens = self._session.recording, self._session.tokens
         self._list.clear()
-        for id, text, state in wanted:
+        for id, text, state in requested:
             item = QTreeWidgetItem([text, state])
             item.setData(0, Qt.ItemDataRole.UserRole, id)
             if id == recording.port:

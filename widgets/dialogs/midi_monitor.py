@@ -6,7 +6,7 @@ from PySide6.QtCore import QEvent, Qt, QTimer
 from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QListWidget, QProgressBar, QVBoxLayout, QWidget
 
-from app.capture.heard import HeardLog, Line
+from app.capture.message_log import MessageLog, MessageRow
 from app.capture.protocol import Events
 from app.score.take import decoded, is_wired, said
 from instrument_maps.library import all_maps
@@ -27,7 +27,7 @@ class MidiMonitor(QWidget):
         super().__init__(parent)
         self.setObjectName("midi_monitor")
         self._session = session
-        self._log = HeardLog()
+        self._log = MessageLog()
         self._channel = 0
         self._bite_now = 0.0
         self._note, self._from = Label(), Label()
@@ -103,13 +103,13 @@ class MidiMonitor(QWidget):
         _fill(self._breath, recording.breath)
         _fill(self._bite, self._bite_now)
         self._bite.setEnabled(recording.wiring.bite != "none")
-        wanted = recording.wiring.channel
-        is_other = bool(self._channel and wanted and self._channel != wanted)
+        requested = recording.wiring.channel
+        is_other = bool(self._channel and requested and self._channel != requested)
         if is_other:
             text = self.tr("midi_monitor.plays_on_channel_but_only")
         else:
             text = self.tr("midi_monitor.channel") if self._channel else self.tr("midi_monitor.nothing_has_come_in_yet")
-        self._from.setText(text.format(number=self._channel, wanted=wanted))
+        self._from.setText(text.format(number=self._channel, requested=requested))
         style = f"color: {tokens.warning if is_other else tokens.text_dim};"
         if style != self._from.styleSheet():
             self._from.setStyleSheet(style)
@@ -132,7 +132,7 @@ class MidiMonitor(QWidget):
         semitones = instrument.transposition_semitones if instrument is not None else 0
         return pitch_text(self._session.pitch_display, pitch, semitones)
 
-    def _text(self, line: Line) -> str:
+    def _text(self, line: MessageRow) -> str:
         match line.kind:
             case "note_on":
                 text = self.tr("midi_monitor.begins_velocity").format(pitch=self._pitch(line.number), value=line.value)

@@ -171,7 +171,7 @@ class PieceSettingsDialog(QDialog):
         }
 
     def _reset_all(self) -> None:
-        """As in a new piece; only the title is nobody's default."""
+        """As in a new piece; only the title is no one's default."""
         title = self._kept("title", self._title.text())
         self._show(usual_settings(title))
 

@@ -34,7 +34,7 @@ from app.project.frame_rate import USUAL_RATES, frame_rate_text
 from widgets.common.paths import PathEdit, ask_where_to_save, show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import message_text
 from widgets.common.viewport_state import View
 
@@ -155,7 +155,7 @@ class PlayblastDialog(QDialog):
         if self._running or not self._start.isEnabled():
             return
         self._performance = self._session.performance
-        self._span = span = self._wanted_span()
+        self._span = span = self._requested_span()
         self._running, self._drawn, self._trouble = True, 0, None
         # The thread gets what it needs, not the dialog.
         self._pictures = pictures = queue.Queue[Pictures](_AHEAD)
@@ -169,11 +169,11 @@ class PlayblastDialog(QDialog):
         assert path is not None, "the button is disabled without one"
         with_sound, sound = self._with_sound.isChecked(), self._sound
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> Path:
+        def work(progress: Progress, stop_requested: StopRequested) -> Path:
             heard = sound(span.first_frame_s, span.end_s, _SOUND_RATE) if with_sound else None
             with video_into(path, (size[0], size[1]), span.fps, heard, _SOUND_RATE) as film:
                 for index in range(span.count):
-                    film.write(_next(pictures, lambda: stop.is_set() or stop_wanted()))
+                    film.write(_next(pictures, lambda: stop.is_set() or stop_requested()))
                     progress((index + 1) / span.count)
             return path
 
@@ -227,7 +227,7 @@ class PlayblastDialog(QDialog):
         if self._trouble is not None:
             self._failed(self._trouble)
 
-    def _wanted_span(self) -> FrameSpan:
+    def _requested_span(self) -> FrameSpan:
         frame, fps = self._performance.time_frame, Fraction(self._rate.currentData())
         span, clock = self._session.selection.span, self._session.project.score.tempo_map
         if self._range.currentData() == _LOOP and self._session.loop_s is not None:
@@ -320,9 +320,9 @@ class PlayblastDialog(QDialog):
         super().closeEvent(event)
 
 
-def _next(pictures: queue.Queue[Pictures], stop_wanted: Callable[[], bool]) -> Pictures:
+def _next(pictures: queue.Queue[Pictures], stop_requested: Callable[[], bool]) -> Pictures:
     """The next picture, as soon as it is drawn. Raises Cancelled."""
-    while not stop_wanted():
+    while not stop_requested():
         try:
             return pictures.get(timeout=0.1)
         except queue.Empty:

@@ -1,4 +1,4 @@
-"""The preferences: what a person chooses for the editor on this machine. Everything holds at once."""
+"""The preferences: what the user chooses for the editor on this machine. Everything holds at once."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ class PreferencesDialog(QDialog):
         return field
 
     def _instruments_page(self) -> QWidget:
-        """Where a person's own maps are, and what is wrong with them."""
+        """Where the user's own maps are, and what is wrong with them."""
         page = QWidget()
         column = QVBoxLayout(page)
         column.setContentsMargins(16, 16, 16, 16)

@@ -203,7 +203,7 @@ class _CellDelegate(QStyledItemDelegate):
         value, most = float(values[index.row(), index.column()]), float(values.max())
         box = QRectF(option.rect).adjusted(0.5, 0.5, -0.5, -0.5)
         seen = value >= _LEAST_SHOWN
-        # Square roots: what is rare but possible is still told from what is not.
+        # Square roots: what is rare but possible is still distinguished from what is not.
         share = _LEAST_SHADE + (_MOST_SHADE - _LEAST_SHADE) * (value / most) ** 0.5 if seen else 0.0
         ground = _mixed(tokens.sunken, tokens.accent, share)
         painter.save()

@@ -164,7 +164,7 @@ class ReimportDialog(QDialog):
         self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("reimport_dialog.cancel"))
 
     def _about_note(self, conflict: Conflict) -> str:
-        """What happens to a note: as the person has it → as the file has it."""
+        """What happens to a note: as the user has it → as the file has it."""
         mine, file = conflict.by_hand, conflict.file
         here = self.tr("reimport_dialog.erased") if mine is None else self._note_title(conflict.part_id, mine)
         there = (
@@ -178,7 +178,7 @@ class ReimportDialog(QDialog):
         outcome = self._outcome
         after = {player.id: player.name for player in outcome.project.players}
         before = {player.id: player.name for player in self._before.players}
-        told = (
+        reported = (
             (self.tr("reimport_dialog.new_players"), outcome.new_players, after),
             (self.tr("reimport_dialog.players_whose_part_is_gone"), outcome.gone_players, before),
             (
@@ -187,7 +187,7 @@ class ReimportDialog(QDialog):
                 after,
             ),
         )
-        return [text.format(names=", ".join(names[id_] for id_ in ids)) for text, ids, names in told if ids]
+        return [text.format(names=", ".join(names[id_] for id_ in ids)) for text, ids, names in reported if ids]
 
     def sizeHint(self) -> QSize:
         return QSize(620, 460)

@@ -1,4 +1,4 @@
-"""The list of keyboard shortcuts: searched, changed, given back; a conflict is told where it is made."""
+"""The list of keyboard shortcuts: searched, changed, given back; a conflict is reported where it is made."""
 
 from __future__ import annotations
 
@@ -115,9 +115,9 @@ class ShortcutsPage(QWidget):
         self.take.clicked.connect(self._take)
         self.back.clicked.connect(self._back)
         self.all_back.clicked.connect(self._all_back)
-        self.told = Label()
-        self.told.setObjectName("shortcut_told")
-        self.told.setWordWrap(True)
+        self.reported = Label()
+        self.reported.setObjectName("shortcut_told")
+        self.reported.setWordWrap(True)
         line = QHBoxLayout()
         line.addWidget(self._label)
         line.addWidget(self.edit, 1)
@@ -125,7 +125,7 @@ class ShortcutsPage(QWidget):
         line.addWidget(self.take)
         line.addWidget(self.back)
         bottom = QHBoxLayout()
-        bottom.addWidget(self.told, 1)
+        bottom.addWidget(self.reported, 1)
         bottom.addWidget(self.all_back)
         page = QVBoxLayout(self)
         page.addWidget(self.search)
@@ -173,12 +173,12 @@ class ShortcutsPage(QWidget):
         self._choose()
 
     def _filter(self, text: str) -> None:
-        wanted = text.casefold().split()
+        requested = text.casefold().split()
         for place in range(self.list.topLevelItemCount()):
             item = self.list.topLevelItem(place)
             if item is not None:
                 words = " ".join(item.text(column) for column in range(4)).casefold()
-                item.setHidden(not all(word in words for word in wanted))
+                item.setHidden(not all(word in words for word in requested))
 
     def choose(self, action_id: str) -> None:
         """Go to the row of an action."""
@@ -209,16 +209,16 @@ class ShortcutsPage(QWidget):
         row, keys = self._chosen(), self._keys()
         taken = self._conflicts(row.id, keys) if row is not None and keys else ()
         menu = self._menu_of(keys) if keys else ""
-        # What opens a menu would do neither: it cannot be given, and nobody can take it from the menu here.
+        # What opens a menu would do neither: it cannot be given, and no one can take it from the menu here.
         self.give.setEnabled(row is not None and bool(keys) and not menu)
         names = ", ".join(self._rows[other].text for other in taken if other in self._rows)
-        self.told.setStyleSheet(f"color: {self._session.tokens.warning};")
+        self.reported.setStyleSheet(f"color: {self._session.tokens.warning};")
         if menu:
-            self.told.setText(self.tr("shortcuts_page.opens_menu_choose_other_keys").format(menu=menu))
+            self.reported.setText(self.tr("shortcuts_page.opens_menu_choose_other_keys").format(menu=menu))
         elif names:
-            self.told.setText(self.tr("shortcuts_page.used_by_assigning_takes_it").format(names=names))
+            self.reported.setText(self.tr("shortcuts_page.used_by_assigning_takes_it").format(names=names))
         else:
-            self.told.clear()
+            self.reported.clear()
 
     def _give(self) -> None:
         row, keys = self._chosen(), self._keys()
@@ -241,8 +241,8 @@ class ShortcutsPage(QWidget):
         if row is None:
             return
         for other in self._conflicts(row.id, row.default):
-            wanted = {part.strip() for part in row.default.split(";")}
-            kept = [part for part in self._rows[other].keys.split(";") if part.strip() not in wanted]
+            requested = {part.strip() for part in row.default.split(";")}
+            kept = [part for part in self._rows[other].keys.split(";") if part.strip() not in requested]
             self.chosen.emit(other, ";".join(kept))
         self.chosen.emit(row.id, None)
         self._fill()

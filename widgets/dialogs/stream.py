@@ -46,7 +46,7 @@ class StreamDialog(QDialog):
         self.setObjectName("stream")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._state = session, session.streaming
-        self._explained, self._warning, self._told = Label(), Label(), Label()
+        self._explained, self._warning, self._reported = Label(), Label(), Label()
         self._host, self._port = QLineEdit(), QSpinBox()
         self._who, self._faces, self._rate = Combo(), Combo(), Combo()
         self._list = QTreeWidget()
@@ -77,10 +77,10 @@ class StreamDialog(QDialog):
         named |= {self._faces: "stream_faces", self._rate: "stream_rate", self._list: "stream_list"}
         named |= {self._toggle: "stream_toggle", self._here: "stream_here", self._close: "stream_close"}
         named |= {self._anyway: "stream_anyway"}
-        named |= {self._warning: "stream_warning", self._told: "stream_told"}
+        named |= {self._warning: "stream_warning", self._reported: "stream_told"}
         for widget, name in named.items():
             widget.setObjectName(name)
-        for label in (self._explained, self._warning, self._told):
+        for label in (self._explained, self._warning, self._reported):
             label.setWordWrap(True)
         self._port.setRange(LEAST_PORT, MOST_PORT)
         self._port.setKeyboardTracking(False)
@@ -118,10 +118,10 @@ class StreamDialog(QDialog):
         page.addLayout(form)
         page.addWidget(self._warning)
         page.addWidget(self._list, 1)
-        told = QHBoxLayout()
-        told.addWidget(self._told, 1)
-        told.addWidget(self._anyway)
-        page.addLayout(told)
+        reported = QHBoxLayout()
+        reported.addWidget(self._reported, 1)
+        reported.addWidget(self._anyway)
+        page.addLayout(reported)
         page.addLayout(bottom)
 
     def _choose_host(self) -> None:
@@ -149,8 +149,8 @@ class StreamDialog(QDialog):
         self._show_lines()
         self._anyway.setVisible(state.trouble is not None and state.trouble.id == TO_MANY)
         text, colour = self._state_text()
-        self._told.setText(text)
-        self._told.setStyleSheet(f"color: {colour};")
+        self._reported.setText(text)
+        self._reported.setStyleSheet(f"color: {colour};")
 
     def _show_lines(self) -> None:
         """Who is sent where, or would be."""

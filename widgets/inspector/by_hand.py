@@ -1,4 +1,4 @@
-"""A line that says what the generator made and what a person made of it, with the way back."""
+"""A line that says what the generator made and what the user made of it, with the way back."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class ByHandLine(QWidget):
     Signals
     -------
     reverted()
-        The person wants the generator's again.
+        The user wants the generator's again.
     """
 
     reverted = Signal()
@@ -37,8 +37,8 @@ class ByHandLine(QWidget):
         row.setSpacing(4)
         row.addWidget(self._text, 1)
         row.addWidget(self._button, 0, Qt.AlignmentFlag.AlignTop)
-        session.theme_changed.connect(self._dress)
-        self._dress()
+        session.theme_changed.connect(self._apply_theme)
+        self._apply_theme()
         self._retranslate()
         self.hide()
 
@@ -62,7 +62,7 @@ class ByHandLine(QWidget):
         self._text.setText(text)
         self._button.setToolTip(self.tr("by_hand_line.back_to_generators"))
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         self._button.setIcon(icon("reset", self._session.tokens, self._session.tokens.by_hand))
         self.update()
 

@@ -20,7 +20,7 @@ from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.common.text import message_text
 from widgets.inspector.generated import Generated
-from widgets.inspector.rows import Line, LineList
+from widgets.inspector.rows import LineList, ListRow
 from widgets.inspector.words import correction_title, embouchure_text, event_text
 
 LATE_TICK = 2**62
@@ -138,19 +138,19 @@ class CorrectionList(QWidget):
             return int(start)
         return round(self._session.project.score.tempo_map.ticks(event.start_s))
 
-    def _line(self, place: Place, several: bool) -> Line:
+    def _line(self, place: Place, several: bool) -> ListRow:
         score, player = self._session.project.score, self._session.project.player(place.player_id)
         title = correction_title(place.correction)
         if several:
             title = f"{player.name}: {title}"
         if place.orphan:
             detail = self.tr("correction_list.lost_its_place_it_does")
-            return Line(place, title, "", detail, self._session.colour(player), "warning")
+            return ListRow(place, title, "", detail, self._session.colour(player), "warning")
         if isinstance(place.correction, Vary):
             start, end = (
                 score.metre_map.label(tick) for tick in (place.correction.start_tick, place.correction.end_tick)
             )
-            return Line(
+            return ListRow(
                 place,
                 title,
                 start,
@@ -176,7 +176,7 @@ class CorrectionList(QWidget):
                 detail = self.tr("correction_list.yours").format(now=now, generated=detail)
         tick = self._tick(place)
         where = score.metre_map.label(tick) if tick != LATE_TICK else ""
-        return Line(place, title, where, detail, self._session.colour(player), "by_hand")
+        return ListRow(place, title, where, detail, self._session.colour(player), "by_hand")
 
     def _value(self, correction: Correction, event: Event | None) -> str:
         if isinstance(correction, SetEmbouchure) and event is not None:
@@ -265,6 +265,6 @@ class CorrectionList(QWidget):
         super().changeEvent(event)
 
 
-def _place(line: Line) -> Place:
+def _place(line: ListRow) -> Place:
     assert isinstance(line.key, Place)
     return line.key

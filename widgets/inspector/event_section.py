@@ -103,8 +103,8 @@ class EventSection(QWidget):
             self._numbers[name].changed.connect(lambda value, token, name=name: self._set_fade(name, value, token))
         self._expression.chosen.connect(self._set_expression)
         self._by_hand.reverted.connect(self._revert)
-        self._session.theme_changed.connect(self._dress)
-        self._dress()
+        self._session.theme_changed.connect(self._apply_theme)
+        self._apply_theme()
 
     # Showing
 
@@ -316,7 +316,7 @@ class EventSection(QWidget):
             "strength": self.tr("event_section.strength"),
         }[field]
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         for label in (self._why, self._length):
             label.setStyleSheet(f"color: {self._session.tokens.text_dim};")
 

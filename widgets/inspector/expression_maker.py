@@ -80,7 +80,7 @@ class ExpressionMaker(QWidget):
         self._sliders: dict[str, NumberSlider] = {}
         self._build()
         self._connect()
-        self._dress()
+        self._apply_theme()
         self.retranslate()
 
     def _build(self) -> None:
@@ -146,7 +146,7 @@ class ExpressionMaker(QWidget):
         self._tools["keep"].clicked.connect(self._keep)
         self._tools["preview"].toggled.connect(self._preview)
         session.changed.connect(self._changed)
-        session.theme_changed.connect(self._dress)
+        session.theme_changed.connect(self._apply_theme)
 
     # Showing
 
@@ -269,7 +269,7 @@ class ExpressionMaker(QWidget):
         self._put(None, while_playing=playing)
 
     def duplicate(self) -> None:
-        """Make one's own from the expression shown, under a name of its own; one from the folder comes as it is."""
+        """Make custom from the expression shown, under a name of its own; one from the folder comes as it is."""
         expression = self.expression
         if expression is None:
             return
@@ -319,7 +319,7 @@ class ExpressionMaker(QWidget):
         self.show_expression()
 
     def _keep(self) -> None:
-        """Write it to the person's folder, for other projects."""
+        """Write it to the user's folder, for other projects."""
         expression = self.expression
         if expression is None:
             return
@@ -348,7 +348,7 @@ class ExpressionMaker(QWidget):
         for group, section in self._groups.items():
             section.header.set_texts(self._group_title(group))
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         tokens = self._session.tokens
         for name, drawing in _TOOLS:
             self._tools[name].setIcon(icon(drawing, tokens))

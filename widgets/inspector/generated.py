@@ -11,10 +11,10 @@ from app.performance.ensemble import Performance
 from app.plan.model import PlayerPlan
 from app.project.model import Project
 from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 
 AT_ONCE_NOTES = 3000
-"""So many notes are planned while a person hardly notices ..."""
+"""So many notes are planned while the user hardly notices ..."""
 AT_ONCE_S = 0.1
 """... unless they turn out to cost more of the processor than this."""
 
@@ -66,8 +66,8 @@ class Generated(QObject):
                 return
         self._underway = (performance, player_id)
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> Performance:
-            bare.prepare(stop_wanted, progress)
+        def work(progress: Progress, stop_requested: StopRequested) -> Performance:
+            bare.prepare(stop_requested, progress)
             return bare
 
         def done(made: Performance) -> None:

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from widgets.common.session import Session
 from widgets.common.text import message_text
-from widgets.inspector.rows import Line, LineList
+from widgets.inspector.rows import LineList, ListRow
 
 
 class HistoryList(QWidget):
@@ -35,7 +35,7 @@ class HistoryList(QWidget):
         lines = []
         for number, text in enumerate(texts):
             tone = "current" if number == len(done) else "faint" if number > len(done) else ""
-            lines.append(Line(number, text, str(number) if number else "", tone=tone))
+            lines.append(ListRow(number, text, str(number) if number else "", tone=tone))
         self.list.lines.show_lines(lines)
         current = self.list.lines.index(len(done))
         self.list.setCurrentIndex(current)

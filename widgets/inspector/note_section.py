@@ -115,8 +115,8 @@ class NoteSection(QWidget):
             slider.reset.connect(lambda _, name=name: self._reset_lips(name))
         self._fingering_by_hand.reverted.connect(self._revert_fingering)
         self._lips_by_hand.reverted.connect(self._revert_lips)
-        self._session.theme_changed.connect(self._dress)
-        self._dress()
+        self._session.theme_changed.connect(self._apply_theme)
+        self._apply_theme()
 
     # Showing
 
@@ -162,10 +162,10 @@ class NoteSection(QWidget):
         self._show_fingering(shown, plan, bare, instrument)
         self._show_lips(shown, plan, bare)
         own_ids = frozenset(shown.own_ids)
-        told = [problem for problem in self._session.problems(player.id) if problem.note_id in own_ids]
-        words = (sentence(problem.message, self._session, player.id) for problem in told[:5])
+        reported = [problem for problem in self._session.problems(player.id) if problem.note_id in own_ids]
+        words = (sentence(problem.message, self._session, player.id) for problem in reported[:5])
         self._problems.setText("\n".join(f"⚠ {text}" for text in words))
-        self._problems.setVisible(bool(told))
+        self._problems.setVisible(bool(reported))
 
     def _plan(self, shown: SelectedNotes) -> PlayerPlan | None:
         performance = self._session.performance
@@ -377,7 +377,7 @@ class NoteSection(QWidget):
 
     # Words and pictures
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         tokens = self._session.tokens
         self._problems.setStyleSheet(f"color: {tokens.warning};")
         for label in (self._why, self._fingering_title, self._lips_title):

@@ -54,11 +54,11 @@ class InspectorPanel(QWidget):
         session.changed.connect(self._changed)
         session.grid_changed.connect(self.show_selection)
         session.pitch_display.changed.connect(self.show_selection)
-        session.theme_changed.connect(self._dress)
+        session.theme_changed.connect(self._apply_theme)
         self._generated.changed.connect(self.show_selection)
         self._problems.counted.connect(self._count_problems)
         self._maker.folded.connect(self.show_selection)
-        self._dress()
+        self._apply_theme()
         self.retranslate()
         self._problems.show_problems()
 
@@ -136,7 +136,7 @@ class InspectorPanel(QWidget):
         for number, text in enumerate(texts):
             self._tabs.setTabText(number, text)
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         self._empty.setStyleSheet(f"color: {self._session.tokens.text_dim};")
 
     def retranslate(self) -> None:

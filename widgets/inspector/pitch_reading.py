@@ -1,4 +1,4 @@
-"""Reading a pitch that a person typed."""
+"""Reading a pitch that the user typed."""
 
 from __future__ import annotations
 

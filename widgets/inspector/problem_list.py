@@ -15,7 +15,7 @@ from widgets.common.plain import Label
 from widgets.common.selection import Selection
 from widgets.common.session import Session
 from widgets.common.text import sentence
-from widgets.inspector.rows import Line, LineList
+from widgets.inspector.rows import LineList, ListRow
 
 EVERYONE, SELECTED, ALL = "everyone", "selected", "all"
 _KINDS = {
@@ -30,7 +30,7 @@ _KINDS = {
 }
 
 MOST_LINES = 300
-"""Nobody reads more; a large score that does not fit its instruments has thousands."""
+"""No one reads more; a large score that does not fit its instruments has thousands."""
 
 
 class ProblemList(QWidget):
@@ -47,7 +47,7 @@ class ProblemList(QWidget):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self._known: dict[int, tuple[tuple[object, ...], Line]] = {}
+        self._known: dict[int, tuple[tuple[object, ...], ListRow]] = {}
         """Lines by the identity of their problem, with what they were made from: most stay when plans change."""
         self._who, self._kind = Combo(), Combo()
         self._who.setObjectName("problems_who")
@@ -89,14 +89,14 @@ class ProblemList(QWidget):
         chosen = set(self._session.players) if self._who.shown == SELECTED else None
         kind = self._kind.shown
         current = {one.id: one for one in self._session.project.performers}
-        wanted = [
+        requested = [
             (player, problem)
             for player, problem in sorted(found, key=lambda item: item[1].start_s)
             if (chosen is None or player.id in chosen) and kind in (ALL, None, _kind(problem))
         ]
         before, self._known = self._known, {}
         lines = []
-        for player, problem in wanted[:MOST_LINES]:
+        for player, problem in requested[:MOST_LINES]:
             colour = self._session.colour(current[player.id]) if player.id in current else ""
             # What a line says comes from these; the player's notes are among them, which problems name.
             score = project.score
@@ -109,7 +109,7 @@ class ProblemList(QWidget):
             lines.append(known[1])
         self.list.lines.show_lines(lines)
         self.list.setVisible(bool(lines))
-        more = len(wanted) - len(lines)
+        more = len(requested) - len(lines)
         self._empty.setVisible(not lines or more > 0)
         if more > 0:
             self._empty.setText(self.tr("problem_list.and_more_choose_players_or").format(count=more))
@@ -120,10 +120,10 @@ class ProblemList(QWidget):
                 else self.tr("problem_list.none_of_these_choose_other")
             )
 
-    def _line(self, player: Player | Dancer, problem: Problem, colour: str, score: Score) -> Line:
+    def _line(self, player: Player | Dancer, problem: Problem, colour: str, score: Score) -> ListRow:
         place = score.metre_map.label(round(score.tempo_map.ticks(problem.start_s)))
         text = sentence(problem.message, self._session, player.id)
-        return Line((player.id, problem), player.name, place, text, colour, "warning")
+        return ListRow((player.id, problem), player.name, place, text, colour, "warning")
 
     def _say_anew(self) -> None:
         """Words or colours are others."""

@@ -18,13 +18,13 @@ _PAD_PX = 8
 
 
 @dataclass(frozen=True)
-class Line:
+class ListRow:
     """What a line shows.
 
     Attributes
     ----------
     key : object
-        What it is about, for whoever is told of a click.
+        What it is about, for whoever is reported of a click.
     title, place, detail : str
         The place stands at the right; the detail below.
     colour : str
@@ -46,9 +46,9 @@ class LineModel(QAbstractListModel):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.lines: tuple[Line, ...] = ()
+        self.lines: tuple[ListRow, ...] = ()
 
-    def show_lines(self, lines: Sequence[Line]) -> None:
+    def show_lines(self, lines: Sequence[ListRow]) -> None:
         """Show these."""
         new = tuple(lines)
         if new == self.lines:
@@ -96,7 +96,7 @@ class _LineDelegate(QStyledItemDelegate):
         return QSize(100, max(26, round(height)))
 
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: AnyIndex) -> None:
-        line: Line = index.data(_ROW)
+        line: ListRow = index.data(_ROW)
         tokens, box = self._session.tokens, option.rect
         painter.save()
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -120,7 +120,7 @@ class _LineDelegate(QStyledItemDelegate):
             painter.drawRoundedRect(QRectF(box).adjusted(1, 1, -1, -1.5), 3, 3)
         painter.restore()
 
-    def _paint_texts(self, painter: QPainter, room: QRect, line: Line) -> None:
+    def _paint_texts(self, painter: QPainter, room: QRect, line: ListRow) -> None:
         tokens = self._session.tokens
         colours = {"warning": tokens.warning, "by_hand": tokens.by_hand, "faint": tokens.text_dim}
         font, small = QFont(self._view.font()), self._small()
@@ -159,9 +159,9 @@ class LineList(QListView):
     Signals
     -------
     opened(object)
-        The person clicked the line of this key, or pressed Return on it.
+        The user clicked the line of this key, or pressed Return on it.
     deleted()
-        The person pressed Delete or Backspace.
+        The user pressed Delete or Backspace.
     """
 
     opened = Signal(object)

@@ -25,7 +25,7 @@ class SelectedNotes:
     Attributes
     ----------
     player : Player or None
-        None: a part that nobody plays.
+        None: a part that no one plays.
     note : Note
         The first one.
     notes : tuple of Note
@@ -90,9 +90,9 @@ def selected_events(session: Session) -> tuple[PlayerPlan, tuple[Placed, ...]] |
         return None
     order = {player.id: number for number, player in enumerate(session.project.players)}
     owners = {key.player_id for key in keys}
-    wanted = [player_id for player_id in session.players if player_id in owners]
-    wanted += sorted(owners - set(wanted), key=lambda player_id: order.get(player_id, 0))
-    for player_id in wanted:
+    requested = [player_id for player_id in session.players if player_id in owners]
+    requested += sorted(owners - set(requested), key=lambda player_id: order.get(player_id, 0))
+    for player_id in requested:
         plan = performance.plans.get(player_id)
         if plan is None:
             continue

@@ -138,8 +138,8 @@ class TakeSection(QWidget):
         self._grid.chosen.connect(lambda id: self._clean(None, grid_quarters=float(Fraction(id))))
         self._usual.clicked.connect(lambda: session.actions["takes.usual_cleaning"].trigger())
         self._beats.clicked.connect(lambda: session.actions["takes.find_beats"].trigger())
-        session.theme_changed.connect(self._dress)
-        self._dress()
+        session.theme_changed.connect(self._apply_theme)
+        self._apply_theme()
 
     # Showing
 
@@ -236,7 +236,7 @@ class TakeSection(QWidget):
             token,
         )
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         for label in (self._about, self._counts):
             label.setStyleSheet(f"color: {self._session.tokens.text_dim};")
 

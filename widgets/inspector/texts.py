@@ -88,7 +88,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Bundled expression. Duplicate it to edit a copy.",
         "付属の表情です。編集するには複製してください。",
     ),
-    "expression_maker.delete_it_from_your_folder": ("Delete it from your folder", "自分のフォルダーから削除します"),
+    "expression_maker.delete_it_from_your_folder": ("Delete from the user folder", "ユーザーフォルダーから削除"),
     "expression_maker.expressions": ("Expression editor", "表情の編集"),
     "expression_maker.eyes": ("Eyes", "目"),
     "expression_maker.fade_in": ("Fade in", "フェードイン"),

@@ -97,8 +97,8 @@ class BodyDanceRows(QWidget):
 
     def _show_choreography(self, dances: Sequence[str]) -> None:
         self._choreography.show_option(dances[0] if len(dances) == 1 else None)
-        told = [parameter_text(_DANCED.tip)]
-        self._choreography.setToolTip("\n".join([*told, *(shown(path) for path in dances if path)]))
+        reported = [parameter_text(_DANCED.tip)]
+        self._choreography.setToolTip("\n".join([*reported, *(shown(path) for path in dances if path)]))
 
     # Editing
 

@@ -88,7 +88,7 @@ class PlayersPanel(QWidget):
         self._reset.setObjectName("reset_parameters")
         self._build()
         self._connect()
-        self._dress()
+        self._apply_theme()
         self.retranslate()
 
     # Building
@@ -148,7 +148,7 @@ class PlayersPanel(QWidget):
         session.performance_changed.connect(self._show_list)
         session.problems_changed.connect(self._show_list)
         session.players_changed.connect(self._players_changed)
-        session.theme_changed.connect(self._dress)
+        session.theme_changed.connect(self._apply_theme)
         session.dancer_changed.connect(self._show_dancers)
         self.list.chosen.connect(session.set_players)
         self.list.mute_clicked.connect(self._mute)
@@ -170,7 +170,7 @@ class PlayersPanel(QWidget):
         self._divided = True
 
     def _divide(self) -> None:
-        """As much room for the list as its rows need, but not much more than half, until a person says otherwise."""
+        """As much room for the list as its rows need, but not much more than half, until the user says otherwise."""
         height = self._splitter.height()
         if self._divided or not height:
             return
@@ -331,7 +331,7 @@ class PlayersPanel(QWidget):
 
     # Words and pictures
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         tokens = self._session.tokens
         for name, drawing in _TOOLS:
             self._tools[name].setIcon(icon(drawing, tokens))

@@ -24,7 +24,7 @@ from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.session import Session
 from widgets.common.swatch import ColourSwatch
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import parameter_text
 from widgets.players.body_dance import BodyDanceRows
 from widgets.players.parameter_rows import ParameterChoice, ParameterSlider, rows_of
@@ -44,7 +44,7 @@ class ParameterSections(QWidget):
     Signals
     -------
     dice_thrown()
-        The person wants another seed.
+        The user wants another seed.
     """
 
     dice_thrown = Signal()
@@ -71,10 +71,10 @@ class ParameterSections(QWidget):
             for parameter in rows_of(name):
                 self._make_row(parameter)
         self.retranslate()
-        session.theme_changed.connect(self._dress)
+        session.theme_changed.connect(self._apply_theme)
         session.instruments_changed.connect(self._instruments_changed)
         session.characters_changed.connect(self._characters_changed)
-        self._dress()
+        self._apply_theme()
 
     # Building
 
@@ -136,7 +136,7 @@ class ParameterSections(QWidget):
         slider.released.connect(self._session.document.end_gesture)
         return slider
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         self._dice.setIcon(icon("dice", self._session.tokens))
 
     # Showing
@@ -230,12 +230,12 @@ class ParameterSections(QWidget):
         """Beside the window: every body is looked at closely once."""
         size_px = round(PORTRAIT_PX * self.devicePixelRatioF())
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> dict[str, QImage]:
+        def work(progress: Progress, stop_requested: StopRequested) -> dict[str, QImage]:
             drawn = {}
             for number, id in enumerate(characters()):
-                if stop_wanted():
+                if stop_requested():
                     break
-                # Who cannot be opened has no picture; why is told where the characters are.
+                # Who cannot be opened has no picture; why is reported where the characters are.
                 with suppress(AppError):
                     drawn[id] = portrait_of(id, size_px)
                 progress((number + 1) / len(characters()))

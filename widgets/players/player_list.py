@@ -83,7 +83,7 @@ class PlayerModel(QAbstractListModel):
     Signals
     -------
     renamed(str, str)
-        The person typed another name for the player of this id.
+        The user typed another name for the player of this id.
     """
 
     renamed = Signal(str, str)
@@ -301,7 +301,7 @@ class PlayerList(OrderedList):
     mute_clicked(str), solo_clicked(str), arm_clicked(str)
         The button of this player.
     chosen(object)
-        The person selected these ids (tuple of str), the first in front.
+        The user selected these ids (tuple of str), the first in front.
     """
 
     mute_clicked = Signal(str)
@@ -334,15 +334,15 @@ class PlayerList(OrderedList):
     def show_selection(self) -> None:
         """Show whom the session has selected."""
         numbers = [self.rows.number(player_id) for player_id in self._session.players]
-        wanted = [number for number in numbers if number is not None]
+        requested = [number for number in numbers if number is not None]
         self._showing = True
         selection = QItemSelection()
-        for number in wanted:
+        for number in requested:
             selection.select(self.rows.index(number), self.rows.index(number))
         model = self.selectionModel()
         flags = QItemSelectionModel.SelectionFlag
-        if wanted and self.currentIndex().row() != wanted[0]:
-            model.setCurrentIndex(self.rows.index(wanted[0]), flags.NoUpdate)
+        if requested and self.currentIndex().row() != requested[0]:
+            model.setCurrentIndex(self.rows.index(requested[0]), flags.NoUpdate)
         model.select(selection, flags.ClearAndSelect)
         self._showing = False
         self.viewport().update()

@@ -1,4 +1,4 @@
-"""Presets: parameters a person keeps under a name, for this and other projects."""
+"""Presets: parameters the user keeps under a name, for this and other projects."""
 
 from __future__ import annotations
 
@@ -49,8 +49,8 @@ class PresetSection(QWidget):
         self._tools["save"].clicked.connect(self._save)
         self._tools["delete"].clicked.connect(self._delete)
         session.players_changed.connect(self._show_buttons)
-        session.theme_changed.connect(self._dress)
-        self._dress()
+        session.theme_changed.connect(self._apply_theme)
+        self._apply_theme()
         self.retranslate()
         if self._section.is_open:
             self.show_presets()
@@ -108,7 +108,7 @@ class PresetSection(QWidget):
             self._session.notice(error.message, Severity.ERROR)
         self.show_presets()
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         for name, drawing in _TOOLS:
             self._tools[name].setIcon(icon(drawing, self._session.tokens))
 

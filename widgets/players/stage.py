@@ -57,7 +57,7 @@ class StageView(QWidget):
     released()
         The drag is over.
     chosen(object)
-        The person selected these ids (tuple of str), the first in front.
+        The user selected these ids (tuple of str), the first in front.
     """
 
     placed = Signal(object, object)

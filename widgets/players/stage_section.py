@@ -48,9 +48,9 @@ class StageSection(QWidget):
         self.view.placed.connect(self._place)
         self.view.released.connect(session.document.end_gesture)
         self.view.chosen.connect(session.set_players)
-        session.theme_changed.connect(self._dress)
+        session.theme_changed.connect(self._apply_theme)
         session.dancer_changed.connect(self.view.update)
-        self._dress()
+        self._apply_theme()
         self.retranslate()
 
     def show_places(self) -> None:
@@ -88,7 +88,7 @@ class StageSection(QWidget):
     def _arrange(self) -> None:
         self._session.attempt(Message("edit.arrange_players"), edit.arrange)
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         self._snap.setIcon(icon("snap", self._session.tokens))
         self._arc.setIcon(icon("stage", self._session.tokens))
 

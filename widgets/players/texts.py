@@ -84,7 +84,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "奏者がいません。＋ で奏者を追加するか、MIDI ファイルをウィンドウにドロップしてください。",
     ),
     "players_panel.of_selected": ("{chosen} of {count} selected", "{count} 人中 {chosen} 人を選択"),
-    "players_panel.played_by": ("{instrument}, played by {name}", "{instrument} ({name}が持ち替え)"),
+    "players_panel.played_by": ("{instrument}, played by {name}", "{instrument}（{name} が持ち替え）"),
     "players_panel.players": ("Players: {count}", "奏者: {count} 人"),
     "players_panel.randomise": ("Randomise", "ランダム化"),
     "players_panel.remove_selected_players": ("Remove selected players", "選択した奏者を削除"),

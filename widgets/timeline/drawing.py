@@ -20,7 +20,7 @@ Floats = npt.NDArray[np.float64]
 # As numbers: joining flags of Qt takes Python as long as drawing a word.
 _ONE_LINE = int(Qt.TextFlag.TextDontClip) | int(Qt.TextFlag.TextSingleLine)
 MARK_PX = 6.0
-"""Side of the square that marks what a person made."""
+"""Side of the square that marks what the user made."""
 
 
 def rect(box: Box) -> QRectF:
@@ -58,7 +58,7 @@ def draw_text(
 
 
 def draw_mark(painter: QPainter, tokens: Tokens, x: float, y: float, removed: bool = False) -> None:
-    """The small solid square of what a person made, or the cross of what a person took out; its upper left corner."""
+    """The small solid square of what the user made, or the cross of what the user took out; its upper left corner."""
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, removed)
     if removed:

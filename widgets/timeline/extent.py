@@ -40,10 +40,10 @@ def selected_span(session: Session) -> tuple[float, float] | None:
             if note.id in selection.notes
         )
     if selection.events and session.performance.planned:
-        wanted = {(key.player_id, key.event_id) for key in selection.events}
+        requested = {(key.player_id, key.event_id) for key in selection.events}
         for player_id, plan in session.performance.plans.items():
             for events in (plan.fingerings, plan.breaths, plan.embouchures, plan.cues, plan.gestures, plan.expressions):
-                places.extend((event.start_s, event.end_s) for event in events if (player_id, event.id) in wanted)
+                places.extend((event.start_s, event.end_s) for event in events if (player_id, event.id) in requested)
     if not places:
         return None
     return min(start for start, _ in places), max(end for _, end in places)

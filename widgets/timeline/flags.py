@@ -76,7 +76,7 @@ class Flags(Pictured):
     Signals
     -------
     sought(float)
-        The playhead is wanted at this time (seconds): a flag was clicked, or a place between flags.
+        The playhead is requested at this time (seconds): a flag was clicked, or a place between flags.
     """
 
     sought = Signal(float)

@@ -50,7 +50,7 @@ class Lane(QWidget):
     Signals
     -------
     sought(float)
-        Somebody wants the playhead at this time (seconds); the panel passes it on.
+        Someone wants the playhead at this time (seconds); the panel passes it on.
     fold_changed()
     height_asked()
         The lane would have another height now.
@@ -233,7 +233,7 @@ class Lane(QWidget):
         self.fold_changed.emit()
 
     def ask_height(self, preferred_px: int, least_px: int) -> None:
-        """Ask for another height; one that a person set stays."""
+        """Ask for another height; one that the user set stays."""
         if (preferred_px, least_px) != (self.preferred_height_px, self.least_height_px):
             self.preferred_height_px, self.least_height_px = preferred_px, least_px
             self.setMinimumHeight(FOLDED_PX if self._folded else least_px)

@@ -80,7 +80,7 @@ class TimelinePanel(QWidget):
     Signals
     -------
     sought(float)
-        Somebody wants the playhead at this time (seconds); the shell hands it to the transport.
+        Someone wants the playhead at this time (seconds); the shell hands it to the transport.
     """
 
     sought = Signal(float)

@@ -61,7 +61,7 @@ MENU = (
 class PianoRoll(Lane):
     """The piano roll."""
 
-    told = Signal(str)
+    reported = Signal(str)
     """What is under the mouse, for the tool bar."""
 
     id = "roll"
@@ -136,7 +136,7 @@ class PianoRoll(Lane):
         return (instrument.range.low, instrument.range.high) if instrument is not None else None
 
     def _instrument(self) -> InstrumentMap | None:
-        """What the player in front plays; None where nobody does, or where its map is gone."""
+        """What the player in front plays; None where no one does, or where its map is gone."""
         player = self.session.player
         if player is None:
             return None
@@ -185,7 +185,7 @@ class PianoRoll(Lane):
             self.keyboard.update()
 
     def pitch_text(self, pitch: int) -> str:
-        """A pitch as the person wants it named."""
+        """A pitch as the user wants it named."""
         instrument = self._instrument()
         return pitch_text(
             self.session.pitch_display, pitch, instrument.transposition_semitones if instrument is not None else 0
@@ -294,10 +294,10 @@ class PianoRoll(Lane):
         self.keyboard.show_pitch(None if mouse is None else int(mouse.value // 1))
         if mouse is None:
             self.lasso.show(None)
-            self.told.emit("")
+            self.reported.emit("")
             return
         hit = self.model.note_at(mouse)
-        self._tell(mouse, hit)
+        self._report(mouse, hit)
         if self._tool is Tool.SPLIT:
             x = self.axis.x_px(self.session.project.score.tempo_map.seconds(float(mouse.snapped_tick)))
             top = self.y_px(int(mouse.value // 1) + 1)
@@ -354,7 +354,7 @@ class PianoRoll(Lane):
             self._velocity = note.velocity
             QToolTip.showText(QCursor.pos(), self.tr("piano_roll.velocity").format(velocity=note.velocity), self.plot)
 
-    def _tell(self, mouse: LaneMouse, note: Note | None) -> None:
+    def _report(self, mouse: LaneMouse, note: Note | None) -> None:
         """Say what is under the mouse: place and pitch, or the note; problems of a note as a tool tip."""
         score = self.session.project.score
         tick = mouse.tick if note is None else note.onset_tick
@@ -369,7 +369,7 @@ class PianoRoll(Lane):
             known = self.session.problems(player.id) if player is not None else ()
             found = [problem for problem in known if problem.note_id == note.id]
             problems = "\n".join(sentence(problem.message, self.session) for problem in found)
-        self.told.emit(text)
+        self.reported.emit(text)
         if self.plot.toolTip() != problems:
             self.plot.setToolTip(problems)
 

@@ -245,7 +245,7 @@ class Labels(RollItem):
         self._note_ids: list[str] = []
         self._said: Integers = np.empty(0, np.int64)
         """Numbers of the events, as the notes are ordered that they finger."""
-        self._told: tuple[Problem, ...] = ()
+        self._reported: tuple[Problem, ...] = ()
         self._problems: frozenset[int] = frozenset()
 
     def forget_fonts(self) -> None:
@@ -268,12 +268,12 @@ class Labels(RollItem):
         self._fingered = places[order]
         self._said = order
 
-    def _know_problems(self, table: NoteTable, told: tuple[Problem, ...]) -> None:
+    def _know_problems(self, table: NoteTable, reported: tuple[Problem, ...]) -> None:
         """Sort problems to the notes that they are about, once for each pair."""
-        if table is self._table and told is self._told:
+        if table is self._table and reported is self._reported:
             return
-        self._told = told
-        places = (table.index.get(problem.note_id) for problem in told if problem.note_id is not None)
+        self._reported = reported
+        places = (table.index.get(problem.note_id) for problem in reported if problem.note_id is not None)
         self._problems = frozenset(place for place in places if place is not None)
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
@@ -344,7 +344,7 @@ class Labels(RollItem):
                 painter.drawStaticText(QPointF(x + 1.0, below - 1.0), text)
 
     def _mark(self, painter: QPainter, x: float, y: float, row_px: float) -> None:
-        """The solid mark of what a person decided: a bar at the note's beginning."""
+        """The solid mark of what the user decided: a bar at the note's beginning."""
         painter.fillRect(QRectF(x, y - 1.0, 3.0, row_px + 1.0), QColor(self.lane.session.tokens.by_hand))
 
     def _text(self, label: str) -> tuple[QStaticText, float]:

@@ -54,7 +54,7 @@ class Ruler(Pictured):
     Signals
     -------
     sought(float)
-        The playhead is wanted at this time (seconds).
+        The playhead is requested at this time (seconds).
     """
 
     sought = Signal(float)

@@ -1,4 +1,4 @@
-"""Lanes one under another, each as tall as a person wants it; what does not fit is scrolled to."""
+"""Lanes one under another, each as tall as the user wants it; what does not fit is scrolled to."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Handle(QWidget):
 class LaneStack(QScrollArea):
     """Lanes from top to bottom.
 
-    A lane whose height nobody set is between its least and its preferred height, as there is room; what is left over
+    A lane whose height no one set is between its least and its preferred height, as there is room; what is left over
     is the elastic lane's.
 
     Parameters
@@ -94,7 +94,7 @@ class LaneStack(QScrollArea):
 
     @property
     def heights_px(self) -> dict[str, int]:
-        """The heights that a person set, by lane id."""
+        """The heights that the user set, by lane id."""
         return dict(self._set_px)
 
     def set_order(self, lane_ids: Sequence[str]) -> None:
@@ -137,8 +137,8 @@ class LaneStack(QScrollArea):
         heights = {lane.id: FOLDED_PX if lane.folded else self._set_px.get(lane.id, 0) for lane in shown}
         heights |= {lane.id: lane.least_height_px for lane in free}
         room = self.viewport().height() - sum(heights.values()) - HANDLE_PX * len(shown)
-        wanted = sum(lane.preferred_height_px - lane.least_height_px for lane in free)
-        share = min(max(room, 0) / wanted, 1.0) if wanted else 0.0
+        requested = sum(lane.preferred_height_px - lane.least_height_px for lane in free)
+        share = min(max(room, 0) / requested, 1.0) if requested else 0.0
         for lane in free:
             heights[lane.id] += int(share * (lane.preferred_height_px - lane.least_height_px))
         left_over = self.viewport().height() - sum(heights.values()) - HANDLE_PX * len(shown)

@@ -67,7 +67,7 @@ class ToolBar(QWidget):
         self.readout.setObjectName("readout")
         self.readout.setForegroundRole(QPalette.ColorRole.PlaceholderText)
         row.addWidget(self.readout)
-        roll.told.connect(self._tell)
+        roll.reported.connect(self._report)
         session.selection_changed.connect(self._count)
         session.changed.connect(self._session_changed)
         session.players_changed.connect(self._fill_players)
@@ -123,7 +123,7 @@ class ToolBar(QWidget):
         self.ghosts_button.setText(self._modes[mode].text())
         self.ghosts_button.setIcon(icon(GHOST_ICONS[mode], self._session.tokens))
 
-    def _tell(self, text: str) -> None:
+    def _report(self, text: str) -> None:
         """Show what is under the mouse; nothing: how much is selected."""
         if text:
             self.readout.setText(text)

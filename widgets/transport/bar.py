@@ -72,7 +72,7 @@ class TransportBar(QWidget):
         self._name()
         self._build()
         self._connect()
-        self._dress()
+        self._apply_theme()
         self.retranslate()
         self._show_playhead(session.playhead_s)
         self._show_state()
@@ -154,7 +154,7 @@ class TransportBar(QWidget):
         session.loop_changed.connect(self._show_state)
         session.grid_changed.connect(self._show_state)
         session.follow_changed.connect(self._show_state)
-        session.theme_changed.connect(self._dress)
+        session.theme_changed.connect(self._apply_theme)
         listening.changed.connect(self._show_state)
         session.recording.changed.connect(self._show_state)
         self.bars.changed.connect(lambda tick, _: self._go(session.project.score.tempo_map.seconds(tick)))
@@ -166,7 +166,7 @@ class TransportBar(QWidget):
         self.snap.chosen.connect(self._choose_snap)
         self.snap_button.clicked.connect(self._toggle_snap)
 
-    # What the person does
+    # What the user does
 
     def _trigger(self, action_id: str) -> None:
         action = self._session.actions.get(action_id)
@@ -259,7 +259,7 @@ class TransportBar(QWidget):
         self.silent_sign.setVisible(listening.silent)
         self.silent_text.setVisible(listening.silent and self.width() >= _ROOMY_PX)
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         tokens = self._session.tokens
         for id, name in (*BUTTONS, *TOGGLES):
             self.buttons[id].setIcon(icon(name, tokens))

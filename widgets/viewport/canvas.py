@@ -49,9 +49,9 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
     Parameters
     ----------
     picture : callable
-        Camera, look and emphasis of now; told the size in pixels first.
+        Camera, look and emphasis of now; given the size in pixels first.
     failed : callable
-        Told why drawing does not work, once.
+        Called with the reason why drawing does not work, once.
     """
 
     def __init__(self, picture: Callable[[int, int], Picture], failed: Callable[[str], None]) -> None:

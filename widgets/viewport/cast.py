@@ -32,7 +32,7 @@ Ints = npt.NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)
-class Kit:
+class RenderAssets:
     """What a player or a dancer is drawn from.
 
     Attributes
@@ -65,7 +65,7 @@ class Member:
     Attributes
     ----------
     player_id : str
-    kit : Kit
+    kit : RenderAssets
     world_from_player : (3, 4) float64
     seat_m : (3,) float64 or None
         Middle of the seat's top in the player's frame; None: standing.
@@ -77,7 +77,7 @@ class Member:
     """
 
     player_id: str
-    kit: Kit
+    kit: RenderAssets
     world_from_player: Floats
     seat_m: Floats | None
     person_id: str
@@ -89,26 +89,26 @@ class Member:
         return self.person_id == self.player_id
 
 
-def kit_of(player: Player) -> Kit:
+def kit_of(player: Player) -> RenderAssets:
     """Load what a player is drawn from. Raises AppError where something is missing or damaged."""
     instrument_map = suited_to(player, find_map(player.instrument_id)).instrument
-    return Kit(character_of(player), (model_of(instrument_map), instrument_map))
+    return RenderAssets(character_of(player), (model_of(instrument_map), instrument_map))
 
 
-def dancer_kit(dancer: Dancer) -> Kit:
+def dancer_kit(dancer: Dancer) -> RenderAssets:
     """Load what a dancer is drawn from. Raises AppError where the character is missing or damaged."""
     if dancer.character_id not in character_library().sources:
         raise AppError("project.character_missing", player=dancer.name, id=dancer.character_id)
-    return Kit(character_named(dancer.character_id), None)
+    return RenderAssets(character_named(dancer.character_id), None)
 
 
-def dancing_member(dancer: Dancer, kit: Kit) -> Member:
+def dancing_member(dancer: Dancer, kit: RenderAssets) -> Member:
     """A dancer at their place."""
     return Member(dancer.id, kit, placed(dancer.stage), None, dancer.id)
 
 
-def stand_of(player: Player, kit: Kit, number: int) -> Floats | None:
-    """Top of the stand for one of the instruments of a person, counted from 0; None as long as nobody knows."""
+def stand_of(player: Player, kit: RenderAssets, number: int) -> Floats | None:
+    """Top of the stand for one of the instruments of a person, counted from 0; None as long as no one knows."""
     found = lies_at(player, find_map(player.instrument_id), number)
     if found is None:
         return None
@@ -120,7 +120,7 @@ def stand_of(player: Player, kit: Kit, number: int) -> Floats | None:
     return top_m
 
 
-def member_of(player: Player, kit: Kit, person_id: str = "", stand_m: Floats | None = None) -> Member:
+def member_of(player: Player, kit: RenderAssets, person_id: str = "", stand_m: Floats | None = None) -> Member:
     """A player at their place, with the body of a person; empty: one of their own."""
     person_id = person_id or player.id
     posture = body_of(player).postures[kit.map.hold.possible(player.parameters.posture)]
@@ -150,7 +150,7 @@ SITTING_FLESH_M = 0.095
 """From the hip joint's height down to what one sits on."""
 
 
-class Troupe:
+class SkeletonBatch:
     """Members whose skeletons have the same joints, posed together.
 
     Parameters
@@ -226,7 +226,9 @@ class Stage:
         self.poses: list[Posed | None] = [None] * count
         self.shown = np.zeros(count, dtype=bool)
         skeletons = [member.kit.character.skeleton for member in members]
-        self._troupes = [Troupe(members, rows) for rows in _grouped([(own.names, own.parents) for own in skeletons])]
+        self._troupes = [
+            SkeletonBatch(members, rows) for rows in _grouped([(own.names, own.parents) for own in skeletons])
+        ]
         self._stages = np.array([member.world_from_player for member in members]).reshape(-1, 3, 4)
         self._rotations = np.tile(quaternion.IDENTITY, (count, self.first_node, 1))
         self._hips_m = np.zeros((count, 3))

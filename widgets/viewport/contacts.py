@@ -34,7 +34,7 @@ class Touch:
     """
 
     part: str
-    wanted_m: Floats
+    requested_m: Floats
     found_m: Floats
     firm: bool
 
@@ -46,7 +46,7 @@ class Touch:
     @property
     def distance_mm(self) -> float:
         """How far the skin is from its place."""
-        return 1000.0 * float(np.linalg.norm(self.wanted_m - self.found_m))
+        return 1000.0 * float(np.linalg.norm(self.requested_m - self.found_m))
 
 
 def touches(stage: Stage, row: int) -> tuple[Touch, ...]:
@@ -72,8 +72,8 @@ def touches(stage: Stage, row: int) -> tuple[Touch, ...]:
         value = float(pose.controls.get(contact.control or "", 1.0))
         rest = origin + np.asarray(contact.position_m) + aside_m(contact, kit.map, np.full(1, value))[0]
         matrix = stage.node_matrix(row, node)
-        wanted = matrix[:, :3] @ rest + matrix[:, 3]
-        result.append(Touch(contact.part, wanted, place, contact.grip == "firm"))
+        requested = matrix[:, :3] @ rest + matrix[:, 3]
+        result.append(Touch(contact.part, requested, place, contact.grip == "firm"))
         if works := worked_by(contact, kit.map):
             workers.setdefault(works, []).append(result[-1])
     # What several fingers may work, the nearest of them does.

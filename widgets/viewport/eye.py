@@ -1,4 +1,4 @@
-"""The camera between views, flights, players that are followed, and a person's hand. Nothing here knows Qt or GL."""
+"""The camera between views, flights, players that are followed, and the user's hand. Nothing here knows Qt or GL."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Eye:
     view : View
         What is looked at: close-ups follow it.
     touched : bool
-        Whether the camera stands where a person moved it; else it is the view's own.
+        Whether the camera stands where the user moved it; else it is the view's own.
     """
 
     def __init__(self) -> None:
@@ -75,7 +75,7 @@ class Eye:
         return True
 
     def centred(self, middle_m: Floats) -> Floats:
-        """The target for a followed place: a person may have shifted it."""
+        """The target for a followed place: the user may have shifted it."""
         shifted: Floats = middle_m + self._shift_m
         return shifted
 

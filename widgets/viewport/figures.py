@@ -1,4 +1,4 @@
-"""The stage of a project: loaded beside the window, put into poses, and told apart from the one before."""
+"""The stage of a project: loaded beside the window, put into poses, and distinguished from the one before."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from app.performance.cast import LeftOut, attempt
 from app.project.model import Dancer, Player, Project
 from app.rig.character_library import character_revision
 from instrument_maps.library import library
-from widgets.common.tasks import Progress, StopWanted
-from widgets.viewport.cast import Kit, Member, Stage, dancer_kit, dancing_member, kit_of, member_of, stand_of
+from widgets.common.tasks import Progress, StopRequested
+from widgets.viewport.cast import Member, RenderAssets, Stage, dancer_kit, dancing_member, kit_of, member_of, stand_of
 from widgets.viewport.geometry import Crowd
 from widgets.viewport.renderer import Shapes, crowd_of, shapes_of
 
@@ -70,15 +70,15 @@ def same_figures(one: CastKey, other: CastKey) -> bool:
     return [row[:8] for row in one] == [row[:8] for row in other]
 
 
-def load(project: Project, before: Shapes | None, progress: Progress, stop_wanted: StopWanted) -> Loaded:
+def load(project: Project, before: Shapes | None, progress: Progress, stop_requested: StopRequested) -> Loaded:
     """Load everybody. A player of whom something is missing is left out. Raises Cancelled."""
-    kits: dict[tuple[str, str], Kit] = {}
+    kits: dict[tuple[str, str], RenderAssets] = {}
     persons: dict[str, str] = {}
     done = 0
 
     def make(player: Player) -> Member:
         nonlocal done
-        if stop_wanted():
+        if stop_requested():
             raise Cancelled("work.stopped")
         progress(0.5 * done / len(project.players))
         done += 1
@@ -92,7 +92,7 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_wante
         return member_of(player, kits[pair], person, stand_m)
 
     def make_dancer(dancer: Dancer) -> Member:
-        if stop_wanted():
+        if stop_requested():
             raise Cancelled("work.stopped")
         pair = (dancer.character_id, "")
         if pair not in kits:

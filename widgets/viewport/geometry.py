@@ -170,7 +170,7 @@ def joined(parts: Sequence[Geometry]) -> Geometry:
 def crowd(parts: Sequence[tuple[int, Geometry]]) -> Crowd:
     """Rows of players and their things as one.
 
-    Copied part by part: fifty players are sixty megabytes, and numpy lets nobody else run while it copies a whole.
+    Copied part by part: fifty players are sixty megabytes, and numpy lets no one else run while it copies a whole.
     """
     count = sum(len(part.shape) for _, part in parts)
     shape, surface, rows = np.empty(count, SHAPE), np.empty(count, SURFACE), np.empty(count, np.float32)

@@ -204,8 +204,8 @@ def turned(correction: PoseCorrection, angles_deg: dict[Angle, float], limits: L
     changes = {}
     for angle, value in angles_deg.items():
         low, high = limits.get(angle, (0.0, 0.0))
-        wanted = min(max(getattr(correction, angle) + value, low), high)
-        changes[angle] = math.trunc(10.0 * wanted) / 10.0 if wanted in (low, high) else round(wanted, 1)
+        requested = min(max(getattr(correction, angle) + value, low), high)
+        changes[angle] = math.trunc(10.0 * requested) / 10.0 if requested in (low, high) else round(requested, 1)
     return msgspec.structs.replace(correction, **changes)
 
 

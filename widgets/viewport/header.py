@@ -97,8 +97,8 @@ class Header(QWidget):
         layout.addWidget(self._show)
         layout.addWidget(self._full)
         session.viewport.changed.connect(self.refresh)
-        session.theme_changed.connect(self._dress)
-        self._dress()
+        session.theme_changed.connect(self._apply_theme)
+        self._apply_theme()
         self.retranslate()
         self.refresh()
 
@@ -183,7 +183,7 @@ class Header(QWidget):
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         return button
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         tokens = self._session.tokens
         self._folded.setIcon(icon("camera", tokens))
         self._pose.setIcon(icon("pose", tokens))
@@ -203,7 +203,7 @@ class Header(QWidget):
         views = self._segments if fits else self._folded
         room = self.width() - views.sizeHint().width() - others - 36
         text = self._note.fontMetrics().elidedText(self._note_text, Qt.TextElideMode.ElideRight, max(room, 0))
-        # A few signs of a sentence help nobody.
+        # A few signs of a sentence help no one.
         self._note.setText(text if len(text) > 12 or text == self._note_text else "")
 
     def minimumSizeHint(self) -> QSize:
@@ -212,7 +212,7 @@ class Header(QWidget):
         return QSize(sum(button.sizeHint().width() + 4 for button in others) + 16, super().minimumSizeHint().height())
 
     def showEvent(self, event: QShowEvent) -> None:
-        """The shell's actions are known by now: their shortcuts are told, and the screen can be filled."""
+        """The shell's actions are known by now: their shortcuts are reported, and the screen can be filled."""
         self._full.setVisible(FULL_SCREEN in self._session.actions)
         self.retranslate()
         super().showEvent(event)

@@ -30,12 +30,12 @@ class Layer(QWidget):
         below.installEventFilter(self)
         self.hide()
 
-    def refresh(self, wanted: bool) -> None:
+    def refresh(self, requested: bool) -> None:
         """Paint again, or go away where there is nothing to paint."""
-        if wanted != self.isVisibleTo(self._below):
+        if requested != self.isVisibleTo(self._below):
             self.setGeometry(self._below.rect())
-            self.setVisible(wanted)
-        if wanted:
+            self.setVisible(requested)
+        if requested:
             self.update()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

@@ -114,13 +114,13 @@ def _paint_skeleton(
 def _paint_touches(
     painter: QPainter, touches: Sequence[Touch], camera: Camera, size: tuple[float, float], tokens: Tokens
 ) -> None:
-    wanted, depths = camera.project(np.array([touch.wanted_m for touch in touches]), *size)
+    requested, depths = camera.project(np.array([touch.requested_m for touch in touches]), *size)
     found, _ = camera.project(np.array([touch.found_m for touch in touches]), *size)
     font = _font(painter, 9.0)
     painter.setFont(font)
     metrics = QFontMetricsF(font)
     taken: list[QRectF] = []
-    for touch, goal, place, depth in zip(touches, wanted, found, depths, strict=True):
+    for touch, goal, place, depth in zip(touches, requested, found, depths, strict=True):
         if depth <= 0.0:
             continue
         distance = touch.distance_mm

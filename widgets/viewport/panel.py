@@ -100,7 +100,7 @@ class ViewportPanel(QWidget):
         self._live.setInterval(FRAME_MS)
         self._live.timeout.connect(self._show_live)
         self._listen()
-        self._dress()
+        self._apply_theme()
         self.retranslate()
         if self._canvas is not None:
             self.scene.load()
@@ -117,7 +117,7 @@ class ViewportPanel(QWidget):
         session.playhead_changed.connect(self.refresh)
         session.playing_changed.connect(self._update)
         session.preview_changed.connect(self.refresh)
-        session.theme_changed.connect(self._dress)
+        session.theme_changed.connect(self._apply_theme)
         session.live_players.changed.connect(self._live_changed)
         session.live_players.struck.connect(self._struck)
         session.viewport.changed.connect(self._state_changed)
@@ -343,7 +343,7 @@ class ViewportPanel(QWidget):
         return view_camera(self._eye.view, stage, self.scene.rows(), self._eye.camera, aspect)
 
     def _place_camera(self) -> None:
-        """Where the view puts it, unless a person has moved it."""
+        """Where the view puts it, unless the user has moved it."""
         stage = self.scene.stage
         if not self._eye.touched and stage is not None and stage.shown.any():
             self._eye.jump(self._view_camera())
@@ -408,7 +408,7 @@ class ViewportPanel(QWidget):
         self.refresh()
 
     def _live_changed(self) -> None:
-        """Draw all the time while somebody is played now."""
+        """Draw all the time while someone is played now."""
         if self._session.live_players.is_shown and self._canvas is not None:
             self._live.start()
         else:
@@ -475,7 +475,7 @@ class ViewportPanel(QWidget):
 
     # Looks and language
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         tokens = self._session.tokens
         self._reason.setStyleSheet(f"background: {tokens.sunken}; color: {tokens.text};")
         self._update()
@@ -496,7 +496,7 @@ class ViewportPanel(QWidget):
         self._update()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """A canvas of another size shows the whole view, unless a person has moved the camera."""
+        """A canvas of another size shows the whole view, unless the user has moved the camera."""
         if event.type() == QEvent.Type.Resize:
             self._place_camera()
         return super().eventFilter(watched, event)

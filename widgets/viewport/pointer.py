@@ -34,7 +34,7 @@ class Pointer(QObject):
     Signals
     -------
     moved()
-        The picture is another one: the camera moved, or somebody else is under the pointer.
+        The picture is another one: the camera moved, or someone else is under the pointer.
     posed()
         A handle was dragged.
     released()
@@ -69,7 +69,7 @@ class Pointer(QObject):
         return self._scene.row_at(*self._eye.camera.ray(at.x(), at.y(), *self._size()))
 
     def forget(self) -> None:
-        """Another stage: nobody is under the pointer."""
+        """Another stage: no one is under the pointer."""
         self.hovered = None
 
     def _size(self) -> tuple[float, float]:

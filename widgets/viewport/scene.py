@@ -57,7 +57,7 @@ class Scene(QObject):
         self._tool = tool
         self._loaded: Loaded | None = None
         self.missing = False
-        """Whether somebody's pose was not there when it was last asked for."""
+        """Whether someone's pose was not there when it was last asked for."""
 
     @property
     def loaded(self) -> Loaded | None:
@@ -85,7 +85,7 @@ class Scene(QObject):
         shapes = before.shapes if before is not None else None
         self._session.tasks.run(
             Message("work.load_figures"),
-            lambda progress, stop_wanted: load(project, shapes, progress, stop_wanted),
+            lambda progress, stop_requested: load(project, shapes, progress, stop_requested),
             self._arrived,
             key="viewport.load",
         )
@@ -98,11 +98,11 @@ class Scene(QObject):
     def _arrived(self, loaded: Loaded) -> None:
         if same_figures(loaded.key, cast_key(self._session.project)):
             self._set(loaded)
-            self._tell_left_out(loaded.left_out)
+            self._report_left_out(loaded.left_out)
         # Players or places may have changed meanwhile.
         self.load()
 
-    def _tell_left_out(self, left_out: tuple[LeftOut, ...]) -> None:
+    def _report_left_out(self, left_out: tuple[LeftOut, ...]) -> None:
         if len(left_out) == 1:
             self._session.notice(left_out[0].message(message_text), Severity.WARNING)
         elif left_out:
@@ -144,7 +144,7 @@ class Scene(QObject):
                 self.shown.emit()
 
     def is_outdated(self, time_s: float) -> bool:
-        """Whether somebody has another pose now than is shown."""
+        """Whether someone has another pose now than is shown."""
         shown = self.poses()
         found = self._poses.poses(tuple(shown), time_s)
         # A pose that is not there yet leaves the one before it.

@@ -46,7 +46,7 @@ def view_camera(view: View, stage: Stage, rows: Sequence[int], camera: Camera, a
     rows : sequence of int
         The selected players, the one in front first.
     camera : Camera
-        The one before: gives the angle of view, and stays where there is nobody to look at.
+        The one before: gives the angle of view, and stays where there is no one to look at.
     aspect : float
         Width over height.
     """

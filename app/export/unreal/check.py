@@ -2,7 +2,7 @@
 
 Messages
 --------
-unreal.file_wrong (file, what, found, wanted)
+unreal.file_wrong (file, what, found, requested)
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _SETTINGS: Final = {
     "CoordAxisSign": 1.0,
     "UnitScaleFactor": 1.0,
 }
-"""Y up, right-handed, facing +Z, in centimetres: what Unreal's importer is told to convert from."""
+"""Y up, right-handed, facing +Z, in centimetres: what Unreal's importer is set to convert from."""
 _SAME_CM: Final = 0.01
 
 
@@ -73,12 +73,12 @@ def check_fbx(path: Path, expected: Expected) -> None:
     _same(path, "frames", None if clip is None else clip.frames, expected.frames)
     _same(path, "bones", [bone.name for bone in scene.bones], list(expected.bones))
     vertices = np.concatenate([mesh.vertices_cm for mesh in scene.meshes])
-    for what, box, wanted in (
+    for what, box, requested in (
         ("low corner", vertices.min(axis=0), expected.low_cm),
         ("high corner", vertices.max(axis=0), expected.high_cm),
     ):
-        if np.abs(box - wanted).max() > _SAME_CM:
-            _wrong(path, what, np.round(box, 3).tolist(), np.round(wanted, 3).tolist())
+        if np.abs(box - requested).max() > _SAME_CM:
+            _wrong(path, what, np.round(box, 3).tolist(), np.round(requested, 3).tolist())
     morphs = {morph.name for mesh in scene.meshes for morph in mesh.morphs}
     _same(path, "morph targets", sorted(morphs), sorted(expected.morphs))
 
@@ -90,10 +90,10 @@ def check_wave(path: Path, rate_hz: int, channels: int, samples: int) -> None:
     _same(path, "sound", list(found), ["WAV", "PCM_16", rate_hz, channels, samples])
 
 
-def _same(path: Path, what: str, found: object, wanted: object) -> None:
-    if found != wanted:
-        _wrong(path, what, found, wanted)
+def _same(path: Path, what: str, found: object, requested: object) -> None:
+    if found != requested:
+        _wrong(path, what, found, requested)
 
 
-def _wrong(path: Path, what: str, found: object, wanted: object) -> None:
-    raise FileError("unreal.file_wrong", file=path.name, what=what, found=str(found), wanted=str(wanted))
+def _wrong(path: Path, what: str, found: object, requested: object) -> None:
+    raise FileError("unreal.file_wrong", file=path.name, what=what, found=str(found), requested=str(requested))

@@ -311,26 +311,26 @@ class _Time:
 def _bars(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[Bar, ...]:
     first, last = bars or (0 if score.pickup_ticks else 1, score.last_bar)
     starts = [(number, score.metre_map.tick_of_bar(number)) for number in range(first, last + 1)]
-    told = (Bar(number, tick, time.after_s(tick), time.frame(time.after_s(tick))) for number, tick in starts)
-    return tuple(bar for bar in told if time.shows(bar.frame))
+    reported = (Bar(number, tick, time.after_s(tick), time.frame(time.after_s(tick))) for number, tick in starts)
+    return tuple(bar for bar in reported if time.shows(bar.frame))
 
 
 def _markers(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[Marker, ...]:
-    told = []
+    reported = []
     for marker in score.markers:
         bar, s = score.metre_map.bar_of_tick(marker.tick), time.after_s(marker.tick)
         if bars is None or bars[0] <= bar <= bars[1]:
-            told.append(Marker(marker.text, bar, marker.tick, s, time.frame(s)))
-    return tuple(marker for marker in told if time.shows(marker.frame))
+            reported.append(Marker(marker.text, bar, marker.tick, s, time.frame(s)))
+    return tuple(marker for marker in reported if time.shows(marker.frame))
 
 
 def _cues(performance: Performance, players: tuple[Player, ...], time: _Time) -> tuple[Cue, ...]:
-    told = []
+    reported = []
     for player in players:
         for cue in performance.plan(player).cues:
             entry = time.frame(cue.end_s - time.span.first_frame_s)
-            told.append(Cue(player.name, time.since_s(cue.start_s), time.since_s(cue.end_s), entry))
-    return tuple(sorted((cue for cue in told if time.shows(cue.frame)), key=lambda cue: cue.entry_s))
+            reported.append(Cue(player.name, time.since_s(cue.start_s), time.since_s(cue.end_s), entry))
+    return tuple(sorted((cue for cue in reported if time.shows(cue.frame)), key=lambda cue: cue.entry_s))
 
 
 def place_of(stage: StagePosition) -> Place:

@@ -53,7 +53,7 @@ class Layout:
     sound, sequence : str
         Paths of the assets.
     doubles : mapping of str to tuple of str
-        Ids of the players whose instruments somebody plays besides, by the id of the person.
+        Ids of the players whose instruments someone plays besides, by the id of the person.
     """
 
     piece: str

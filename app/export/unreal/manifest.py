@@ -51,7 +51,7 @@ class Changes:
     replaced, removed : tuple of path
         In the folder.
     kept : tuple of Message
-        Leftovers that somebody has changed.
+        Leftovers that someone has changed.
     staying : dict of path to OwnFile
         In the folder: what was asked to stay, as it was when we wrote it.
     """
@@ -77,7 +77,7 @@ def own_file(path: Path) -> OwnFile:
 
 
 def is_as_left(path: Path, known: OwnFile, by_length: bool = False) -> bool:
-    """Whether a file holds what it did when we wrote it; by its length alone where nobody is to wait."""
+    """Whether a file holds what it did when we wrote it; by its length alone where no one is to wait."""
     if by_length and path.suffix.lower() not in _TEXTS:
         return path.stat().st_size == known.bytes
     return own_file(path) == known

@@ -1,7 +1,7 @@
 """Names of Unreal assets, made of whatever a piece or a player is called.
 
 They are ASCII letters, digits and ``_``. Unreal allows more, but command lines, version control, packaging and other
-people's scripts do not: what a person reads in the sequence is the name as it stands, what files and assets are called
+people's scripts do not: what the user reads in the sequence is the name as it stands, what files and assets are called
 is this. Kana are spelt out (Nihon-shiki, as Unicode names them); what has no spelling here (kanji, emoji) leaves a mark
 of eight digits made from the whole name, so that two such names stay two and the same one stays the same.
 """

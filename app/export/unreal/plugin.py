@@ -29,7 +29,7 @@ def plugin_files() -> dict[PurePosixPath, bytes]:
     return dict(sorted(_below(Path(str(files("resources"))) / "unreal" / "Suisou", PurePosixPath())))
 
 
-def wanted_plugin(folder: Path) -> dict[PurePosixPath, bytes]:
+def requested_plugin(folder: Path) -> dict[PurePosixPath, bytes]:
     """The files of the plug-in that a project's folder needs: all, or none where it has them.
 
     Raises

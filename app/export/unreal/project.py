@@ -55,7 +55,7 @@ class UnrealProject:
 
 
 def find_project(path: Path) -> UnrealProject:
-    """The project that a person means by its file or its folder.
+    """The project that the user means by its file or its folder.
 
     Raises
     ------

@@ -2,7 +2,7 @@
 
 Sources of the piece (FBX, sound, description, report, manifest) go to ``SuisouSource/<Piece>``, the plug-in that
 imports them to ``Plugins/Suisou``. Exporting again updates in place and takes away what of ours is not needed any more;
-what somebody else made or changed is never touched.
+what someone else made or changed is never touched.
 
 Who cannot be exported is left out; what an earlier export holds of them stays, in the sources and in Unreal.
 
@@ -44,7 +44,7 @@ from app.export.unreal.layout import (
     piece_name,
 )
 from app.export.unreal.manifest import Changes, OwnFile, changes, encode_manifest, own_file
-from app.export.unreal.plugin import wanted_plugin
+from app.export.unreal.plugin import requested_plugin
 from app.export.unreal.project import UnrealProject, require_writable
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
@@ -66,7 +66,7 @@ class Plan:
     replaced, removed : tuple of path
         Of those that are there.
     kept : tuple of Message
-        Leftovers that somebody has changed.
+        Leftovers that someone has changed.
     plugin : mapping of path to bytes
         The plug-in's files, by path in its folder; none if the project has it.
     staying : mapping of path to OwnFile
@@ -108,7 +108,7 @@ def plan_export(
     source : str
         Name of the piece's file, after which its folders are called.
     by_length : bool
-        Whether what is there is told from what we wrote by its length alone, which takes no time.
+        Whether what is there is reported from what we wrote by its length alone, which takes no time.
     left_out : tuple of str
         Ids of those who were to be exported but cannot be: their files of an earlier export stay.
 
@@ -119,7 +119,7 @@ def plan_export(
     """
     require_writable(project)
     layout = layout_of(performance.project, piece_name(source, project.folder))
-    plugin = wanted_plugin(project.folder)
+    plugin = requested_plugin(project.folder)
     try:
         done = [(layout.sources, layout.files(performer_ids, left_out))]
         if plugin:
@@ -150,7 +150,7 @@ def export_into(
     request: Request,
     project: UnrealProject,
     wording: Callable[[Message], str],
-    stop_wanted: Callable[[], bool] = lambda: False,
+    stop_requested: Callable[[], bool] = lambda: False,
     progress: Progress = lambda share, label: None,
 ) -> Written:
     """Write a performance into a project.
@@ -172,15 +172,15 @@ def export_into(
     """
     recover(project.folder, project.folder / SOURCES)
     request = replace(request, formats=frozenset(("fbx",)), sound=False)
-    cast = cast_of(request, wording, stop_wanted)
+    cast = cast_of(request, wording, stop_requested)
     left_out = tuple(one.player.id for one in cast.left_out)
     performer_ids = cast.player_ids + cast.dancer_ids
     plan = plan_export(request.performance, performer_ids, request.source, project, left_out=left_out)
     with tree_into(project.folder, project.folder / SOURCES) as change:
         sources = change.new / plan.layout.sources
-        report = _figures(request, cast, plan.layout, sources, wording, stop_wanted, progress)
-        sound = _sound(request, plan.layout, sources, stop_wanted, progress)
-        bones = _checked(request, cast, plan.layout, sources, sound, stop_wanted, progress)
+        report = _figures(request, cast, plan.layout, sources, wording, stop_requested, progress)
+        sound = _sound(request, plan.layout, sources, stop_requested, progress)
+        bones = _checked(request, cast, plan.layout, sources, sound, stop_requested, progress)
         with_files = {path.as_posix(): own_file(sources / path) for path in files_below(sources)}
         description = describe(
             request.performance,
@@ -231,7 +231,7 @@ def _figures(
     layout: Layout,
     sources: Path,
     wording: Callable[[Message], str],
-    stop_wanted: Callable[[], bool],
+    stop_requested: Callable[[], bool],
     progress: Progress,
 ) -> Report:
     """Write the FBX files under their names in the project; the report knows them by these."""
@@ -240,7 +240,7 @@ def _figures(
         replace(request, folder=draft),
         cast,
         wording,
-        stop_wanted,
+        stop_requested,
         lambda share, label: progress(_SHARES["files"] * share, label),
     )
 
@@ -280,7 +280,7 @@ def _dancers(request: Request, cast: ExportCast) -> tuple[tuple[Dancer, str], ..
 
 
 def _sound(
-    request: Request, layout: Layout, sources: Path, stop_wanted: Callable[[], bool], progress: Progress
+    request: Request, layout: Layout, sources: Path, stop_requested: Callable[[], bool], progress: Progress
 ) -> Sound:
     """Write what is heard from the first frame to the last."""
     project, span = request.performance.project, request.span
@@ -291,7 +291,7 @@ def _sound(
         project,
         span,
         lambda share: progress(_SHARES["files"] + _SHARES["sound"] * share, file.name),
-        stop_wanted,
+        stop_requested,
     )
     return Sound(
         file=layout.sound_file.as_posix(),
@@ -310,7 +310,7 @@ def _checked(
     layout: Layout,
     sources: Path,
     sound: Sound,
-    stop_wanted: Callable[[], bool],
+    stop_requested: Callable[[], bool],
     progress: Progress,
 ) -> dict[str, tuple[str, ...]]:
     """Read every file that was written and hold it against what it must be; the bones of each."""
@@ -318,7 +318,7 @@ def _checked(
     bones: dict[str, tuple[str, ...]] = {}
     figures = tuple(_figures_written(request, cast, layout))
     for index, (name, place, named, meshes) in enumerate(figures):
-        if stop_wanted():
+        if stop_requested():
             raise Cancelled("work.stopped")
         file = place.file.as_posix()
         bones[file] = named

@@ -1,7 +1,8 @@
 """FBX files of other programs -> plain values: nodes, meshes, skins, morphs. What ours need is `app.formats.fbx.read`.
 
 Any version and both encodings are read by the library ufbx, which knows pre-rotations, pivots, geometric transforms,
-units and axes. It runs in a process of its own (`foreign_child`): what a damaged file does to it is told as an error.
+units and axes. It runs in a process of its own (`foreign_child`): what a damaged file does to it is reported as an
+error.
 
 Messages (all with ``file``)
 --------

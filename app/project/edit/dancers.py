@@ -133,7 +133,7 @@ def place_dancers(project: Project, places: Mapping[str, StagePosition]) -> Proj
 
 
 def move_dancers(project: Project, dancer_ids: Collection[str], before: int) -> Project:
-    """Put dancers, in their order, before the one who has the number ``before`` now; nobody moves on the stage."""
+    """Put dancers, in their order, before the one who has the number ``before`` now; no one moves on the stage."""
     carried = [dancer for dancer in project.dancers if dancer.id in dancer_ids]
     ahead = [dancer for dancer in project.dancers[:before] if dancer.id not in dancer_ids]
     behind = [dancer for dancer in project.dancers[before:] if dancer.id not in dancer_ids]
@@ -142,7 +142,7 @@ def move_dancers(project: Project, dancer_ids: Collection[str], before: int) -> 
 
 def free_places(project: Project, count: int) -> tuple[StagePosition, ...]:
     """Places in front of the players for so many more dancers, facing the audience: rows, filled from the middle, in
-    which nobody stands yet."""
+    which no one stands yet."""
     taken = [dancer.stage for dancer in project.dancers]
     found: list[StagePosition] = []
     places = _rows(_front_m(project))

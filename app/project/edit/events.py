@@ -1,6 +1,6 @@
-"""Edits of a player's events: what a person wishes of an event becomes the correction that makes it so.
+"""Edits of a player's events: what the user wishes of an event becomes the correction that makes it so.
 
-All take the plan that the person saw, and event ids of that plan. Those that may give an event another id (a breath
+All take the plan that the user saw, and event ids of that plan. Those that may give an event another id (a breath
 dragged to another note) return the new ids beside the project.
 
 Messages
@@ -208,7 +208,7 @@ def add_cue(project: Project, plan: PlayerPlan, tick: int, beats: float = 1.0) -
 def add_gesture(
     project: Project, player_id: str, kind: GestureKind, start_tick: int, end_tick: int, amount: float = 0.5
 ) -> Edited:
-    """A gesture of one's own."""
+    """A gesture custom."""
     added = AddGesture(_new_name(project, player_id), kind, start_tick, max(end_tick, start_tick + 1), amount)
     return Edited(put(project, player_id, (added,)), (event_id_of(added),))
 
@@ -223,7 +223,7 @@ def add_expression(
     fade_in_s: float = 0.2,
     fade_out_s: float = 0.3,
 ) -> Edited:
-    """An expression of one's own."""
+    """An expression custom."""
     added = AddExpression(
         _new_name(project, player_id),
         expression,
@@ -240,7 +240,7 @@ def add_expression(
 
 
 def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Project:
-    """Leave events out: what a person added is forgotten, what the generator made is marked as removed."""
+    """Leave events out: what the user added is forgotten, what the generator made is marked as removed."""
     player_id = plan.player_id
     note_ids = frozenset(note.id for note in _notes(project, player_id))
     event_ids = tuple(event_ids)
@@ -261,7 +261,7 @@ def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Proj
 
 
 def give_back(project: Project, player_id: str, event_ids: Iterable[str] = (), note_ids: Iterable[str] = ()) -> Project:
-    """Let the generator decide again about events, and about the fingering and embouchure of notes. What a person
+    """Let the generator decide again about events, and about the fingering and embouchure of notes. What the user
     added has nothing to go back to, and goes."""
     notes = tuple(note_ids)
     ids = (*event_ids, *(f"fingering:{note}" for note in notes), *(f"embouchure:{note}" for note in notes))

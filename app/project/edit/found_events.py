@@ -1,4 +1,4 @@
-"""Finding events of a plan, and what a person said about them."""
+"""Finding events of a plan, and what the user said about them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from app.plan.model import BreathEvent, CueEvent, Event, ExpressionEvent, Gestur
 from app.project.model import Project
 
 Placed: TypeAlias = BreathEvent | CueEvent | GestureEvent | ExpressionEvent | PoseEvent
-"""What has a place that a person may change."""
+"""What has a place that the user may change."""
 
 OWN: Final = "own-"
 """How the names of added events begin."""
@@ -53,13 +53,13 @@ def event_id_of(correction: Correction) -> str:
 
 
 def corrections_of(project: Project, player_id: str, event_ids: Iterable[str]) -> tuple[Correction, ...]:
-    """What a person said about these events."""
-    wanted = frozenset(event_ids)
-    return tuple(item for item in project.corrections.get(player_id, ()) if event_id_of(item) in wanted)
+    """What the user said about these events."""
+    requested = frozenset(event_ids)
+    return tuple(item for item in project.corrections.get(player_id, ()) if event_id_of(item) in requested)
 
 
 def events_of(plan: PlayerPlan) -> dict[str, Event]:
-    """Every event of a plan that a person may select, by id."""
+    """Every event of a plan that the user may select, by id."""
     groups: tuple[Sequence[Event], ...] = (
         plan.fingerings, plan.breaths, plan.embouchures, plan.cues, plan.gestures, plan.expressions, plan.poses,
     )  # fmt: skip
@@ -81,8 +81,8 @@ def is_there(project: Project, player_id: str, event_id: str) -> bool:
 
 def placed_events(plan: PlayerPlan, event_ids: Iterable[str]) -> list[Placed]:
     """The events of these ids that have a place of their own, in the order of the ids."""
-    wanted = tuple(event_ids)
-    among = frozenset(wanted)
+    requested = tuple(event_ids)
+    among = frozenset(requested)
     groups: tuple[Sequence[Placed], ...] = (plan.breaths, plan.cues, plan.gestures, plan.expressions, plan.poses)
     found = {event.id: event for group in groups for event in group if event.id in among}
-    return [found[event_id] for event_id in wanted if event_id in found]
+    return [found[event_id] for event_id in requested if event_id in found]

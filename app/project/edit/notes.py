@@ -41,10 +41,10 @@ LOW_VELOCITY, HIGH_VELOCITY = 1, 127
 
 def chosen_notes(project: Project, note_ids: Collection[str]) -> Iterator[tuple[Part, list[Note]]]:
     """The parts that have some of these notes, each with its own of them in order."""
-    wanted = frozenset(note_ids)
+    requested = frozenset(note_ids)
     for part in project.score.parts:
-        if not wanted.isdisjoint(part.note_ids):
-            yield part, [note for note in part.notes if note.id in wanted]
+        if not requested.isdisjoint(part.note_ids):
+            yield part, [note for note in part.notes if note.id in requested]
 
 
 def add_note(
@@ -130,9 +130,9 @@ def join(project: Project, note_ids: Collection[str]) -> Project:
     """Make one note of chosen notes of one pitch that follow one another in their part. The first of them stays."""
     longer: dict[str, int] = {}
     absorbed: set[str] = set()
-    wanted = frozenset(note_ids)
-    for part, _ in chosen_notes(project, wanted):
-        for joined, group in groupby(_runs(part, wanted), key=lambda pair: pair[0]):
+    requested = frozenset(note_ids)
+    for part, _ in chosen_notes(project, requested):
+        for joined, group in groupby(_runs(part, requested), key=lambda pair: pair[0]):
             run = [note for _, note in group]
             if joined and len(run) > 1:
                 longer[run[0].id] = max(note.end_tick for note in run)
@@ -146,12 +146,12 @@ def join(project: Project, note_ids: Collection[str]) -> Project:
     )
 
 
-def _runs(part: Part, wanted: Collection[str]) -> Iterator[tuple[int, Note]]:
+def _runs(part: Part, requested: Collection[str]) -> Iterator[tuple[int, Note]]:
     """A part's notes, each with the number of its run: 0 for notes that were not chosen."""
     run = 0
     before: Note | None = None
     for note in part.notes:
-        if note.id not in wanted:
+        if note.id not in requested:
             before = None
             yield 0, note
             continue
@@ -324,9 +324,9 @@ def _notes_of(item: Correction) -> set[str]:
 
 
 def _each(project: Project, note_ids: Iterable[str], edit: Callable[[Note], Note]) -> Project:
-    wanted = frozenset(note_ids)
-    parts = {part.id for part in project.score.parts if not wanted.isdisjoint(part.note_ids)}
-    return _edited(project, parts, lambda notes: [edit(note) if note.id in wanted else note for note in notes])
+    requested = frozenset(note_ids)
+    parts = {part.id for part in project.score.parts if not requested.isdisjoint(part.note_ids)}
+    return _edited(project, parts, lambda notes: [edit(note) if note.id in requested else note for note in notes])
 
 
 def _with_more(project: Project, beside: dict[str, Note]) -> Project:

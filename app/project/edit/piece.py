@@ -116,7 +116,7 @@ def set_audio(project: Project, path: str | os.PathLike[str] | None) -> Project:
     offset of the one before, which is set anew or estimated."""
     if path is None:
         return _with(project, audio=None)
-    text = os.path.abspath(path)  # noqa: PTH100 - a symbolic link is what the person chose
+    text = os.path.abspath(path)  # noqa: PTH100 - a symbolic link is what the user chose
     if "\0" in text or len(text) > limits.MOST_TEXT:
         raise UsageError("piece.path_unusable", path=ascii(text))
     before = project.audio

@@ -106,10 +106,10 @@ def _in_one_posture(project: Project, player_ids: Collection[str]) -> Project:
 
 def rename(project: Project, player_id: str, name: str) -> Project:
     """Call a player something else; a name that another carries gets a number. Raises AppError ``player.no_name``."""
-    wanted = clean_name(name)[: limits.MOST_NAME]
-    if not wanted:
+    requested = clean_name(name)[: limits.MOST_NAME]
+    if not requested:
         raise AppError("player.no_name")
-    return change(project, (player_id,), name=free_name(wanted, project.performer_names(but=player_id)))
+    return change(project, (player_id,), name=free_name(requested, project.performer_names(but=player_id)))
 
 
 def set_parameters(project: Project, player_ids: Collection[str], **values: Value) -> Project:
@@ -138,8 +138,8 @@ def reset_parameters(project: Project, player_ids: Collection[str], names: Colle
             possible = postures_of_person(project, player)
             if cast.posture not in possible:
                 cast = msgspec.structs.replace(cast, posture=possible[0])
-            wanted = cast.__struct_fields__ if names is None else names
-            values = {name: getattr(cast, name) for name in wanted}
+            requested = cast.__struct_fields__ if names is None else names
+            values = {name: getattr(cast, name) for name in requested}
             player = msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, **values))
         result.append(player)
     return _with_players(project, result)
@@ -286,7 +286,7 @@ def assign(
     project: Project, player_ids: Collection[str], part_id: str | None = None, instrument_id: str | None = None
 ) -> Project:
     """Let players play another part, or what they play on another instrument. Corrections stay; those about notes of
-    the part before do nothing until the player has it again. An empty part that nobody plays any more goes.
+    the part before do nothing until the player has it again. An empty part that no one plays any more goes.
 
     Raises
     ------
@@ -325,8 +325,8 @@ def newcomer(
 
 
 def remove_players(project: Project, player_ids: Collection[str]) -> Project:
-    """Send players away, with their corrections. A file's part that nobody plays any more stays in the score, so that
-    somebody else may be given it; one that is empty or was made here goes too. The next instrument of a person whose
+    """Send players away, with their corrections. A file's part that no one plays any more stays in the score, so that
+    someone else may be given it; one that is empty or was made here goes too. The next instrument of a person whose
     first one is gone is the person's first."""
     on_arc = _on_arc(project)
     kept = without_persons(player for player in project.players if player.id not in player_ids)
@@ -375,7 +375,7 @@ def postures_of_person(project: Project, player: Player) -> tuple[Posture, ...]:
 
 
 def join(project: Project, player_id: str, person_id: str) -> Project:
-    """Let the body of another player play this instrument too, and what this one's own body plays besides.
+    """Let the body of another player play this instrument too, and what this custom body plays besides.
 
     Raises
     ------
@@ -450,17 +450,17 @@ def with_newcomers(project: Project, newcomers: tuple[Player, ...]) -> Project:
 
 
 def _on_arc(project: Project) -> bool:
-    """Whether nobody was moved by hand."""
+    """Whether no one was moved by hand."""
     return tuple(player.stage for player in project.players) == arc_of(project)
 
 
-def free_name(wanted: str, taken: Iterable[str]) -> str:
+def free_name(requested: str, taken: Iterable[str]) -> str:
     """The name itself, or with the first free number, counted on where it ends in one."""
     keys = {name.casefold() for name in taken}
-    if wanted.casefold() not in keys:
-        return wanted
-    stem, _, last = wanted.rpartition(" ")
-    base = stem if stem and last.isdecimal() else wanted
+    if requested.casefold() not in keys:
+        return requested
+    stem, _, last = requested.rpartition(" ")
+    base = stem if stem and last.isdecimal() else requested
     number = 2
     while f"{base} {number}".casefold() in keys:
         number += 1

@@ -28,7 +28,7 @@ import numpy.typing as npt
 from app.errors import AppError
 from app.identity_cache import IdentityCache
 from app.project import limits
-from app.project.alignment import Floats, Line, align
+from app.project.alignment import AlignmentPart, Floats, align
 from app.project.check import take_faults
 from app.project.edit.length import with_score
 from app.project.grid import Grid
@@ -99,8 +99,8 @@ def add_takes(project: Project, player_id: str, takes: Sequence[Take]) -> tuple[
 
 def rename_take(project: Project, player_id: str, take_id: str, name: str) -> Project:
     """Call a take something else; a name without a sign that can be seen changes nothing."""
-    wanted = clean_name(name)[: limits.MOST_NAME]
-    return _changed(project, player_id, take_id, name=wanted) if wanted else project
+    requested = clean_name(name)[: limits.MOST_NAME]
+    return _changed(project, player_id, take_id, name=requested) if requested else project
 
 
 def colour_take(project: Project, player_id: str, take_id: str, colour: str) -> Project:
@@ -144,8 +144,8 @@ def comp(project: Project, player_id: str, take_id: str, start_tick: int, end_ti
         return project
     recorded = _recorded(project, player_id, take_id)
     notes, curves = _source(project, player_id, take_id)
-    wanted = [note for note in notes if start_tick <= note.onset_tick < end_tick]
-    project = _replaced(project, player_id, wanted, curves, start_tick, end_tick)
+    requested = [note for note in notes if start_tick <= note.onset_tick < end_tick]
+    project = _replaced(project, player_id, requested, curves, start_tick, end_tick)
     spans = comp_with(recorded.comp, start_tick, end_tick, take_id)
     return _with(project, player_id, msgspec.structs.replace(recorded, comp=spans))
 
@@ -333,8 +333,10 @@ def _aligned(
     their neighbours, so that what was played between stays between."""
     quarter = score.ticks_per_quarter
     order = np.lexsort((np.array(pitches), onsets))
-    played = Line(onsets[order] / quarter, (ends - onsets)[order] / quarter, np.array(pitches, np.int64)[order])
-    pairs = align(Line.of(before, quarter), played)
+    played = AlignmentPart(
+        onsets[order] / quarter, (ends - onsets)[order] / quarter, np.array(pitches, np.int64)[order]
+    )
+    pairs = align(AlignmentPart.of(before, quarter), played)
     if not len(pairs):
         return onsets, ends, ids, pitches
     meant = [before[index] for index in pairs[:, 0].tolist()]
@@ -377,7 +379,7 @@ def _curves(take: Take, placed: _Placed) -> tuple[ControllerCurve, ...]:
 def _replaced(
     project: Project,
     player_id: str,
-    wanted: Sequence[Note],
+    requested: Sequence[Note],
     curves: Sequence[ControllerCurve],
     start_tick: int,
     end_tick: int,
@@ -387,7 +389,7 @@ def _replaced(
     outside = [note for note in part.notes if not start_tick <= note.onset_tick < end_tick]
     # A note that was moved out of the span by hand is there already.
     known = {note.id for note in outside} | _others(project, part.id)
-    inside = [note for note in wanted if note.id not in known]
+    inside = [note for note in requested if note.id not in known]
     notes = _fitted([note for note in outside if note.onset_tick < start_tick], inside)
     notes = _fitted(notes, [note for note in outside if note.onset_tick >= end_tick])
     return _with_part(project, part.id, notes, _spliced(part.curves, curves, start_tick, end_tick))

@@ -3,7 +3,7 @@
 Messages (`UsageError`)
 --------
 tempo.outside : low, high
-    A tempo in quarters per minute that nobody can play.
+    A tempo in quarters per minute that no one can play.
 tempo.first_stays
     The tempo and the metre at the beginning can be changed, but neither moved nor removed.
 tempo.none_here : tick

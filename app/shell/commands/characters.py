@@ -1,4 +1,4 @@
-"""A person's own characters."""
+"""The user's own characters."""
 
 from __future__ import annotations
 

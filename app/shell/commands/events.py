@@ -1,4 +1,4 @@
-"""Commands about a player's events: breaths, cues, gestures, expressions, and what a person changed of them."""
+"""Commands about a player's events: breaths, cues, gestures, expressions, and what the user changed of them."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ def choose_gesture(session: Session) -> None:
 
 
 def choose_expression(session: Session) -> None:
-    """Show the expressions where the mouse is: the program's, then one's own."""
+    """Show the expressions where the mouse is: the program's, then custom."""
     menu = _menu()
     own = {item.name for item in session.project.expressions}
     for name in sorted(session.performance.expressions, key=lambda name: (name in own, name)):
@@ -214,9 +214,9 @@ def _can_return(session: Session) -> bool:
     notes, events = session.selection.notes, session.selection.events
     if not notes and not events:
         return False
-    wanted = {f"{kind}:{note}" for note in notes for kind in ("fingering", "embouchure")}
+    requested = {f"{kind}:{note}" for note in notes for kind in ("fingering", "embouchure")}
     return any(
-        (event_id := event_id_of(item)) in wanted or EventKey(player_id, event_id) in events
+        (event_id := event_id_of(item)) in requested or EventKey(player_id, event_id) in events
         for player_id, corrections in session.project.corrections.items()
         for item in corrections
     )
@@ -262,11 +262,11 @@ def _has_breaths(session: Session) -> bool:
 
 def prepare(session: Session) -> None:
     """Turn the preparatory motion before the selected breaths on or off."""
-    wanted = _breathing_notes(session)
-    plans = {player_id: plan_of(session, player_id) for player_id in wanted}
+    requested = _breathing_notes(session)
+    plans = {player_id: plan_of(session, player_id) for player_id in requested}
 
     def edit(project: Project) -> Project:
-        for player_id, note_ids in wanted.items():
+        for player_id, note_ids in requested.items():
             plan = plans[player_id]
             for note_id in note_ids if plan is not None else ():
                 assert plan is not None

@@ -20,7 +20,7 @@ from app.shell.files import MIDI_SUFFIXES
 from app.version import program_version
 from instrument_maps.library import all_maps
 from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import message_text, note_text
 from widgets.common.translated import tr
 from widgets.inspector.words import correction_title
@@ -45,10 +45,10 @@ def read_another(session: Session) -> None:
 
 
 def reimport_from(session: Session, path: Path) -> None:
-    """Show what a MIDI file changes in the piece, and change it if the person agrees."""
+    """Show what a MIDI file changes in the piece, and change it if the user agrees."""
     project = session.project
 
-    def work(progress: Progress, stop_wanted: StopWanted) -> Reimport:
+    def work(progress: Progress, stop_requested: StopRequested) -> Reimport:
         maps = all_maps()
         score = read_midi(path, maps=map_choices(maps.values()))
         return reimport(project, score, maps, str(path))
@@ -102,14 +102,14 @@ def export_midi(session: Session) -> None:
         return
     project = session.project
 
-    def work(progress: Progress, stop_wanted: StopWanted) -> tuple[Message, ...]:
+    def work(progress: Progress, stop_requested: StopRequested) -> tuple[Message, ...]:
         return write_piece(project, target, all_maps())
 
     def done(warnings: tuple[Message, ...]) -> None:
         if warnings:
             first = message_text(warnings[0], session)
-            told = Message("midi.written_but", {"file": target.name, "first": first, "count": len(warnings)})
-            session.notice(told, Severity.WARNING)
+            reported = Message("midi.written_but", {"file": target.name, "first": first, "count": len(warnings)})
+            session.notice(reported, Severity.WARNING)
         else:
             session.notice(Message("midi.written", {"file": target.name, "count": len(project.score.parts)}))
 

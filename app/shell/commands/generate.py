@@ -13,7 +13,7 @@ LOST = "correction.orphaned"
 def vary_everyone(session: Session) -> None:
     """Let everyone perform anew; what was corrected by hand stays."""
     if session.attempt(Message("edit.vary_everyone"), generation.vary_everyone):
-        _tell(session, tuple(player.id for player in session.project.players))
+        _report(session, tuple(player.id for player in session.project.players))
 
 
 def vary_players(session: Session) -> None:
@@ -21,7 +21,7 @@ def vary_players(session: Session) -> None:
     chosen = session.players
     name = Message("edit.vary_players", {"count": len(chosen)})
     if session.attempt(name, lambda project: generation.vary_players(project, chosen)):
-        _tell(session, chosen)
+        _report(session, chosen)
 
 
 def vary_bars(session: Session) -> None:
@@ -32,7 +32,7 @@ def vary_bars(session: Session) -> None:
     if session.attempt(
         Message("edit.vary_span"), lambda project: generation.vary_span(project, chosen, span[0], span[1])
     ):
-        _tell(session, chosen)
+        _report(session, chosen)
 
 
 def unvary_bars(session: Session) -> None:
@@ -55,7 +55,7 @@ def _span(session: Session) -> tuple[int, int] | None:
     return min(note.onset_tick for note in notes), max(note.end_tick for note in notes)
 
 
-def _tell(session: Session, player_ids: tuple[str, ...]) -> None:
+def _report(session: Session, player_ids: tuple[str, ...]) -> None:
     """Say how many corrections are kept, as soon as the new plans are there."""
 
     def say() -> None:

@@ -21,7 +21,7 @@ def _count(id: str, players: int) -> Message:
 
 
 def add(session: Session) -> None:
-    """Add somebody who plays what the player in front plays; the first instrument there is in an empty project."""
+    """Add someone who plays what the player in front plays; the first instrument there is in an empty project."""
     front = session.player
     known = all_maps()
     instrument_id = front.instrument_id if front is not None and front.instrument_id in known else next(iter(known))
@@ -53,7 +53,7 @@ def join(session: Session) -> None:
 
 
 def separate(session: Session) -> None:
-    """Give those of the selected who double somebody a body of their own."""
+    """Give those of the selected who double someone a body of their own."""
     chosen = session.players
     count = sum(bool(player.doubles) for player in _chosen(session))
     session.attempt(_count("edit.separate_players", count), lambda project: edit.separate(project, chosen))

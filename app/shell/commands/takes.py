@@ -10,10 +10,10 @@ from app.project.model import Player, Project
 from app.score.take import Cleaning, Floats, Take
 from app.shell.action import Action
 from app.shell.sound import sound_of
-from widgets.common.listening import HeardTake
+from widgets.common.listening import RecordedTake
 from widgets.common.selection import Selection
 from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 
 
 def _takes(session: Session) -> tuple[Take, ...]:
@@ -43,11 +43,11 @@ def _listen(session: Session, alone: bool) -> None:
     sound, player, take_id = sound_of(session), session.player, session.selection.take
     if sound is None or player is None or take_id is None:
         return
-    wanted = HeardTake(player.id, take_id, alone)
-    if session.listening.take == wanted:
+    requested = RecordedTake(player.id, take_id, alone)
+    if session.listening.take == requested:
         sound.stop_listening()
     else:
-        sound.listen(wanted, _listen_from(session))
+        sound.listen(requested, _listen_from(session))
 
 
 def _listen_from(session: Session) -> float:
@@ -145,7 +145,7 @@ def find_beats(session: Session) -> None:
     player, take = chosen
     project = session.project
 
-    def work(progress: Progress, stop_wanted: StopWanted) -> Floats:
+    def work(progress: Progress, stop_requested: StopRequested) -> Floats:
         return edit.beats_of(project, player.id, take.id)
 
     def done(beats_s: Floats) -> None:

@@ -41,7 +41,7 @@ def took_s(work: Callable[[], object], times: int = 1) -> float:
     return median(runs)
 
 
-def tell(name: str, seconds: float) -> None:
+def report(name: str, seconds: float) -> None:
     def calibration() -> None:
         sum(number * number for number in range(200_000))
 
@@ -72,11 +72,11 @@ def crowd(count: int) -> Project:
 def test_the_synthesiser() -> None:
     project = quartet()
     phrases = [phrase for player in project.players for phrase in player_phrases(project, player)]
-    tell("cutting the quartet", took_s(lambda: [player_phrases(project, player) for player in project.players], 3))
+    report("cutting the quartet", took_s(lambda: [player_phrases(project, player) for player in project.players], 3))
     synthesiser = Synthesiser()
     runs = [took_s(lambda phrase=phrase: synthesiser.render(phrase)) for phrase in phrases]
-    tell(f"one phrase of {len(phrases)}", median(runs))
-    tell("the longest", max(runs))
+    report(f"one phrase of {len(phrases)}", median(runs))
+    report("the longest", max(runs))
     end_s = project.score.tempo_map.seconds(float(project.score.end_tick))
     print(f"{len(project.players) * end_s / sum(runs):.0f} times as fast as it is heard")
 
@@ -86,7 +86,7 @@ def test_reading_a_mix_of_fifty() -> None:
     mix = Mix([Track([Piece(second * RATE_HZ, noise) for second in range(0, 600, 7)]) for _ in range(50)])
     for speed in (1.0, 0.5):
         reader = Reader(mix, 10.0, speed)
-        tell(f"10 ms of fifty players at {speed}", took_s(lambda reader=reader: reader.read(480), 200))
+        report(f"10 ms of fifty players at {speed}", took_s(lambda reader=reader: reader.read(480), 200))
 
 
 def test_a_frame_while_it_plays(qtbot: QtBot) -> None:
@@ -106,13 +106,13 @@ def test_a_frame_while_it_plays(qtbot: QtBot) -> None:
         playback.feed()
         sound._follow_sound()
 
-    tell("feeding and following", took_s(frame, 200))
+    report("feeding and following", took_s(frame, 200))
 
     def shown() -> None:
         frame()
         bar.repaint()
 
-    tell("with the bar painted", took_s(shown, 100))
+    report("with the bar painted", took_s(shown, 100))
     playback.stop()
 
 
@@ -122,23 +122,23 @@ def test_an_edit_of_a_large_score(qtbot: QtBot) -> None:
     sound = Sound(session, Playback(FakeDevices(Time()).open))
     print(sum(len(part.notes) for part in project.score.parts), "notes")
     phrases = took_s(lambda: [player_phrases(project, player) for player in project.players[:5]])
-    tell("cutting a player of 3,000 notes", phrases / 5)
+    report("cutting a player of 3,000 notes", phrases / 5)
 
     def edit() -> None:
         players = session.project.players
         first = msgspec.structs.replace(players[0], muted=not players[0].muted)
         session.apply(Message("edit.mute"), replace(session.project, players=(first, *players[1:])))
 
-    tell("an edit, told to the sound", took_s(edit, 20))
+    report("an edit, told to the sound", took_s(edit, 20))
     sound.deleteLater()
 
 
 def test_the_picture_of_an_hour() -> None:
     samples = np.random.default_rng(0).integers(-9000, 9000, (RATE_HZ * 3600, 2), dtype=np.int16)
-    tell("making it", took_s(lambda: Peaks(samples, RATE_HZ)))
+    report("making it", took_s(lambda: Peaks(samples, RATE_HZ)))
     peaks = Peaks(samples, RATE_HZ)
     for span_s in (0.01, 1.0, 60.0, 3600.0):
-        tell(f"{span_s:g} s on 1600 px", took_s(lambda span_s=span_s: peaks.levels(0.0, span_s, 1600), 20))
+        report(f"{span_s:g} s on 1600 px", took_s(lambda span_s=span_s: peaks.levels(0.0, span_s, 1600), 20))
 
 
 def test_the_offset_of_ten_minutes() -> None:
@@ -157,4 +157,4 @@ def test_the_offset_of_ten_minutes() -> None:
     noise = np.random.default_rng(0).integers(-9000, 9000, (RATE_HZ * 600, 2), dtype=np.int16)
     long = msgspec.structs.replace(score, parts=parts)
     estimate_offset(noise[: RATE_HZ * 5], RATE_HZ, long)
-    tell("the offset of ten minutes", took_s(lambda: estimate_offset(noise, RATE_HZ, long)))
+    report("the offset of ten minutes", took_s(lambda: estimate_offset(noise, RATE_HZ, long)))

@@ -36,7 +36,7 @@ pytestmark = pytest.mark.bench
 
 
 @contextmanager
-def redrawing(wanted: bool) -> Iterator[None]:
+def redrawing(requested: bool) -> Iterator[None]:
     """A thread of ours that keeps Python's lock as a window that redraws without pause, and two processes that compute
     beside it."""
     done = threading.Event()
@@ -47,7 +47,7 @@ def redrawing(wanted: bool) -> Iterator[None]:
 
     window = threading.Thread(target=redraw)
     computing = []
-    if wanted:
+    if requested:
         window.start()
         compute = [sys.executable, "-c", "while True: sum(range(20_000))"]
         computing = [subprocess.Popen(compute) for _ in range(2)]
@@ -58,7 +58,7 @@ def redrawing(wanted: bool) -> Iterator[None]:
         for process in computing:
             process.kill()
             process.communicate()
-        if wanted:
+        if requested:
             window.join()
 
 
@@ -112,12 +112,12 @@ class Calibration:
 
 
 def percentiles(values: npt.NDArray[np.float64]) -> str:
-    wanted = (("median", 50), ("95 %", 95), ("99 %", 99))
-    return ", ".join(f"{name} {np.percentile(values, q):.2f}" for name, q in wanted)
+    requested = (("median", 50), ("95 %", 95), ("99 %", 99))
+    return ", ".join(f"{name} {np.percentile(values, q):.2f}" for name, q in requested)
 
 
 def begun(ear: Ear, player: PlayerProcess, path: Path) -> None:
-    ear.wait(Ports, lambda told: player.name in told.inputs)
+    ear.wait(Ports, lambda reported: player.name in reported.inputs)
     ear.link.open(player.name)
     ear.wait(Opened)
     ear.link.start(path, HEADER)
@@ -143,11 +143,11 @@ def bursts(path: Path, seconds: float, rate_hz: float, *, busy: bool, is_realtim
             while not done.is_set():
                 news.wait(0.1)
                 news.clear()
-                place = len(ear.told)
+                place = len(ear.reported)
                 ear.look()
                 now_ns = time.perf_counter_ns()
-                for told in ear.told[place:]:
-                    polled_ns.extend((now_ns, ns) for ns in getattr(told, "times_ns", ()))
+                for reported in ear.reported[place:]:
+                    polled_ns.extend((now_ns, ns) for ns in getattr(reported, "times_ns", ()))
 
         waking = threading.Thread(target=window)
         waking.start()
@@ -214,7 +214,7 @@ def test_what_a_killed_recorder_loses(tmp_path: Path) -> None:
         killed_ns = time.perf_counter_ns()
         child.send_signal(signal.SIGKILL)
         ear.wait(Restarted)
-        ear.wait(Opened, after=len(ear.told) - 1)
+        ear.wait(Opened, after=len(ear.reported) - 1)
         back_ns = time.perf_counter_ns()
         sent = player.sent()
         time.sleep(0.5)

@@ -22,7 +22,7 @@ from tests.support.random_user import Journey, travel
 DEEDS, KILLS = 300, 6
 """Of one journey."""
 SHOWN: Final = ("midi", "project", "audio", "gltf", "foreign_fbx")
-"""Kinds that a person opens in the window."""
+"""Kinds that the user opens in the window."""
 WINDOW: Final = "tests.bench.hostile.window"
 
 

@@ -28,7 +28,7 @@ from app.score.read import MidiContents
 from app.shell.app import Program, make_application
 from app.shell.commands.exchange import reimport_from
 from app.shell.garbage import Garbage
-from app.shell.questions import Dialogs
+from app.shell.questions import Questions
 from app.shell.settings import Settings
 from app.shell.tasks import ThreadTasks
 from tests.fuzz.harness.child import forget_peak, status_kb
@@ -80,7 +80,7 @@ class ImportAnswers(Answers):
         timer.timeout.connect(self._agree)
         timer.start()
         try:
-            return Dialogs().import_midi(contents, tokens, tasks)
+            return Questions().import_midi(contents, tokens, tasks)
         finally:
             timer.stop()
 
@@ -161,9 +161,9 @@ class WatchedWindow:
                 dialog.close()
             self.application.processEvents()
         except AppError as error:
-            return self._told("escaped", error)
+            return self._reported("escaped", error)
         if self.faults:
-            return self._told("escaped", self.faults[0])
+            return self._reported("escaped", self.faults[0])
         errors = [message.id for message, severity in self.notices if severity is Severity.ERROR]
         return {
             "outcome": "refused" if errors else "accepted",
@@ -178,7 +178,7 @@ class WatchedWindow:
         if self.session.actions[action_id].isEnabled():
             self.session.actions[action_id].trigger()
 
-    def _told(self, outcome: str, error: BaseException) -> dict[str, Any]:
+    def _reported(self, outcome: str, error: BaseException) -> dict[str, Any]:
         detail = "".join(traceback.format_exception(error))
         place = type(error).__name__
         return {"outcome": outcome, "place": place, "detail": detail, "cpu_s": self.meter.cpu_s, "peak_mb": 0.0}

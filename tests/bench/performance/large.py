@@ -28,7 +28,7 @@ def calibration_s() -> float:
     return min(times_s)
 
 
-def told(what: str, seconds: float, unit_s: float) -> None:
+def reported(what: str, seconds: float, unit_s: float) -> None:
     """Print a figure with its ratio to the calibration loop of the same run."""
     print(f"\n{what}: {1000.0 * seconds:.1f} ms, {seconds / unit_s:.2f} x the calibration loop", end="")
 

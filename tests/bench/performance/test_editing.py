@@ -23,7 +23,7 @@ from app.project.edit.corrections import put
 from app.project.model import Project
 from app.rig.character import load_character
 from app.rig.character_library import bundled_characters
-from tests.bench.performance.large import calibration_s, large_project, told
+from tests.bench.performance.large import calibration_s, large_project, reported
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +33,7 @@ def planned() -> tuple[Performance, float]:
     performance = Performance(project)
     start_s = time.perf_counter()
     performance.prepare()
-    told("plans of 50 players and 100,000 notes, fresh", time.perf_counter() - start_s, unit_s)
+    reported("plans of 50 players and 100,000 notes, fresh", time.perf_counter() - start_s, unit_s)
     return performance, unit_s
 
 
@@ -81,8 +81,8 @@ def test_plans_and_picture_after_one_edit(planned: tuple[Performance, float]) ->
         live.want(at_s, 4.0, (player.id,))
         live.work()
         picture_s = time.perf_counter() - start_s
-        told(f"{name}: new plans", plans_s, unit_s)
-        told(f"{name}: the picture is right again", picture_s, unit_s)
+        reported(f"{name}: new plans", plans_s, unit_s)
+        reported(f"{name}: the picture is right again", picture_s, unit_s)
 
 
 @pytest.mark.bench
@@ -97,7 +97,7 @@ def test_a_pose_at_once_and_from_what_is_made(planned: tuple[Performance, float]
         start_s = time.perf_counter()
         live.pose_now(players[number % 50].id, 3.0 * number)
         times_s.append(time.perf_counter() - start_s)
-    told("a pose made at once, of a part of 2,000 notes (median)", sorted(times_s)[50], unit_s)
+    reported("a pose made at once, of a part of 2,000 notes (median)", sorted(times_s)[50], unit_s)
     live.want(60.0, 1.0)
     for _ in range(120):
         live.work()
@@ -105,7 +105,7 @@ def test_a_pose_at_once_and_from_what_is_made(planned: tuple[Performance, float]
     for step in range(10):
         for player in players:
             live.pose(player.id, 60.0 + 0.0123 * step)
-    told("poses of 50 players from what is made", (time.perf_counter() - start_s) / 10.0, unit_s)
+    reported("poses of 50 players from what is made", (time.perf_counter() - start_s) / 10.0, unit_s)
 
 
 @pytest.mark.bench
@@ -122,8 +122,8 @@ def test_memory_and_time_of_ten_minutes() -> None:
     spent_s = time.perf_counter() - start_s
     minutes = (frame.end_s - frame.first_frame_s) / 60.0
     print(f"\nmotion of 4 players: {live.bytes / 2**20 * 10.0 / minutes:.0f} MB in ten minutes", end="")
-    told("motion of 4 players for ten minutes, made behind", spent_s * 10.0 / minutes, unit_s)
-    told("one chunk of one player", spent_s / chunks, unit_s)
+    reported("motion of 4 players for ten minutes, made behind", spent_s * 10.0 / minutes, unit_s)
+    reported("one chunk of one player", spent_s / chunks, unit_s)
     bounded = LiveMotion(performance, 32 * 2**20)
     while bounded.work():
         pass
@@ -136,4 +136,4 @@ def test_characters_are_loaded() -> None:
     for name, path in bundled_characters().items():
         start_s = time.perf_counter()
         load_character(path)
-        told(f"character {name}", time.perf_counter() - start_s, unit_s)
+        reported(f"character {name}", time.perf_counter() - start_s, unit_s)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from app.performance.play_along import PlayAlong
-from app.score.take import Wiring
+from app.score.take import ControllerMapping
 from instrument_maps.load import bundled_maps
 from tests.bench.performance.large import calibration_s
 from tests.support.live import QUARTER, playing_alone
@@ -25,7 +25,7 @@ LONG_S, MINUTE_S = 1200, 60
 BREATH_HZ, BEND_HZ, NOTES_HZ = 50, 10, 4
 
 
-def told(what: str, spent_s: Sequence[float], unit_s: float) -> None:
+def reported(what: str, spent_s: Sequence[float], unit_s: float) -> None:
     """Print median and 95th percentile with their ratios to the calibration loop."""
     median, most = np.percentile(spent_s, [50, 95])
     print(
@@ -64,8 +64,8 @@ def test_from_event_to_pose(instrument_id: str) -> None:
             if number > 10:
                 shown.append(time.thread_time() - start_s)
         now_s += FRAMES_AFTER / 60.0
-    told(f"{instrument_id}, from event to pose", heard, unit_s)
-    told(f"{instrument_id}, a pose on the way", shown, unit_s)
+    reported(f"{instrument_id}, from event to pose", heard, unit_s)
+    reported(f"{instrument_id}, a pose on the way", shown, unit_s)
 
 
 def second(number: int, low: int, high: int) -> Iterator[tuple[float, str]]:
@@ -85,7 +85,7 @@ def test_twenty_minutes(instrument_id: str) -> None:
     """Twenty minutes of playing, as fast as it goes: all that is sent, and every second the pose after a note."""
     limits = bundled_maps()[instrument_id].range
     player = PlayAlong(playing_alone(instrument_id, [(4 * QUARTER, QUARTER, limits.low)]))
-    wiring, spent_s, blocks = Wiring(0, "cc2", "pitch_bend"), np.zeros(LONG_S), list[int]()
+    wiring, spent_s, blocks = ControllerMapping(0, "cc2", "pitch_bend"), np.zeros(LONG_S), list[int]()
     for number in range(LONG_S):
         for at_s, raw in second(number, limits.low, limits.high):
             player.hear(number + at_s, raw, wiring)
@@ -98,6 +98,8 @@ def test_twenty_minutes(instrument_id: str) -> None:
             gc.collect()
             blocks.append(sys.getallocatedblocks())
     unit_s = calibration_s()
-    told(f"{instrument_id}, from event to pose in the second minute", spent_s[MINUTE_S : 2 * MINUTE_S].tolist(), unit_s)
-    told(f"{instrument_id}, from event to pose in the last minute", spent_s[-MINUTE_S:].tolist(), unit_s)
+    reported(
+        f"{instrument_id}, from event to pose in the second minute", spent_s[MINUTE_S : 2 * MINUTE_S].tolist(), unit_s
+    )
+    reported(f"{instrument_id}, from event to pose in the last minute", spent_s[-MINUTE_S:].tolist(), unit_s)
     print(f"\n{instrument_id}: blocks of memory every 200 s: {blocks}", end="")

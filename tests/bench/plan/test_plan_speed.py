@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.line import line_times
 from app.plan.search import best_path, fingering_problem
 from app.score.metre_map import Metre
@@ -24,7 +24,7 @@ CLOCK = PlainClock(((0, 150.0),))
 @pytest.mark.parametrize("name", ["trumpet_Bb", "trombone_tenor_F_attachment", "many keys"])
 def test_a_thousand_hurried_notes(name: str) -> None:
     instrument = many_keys() if name == "many keys" else bundled_maps()[name]
-    line = Line("p", even(PITCHES, 120), instrument)
+    line = MonophonicPart("p", even(PITCHES, 120), instrument)
     frame = time_frame((line,), CLOCK)
     piece = piece_of(CLOCK, (Metre(0, 4, 4),))
     make_plans(piece, (line,), frame)

@@ -57,7 +57,7 @@ class Stall:
 
 @dataclass
 class LargeEditor:
-    """The editor as a person has it, with settings and recovery folder of nobody.
+    """The editor as the user has it, with settings and recovery folder of no one.
 
     Parameters
     ----------

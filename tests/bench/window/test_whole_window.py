@@ -1,4 +1,4 @@
-"""What a person feels in the whole window with fifty players and a hundred thousand notes. Printed, never asserted."""
+"""What the user feels in the whole window with fifty players and a hundred thousand notes. Printed, never asserted."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from widgets.common.selection import Selection
 
 FRAMES = 40
 CORRECTIONS = 3
-"""How often each is made; the median is told."""
+"""How often each is made; the median is reported."""
 
 
 @pytest.fixture
@@ -66,7 +66,7 @@ def test_whole_window(editor: LargeEditor, capsys: pytest.CaptureFixture[str]) -
         opened = editor.open()
         kinds = {player.instrument_id for player in editor.session.project.players}
         print(f"\n{len(kinds)} kinds of instruments; calibration loop {1000 * unit_s:.1f} ms")
-        tell("opened: plans and poses there", opened, unit_s)
+        report("opened: plans and poses there", opened, unit_s)
         session, axis = editor.session, editor.timeline.axis
         editor.phase = "making sound and motion"
         session.set_playhead(60.0)
@@ -92,7 +92,7 @@ def test_whole_window(editor: LargeEditor, capsys: pytest.CaptureFixture[str]) -
         print(f"memory {now_mb:.0f} MB, at most {most_mb:.0f} MB")
 
 
-def tell(what: str, turn: Turn, unit_s: float) -> None:
+def report(what: str, turn: Turn, unit_s: float) -> None:
     print(
         f"{what}: {1000 * turn.cpu_s:.0f} ms of CPU, {turn.cpu_s / unit_s:.2f} x the calibration loop; "
         f"{1000 * turn.wall_s:.0f} ms of wall time"
@@ -201,7 +201,7 @@ def correct(editor: LargeEditor, name: str, edit: Edit, unit_s: float) -> None:
     by_time = sorted(range(CORRECTIONS), key=lambda number: pictures[number].wall_s)
     for what, turns in (("plan", plans), ("picture", pictures)):
         middle = turns[by_time[CORRECTIONS // 2]]
-        tell(f"{name}: {what} right", middle, unit_s)
+        report(f"{name}: {what} right", middle, unit_s)
 
 
 def joined(one: Turn, other: Turn) -> Turn:

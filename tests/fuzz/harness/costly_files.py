@@ -130,7 +130,7 @@ def glb_morphs(size: int) -> bytes:
 
 
 def glb_parts(size: int) -> bytes:
-    """Thousands of parts with a triangle each, that must be told apart."""
+    """Thousands of parts with a triangle each, that must be distinguished."""
     data = np.arange(size // 200 * 9, dtype="<f4").tobytes()
     parts = range(len(data) // 36)
     accessors = [

@@ -139,13 +139,13 @@ def journal(path: Path, folder: Path) -> None:
     from app.capture.adopt import takes_of
     from app.capture.journal import passes, read_journal
     from app.project.edit.takes import add_takes, comp_whole
-    from app.score.take import Wiring
+    from app.score.take import ControllerMapping
 
     read = read_journal(path)
     passes(read)
     project = _quartet()
     player = project.players[0].id
-    takes = takes_of(read, project.score.tempo_map, Wiring(), "Take {number}")
+    takes = takes_of(read, project.score.tempo_map, ControllerMapping(), "Take {number}")
     project, ids = add_takes(project, player, takes)
     for id_ in ids[:2]:
         project = comp_whole(project, player, id_)
@@ -202,14 +202,14 @@ def metadata(path: Path, folder: Path) -> None:
 
 
 def expression(path: Path, folder: Path) -> None:
-    """A user's expressions: a bad one is told and the others stay."""
+    """A user's expressions: a bad one is reported and the others stay."""
     from app.project.presets import expressions
 
     _one_of_folder(expressions, path, folder, seeds.expression()[0])
 
 
 def preset(path: Path, folder: Path) -> None:
-    """A user's presets: a bad one is told and the others stay."""
+    """A user's presets: a bad one is reported and the others stay."""
     from app.project.presets import presets
 
     _one_of_folder(presets, path, folder, b'name = "Another"\namplitude = 1.0\n')
@@ -226,7 +226,7 @@ def _one_of_folder(read: Callable[[Path], Any], path: Path, folder: Path, good: 
 
 
 def character_entry(path: Path, folder: Path) -> None:
-    """A user's characters: a bad entry is told and the others stay."""
+    """A user's characters: a bad entry is reported and the others stay."""
     from app.rig.character_library import LIBRARY, bundled_characters
 
     own = folder / "own"

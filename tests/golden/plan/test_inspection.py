@@ -23,7 +23,7 @@ def test_everything_printed_about_real_music_is_true(path: Path, capsys: pytest.
     assert faults(path, json.loads(capsys.readouterr().out)) == []
 
 
-def test_a_rest_that_nobody_breathes_in_is_a_fault(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_rest_that_no_one_breathes_in_is_a_fault(capsys: pytest.CaptureFixture[str]) -> None:
     path = next(path for path in FILES if "lutkin" in path.name)
     assert main(["inspect", str(path), "--json", "--set", "*.breath_need=0", "--felt-beat", "1"]) == 0
     found = json.loads(capsys.readouterr().out)

@@ -11,7 +11,7 @@ import msgspec
 import pytest
 
 from app.performance.ensemble import Performance
-from app.plan.generate import Line
+from app.plan.generate import MonophonicPart
 from app.plan.line import line_times
 from app.plan.model import PlayerPlan
 from app.project.model import map_choices, project_from_score
@@ -36,7 +36,7 @@ def performance(name: str) -> Performance:
     return Performance(replace(project, players=to_the_letter))
 
 
-def is_usual(share: float, line: Line) -> bool:
+def is_usual(share: float, line: MonophonicPart) -> bool:
     """Whether three notes of a line at least are followed by silence for this part of their steps."""
     steps = [
         (after.onset_tick - before.onset_tick, before.duration_tick) for before, after in itertools.pairwise(line.notes)
@@ -44,7 +44,7 @@ def is_usual(share: float, line: Line) -> bool:
     return sum(abs(1.0 - length / step - share) < 0.13 for step, length in steps if step > 0) >= 3
 
 
-def played(name: str) -> list[tuple[Line, PlayerPlan]]:
+def played(name: str) -> list[tuple[MonophonicPart, PlayerPlan]]:
     made = performance(name)
     return [(line, made.plans[line.player_id]) for line in made.lines]
 

@@ -147,7 +147,9 @@ def test_speer_names_voices_only_so_the_file_and_ranges_decide() -> None:
         ("Tenoru", "trombone"),
         ("Tenoru", "trombone"),
     ]
-    assert sum(warning.id == "score.told_by_file" for warning in score.warnings) == 4  # One for each track.
+    assert (
+        sum(warning.id == "score.instrument_from_file_name" for warning in score.warnings) == 4
+    )  # One for each track.
 
 
 def test_the_bundled_quartet_is_what_its_script_makes(tmp_path: Path) -> None:
@@ -223,10 +225,10 @@ def test_every_wind_of_the_ensembles_finds_its_instrument(name: str, expected: l
     score = read_midi(DATA / "ensemble" / f"{name}.mid", maps=own)
     found = [part.map_id for part in score.parts]
     if missing:
-        # Of an instrument that has no map yet the parts are listed, or somebody stands in and says so.
+        # Of an instrument that has no map yet the parts are listed, or someone stands in and says so.
         known = [map_id for map_id in expected if map_id not in missing]
         assert not Counter(known) - Counter(found)
         return
-    assert all(one.startswith(wanted) for one, wanted in zip(found, expected, strict=True))
+    assert all(one.startswith(requested) for one, requested in zip(found, expected, strict=True))
     assert {part.reason.id for part in score.unplayed} <= {"score.percussion", "score.not_wind", "score.stray_notes"}
     assert not [warning for warning in score.warnings if warning.id == "score.substituted"]

@@ -1,4 +1,4 @@
-"""Messages in the editor: notes and pitches by the names that a person knows."""
+"""Messages in the editor: notes and pitches by the names that the user knows."""
 
 from __future__ import annotations
 
@@ -37,10 +37,10 @@ def japanese(qt_app: QApplication) -> Iterator[None]:
     qt_app.removeTranslator(translator)
 
 
-def test_a_note_is_told_by_pitch_and_place(session: Session, note: Note) -> None:
-    told = message_text(Message("breath.inside_note", {"note": note.id}), session)
-    assert "the sounding note F4 (bar 2, beat 2);" in told, told
-    assert note.id not in told
+def test_a_note_is_reported_by_pitch_and_place(session: Session, note: Note) -> None:
+    reported = message_text(Message("breath.inside_note", {"note": note.id}), session)
+    assert "the sounding note F4 (bar 2, beat 2);" in reported, reported
+    assert note.id not in reported
 
 
 def test_pitches_are_named_as_the_person_wants(session: Session, note: Note) -> None:
@@ -54,26 +54,26 @@ def test_pitches_are_named_as_the_person_wants(session: Session, note: Note) -> 
 
 
 def test_the_command_line_keeps_ids_and_names_pitches(note: Note) -> None:
-    told = text(Message("fingering.out_of_range", {"note": note.id, "pitch": 45, **OUTSIDE}))
-    assert told.startswith(f"note {note.id}: A2 is outside this instrument's range (F♯3 to B♭5)")
+    reported = text(Message("fingering.out_of_range", {"note": note.id, "pitch": 45, **OUTSIDE}))
+    assert reported.startswith(f"note {note.id}: A2 is outside this instrument's range (F♯3 to B♭5)")
 
 
 def test_a_note_of_another_player_is_found(session: Session) -> None:
     other = session.project.players[-1]
     note = session.project.part(other).notes[0]
     message = Message("note.overlaps", {"note": note.id, "other": "99:1", "overlap_ms": 5})
-    told = message_text(message, session)
-    assert "(bar 1, beat " in told
-    # A note that is gone is told by what is known of it.
-    assert "overlaps 99:1 by" in told
-    assert message_text(message, session, other.id) == told
+    reported = message_text(message, session)
+    assert "(bar 1, beat " in reported
+    # A note that is gone is reported by what is known of it.
+    assert "overlaps 99:1 by" in reported
+    assert message_text(message, session, other.id) == reported
 
 
-def test_both_notes_that_are_left_out_for_a_breath_are_told_by_place(session: Session, note: Note) -> None:
+def test_both_notes_that_are_left_out_for_a_breath_are_reported_by_place(session: Session, note: Note) -> None:
     left_out = {"first_note": note.id, "after_note": note.id, "phrase_s": 20.0, "lung_s": 9.0}
-    told = message_text(Message("breath.catch_dropped_two", left_out), session)
-    assert told.count("(bar 2, beat 2)") == 2
-    assert note.id not in told
+    reported = message_text(Message("breath.catch_dropped_two", left_out), session)
+    assert reported.count("(bar 2, beat 2)") == 2
+    assert note.id not in reported
 
 
 def test_an_edited_part_is_read_anew(session: Session, note: Note) -> None:
@@ -85,28 +85,28 @@ def test_an_edited_part_is_read_anew(session: Session, note: Note) -> None:
 
 
 def test_an_anchor_is_a_note_an_event_or_a_name(session: Session, note: Note) -> None:
-    def told(anchor: str) -> str:
+    def reported(anchor: str) -> str:
         return message_text(Message("correction.orphaned", {"kind": "set_breath", "anchor": anchor}), session)
 
-    assert told(note.id).startswith("correction (breath) for F4 (bar 2, beat 2)")
-    assert told(f"breath:{note.id}").startswith("correction (breath) for Breath F4 (bar 2, beat 2)")
-    assert told("lower_instrument:@960").startswith("correction (breath) for Instrument lowered 1.2")
-    assert told("99:1").startswith("correction (breath) for a deleted note: no matching note")
-    assert told("added-3").startswith("correction (breath) for added-3")
+    assert reported(note.id).startswith("correction (breath) for F4 (bar 2, beat 2)")
+    assert reported(f"breath:{note.id}").startswith("correction (breath) for Breath F4 (bar 2, beat 2)")
+    assert reported("lower_instrument:@960").startswith("correction (breath) for Instrument lowered 1.2")
+    assert reported("99:1").startswith("correction (breath) for a deleted note: no matching note")
+    assert reported("added-3").startswith("correction (breath) for added-3")
 
 
 @pytest.mark.usefixtures("japanese")
 def test_in_japanese_no_english_word_is_left(session: Session, note: Note) -> None:
-    told = message_text(Message("breath.inside_note", {"note": note.id}), session)
-    assert "F4（2 小節 2 拍）" in told
+    reported = message_text(Message("breath.inside_note", {"note": note.id}), session)
+    assert "F4（2 小節 2 拍）" in reported
     for message in (
         Message("cue.start", {"leader_reason": "melody", "beat_s": 0.5}),
         Message("gesture.weight_shift", {"side": "left"}),
         Message("correction.orphaned", {"kind": "change_gesture", "anchor": f"sway:{note.id}"}),
         Message("pose.beyond_reach", {"target": "head", "angle": "roll", "asked_deg": 80.0, "most_deg": 30.0}),
     ):
-        told = message_text(message, session)
-        assert not any("a" <= letter <= "z" for letter in told), told
+        reported = message_text(message, session)
+        assert not any("a" <= letter <= "z" for letter in reported), reported
 
 
 def test_pitches_of_messages_are_their_fields() -> None:
@@ -114,7 +114,7 @@ def test_pitches_of_messages_are_their_fields() -> None:
         assert all("{" + name + "}" in WORDINGS[id][0] for name in names), id
 
 
-def test_an_instrument_is_told_by_its_name() -> None:
-    told = message_text(Message("score.chosen_by_range", {"part": "Sopran", "map": "trumpet_Bb"}))
-    assert "Trumpet in B flat" in told
-    assert "trumpet_Bb" not in told
+def test_an_instrument_is_reported_by_its_name() -> None:
+    reported = message_text(Message("score.chosen_by_range", {"part": "Sopran", "map": "trumpet_Bb"}))
+    assert "Trumpet in B flat" in reported
+    assert "trumpet_Bb" not in reported

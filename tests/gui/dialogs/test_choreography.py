@@ -96,7 +96,7 @@ def test_the_gallery_counts_what_is_danced_and_goes_by_arrow_keys(session: Sessi
         expected = f"used {used[state]}×" if used[state] else "not used"
         assert rows.used_text(state) == expected
         assert expected in str(rows.index(state).data(Qt.ItemDataRole.AccessibleTextRole))
-    assert f"dances {len(used)} of 6 " in text(dialog, "use")
+    assert f"uses {len(used)} of 6 " in text(dialog, "use")
     assert text(dialog, "heading").startswith("six · Basic motions: 6 · Segments: 44")
     assert text(dialog, "motions_details").startswith("Basic motion 1 · ")
     press(dialog.gallery, Qt.Key.Key_Right, Qt.Key.Key_Right)

@@ -106,7 +106,7 @@ def test_it_says_what_will_be_replaced_and_what_is_missing(dialog: ExportDialog,
     assert not button.isEnabled()
 
 
-def test_a_folder_that_cannot_be_is_told_and_nothing_is_written(dialog: ExportDialog, tmp_path: Path) -> None:
+def test_a_folder_that_cannot_be_is_reported_and_nothing_is_written(dialog: ExportDialog, tmp_path: Path) -> None:
     one_player_two_bars(dialog)
     (tmp_path / "out").write_text("a file")
     start(dialog)
@@ -207,11 +207,11 @@ def test_who_is_left_out_is_named_with_the_reason(
     for row in (1, 2):
         dialog._players.item(row).setCheckState(Qt.CheckState.Checked)
     start(dialog)
-    told = outcome.text()
-    assert "Trumpet 1 is excluded: " in told
-    assert "mori.glb" in told
-    assert "Trumpet 2 is excluded: " in told
-    assert "the instrument 'ophicleide' of Trumpet 2 is not installed" in told
+    reported = outcome.text()
+    assert "Trumpet 1 is excluded: " in reported
+    assert "mori.glb" in reported
+    assert "Trumpet 2 is excluded: " in reported
+    assert "the instrument 'ophicleide' of Trumpet 2 is not installed" in reported
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"Trombone 1.bvh", "report.json"}
     assert any(line.startswith("warning: Trumpet 1 is excluded: ") for line in noticed)
     session.deleteLater()

@@ -60,7 +60,7 @@ def name(dialog: ExportDialog, path: Path) -> None:
     QTest.keyClicks(field, str(path))
 
 
-def told(dialog: ExportDialog) -> str:
+def reported(dialog: ExportDialog) -> str:
     label = dialog.findChild(QLabel, "export_differences")
     assert label is not None
     return label.text()
@@ -75,7 +75,7 @@ def can_start(dialog: ExportDialog) -> bool:
 def test_a_request_has_what_is_chosen(dialog: ExportDialog, mannequin: Path) -> None:
     assert dialog._request().skeleton == "own"
     choose(dialog, Qt.Key.Key_Down)
-    assert "IK Retargeter" in told(dialog)
+    assert "IK Retargeter" in reported(dialog)
     name(dialog, mannequin)
     request = dialog._request()
     assert (request.skeleton, request.asset) == ("ue5", mannequin)
@@ -84,7 +84,7 @@ def test_a_request_has_what_is_chosen(dialog: ExportDialog, mannequin: Path) -> 
 def test_an_asset_that_fits_is_said_to_fit(dialog: ExportDialog, mannequin: Path, qtbot: QtBot) -> None:
     choose(dialog, Qt.Key.Key_Down)
     name(dialog, mannequin)
-    qtbot.waitUntil(lambda: "✓" in told(dialog))
+    qtbot.waitUntil(lambda: "✓" in reported(dialog))
     assert can_start(dialog)
 
 
@@ -96,22 +96,22 @@ def test_one_without_a_character_does_not_keep_the_others_from_an_asset(
     dialog.show()
     choose(dialog, Qt.Key.Key_Down)
     name(dialog, mannequin)
-    qtbot.waitUntil(lambda: "bones" in told(dialog) or "✓" in told(dialog))
+    qtbot.waitUntil(lambda: "bones" in reported(dialog) or "✓" in reported(dialog))
     assert can_start(dialog)
     session.deleteLater()
 
 
 def test_an_asset_that_would_lose_the_animation_is_refused(dialog: ExportDialog, mannequin: Path, qtbot: QtBot) -> None:
     name(dialog, mannequin)
-    qtbot.waitUntil(lambda: "⚠" in told(dialog))
-    assert "53 animated bones are not in the asset" in told(dialog)
-    assert "hips, spine, chest" in told(dialog)
+    qtbot.waitUntil(lambda: "⚠" in reported(dialog))
+    assert "53 animated bones are not in the asset" in reported(dialog)
+    assert "hips, spine, chest" in reported(dialog)
     assert not can_start(dialog)
     field = dialog.findChild(QLineEdit, "export_asset")
     assert field is not None
     field.clear()
     assert can_start(dialog)
-    assert told(dialog) == ""
+    assert reported(dialog) == ""
 
 
 def test_a_file_that_is_none_is_named(dialog: ExportDialog, tmp_path: Path, qtbot: QtBot) -> None:
@@ -130,8 +130,8 @@ def test_what_was_chosen_meanwhile_counts(dialog: ExportDialog, mannequin: Path)
     """An answer to a question that is not asked any more changes nothing."""
     name(dialog, mannequin)
     chooser = dialog._skeleton
-    assert chooser._wanted is not None
-    old = chooser._wanted
+    assert chooser._requested is not None
+    old = chooser._requested
     choose(dialog, Qt.Key.Key_Down)
     before = dict(chooser._checked)
     chooser._found((old, {}, None))
@@ -160,4 +160,4 @@ def test_our_own_file_is_an_asset_that_fits_ours(
     motion = player_motion(performance, player, cut_span(performance.time_frame, session.project.fps, 0.0, 0.1))
     write_scene(tmp_path / "ours.fbx", character_scene(character_of(player), motion, "x", "test"))
     name(dialog, tmp_path / "ours.fbx")
-    qtbot.waitUntil(lambda: "✓" in told(dialog))
+    qtbot.waitUntil(lambda: "✓" in reported(dialog))

@@ -80,8 +80,8 @@ def one_player_one_bar(dialog: ExportDialog) -> None:
 
 
 def test_it_exports_into_a_project_and_again(dialog: ExportDialog, game: Path) -> None:
-    told: list[tuple[str, Path]] = []
-    dialog.exported.connect(lambda destination, path: told.append((destination, path)))
+    reported: list[tuple[str, Path]] = []
+    dialog.exported.connect(lambda destination, path: reported.append((destination, path)))
     one_player_one_bar(dialog)
     into_unreal(dialog)
     assert not start_button(dialog).isEnabled()
@@ -97,7 +97,7 @@ def test_it_exports_into_a_project_and_again(dialog: ExportDialog, game: Path) -
     description = json.loads((sources / "performance.json").read_text(encoding="utf-8"))
     assert [player["name"] for player in description["players"]] == [dialog._project.players[0].name]
     assert description["rate"] == {"numerator": 24, "denominator": 1}
-    assert told == [("unreal", game / "Game.uproject")]
+    assert reported == [("unreal", game / "Game.uproject")]
     assert dialog._shown_folder == sources
     # The same again says what it replaces, another player what goes.
     dialog._players.item(1).setCheckState(Qt.CheckState.Checked)
@@ -158,7 +158,7 @@ def test_each_destination_keeps_its_place(dialog: ExportDialog, game: Path, tmp_
     assert line.text() == str(game)
 
 
-def test_what_is_wrong_is_told_before_anything_is_written(dialog: ExportDialog, game: Path, tmp_path: Path) -> None:
+def test_what_is_wrong_is_reported_before_anything_is_written(dialog: ExportDialog, game: Path, tmp_path: Path) -> None:
     into_unreal(dialog)
     place(dialog, str(tmp_path))
     assert "is not an Unreal project" in outcome(dialog)
@@ -167,7 +167,7 @@ def test_what_is_wrong_is_told_before_anything_is_written(dialog: ExportDialog, 
     mine.parent.mkdir(parents=True)
     mine.write_bytes(b"mine")
     place(dialog, str(game))
-    assert "S_quartet.wav is not from this program" in outcome(dialog)
+    assert "S_quartet.wav was not created by Suisou" in outcome(dialog)
     assert not start_button(dialog).isEnabled()
 
 

@@ -38,7 +38,7 @@ MAPS = {
     for id_, table in bundled_maps().items()
     if not any(tuba in name for name in table.plays for tuba in ("tuba", "sousaphone"))
 }
-"""Nobody plays the tuba here: what is left out must be told."""
+"""No one plays the tuba here: what is left out must be reported."""
 
 
 @pytest.fixture
@@ -75,7 +75,7 @@ def test_untouched_it_is_what_the_command_line_does(dialog: ImportDialog) -> Non
     assert project.source == str(LUTKIN)
 
 
-def test_a_track_nobody_plays_is_ticked_and_given_an_instrument_and_a_character(dialog: ImportDialog) -> None:
+def test_a_track_no_one_plays_is_ticked_and_given_an_instrument_and_a_character(dialog: ImportDialog) -> None:
     box = dialog.findChild(QCheckBox, "play_3")
     assert box is not None
     assert not box.isChecked()
@@ -95,9 +95,9 @@ def test_a_track_nobody_plays_is_ticked_and_given_an_instrument_and_a_character(
 
 
 def test_what_is_left_out_says_why(dialog: ImportDialog) -> None:
-    told = dialog.findChild(QListWidget, "import_warnings")
-    assert told is not None
-    assert any("tuba" in told.item(row).text().lower() for row in range(told.count()))
+    reported = dialog.findChild(QListWidget, "import_warnings")
+    assert reported is not None
+    assert any("tuba" in reported.item(row).text().lower() for row in range(reported.count()))
 
 
 def test_tracks_are_merged_and_taken_apart(dialog: ImportDialog) -> None:
@@ -108,34 +108,34 @@ def test_tracks_are_merged_and_taken_apart(dialog: ImportDialog) -> None:
         table.selectionModel().SelectionFlag.Select | table.selectionModel().SelectionFlag.Rows,
     )
     QTest.mouseClick(dialog.findChild(QPushButton, "merge"), Qt.MouseButton.LeftButton)
-    assert [row.wish.streams for row in dialog.rows] == [(0, 1), (2,), (3,)]
+    assert [row.assignment.streams for row in dialog.rows] == [(0, 1), (2,), (3,)]
     choose(dialog, "split_0", "never")
     assert len(imported(dialog).players) == 2
     table.selectRow(0)
     QTest.mouseClick(dialog.findChild(QPushButton, "separate"), Qt.MouseButton.LeftButton)
-    assert [row.wish.streams for row in dialog.rows] == [(0,), (1,), (2,), (3,)]
+    assert [row.assignment.streams for row in dialog.rows] == [(0,), (1,), (2,), (3,)]
 
 
 def test_usual_rows_without_any_wish_are_an_empty_stage() -> None:
     contents = read_contents(LUTKIN)
-    rows = [type(row)(row.wish, wanted=False) for row in usual_rows(contents, MAPS)]
+    rows = [type(row)(row.assignment, requested=False) for row in usual_rows(contents, MAPS)]
     project = import_project(contents, rows, MAPS)
     assert project.players == ()
     assert project.score.tempo_map == contents.tempo_map
 
 
-def test_a_part_that_looks_written_is_told_and_read_so(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> None:
+def test_a_part_that_looks_written_is_reported_and_read_so(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> None:
     low, high = (bundled_maps()["sax_alto_Eb"].range.low, bundled_maps()["sax_alto_Eb"].range.high)
     # The lowest and the highest note that the alto saxophone has, as they are written.
     path = piece(tmp_path, {"Alto Sax": (low + 9, low + 20, high + 9), "Flute": (72, 74, 76)})
     dialog = ImportDialog(read_contents(path), bundled_maps(), DARK, ImmediateTasks())
     qtbot.addWidget(dialog)
     dialog.show()
-    told = dialog.findChild(QListWidget, "import_warnings")
-    assert any("as written" in told.item(row).text() for row in range(told.count()))
+    reported = dialog.findChild(QListWidget, "import_warnings")
+    assert any("as written" in reported.item(row).text() for row in range(reported.count()))
     assert not dialog.findChild(QComboBox, "pitches_1").isEnabled()
     choose(dialog, "pitches_0", True)
-    assert told.count() == 0
+    assert reported.count() == 0
     sax, flute = imported(dialog).score.parts
     assert [note.pitch for note in sax.notes] == [low, low + 11, high]
     assert sax.transposed_semitones == -9
@@ -241,11 +241,13 @@ def test_many_tracks_are_shown_turn_by_turn(
     assert dialog.findChild(QLineEdit, "name_39") is None
     qtbot.waitUntil(lambda: dialog.findChild(QLineEdit, "name_39") is not None)
     looked: list[object] = []
-    monkeypatch.setattr(importing, "_instruments", lambda contents, wish, *more: looked.append(wish) or ("flute",))
+    monkeypatch.setattr(
+        importing, "_instruments", lambda contents, assignment, *more: looked.append(assignment) or ("flute",)
+    )
     name = dialog.findChild(QLineEdit, "name_39")
     assert name is not None
     choose(dialog, "split_39", "every")
-    assert [wish.streams for wish in looked] == [(39,)]  # type: ignore[attr-defined]
+    assert [assignment.streams for assignment in looked] == [(39,)]  # type: ignore[attr-defined]
     QTest.keyClicks(name, "x")
     assert len(looked) == 1
 
@@ -305,16 +307,16 @@ def test_a_percussion_track_is_shown_as_the_dancers(qt_app: QApplication, qtbot:
     assert instrument is not None
     assert instrument.currentText() == "Percussion (for dancers)"
     assert "not played by players" in instrument.toolTip()
-    told = dialog.findChild(QListWidget, "import_warnings")
-    assert told is not None
-    assert any(told.item(row).text().endswith("; dancers dance to it") for row in range(told.count()))
+    reported = dialog.findChild(QListWidget, "import_warnings")
+    assert reported is not None
+    assert any(reported.item(row).text().endswith(". Dancers use it as percussion.") for row in range(reported.count()))
     dances = dialog.findChild(QCheckBox, "import_dancer")
     assert dances is not None
     assert dances.isVisible()
-    assert not dialog.wish.dances
+    assert not dialog.assignment.dances
     QTest.mouseClick(dances, Qt.MouseButton.LeftButton, pos=QPoint(8, dances.height() // 2))
-    assert dialog.wish.dances
-    assert dialog.wish.rows == dialog.rows
+    assert dialog.assignment.dances
+    assert dialog.assignment.rows == dialog.rows
     assert imported(dialog).score.percussion
 
 

@@ -28,7 +28,7 @@ TRUMPET = bundled_maps()["trumpet_Bb"]
 
 
 class Page:
-    """The dialog, as a person works with it."""
+    """The dialog, as the user works with it."""
 
     def __init__(self, session: Session, qtbot: QtBot) -> None:
         self.dialog = InstrumentsDialog(session)
@@ -131,7 +131,7 @@ def test_a_change_is_saved_as_ones_own_played_and_taken_back(page: Page, session
     assert library.find_map("trumpet_Bb") is TRUMPET
 
 
-def test_what_cannot_be_is_told_beside_it_and_changes_nothing(page: Page) -> None:
+def test_what_cannot_be_is_reported_beside_it_and_changes_nothing(page: Page) -> None:
     page.choose(D5)
     before = page.labels(D5)
     page.type(LABEL, "14")
@@ -199,8 +199,8 @@ def test_the_chart_has_the_left_hand_above_the_right_and_nothing_under_another(p
     assert boxes["T"].right() < boxes["L1"].left()
     assert boxes["L1"].bottom() < boxes["R1"].top()
     assert abs(boxes["L2"].center().x() - boxes["R2"].center().x()) < 1
-    told = list(boxes.values())
-    assert not any(one.intersects(other) for place, one in enumerate(told) for other in told[:place])
+    reported = list(boxes.values())
+    assert not any(one.intersects(other) for place, one in enumerate(reported) for other in reported[:place])
     for width in (120, 200, 700):
         page.diagram.resize(width, page.diagram.height())
         assert all(cell.box.left() >= 0 and cell.box.right() <= width for cell in page.diagram.chart().cells)

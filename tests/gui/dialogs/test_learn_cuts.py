@@ -23,7 +23,7 @@ from tests.unit.choreography.test_cuts import arm_swings
 from tests.unit.cli.test_choreography import write_clip, write_drums
 from widgets.common.session import Session
 from widgets.dialogs.cut_figure import pose_of
-from widgets.dialogs.cut_plot import CutPlot, Line
+from widgets.dialogs.cut_plot import CutLine, CutPlot
 from widgets.dialogs.learn_choreography import LearnDialog
 
 FOUND = segment(arm_swings(60)).cuts
@@ -92,9 +92,9 @@ def test_a_cut_that_is_dragged_is_in_the_choreography(dialog: LearnDialog, folde
     press(dialog, "learn_start")
     model = read_model(folder / "choreography.choreography")
     cuts = [Cut(one.start, one.accent, one.end) for one in model.segments]
-    wanted = [Cut(cut.start, cut.accent, expected if cut.end == moved else cut.end) for cut in FOUND]
-    wanted = [Cut(expected if cut.start == moved else cut.start, cut.accent, cut.end) for cut in wanted]
-    assert cuts == wanted
+    requested = [Cut(cut.start, cut.accent, expected if cut.end == moved else cut.end) for cut in FOUND]
+    requested = [Cut(expected if cut.start == moved else cut.start, cut.accent, cut.end) for cut in requested]
+    assert cuts == requested
     assert model.sources[0].cuts_given
     assert not child(dialog, QToolButton, "cut_redo").isEnabled()
     # One drag is one step.
@@ -128,7 +128,7 @@ def test_cuts_are_added_and_deleted_and_all_is_undone_and_redone(dialog: LearnDi
     QTest.mouseDClick(view, Qt.MouseButton.LeftButton, pos=place)
     added = plot(dialog).cuts
     assert set(bounds(added)) == {*bounds(FOUND), frame}
-    assert plot(dialog).selected == Line("bound", bounds(added).index(frame))
+    assert plot(dialog).selected == CutLine("bound", bounds(added).index(frame))
     assert row_texts(dialog, 0)[3] == "11"
     key(dialog, Qt.Key.Key_Right)
     assert frame + 1 in bounds(plot(dialog).cuts)
@@ -172,9 +172,9 @@ def test_each_pair_has_its_own_cuts(dialog: LearnDialog, folder: Path) -> None:
 def test_lines_are_reached_by_keys(dialog: LearnDialog) -> None:
     plot(dialog).plot.setFocus()
     key(dialog, Qt.Key.Key_Right, CTRL)
-    assert plot(dialog).selected == Line("bound", 0)
+    assert plot(dialog).selected == CutLine("bound", 0)
     key(dialog, Qt.Key.Key_Right, CTRL)
-    assert plot(dialog).selected == Line("accent", 0)
+    assert plot(dialog).selected == CutLine("accent", 0)
     key(dialog, Qt.Key.Key_Left)
     assert plot(dialog).cuts[0].accent == FOUND[0].accent - 1
     # Deleting an accent puts it back to its maximum.

@@ -79,7 +79,9 @@ def test_cancelled_it_leaves_nothing(threaded: Session, qtbot: QtBot, tmp_path: 
     qtbot.waitUntil(lambda: list(tmp_path.iterdir()) == [])
 
 
-def test_a_picture_that_cannot_be_drawn_ends_it_and_is_told(threaded: Session, qtbot: QtBot, tmp_path: Path) -> None:
+def test_a_picture_that_cannot_be_drawn_ends_it_and_is_reported(
+    threaded: Session, qtbot: QtBot, tmp_path: Path
+) -> None:
     dialog = film(threaded, tmp_path / "film.mp4", [], fails_at_s=2.2)
     press(dialog, "playblast_start")
     button, state = dialog.findChild(QPushButton, "playblast_start"), dialog.findChild(QLabel, "playblast_state")

@@ -1,4 +1,4 @@
-"""What a person's hands do to the inspector."""
+"""What the user's hands do to the inspector."""
 
 from __future__ import annotations
 

@@ -80,12 +80,12 @@ def test_several_notes_move_together_and_a_drag_is_one_step(panel: InspectorPane
 def test_a_refused_number_shows_what_is_there(panel: InspectorPanel, planned: Session) -> None:
     notes = planned.project.part(planned.project.players[0]).notes[:2]
     select(planned, *notes)
-    told = []
-    planned.noticed.connect(lambda message, severity: told.append(message.id))
+    reported = []
+    planned.noticed.connect(lambda message, severity: reported.append(message.id))
     # The first would go to the lowest pitch there is, the other below it.
     low = min(notes, key=lambda note: note.onset_tick)
     type_into(number(panel, "note_pitch"), "127" if notes[1].pitch > notes[0].pitch else "0")
-    assert told == ["note.pitch_outside"]
+    assert reported == ["note.pitch_outside"]
     assert note_now(planned, low.id).pitch == low.pitch
     assert number(panel, "note_pitch").value == low.pitch
 
@@ -156,7 +156,7 @@ def test_escape_from_a_drag_leaves_no_correction(panel: InspectorPanel, planned:
     assert not control.by_hand
 
 
-def test_a_pin_of_somebody_else_is_left_alone(panel: InspectorPanel, planned: Session) -> None:
+def test_a_pin_of_a_user_else_is_left_alone(panel: InspectorPanel, planned: Session) -> None:
     player, other = planned.project.players[:2]
     note = with_alternates(planned, player)
     pin = PinFingering(planned.project.part(other).notes[0].id, "13")

@@ -37,7 +37,7 @@ def test_very_many_problems_are_counted_and_not_all_listed(qt_app: object, qtbot
     shown = ProblemList(session)
     qtbot.addWidget(shown)
     shown.show()
-    with qtbot.waitSignal(shown.counted, check_params_cb=lambda told: told == count):
+    with qtbot.waitSignal(shown.counted, check_params_cb=lambda reported: reported == count):
         session.set_performance(performance)
     assert shown.list.lines.rowCount() == MOST_LINES
     assert any(str(count - MOST_LINES) in label.text() for label in shown.findChildren(QLabel))

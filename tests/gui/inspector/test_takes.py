@@ -131,11 +131,11 @@ def test_another_colour(panel: InspectorPanel, taken: Session) -> None:
 
 
 def test_beats_of_an_ensemble_are_refused(panel: InspectorPanel, taken: Session) -> None:
-    told: list[Message] = []
-    taken.noticed.connect(lambda message, severity: told.append(message) if severity is Severity.ERROR else None)
+    reported: list[Message] = []
+    taken.noticed.connect(lambda message, severity: reported.append(message) if severity is Severity.ERROR else None)
     QTest.qWait(1)
     click(panel, "take_beats")
-    assert [message.id for message in told] == ["take.not_free"]
+    assert [message.id for message in reported] == ["take.not_free"]
     assert steps(taken) == []
 
 
@@ -148,11 +148,11 @@ def test_few_notes_have_no_beats(panel: InspectorPanel, taken: Session) -> None:
     )
     taken.document.open(replace(project, score=msgspec.structs.replace(project.score, parts=parts)))
     taken.select(Selection(take="take:1"))
-    told: list[Message] = []
-    taken.noticed.connect(lambda message, severity: told.append(message))
+    reported: list[Message] = []
+    taken.noticed.connect(lambda message, severity: reported.append(message))
     QTest.qWait(1)
     click(panel, "take_beats")
-    assert [message.id for message in told] == ["take.too_few_notes"]
+    assert [message.id for message in reported] == ["take.too_few_notes"]
 
 
 def test_it_goes_with_the_take(panel: InspectorPanel, taken: Session, qtbot: QtBot) -> None:

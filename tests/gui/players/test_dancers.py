@@ -69,11 +69,11 @@ def test_a_dancer_comes_is_changed_and_goes_and_all_is_undone(
     session: Session, section: DancersSection, choreography: Path
 ) -> None:
     before = session.project
-    told: list[Message] = []
-    session.noticed.connect(lambda message, _: told.append(message))
+    reported: list[Message] = []
+    session.noticed.connect(lambda message, _: reported.append(message))
     add(section)
     (dancer,) = session.project.dancers
-    assert [message.id for message in told] == ["dance.no_percussion"]
+    assert [message.id for message in reported] == ["dance.no_percussion"]
     assert dancer.choreography == str(choreography)
     assert section.dancer is dancer
     slide(section, "dancer_size", "1.25")
@@ -133,17 +133,17 @@ def test_a_name_that_cannot_be_is_refused_and_the_old_one_shown(
     session: Session, section: DancersSection, qtbot: QtBot
 ) -> None:
     add(section)
-    told: list[Message] = []
-    session.noticed.connect(lambda message, _: told.append(message))
+    reported: list[Message] = []
+    session.noticed.connect(lambda message, _: reported.append(message))
     before = names(section)
     QTest.mouseDClick(section.list.viewport(), Qt.MouseButton.LeftButton, pos=row_point(section, 0))
     editor = section.list.findChild(QLineEdit)
     assert editor is not None
     editor.setText("  ")
     QTest.keyClick(editor, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: bool(told))
+    qtbot.waitUntil(lambda: bool(reported))
     qtbot.waitUntil(lambda: names(section) == before)
-    assert [message.id for message in told] == ["player.no_name"]
+    assert [message.id for message in reported] == ["player.no_name"]
     assert [dancer.name for dancer in session.project.dancers] == before
     assert len(session.document.done) == 1
 

@@ -14,7 +14,7 @@ from widgets.common.number_slider import NumberSlider
 from widgets.common.session import Session
 
 
-class Told:
+class Reported:
     """What the control said."""
 
     def __init__(self, slider: NumberSlider) -> None:
@@ -68,26 +68,26 @@ def test_it_is_large_enough_for_a_pen(slider: NumberSlider) -> None:
 
 
 def test_a_drag_is_one_gesture(slider: NumberSlider) -> None:
-    told = Told(slider)
+    reported = Reported(slider)
     drag(slider, 60)
     assert slider.value == pytest.approx(0.5 + 56 / slider.width(), abs=0.011)
-    assert len(set(told.tokens)) == 1
-    assert told.tokens[0] is not None
-    assert told.releases == 1
+    assert len(set(reported.tokens)) == 1
+    assert reported.tokens[0] is not None
+    assert reported.releases == 1
     drag(slider, -30)
-    assert len(set(told.tokens)) == 2
+    assert len(set(reported.tokens)) == 2
 
 
 def test_escape_takes_a_drag_back(slider: NumberSlider) -> None:
-    told = Told(slider)
+    reported = Reported(slider)
     drag(slider, 60, release=False)
     assert slider.value > 0.6
     QTest.keyClick(slider, Qt.Key.Key_Escape)
     assert slider.value == 0.5
-    assert told.values[-1] == 0.5
-    assert told.releases == 1
+    assert reported.values[-1] == 0.5
+    assert reported.releases == 1
     QTest.mouseRelease(slider, Qt.MouseButton.LeftButton)
-    assert told.releases == 1
+    assert reported.releases == 1
 
 
 def test_a_drag_stays_in_range_and_turns_at_once(slider: NumberSlider) -> None:
@@ -125,12 +125,12 @@ def field(slider: NumberSlider) -> QLineEdit:
 
 
 def test_a_click_opens_the_field_and_return_takes_what_was_typed(slider: NumberSlider) -> None:
-    told = Told(slider)
+    reported = Reported(slider)
     QTest.mouseClick(slider, Qt.MouseButton.LeftButton, pos=QPoint(100, 10))
     QTest.keyClicks(field(slider), "1/4")
     QTest.keyClick(field(slider), Qt.Key.Key_Return)
-    assert told.values == [0.25]
-    assert told.tokens == [None]
+    assert reported.values == [0.25]
+    assert reported.tokens == [None]
     assert slider.window().focusWidget() is slider
 
 
@@ -142,28 +142,28 @@ def test_typing_begins_with_the_first_digit(slider: NumberSlider) -> None:
 
 
 def test_escape_and_nonsense_change_nothing(slider: NumberSlider) -> None:
-    told = Told(slider)
+    reported = Reported(slider)
     QTest.keyClick(slider, Qt.Key.Key_F2)
     QTest.keyClicks(field(slider), "0.9")
     QTest.keyClick(field(slider), Qt.Key.Key_Escape)
     QTest.keyClick(slider, Qt.Key.Key_Return)
     QTest.keyClicks(slider.findChildren(QLineEdit, "number_field")[-1], "loud")
     QTest.keyClick(slider.findChildren(QLineEdit, "number_field")[-1], Qt.Key.Key_Return)
-    assert told.values == []
+    assert reported.values == []
     assert slider.value == 0.5
 
 
 def test_arrows_step_and_a_held_key_is_one_gesture(slider: NumberSlider) -> None:
-    told = Told(slider)
+    reported = Reported(slider)
     for _ in range(3):
         QTest.keyPress(slider, Qt.Key.Key_Up)
     QTest.keyRelease(slider, Qt.Key.Key_Up)
-    assert told.values == [0.55, 0.6, 0.65]
-    assert len(set(told.tokens)) == 1
-    assert told.releases == 1
+    assert reported.values == [0.55, 0.6, 0.65]
+    assert len(set(reported.tokens)) == 1
+    assert reported.releases == 1
     QTest.keyClick(slider, Qt.Key.Key_Down, Qt.KeyboardModifier.ShiftModifier)
     assert slider.value == 0.64
-    assert len(set(told.tokens)) == 2
+    assert len(set(reported.tokens)) == 2
     QTest.keyClick(slider, Qt.Key.Key_End)
     assert slider.value == 1.0
 
@@ -185,23 +185,23 @@ def wheel(slider: NumberSlider) -> QWheelEvent:
 
 
 def test_the_wheel_works_only_with_focus(slider: NumberSlider, qtbot: QtBot) -> None:
-    told = Told(slider)
+    reported = Reported(slider)
     wheel(slider)
     wheel(slider)
-    assert told.values == [0.55, 0.6]
-    assert told.tokens[0] is told.tokens[1]
-    qtbot.waitUntil(lambda: told.releases == 1)
+    assert reported.values == [0.55, 0.6]
+    assert reported.tokens[0] is reported.tokens[1]
+    qtbot.waitUntil(lambda: reported.releases == 1)
     slider.clearFocus()
     assert not wheel(slider).isAccepted()
     assert slider.value == 0.6
 
 
 def test_a_double_click_returns_to_the_default(slider: NumberSlider) -> None:
-    told = Told(slider)
+    reported = Reported(slider)
     slider.show_value(0.9)
     assert slider.by_hand
     QTest.mouseDClick(slider, Qt.MouseButton.LeftButton, pos=QPoint(60, 10))
-    assert told.values == [0.5]
+    assert reported.values == [0.5]
     assert not slider.by_hand
     slider.show_value(0.2)
     QTest.mouseClick(slider, Qt.MouseButton.LeftButton, pos=QPoint(60, 10))
@@ -210,25 +210,25 @@ def test_a_double_click_returns_to_the_default(slider: NumberSlider) -> None:
 
 
 def test_who_listens_to_reset_decides(slider: NumberSlider) -> None:
-    told, wanted = Told(slider), []
-    slider.reset.connect(wanted.append)
+    reported, requested = Reported(slider), []
+    slider.reset.connect(requested.append)
     slider.show_value(0.9, default=0.3)
     QTest.keyClick(slider, Qt.Key.Key_Backspace)
-    assert wanted == [0.3]
-    assert told.values == []
+    assert requested == [0.3]
+    assert reported.values == []
 
 
 def test_without_a_default_a_double_click_types(session: Session, window: QWidget) -> None:
     control = NumberSlider(session, 0, 127, decimals=0, resets=False, parent=window)
     control.resize(120, 26)
     control.show()
-    told = Told(control)
+    reported = Reported(control)
     control.show_value(64)
     assert not control.by_hand
     QTest.mouseDClick(control, Qt.MouseButton.LeftButton, pos=QPoint(30, 10))
     QTest.keyClicks(field(control), "70")
     QTest.keyClick(field(control), Qt.Key.Key_Return)
-    assert told.values == [70.0]
+    assert reported.values == [70.0]
 
 
 def test_copy_and_paste(slider: NumberSlider) -> None:
@@ -241,7 +241,7 @@ def test_copy_and_paste(slider: NumberSlider) -> None:
 
 
 def test_several_values_are_a_dash_until_one_is_chosen(slider: NumberSlider) -> None:
-    told = Told(slider)
+    reported = Reported(slider)
     slider.show_value(0.5, mixed=True)
     assert slider.value_text() == "—"
     assert slider.by_hand
@@ -249,7 +249,7 @@ def test_several_values_are_a_dash_until_one_is_chosen(slider: NumberSlider) -> 
     assert field(slider).text() == ""
     QTest.keyClicks(field(slider), "0.5")
     QTest.keyClick(field(slider), Qt.Key.Key_Return)
-    assert told.values == [0.5]
+    assert reported.values == [0.5]
     assert slider.value_text() == "0.50"
 
 

@@ -41,7 +41,7 @@ class Answers:
         self.dances = False
         self.asked: list[str] = []
         self.removes = True
-        self.told_players: tuple[str, ...] = ()
+        self.reported_players: tuple[str, ...] = ()
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
         """The test's path."""
@@ -61,24 +61,24 @@ class Answers:
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
         """The test's answer."""
         self.asked.append("remove_character")
-        self.told_players = players
+        self.reported_players = players
         return self.removes
 
     def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
-        """As if nobody touched the dialog."""
+        """As if no one touched the dialog."""
         self.asked.append("import")
         return ImportWish(usual_rows(contents, bundled_maps()), self.dances) if self.imports else None
 
 
 @pytest.fixture
 def answers() -> Answers:
-    """What the person answers."""
+    """What the user answers."""
     return Answers()
 
 
 @pytest.fixture
 def settings(tmp_path: Path) -> Settings:
-    """Settings of nobody; English, whatever the system speaks."""
+    """Settings of no one; English, whatever the system speaks."""
     result = Settings(tmp_path / "settings" / "editor.toml")
     result.language = "en"
     return result
@@ -94,7 +94,7 @@ def _drawn(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> N
     if "drawn" not in marks:
         monkeypatch.setattr("widgets.viewport.panel.why_no_gl", lambda: "not in this test")
         if "moved" not in marks:
-            monkeypatch.setattr("app.performance.live.LiveMotion.work", lambda self, stop_wanted: False)
+            monkeypatch.setattr("app.performance.live.LiveMotion.work", lambda self, stop_requested: False)
 
 
 Start = Callable[[], Program]

@@ -13,6 +13,7 @@ from app.project.edit.piece import set_title
 from app.shell.actions import CONTEXTS, MENUS, ActionTable, menu_with_keys, rows, sequences
 from app.shell.app import Program
 from app.shell.settings import Settings
+from app.shell.texts import TEXTS
 from app.shell.window import Window
 from tests.gui.shell.conftest import trigger
 from tests.support.windows import show_in_front
@@ -26,7 +27,7 @@ def test_the_table_is_sound() -> None:
     assert {key for row in table for key in row.menu.split("/") if key} <= set(MENUS)
     assert {row.context for row in table} <= set(CONTEXTS)
     for row in table:
-        assert row.text
+        assert TEXTS[f"action.{row.id}"][0]
         for sequence in sequences(row.shortcut):
             assert sequence.toString(), f"{row.id}: {row.shortcut!r} is no shortcut"
 
@@ -108,7 +109,7 @@ def test_a_shortcut_of_ones_own_works_and_is_remembered(program: Program, settin
     assert settings.shortcut("theme.light") is None
 
 
-def test_a_taken_shortcut_is_told(program: Program) -> None:
+def test_a_taken_shortcut_is_reported(program: Program) -> None:
     table = program.editor.table
     assert table.conflicts("theme.light", "Ctrl+S") == ("file.save",)
     assert table.conflicts("file.save", "Ctrl+S") == ()
@@ -121,7 +122,7 @@ def test_the_preferences_move_a_shortcut(program: Program, qtbot: QtBot) -> None
     page = dialog.shortcuts
     page.choose("theme.light")
     qtbot.keyClick(page.edit, Qt.Key.Key_S, Qt.KeyboardModifier.ControlModifier)
-    assert "Save" in page.told.text()
+    assert "Save" in page.reported.text()
     qtbot.mouseClick(page.give, Qt.MouseButton.LeftButton)
     assert program.editor.table.keys("theme.light") == "Ctrl+S"
     assert program.editor.table.keys("file.save") == ""
@@ -131,8 +132,10 @@ def test_the_preferences_move_a_shortcut(program: Program, qtbot: QtBot) -> None
     dialog.close()
 
 
-@pytest.mark.parametrize(("language", "told"), [("en", "opens the menu File"), ("ja", "形式")])
-def test_keys_that_open_a_menu_are_not_given(program: Program, qtbot: QtBot, language: str, told: str) -> None:
+@pytest.mark.parametrize(
+    ("language", "reported"), [("en", "opens the menu File"), ("ja", "「ファイル」メニューを開く")]
+)
+def test_keys_that_open_a_menu_are_not_given(program: Program, qtbot: QtBot, language: str, reported: str) -> None:
     from app.shell.preferences import show_preferences
 
     program.editor.speak(language)
@@ -140,10 +143,10 @@ def test_keys_that_open_a_menu_are_not_given(program: Program, qtbot: QtBot, lan
     page = dialog.shortcuts
     page.choose("theme.light")
     qtbot.keyClick(page.edit, Qt.Key.Key_F, Qt.KeyboardModifier.AltModifier)
-    assert told in page.told.text()
+    assert reported in page.reported.text()
     assert not page.give.isEnabled()
     qtbot.keyClick(page.edit, Qt.Key.Key_J, Qt.KeyboardModifier.AltModifier)
-    assert page.told.text() == ""
+    assert page.reported.text() == ""
     assert page.give.isEnabled()
     dialog.close()
     program.editor.speak("en")

@@ -35,7 +35,7 @@ TODDLER, MITTENS = DATA / "toddler_vrm1.vrm", DATA / "man_cmu.fbx"
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """The person's own characters: none yet."""
+    """The user's own characters: none yet."""
     own = tmp_path / "characters"
     monkeypatch.setenv(FOLDER_VARIABLE, str(own))
     reload_characters()
@@ -139,9 +139,9 @@ def test_without_what_playing_needs_it_cannot_be_kept(program: Program) -> None:
     assert ok(dialog).isEnabled()
     dialog.choose("leftHand")
     QTest.mouseClick(button(dialog, "joint_none"), Qt.MouseButton.LeftButton)
-    told = dialog.findChild(QLabel, "character_told")
-    assert told is not None
-    assert "Hand L" in told.text()
+    reported = dialog.findChild(QLabel, "character_told")
+    assert reported is not None
+    assert "Hand L" in reported.text()
     assert not ok(dialog).isEnabled()
     QTest.mouseClick(button(dialog, "character_reset"), Qt.MouseButton.LeftButton)
     assert ok(dialog).isEnabled()
@@ -149,11 +149,11 @@ def test_without_what_playing_needs_it_cannot_be_kept(program: Program) -> None:
     assert not ok(dialog).isEnabled()
 
 
-def test_a_mitten_is_told(program: Program) -> None:
-    told = opened(program, MITTENS).findChild(QLabel, "character_told")
-    assert told is not None
-    assert "Fingers that do not move" in told.text()
-    assert "blink" in told.text()
+def test_a_mitten_is_reported(program: Program) -> None:
+    reported = opened(program, MITTENS).findChild(QLabel, "character_told")
+    assert reported is not None
+    assert "Fingers that do not move" in reported.text()
+    assert "Blinking is not available" in reported.text()
 
 
 def test_a_face_is_made_of_other_morphs_in_one_step_each(program: Program, qtbot: QtBot) -> None:
@@ -232,7 +232,7 @@ def test_what_is_kept_can_be_cast_and_the_casting_undone(program: Program, folde
     assert program.session.project.players == before.players
 
 
-def test_a_character_is_changed_again_and_removed_if_nobody_objects(
+def test_a_character_is_changed_again_and_removed_if_no_one_objects(
     program: Program, answers: Answers, qtbot: QtBot, folder: Path
 ) -> None:
     QTest.mouseClick(ok(opened(program)), Qt.MouseButton.LeftButton)
@@ -255,7 +255,7 @@ def test_a_character_is_changed_again_and_removed_if_nobody_objects(
     )
     answers.removes = False
     QTest.mouseClick(button(shelf, "characters_remove"), Qt.MouseButton.LeftButton)
-    assert answers.told_players == (player.name,)
+    assert answers.reported_players == (player.name,)
     assert id in character_library().own
     answers.removes = True
     QTest.mouseClick(button(shelf, "characters_remove"), Qt.MouseButton.LeftButton)
@@ -282,13 +282,13 @@ def test_a_file_is_dropped_on_the_window(program: Program, qtbot: QtBot) -> None
 
 
 def test_what_cannot_be_read_is_said(program: Program, tmp_path: Path) -> None:
-    told = list[str]()
-    program.session.noticed.connect(lambda message, severity: told.append(message.id))
+    reported = list[str]()
+    program.session.noticed.connect(lambda message, severity: reported.append(message.id))
     wrong = tmp_path / "wrong.vrm"
     wrong.write_bytes(b"glTF but not really")
     bring_character(program.editor, wrong)
     assert not program.window.findChildren(CharacterDialog)
-    assert len(told) == 1
+    assert len(reported) == 1
 
 
 def test_a_file_put_into_the_folder_is_there_by_itself(program: Program, qtbot: QtBot, folder: Path) -> None:

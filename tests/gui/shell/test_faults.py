@@ -1,4 +1,4 @@
-"""Faults of the program: reported once, in whatever thread, and what is not at fault goes on."""
+"""CrashHandler of the program: reported once, in whatever thread, and what is not at fault goes on."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 from app.errors import Message
 from app.project.edit.players import rename
 from app.shell.app import Program
-from app.shell.faults import Faults
+from app.shell.crash_handler import CrashHandler
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Start
 from widgets.players.player_list import PlayerList
@@ -32,29 +32,29 @@ def test_a_fault_again_and_again_is_reported_once(
 ) -> None:
     now_s, saved = [0.0], []
     log = tmp_path / "faults.log"
-    faults = Faults(program.session, lambda: saved.append(now_s[0]), log, clock=lambda: now_s[0])
+    faults = CrashHandler(program.session, lambda: saved.append(now_s[0]), log, clock=lambda: now_s[0])
     noticed: list[object] = []
-    program.session.noticed.connect(lambda *told: noticed.append(told))
+    program.session.noticed.connect(lambda *reported: noticed.append(reported))
     for _ in range(300):
-        faults.tell(raised(ValueError("not drawn")))
+        faults.report(raised(ValueError("not drawn")))
         now_s[0] += 1.0 / 60.0
     assert (len(noticed), len(saved)) == (1, 1)
     assert log.read_text(encoding="utf-8").count("ValueError: not drawn") == 1
     # Another place is another fault, and so is the same one later.
-    faults.tell(raised(KeyError("other")))
+    faults.report(raised(KeyError("other")))
     assert len(noticed) == 2
     now_s[0] += 60.0
-    faults.tell(raised(ValueError("not drawn")))
+    faults.report(raised(ValueError("not drawn")))
     assert len(noticed) == 3
     capsys.readouterr()
 
 
-def test_a_fault_in_a_thread_is_told_in_the_window(
+def test_a_fault_in_a_thread_is_reported_in_the_window(
     program: Program, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(sys, "excepthook", sys.excepthook)
     monkeypatch.setattr(threading, "excepthook", threading.excepthook)
-    faults = Faults(program.session, lambda: None, tmp_path / "faults.log")
+    faults = CrashHandler(program.session, lambda: None, tmp_path / "faults.log")
     faults.install()
     thread = threading.Thread(target=lambda: 1 // 0)
     thread.start()
@@ -77,7 +77,7 @@ def test_a_fault_of_one_panel_leaves_the_others_at_work(
     program.editor.files.open(QUARTET, ask=False)
     monkeypatch.setattr(WaveformLane, "project_changed", fail)
     monkeypatch.setattr(sys, "excepthook", sys.excepthook)
-    Faults(program.session, lambda: None, tmp_path / "faults.log").install()
+    CrashHandler(program.session, lambda: None, tmp_path / "faults.log").install()
     player = program.session.project.players[0]
     program.session.attempt(Message("edit.set_tempo"), lambda project: rename(project, player.id, "Renamed"))
     assert failing == ["audio"]

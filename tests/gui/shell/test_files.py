@@ -43,8 +43,8 @@ class Desk:
         self.answers.path = self.document
         self.autosave = Autosave(Presence(self.recovery))
         self.files = Files(self.session, settings, self.answers, self.autosave)
-        self.told: list[Message] = []
-        self.session.noticed.connect(lambda message, severity: self.told.append(message))
+        self.reported: list[Message] = []
+        self.session.noticed.connect(lambda message, severity: self.reported.append(message))
         self._now = now
 
     def edit(self, title: str) -> None:
@@ -138,7 +138,7 @@ def test_work_that_its_folder_refuses_is_offered_again(
         desk.edit(f"Precious {number}")
         pass_time(desk, clock)
     # It is said once.
-    assert [message.id for message in desk.told] == ["autosave.elsewhere"]
+    assert [message.id for message in desk.reported] == ["autosave.elsewhere"]
     assert desk.files.risk is None
     desk.crash()
     second = sit()
@@ -169,15 +169,15 @@ def test_autosaves_return_to_their_usual_place(desk: Desk, clock: Clock, refusin
     assert not autosave_path(desk.document).exists()
 
 
-def test_the_risk_is_told_once_and_over_when_a_place_takes_the_work(
+def test_the_risk_is_reported_once_and_over_when_a_place_takes_the_work(
     desk: Desk, clock: Clock, refusing: dict[Path, int]
 ) -> None:
     refusing |= {desk.document.parent: errno.EROFS, desk.recovery: errno.ENOSPC}
     for number in range(3):
         desk.edit(f"Precious {number}")
         pass_time(desk, clock)
-    assert [message.id for message in desk.told] == ["autosave.refused"]
-    assert desk.files.risk == desk.told[0]
+    assert [message.id for message in desk.reported] == ["autosave.refused"]
+    assert desk.files.risk == desk.reported[0]
     # Without another edit: what could not be written is tried again.
     del refusing[desk.recovery]
     pass_time(desk, clock)
@@ -199,7 +199,7 @@ def test_saving_notices_what_others_wrote_whatever_the_clock_says(desk: Desk) ->
     desk.files.save()
     assert overtaken == [desk.document]
     assert load(desk.document).score.title == "Else"
-    # Nobody is asked about a file that was only touched.
+    # No one is asked about a file that was only touched.
     desk.files.save_over()
     os.utime(desk.document, (1.0, 1.0))
     desk.edit("Once more")

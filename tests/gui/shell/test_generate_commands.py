@@ -24,21 +24,21 @@ def test_it_says_how_many_corrections_it_kept(
     note = session.project.part(player).notes[3]
     said = [SetEmbouchure(note.id, tension=0.4), SetEmbouchure("9:99", tension=0.4)]
     session.apply(Message("edit.test"), put(session.project, player.id, said))
-    told: list[Message] = []
-    session.noticed.connect(lambda message, severity: told.append(message))
+    reported: list[Message] = []
+    session.noticed.connect(lambda message, severity: reported.append(message))
     generator = Generator(session, session.tasks)
     try:
         before = session.project
         generate.vary_everyone(session)
-        qtbot.waitUntil(lambda: bool(told))
-        assert told == [Message("generate.kept_and_lost", {"kept": 1, "lost": 1})]
+        qtbot.waitUntil(lambda: bool(reported))
+        assert reported == [Message("generate.kept_and_lost", {"kept": 1, "lost": 1})]
         assert session.project.seed != before.seed
         assert session.project.corrections == before.corrections
         assert session.performance.project is session.project
         session.set_players((session.project.players[1].id,))
         generate.vary_players(session)
-        qtbot.waitUntil(lambda: len(told) == 2)
-        assert told[1] == Message("generate.kept", {"kept": 0})
+        qtbot.waitUntil(lambda: len(reported) == 2)
+        assert reported[1] == Message("generate.kept", {"kept": 0})
         session.document.undo()
         session.document.undo()
         assert session.project is before

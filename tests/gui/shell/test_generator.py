@@ -98,23 +98,23 @@ def test_motion_is_made_by_itself_and_again_where_an_edit_touched_it(
     assert generator.live.pose(player.id, at_s + 20.0).morphs == other.morphs  # type: ignore[union-attr]
 
 
-def test_the_viewport_is_told_only_of_poses_at_the_playhead(
+def test_the_viewport_is_reported_only_of_poses_at_the_playhead(
     session: Session, generator: Generator, qtbot: QtBot
 ) -> None:
     player, score = session.project.players[0], session.project.score
     qtbot.waitUntil(lambda: generator.ready_share == 1.0)
     session.set_playhead(4.0)
     qtbot.wait(100)
-    told: list[bool] = []
-    generator.motion_changed.connect(lambda: told.append(generator.live.is_seen))
+    reported: list[bool] = []
+    generator.motion_changed.connect(lambda: reported.append(generator.live.is_seen))
     for at_s, expected in ((30.0, 1), (4.5, 2)):
-        told.clear()
+        reported.clear()
         start = round(score.tempo_map.ticks(at_s))
         session.apply(EDIT, put(session.project, player.id, [AddExpression("x", "strained", start, start + 480)]))
         qtbot.waitUntil(lambda: generator.ready_share == 1.0)
         qtbot.wait(100)
         # Once that there are other plans; then, where the playhead is in what changed, that its pose is right.
-        assert len(told) == expected, at_s
+        assert len(reported) == expected, at_s
 
 
 class Clock:
@@ -143,7 +143,7 @@ class Work:
         self.clock, self.others_s, self.is_seen = clock, others_s, is_seen
         self.seen, self.ready_share, self.broken = 0, 0.5, {}
 
-    def work(self, stop_wanted: object) -> bool:
+    def work(self, stop_requested: object) -> bool:
         self.clock.now_s += 0.02
         self.clock.this_thread_s += 0.01
         self.clock.others_s += self.others_s
@@ -153,31 +153,31 @@ class Work:
 @pytest.mark.parametrize(
     ("others_s", "is_seen", "rests"), [(0.01, True, True), (0.0001, True, False), (0.01, False, False)]
 )
-def test_motion_that_nobody_waits_for_gives_way(
+def test_motion_that_no_one_waits_for_gives_way(
     generator: Generator, monkeypatch: pytest.MonkeyPatch, others_s: float, is_seen: bool, rests: bool
 ) -> None:
-    """Where others had the processor the worker rests longer than they did, unless somebody waits for what it makes."""
+    """Where others had the processor the worker rests longer than they did, unless someone waits for what it makes."""
     generator.close()
     clock = Clock()
-    worker = module._Worker(Work(clock, others_s, is_seen), generator._worker._teller, clock)  # type: ignore[arg-type]
+    worker = module._Worker(Work(clock, others_s, is_seen), generator._worker._notifier, clock)  # type: ignore[arg-type]
     rested: list[float] = []
-    monkeypatch.setattr(worker, "_rest", lambda rest_s, wishes: rested.append(rest_s))
+    monkeypatch.setattr(worker, "_rest", lambda rest_s, requests: rested.append(rest_s))
     for _ in range(3):
         worker._make_motion()
     assert rested == pytest.approx([3 * 0.02] * 3 if rests else [])
 
 
-def test_what_is_wanted_ends_the_rest(generator: Generator) -> None:
+def test_what_is_requested_ends_the_rest(generator: Generator) -> None:
     worker = generator._worker
-    wishes = worker._wishes
-    thread = threading.Thread(target=worker._rest, args=(60.0, wishes))
+    requests = worker._wishes
+    thread = threading.Thread(target=worker._rest, args=(60.0, requests))
     thread.start()
     thread.join(0.1)
     assert thread.is_alive()
     worker.wake()
     thread.join(10.0)
     assert not thread.is_alive()
-    worker._rest(60.0, wishes)
+    worker._rest(60.0, requests)
 
 
 @pytest.mark.parametrize("most", ["AT_ONCE_NOTES", "TOLD_NOTES", "AT_ONCE_S"])
@@ -240,11 +240,11 @@ def test_a_player_without_an_instrument_is_a_problem_and_the_others_play(
     assert generator.live.pose(others[0].id, 1.0) is not None
 
 
-def test_a_piece_that_cannot_be_played_is_told_and_the_last_performance_stays(
+def test_a_piece_that_cannot_be_played_is_reported_and_the_last_performance_stays(
     session: Session, generator: Generator
 ) -> None:
-    told: list[tuple[Message, Severity]] = []
-    session.noticed.connect(lambda message, severity: told.append((message, severity)))
+    reported: list[tuple[Message, Severity]] = []
+    session.noticed.connect(lambda message, severity: reported.append((message, severity)))
     before, score = session.performance, session.project.score
     slow = msgspec.structs.replace(
         score.tempo_map,
@@ -253,7 +253,7 @@ def test_a_piece_that_cannot_be_played_is_told_and_the_last_performance_stays(
         ),
     )
     session.apply(EDIT, replace(session.project, score=msgspec.structs.replace(score, tempo_map=slow)))
-    assert [(message.id, severity) for message, severity in told] == [("piece.too_long", Severity.ERROR)]
+    assert [(message.id, severity) for message, severity in reported] == [("piece.too_long", Severity.ERROR)]
     assert session.performance is before
     session.document.undo()
     assert generator.up_to_date
@@ -295,12 +295,12 @@ def test_how_a_new_body_holds_an_instrument_is_found_beside_the_window(
     here, where, go = threading.current_thread(), list[threading.Thread](), threading.Event()
     ours = bodies.hold_for
 
-    def slow(character, model, instrument, body, told=lambda share: None):  # type: ignore[no-untyped-def]
+    def slow(character, model, instrument, body, reported=lambda share: None):  # type: ignore[no-untyped-def]
         if character.id != "unmarked":
             return ours(character, model, instrument, body)
         where.append(threading.current_thread())
         while not go.wait(0.01):
-            told(0.5)
+            reported(0.5)
         return ours(character_named("woman_adult"), model, instrument, body)
 
     monkeypatch.setattr(bodies, "hold_for", slow)
@@ -311,7 +311,7 @@ def test_how_a_new_body_holds_an_instrument_is_found_beside_the_window(
         try:
             first, second = session.project.players[:2]
 
-            def told() -> list[str]:
+            def reported() -> list[str]:
                 player = session.project.players[0]
                 return [problem.message.id for problem in session.performance.plan(player).problems]
 
@@ -319,7 +319,7 @@ def test_how_a_new_body_holds_an_instrument_is_found_beside_the_window(
             qtbot.waitUntil(lambda: bool(where))
             assert where[0] is not here
             # The others play on, and what is edited meanwhile is seen; it begins nothing again.
-            qtbot.waitUntil(lambda: "character.hold_waiting" in told())
+            qtbot.waitUntil(lambda: "character.hold_waiting" in reported())
             _correct(session, 0.8)
             qtbot.waitUntil(lambda: generator.live.pose(second.id, 1.0) is not None)
             assert generator.live.pose(first.id, 1.0) is None
@@ -333,7 +333,7 @@ def test_how_a_new_body_holds_an_instrument_is_found_beside_the_window(
             qtbot.waitUntil(lambda: len(where) == 2)
             go.set()
             qtbot.waitUntil(lambda: generator.live.pose(first.id, 1.0) is not None)
-            assert told() == []
+            assert reported() == []
             assert session.performance.plan(session.project.players[0]).embouchures[20].tension == 0.7
             assert all(thread is not here for thread in where)
         finally:

@@ -1,4 +1,4 @@
-"""A person's own instruments in the running editor: edited beside it, they play on at once."""
+"""The user's own instruments in the running editor: edited beside it, they play on at once."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def write(path: Path, text: str, second: int) -> None:
     os.utime(path, (second, second))
 
 
-def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_told(
+def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_reported(
     start: Start, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = tmp_path / "mine" / "instruments"
@@ -41,8 +41,8 @@ def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_told(
     monkeypatch.setattr(module.LIBRARY, "last", None)
     program = start()
     session = program.session
-    told: list[tuple[str, dict[str, object]]] = []
-    session.noticed.connect(lambda message, severity: told.append((message.id, dict(message.arguments))))
+    reported: list[tuple[str, dict[str, object]]] = []
+    session.noticed.connect(lambda message, severity: reported.append((message.id, dict(message.arguments))))
     program.editor.files.open(QUARTET)
     trumpet = next(player for player in session.project.players if player.instrument_id == "trumpet_Bb")
     trombone = next(player for player in session.project.players if player.instrument_id.startswith("trombone"))
@@ -63,13 +63,13 @@ def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_told(
     assert labels() == {"13"}
     assert session.performance.plans[trombone.id] is before.plans[trombone.id]
     assert program.generator.up_to_date
-    assert told[-1] == ("instruments.read_again", {"maps": "trumpet_Bb"})
+    assert reported[-1] == ("instruments.read_again", {"maps": "trumpet_Bb"})
     # A wrong file: told with its place, and what was good plays on.
     good = session.performance
     write(folder / "trumpet_Bb.toml", OWN.replace('label = "13"', 'label = "19"'), 2)
-    qtbot.waitUntil(lambda: told[-1][0] == "table.invalid")
-    assert told[-1][1]["file"] == str(folder / "trumpet_Bb.toml")
-    assert str(told[-1][1]["place"]).startswith("fingerings[")
+    qtbot.waitUntil(lambda: reported[-1][0] == "table.invalid")
+    assert reported[-1][1]["file"] == str(folder / "trumpet_Bb.toml")
+    assert str(reported[-1][1]["place"]).startswith("fingerings[")
     assert labels() == {"13"}
     assert session.performance.instrument(trumpet) is good.instrument(trumpet)
     # It stays to be seen, whatever else is said, until it is mended.

@@ -1,4 +1,4 @@
-"""Damaged files, full disks, files that others write, pieces nobody would write: a clear word in both languages, and
+"""Damaged files, full disks, files that others write, pieces no one would write: a clear word in both languages, and
 nothing is lost."""
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ from widgets.common.session import Severity
 from widgets.common.text import message_text
 
 
-class Told:
-    """Everything the person is told, in the language of the moment."""
+class Reported:
+    """Everything the user is informed, in the language of the moment."""
 
     def __init__(self, program: Program) -> None:
         self.messages: list[tuple[Message, Severity]] = []
@@ -57,8 +57,8 @@ class Told:
 
 
 @pytest.fixture
-def told(program: Program) -> Told:
-    result = Told(program)
+def reported(program: Program) -> Reported:
+    result = Reported(program)
     tasks = program.tasks
     assert isinstance(tasks, ImmediateTasks)
     return result
@@ -121,60 +121,62 @@ DAMAGES = (
 )
 
 
-def test_a_damaged_project_is_told_and_the_open_one_stays(program: Program, told: Told, tmp_path: Path) -> None:
+def test_a_damaged_project_is_reported_and_the_open_one_stays(
+    program: Program, reported: Reported, tmp_path: Path
+) -> None:
     before = edit(program)
     for what in DAMAGES:
-        told.messages.clear()
+        reported.messages.clear()
         path = good_file(tmp_path)
         damaged(path, what)
         program.editor.files._load(path)
-        assert "good.suisou" in told.says(program), what
-        assert told.messages[-1][1] is Severity.ERROR
+        assert "good.suisou" in reported.says(program), what
+        assert reported.messages[-1][1] is Severity.ERROR
         assert program.session.project is before
         assert len(program.session.document.done) == 1
 
 
 @pytest.mark.parametrize("content", [b"", b"MThd", b"hello", b"MThd\0\0\0\6\0\1\0\1\0\x60MTrk\0\0\xff\xff\0\xff"])
-def test_a_damaged_midi_file_is_told_and_the_open_piece_stays(
-    program: Program, told: Told, answers: Answers, tmp_path: Path, content: bytes
+def test_a_damaged_midi_file_is_reported_and_the_open_piece_stays(
+    program: Program, reported: Reported, answers: Answers, tmp_path: Path, content: bytes
 ) -> None:
     answers.answer = "discard"
     before = program.session.project
     path = tmp_path / "bad.mid"
     path.write_bytes(content)
     program.editor.files.open(path, ask=False)
-    if told.messages and told.messages[-1][1] is Severity.ERROR:
-        assert "bad.mid" in told.says(program)
+    if reported.messages and reported.messages[-1][1] is Severity.ERROR:
+        assert "bad.mid" in reported.says(program)
         assert program.session.project is before
     else:
         # What can be read of it is read.
         assert program.editor.files.name.startswith("bad")
 
 
-def test_files_that_are_not_there(program: Program, told: Told, tmp_path: Path) -> None:
+def test_files_that_are_not_there(program: Program, reported: Reported, tmp_path: Path) -> None:
     before = program.session.project
     for name in ("gone.suisou", "gone.mid", "ガッキ🎺.suisou", "n" * 300 + ".suisou"):
-        told.messages.clear()
+        reported.messages.clear()
         program.editor.files.open(tmp_path / name, ask=False)
-        assert name[:20] in told.says(program)
+        assert name[:20] in reported.says(program)
     assert program.session.project is before
 
 
 # Saving
 
 
-def refused(program: Program, told: Told) -> str:
-    """Saving failed: it is told, and the work is still unsaved."""
+def refused(program: Program, reported: Reported) -> str:
+    """Saving failed: it is reported, and the work is still unsaved."""
     tasks = program.tasks
     assert isinstance(tasks, ImmediateTasks)
     assert tasks.errors
-    told.messages.append((tasks.errors[-1].message, Severity.ERROR))
+    reported.messages.append((tasks.errors[-1].message, Severity.ERROR))
     assert not program.session.document.is_saved
     assert program.window.isWindowModified()
-    return told.says(program)
+    return reported.says(program)
 
 
-def test_a_full_disk(program: Program, told: Told, answers: Answers, tmp_path: Path, monkeypatch: Any) -> None:
+def test_a_full_disk(program: Program, reported: Reported, answers: Answers, tmp_path: Path, monkeypatch: Any) -> None:
     answers.path = path = tmp_path / "work.suisou"
     trigger(program, "file.save")
     held = path.read_bytes()
@@ -186,7 +188,7 @@ def test_a_full_disk(program: Program, told: Told, answers: Answers, tmp_path: P
     with monkeypatch.context() as patch:
         patch.setattr("app.formats.atomic.os.fsync", full)
         trigger(program, "file.save")
-        assert "No space left" in refused(program, told)
+        assert "No space left" in refused(program, reported)
     assert path.read_bytes() == held
     assert [found.name for found in tmp_path.glob("*.partial")] == []
     trigger(program, "file.save")
@@ -194,20 +196,22 @@ def test_a_full_disk(program: Program, told: Told, answers: Answers, tmp_path: P
     assert storage.load(path).score.title == "Corrections"
 
 
-def test_a_place_that_cannot_be_written_to(program: Program, told: Told, answers: Answers, tmp_path: Path) -> None:
+def test_a_place_that_cannot_be_written_to(
+    program: Program, reported: Reported, answers: Answers, tmp_path: Path
+) -> None:
     (tmp_path / "a file").write_text("x")
     (tmp_path / "taken.suisou").mkdir()
     edit(program)
     for place in (tmp_path / "a file" / "x.suisou", tmp_path / "nowhere" / "x.suisou", tmp_path / "taken.suisou"):
         answers.path = place
         trigger(program, "file.save_as")
-        assert place.name in refused(program, told)
+        assert place.name in refused(program, reported)
         assert program.editor.files.path is None
     assert (tmp_path / "taken.suisou").is_dir()
 
 
 def test_a_file_that_is_write_protected(
-    program: Program, told: Told, answers: Answers, tmp_path: Path, monkeypatch: Any
+    program: Program, reported: Reported, answers: Answers, tmp_path: Path, monkeypatch: Any
 ) -> None:
     answers.path = path = tmp_path / "work.suisou"
     trigger(program, "file.save")
@@ -215,11 +219,11 @@ def test_a_file_that_is_write_protected(
     # Whoever runs the test may be allowed everything.
     monkeypatch.setattr("app.project.storage.os.access", lambda *_: False)
     trigger(program, "file.save")
-    assert "work.suisou" in refused(program, told)
+    assert "work.suisou" in refused(program, reported)
     assert storage.load(path).score.title != "Corrections"
 
 
-def test_names_that_nobody_expects(program: Program, answers: Answers, tmp_path: Path) -> None:
+def test_names_that_no_one_expects(program: Program, answers: Answers, tmp_path: Path) -> None:
     for name in ("四重奏 🎺 – Ünïcödé", "a" * 200, "...", "con", "a%20b{file}", "'quotes\" & <tags>"):
         edit(program, f"{name} ")
         answers.path = path = tmp_path / f"{name}.suisou"
@@ -245,7 +249,7 @@ def click(program: Program, name: str, qtbot: QtBot) -> None:
 
 @pytest.fixture
 def overtaken(program: Program, answers: Answers, tmp_path: Path) -> Path:
-    """A file that somebody else has written since this editor saved it, and an edit here."""
+    """A file that someone else has written since this editor saved it, and an edit here."""
     answers.path = path = tmp_path / "shared.suisou"
     trigger(program, "file.save")
     storage.save(set_title(program.session.project, "Of somebody else"), path)
@@ -298,13 +302,13 @@ def test_a_file_that_was_removed_is_written_again(program: Program, overtaken: P
     assert storage.load(overtaken).score.title == "Corrections"
 
 
-def test_two_editors_on_one_file_are_told(start: Start, answers: Answers, tmp_path: Path) -> None:
+def test_two_editors_on_one_file_are_reported(start: Start, answers: Answers, tmp_path: Path) -> None:
     path = good_file(tmp_path)
     first, second = start(), start()
     first.editor.files.open(path)
-    told = Told(second)
+    reported = Reported(second)
     second.editor.files.open(path)
-    assert "another window" in told.says(second)
+    assert "another window" in reported.says(second)
     edit(first, "First")
     trigger(first, "file.save")
     edit(second, "Second")
@@ -323,13 +327,13 @@ def tone(path: Path) -> Path:
 
 @pytest.mark.parametrize("content", [b"", b"RIFF....WAVE", b"no sound at all"])
 def test_a_recording_that_is_none(program: Program, answers: Answers, tmp_path: Path, content: bytes) -> None:
-    told = Told(program)
+    reported = Reported(program)
     answers.path = path = tmp_path / "sound.wav"
     path.write_bytes(content)
     trigger(program, "file.add_audio")
     QApplication.processEvents()
-    assert told.messages[-1][1] is Severity.ERROR
-    assert "sound.wav" in told.says(program)
+    assert reported.messages[-1][1] is Severity.ERROR
+    assert "sound.wav" in reported.says(program)
     trigger(program, "edit.undo")
     assert program.session.project.audio is None
 
@@ -349,7 +353,7 @@ def test_a_recording_that_is_removed_while_it_is_open(program: Program, answers:
     assert program.session.project.audio is not None
 
 
-# Pieces nobody would write
+# Pieces no one would write
 
 
 def with_notes(project: Project, notes: tuple[Note, ...]) -> Project:
@@ -412,7 +416,7 @@ STRANGE = (
 
 
 @pytest.mark.parametrize("name", STRANGE)
-def test_a_piece_that_nobody_would_write(
+def test_a_piece_that_no_one_would_write(
     program: Program, answers: Answers, tmp_path: Path, qtbot: QtBot, name: str
 ) -> None:
     project = strange(name)

@@ -112,12 +112,12 @@ def test_players_are_exported(empty: Program, folder: Path, qtbot: QtBot) -> Non
     program.editor.settings.export_folder = str(odd(folder, ".out"))
     trigger(program, "export.files")
     (dialog,) = program.window.findChildren(ExportDialog)
-    line, told = dialog.findChild(QLineEdit, "export_folder"), dialog.findChild(QLabel, "export_outcome")
+    line, reported = dialog.findChild(QLineEdit, "export_folder"), dialog.findChild(QLabel, "export_outcome")
     assert line is not None
-    assert told is not None
+    assert reported is not None
     assert line.text().startswith("bytes:///")
     dialog.start()
-    qtbot.waitUntil(lambda: f"{NAME}/{NAME}.out" in told.text())
+    qtbot.waitUntil(lambda: f"{NAME}/{NAME}.out" in reported.text())
     assert (odd(folder, ".out") / "report.json").is_file()
     dialog.close()
     assert program.editor.settings.export_folder == str(odd(folder, ".out"))
@@ -167,8 +167,8 @@ def test_names_that_no_file_can_have(start: Start, settings: Settings, answers: 
     settings.folder = settings.export_folder = str(folder)
     settings.add_recent(folder / f"{name}.mid")
     program = start()
-    told: list[Message] = []
-    program.session.noticed.connect(lambda message, severity: told.append(message))
+    reported: list[Message] = []
+    program.session.noticed.connect(lambda message, severity: reported.append(message))
     (row,) = program.window.start_page.findChildren(QPushButton, "recent_file")
     assert not row.isEnabled()
     program.window._fill_recent()
@@ -180,9 +180,9 @@ def test_names_that_no_file_can_have(start: Start, settings: Settings, answers: 
     answers.path = folder / f"{name}.suisou"
     for action_id in ("file.export_midi", "file.reimport"):
         trigger(program, action_id)
-    assert [message.id for message in told] == ["file.cannot_read", "file.cannot_write", "file.cannot_read"]
-    assert all(name in str(message.arguments.get("file", "")) for message in told)
-    told.clear()
+    assert [message.id for message in reported] == ["file.cannot_read", "file.cannot_write", "file.cannot_read"]
+    assert all(name in str(message.arguments.get("file", "")) for message in reported)
+    reported.clear()
     trigger(program, "export.files")
     (export,) = program.window.findChildren(ExportDialog)
     export.start()

@@ -1,4 +1,4 @@
-"""Which file is written: nothing is replaced that nobody was asked about."""
+"""Which file is written: nothing is replaced that no one was asked about."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SUFFIXES = (".mid", ".midi")
 
 
 class Typed:
-    """Names that somebody types one after the other, and what they answer when asked about a file."""
+    """Names that someone types one after the other, and what they answer when asked about a file."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, folder: Path, *names: str) -> None:
         self.left = [str(folder / name) if name else "" for name in names]
@@ -33,8 +33,8 @@ class Typed:
             box = QApplication.activeModalWidget()
             assert isinstance(box, QMessageBox)
             self.asked.append(box.text())
-            wanted = next(one for one in box.buttons() if one.text() == button)
-            QTest.mouseClick(wanted, Qt.MouseButton.LeftButton)
+            requested = next(one for one in box.buttons() if one.text() == button)
+            QTest.mouseClick(requested, Qt.MouseButton.LeftButton)
 
         QTimer.singleShot(50, click)
 

@@ -156,7 +156,7 @@ def test_an_unplugged_device_leaves_what_was_played(studio: Studio) -> None:
     studio.wait(lambda: bool(studio.session.project.takes))
 
 
-def test_a_midi_system_that_ends_is_told_as_the_device_s_loss(studio: Studio) -> None:
+def test_a_midi_system_that_ends_is_reported_as_the_device_s_loss(studio: Studio) -> None:
     said: list[str] = []
     studio.session.noticed.connect(lambda message, severity: said.append(message.id))
     studio.press(Qt.Key.Key_R)
@@ -223,12 +223,12 @@ def test_a_take_stays_with_its_project_when_another_is_opened_meanwhile(studio: 
     studio.press(Qt.Key.Key_R)
     studio.blow(60, 0.2)
     # The same players, by their ids; the recorder says only afterwards that it has finished.
-    tell, studio.link.on_news = studio.link.on_news, lambda: None
+    report, studio.link.on_news = studio.link.on_news, lambda: None
     studio.program.editor.files.open(other)
     assert studio.link.writer is None
-    studio.link.on_news = tell
-    tell()
-    studio.wait(lambda: not studio.link.told)
+    studio.link.on_news = report
+    report()
+    studio.wait(lambda: not studio.link.reported)
     QApplication.processEvents()
     assert not studio.session.recording.running
     assert not studio.session.project.takes

@@ -24,7 +24,7 @@ from PySide6.QtWidgets import (
 from app.capture.protocol import Back, Lost, Opened, Ports, Refused
 from app.errors import Message
 from app.messages.pitches import pitch_name
-from app.score.take import Wiring
+from app.score.take import ControllerMapping
 from app.shell.recording import recorder_of
 from instrument_maps.library import all_maps
 from metadata.load import load_controllers
@@ -63,7 +63,7 @@ def rows(dialog: QWidget) -> list[tuple[str, str]]:
     return [(item.text(0), item.text(1)) for item in items if item is not None]
 
 
-def told(dialog: QWidget, name: str) -> str:
+def reported(dialog: QWidget, name: str) -> str:
     return part(dialog, QLabel, name).text()
 
 
@@ -84,10 +84,10 @@ def test_devices_come_and_go_while_one_looks(studio: Studio) -> None:
     studio.wait(lambda: (EWI, "connected") in rows(dialog))
     studio.link.say(Lost(EWI, 0), Refused(Message("capture.port_refused", {"port": EWI, "detail": "busy"})))
     studio.wait(lambda: (EWI, "cannot open") in rows(dialog))
-    assert "another program" in told(dialog, "midi_hint")
+    assert "another program" in reported(dialog, "midi_hint")
     studio.link.say(Opened(EWI, 0))
     studio.wait(lambda: (EWI, "connected") in rows(dialog))
-    assert told(dialog, "midi_hint") == ""
+    assert reported(dialog, "midi_hint") == ""
 
 
 def test_another_device_is_chosen_by_a_click_and_by_enter_and_remembered(studio: Studio) -> None:
@@ -98,14 +98,14 @@ def test_another_device_is_chosen_by_a_click_and_by_enter_and_remembered(studio:
     item = tree.topLevelItem(2)
     assert item is not None
     QTest.mouseClick(tree.viewport(), Qt.MouseButton.LeftButton, pos=tree.visualItemRect(item).center())
-    assert studio.link.wanted[-1] == USB
+    assert studio.link.requested[-1] == USB
     assert studio.session.recording.controller == "ewi_usb"
     assert rows(dialog)[2] == (USB, "waiting…")
     assert studio.program.editor.settings.midi_port == USB
     tree.setFocus()
     QTest.keyClick(tree, Qt.Key.Key_Up)
     QTest.keyClick(tree, Qt.Key.Key_Return)
-    assert studio.link.wanted[-1] == EWI
+    assert studio.link.requested[-1] == EWI
     studio.wait(lambda: studio.session.recording.connection == "open")
     # The same once more is no other choice.
     QTest.keyClick(tree, Qt.Key.Key_Return)
@@ -121,11 +121,11 @@ def test_without_a_device_it_is_taught_what_to_do(studio: Studio) -> None:
     studio.link.say(Ports((), (), "test"))
     dialog = devices(studio)
     studio.wait(lambda: not studio.session.recording.ports)
-    assert told(dialog, "midi_hint").startswith("Connect a wind controller")
+    assert reported(dialog, "midi_hint").startswith("Connect a wind controller")
     studio.link.say(Ports((), (), ""), Refused(Message("capture.no_system")))
-    studio.wait(lambda: "modprobe" in told(dialog, "midi_hint"))
+    studio.wait(lambda: "modprobe" in reported(dialog, "midi_hint"))
     studio.link.say(Ports((EWI,), (), "alsa"))
-    studio.wait(lambda: told(dialog, "midi_hint").startswith("Select your device"))
+    studio.wait(lambda: reported(dialog, "midi_hint").startswith("Select your device"))
     assert not said
 
 
@@ -153,13 +153,13 @@ def test_what_comes_in_is_seen(studio: Studio) -> None:
     for value in range(40):
         studio.link.play(bytes((0xE0, 0, 64 + value)))
     studio.link.play(bytes((0x90, 60, 90)))
-    studio.wait(lambda: told(dialog, "midi_note") == "C4")
+    studio.wait(lambda: reported(dialog, "midi_note") == "C4")
     player = studio.session.player
     assert player is not None
     semitones = all_maps()[player.instrument_id].transposition_semitones
     assert semitones
     studio.session.pitch_display.set(written=True)
-    assert told(dialog, "midi_note") == pitch_name(60 + semitones)
+    assert reported(dialog, "midi_note") == pitch_name(60 + semitones)
     studio.session.pitch_display.set(written=False)
     assert part(dialog, QProgressBar, "midi_breath").value() == 1000
     assert part(dialog, QProgressBar, "midi_bite").value() == pytest.approx(609, abs=2)
@@ -168,26 +168,26 @@ def test_what_comes_in_is_seen(studio: Studio) -> None:
     assert len(texts) == 3
     assert texts[0].startswith("C4 on, velocity 90")
     assert "×40" in texts[1]
-    assert told(dialog, "midi_channel") == "Channel 1"
+    assert reported(dialog, "midi_channel") == "Channel 1"
     studio.link.play(bytes((0x93, 72, 90)))
-    studio.wait(lambda: "channel 4" in told(dialog, "midi_channel"))
-    assert "only channel 1" in told(dialog, "midi_channel")
+    studio.wait(lambda: "channel 4" in reported(dialog, "midi_channel"))
+    assert "only channel 1" in reported(dialog, "midi_channel")
 
 
 def test_where_the_breath_is_is_learned_by_blowing(studio: Studio) -> None:
     dialog = devices(studio)
     learn = part(dialog, QPushButton, "midi_learn")
     click(learn)
-    assert told(dialog, "midi_learned").startswith("Blow now")
+    assert reported(dialog, "midi_learned").startswith("Blow now")
     swell(studio, channel=3, controller=11)
-    studio.wait(lambda: told(dialog, "midi_learned").startswith("Blow evenly"))
-    assert studio.session.recording.wiring == Wiring(3, "cc11", "pitch_bend")
+    studio.wait(lambda: reported(dialog, "midi_learned").startswith("Blow evenly"))
+    assert studio.session.recording.wiring == ControllerMapping(3, "cc11", "pitch_bend")
     for value in [*range(0, 100, 10), *range(100, 0, -10)]:
         studio.link.play(bytes((0xB2, 11, 60 + value % 3)))
         studio.link.play(bytes((0xB2, 1, value)))
-    studio.wait(lambda: told(dialog, "midi_learned").startswith("Found"))
-    assert told(dialog, "midi_learned") == "Found: breath CC 11 (expression), bite CC 1 (modulation), channel 3."
-    assert studio.session.recording.wiring == Wiring(3, "cc11", "cc1")
+    studio.wait(lambda: reported(dialog, "midi_learned").startswith("Detected"))
+    assert reported(dialog, "midi_learned") == "Detected: breath CC 11 (expression), bite CC 1 (modulation), channel 3."
+    assert studio.session.recording.wiring == ControllerMapping(3, "cc11", "cc1")
     assert part(dialog, QComboBox, "midi_breath_source").currentText() == "CC 11 (expression)"
     # It is remembered of this device.
     recorder = recorder_of(studio.session)
@@ -197,7 +197,7 @@ def test_where_the_breath_is_is_learned_by_blowing(studio: Studio) -> None:
     assert studio.session.recording.wiring.breath == "cc11"
     # Another kind sends as it comes from its maker again.
     recorder.set_controller("generic")
-    assert studio.session.recording.wiring == Wiring(0, "cc2", "none")
+    assert studio.session.recording.wiring == ControllerMapping(0, "cc2", "none")
 
 
 def test_escape_cancels_learning_and_leaves_the_dialog(studio: Studio) -> None:
@@ -207,7 +207,7 @@ def test_escape_cancels_learning_and_leaves_the_dialog(studio: Studio) -> None:
     swell(studio, controller=11)
     QTest.keyClick(dialog, Qt.Key.Key_Escape)
     assert dialog.isVisible()
-    assert told(dialog, "midi_learned") == ""
+    assert reported(dialog, "midi_learned") == ""
     assert studio.session.recording.wiring == before
     QTest.keyClick(dialog, Qt.Key.Key_Escape)
     assert not dialog.isVisible()
@@ -217,17 +217,17 @@ def test_who_does_not_bite_keeps_what_was_known_of_the_bite(studio: Studio) -> N
     dialog = devices(studio)
     click(part(dialog, QPushButton, "midi_learn"))
     swell(studio)
-    studio.wait(lambda: told(dialog, "midi_learned").startswith("Blow evenly"))
+    studio.wait(lambda: reported(dialog, "midi_learned").startswith("Blow evenly"))
     swell(studio)
-    studio.wait(lambda: told(dialog, "midi_learned").startswith("Found"))
-    assert told(dialog, "midi_learned").endswith("No bite came in.")
-    assert studio.session.recording.wiring == Wiring(1, "cc2", "pitch_bend")
+    studio.wait(lambda: reported(dialog, "midi_learned").startswith("Detected"))
+    assert reported(dialog, "midi_learned").endswith("No bite was received.")
+    assert studio.session.recording.wiring == ControllerMapping(1, "cc2", "pitch_bend")
 
 
 def test_nothing_blown_is_nothing_learned(studio: Studio) -> None:
     dialog = devices(studio)
     click(part(dialog, QPushButton, "midi_learn"))
-    studio.wait(lambda: "Nothing was received" in told(dialog, "midi_learned"))
+    studio.wait(lambda: "Nothing was received" in reported(dialog, "midi_learned"))
     assert studio.session.recording.wiring.breath == "cc2"
 
 
@@ -240,7 +240,7 @@ def test_breath_and_bite_are_never_the_same(studio: Studio) -> None:
     breath = part(dialog, QComboBox, "midi_breath_source")
     breath.setFocus()
     QTest.keyClick(breath, Qt.Key.Key_End)
-    assert studio.session.recording.wiring == Wiring(1, "channel_pressure", "none")
+    assert studio.session.recording.wiring == ControllerMapping(1, "channel_pressure", "none")
 
 
 def test_a_bite_that_is_sent_otherwise_now_is_not_shown_as_it_was(studio: Studio) -> None:
@@ -257,7 +257,7 @@ def test_a_bite_that_is_sent_otherwise_now_is_not_shown_as_it_was(studio: Studio
 def test_a_beep_without_an_audio_device_says_so(studio: Studio) -> None:
     dialog = devices(studio)
     click(part(dialog, QPushButton, "midi_beep"))
-    assert "No audio output device" in told(dialog, "midi_beep_told")
+    assert "No audio output device" in reported(dialog, "midi_beep_told")
 
 
 def test_the_status_line_says_how_the_device_stands_and_opens_the_dialog(studio: Studio) -> None:
@@ -289,7 +289,7 @@ def test_the_dialogs_speak_japanese(studio: Studio) -> None:
         studio.link.play(bytes((0xB0, 2, 100)))
         studio.link.play(bytes((0x90, 60, 90)))
         studio.link.play(bytes((0xE0, 0, 70)))
-        studio.wait(lambda: told(dialog, "midi_note") == "C4")
+        studio.wait(lambda: reported(dialog, "midi_note") == "C4")
         judge(dialog, "played")
         click(part(dialog, QPushButton, "midi_beep"))
         judge(dialog, "beep")
@@ -306,7 +306,7 @@ def test_the_dialogs_speak_japanese(studio: Studio) -> None:
             [Ports((EWI,), (), "test"), Refused(Message("capture.port_refused", {"port": EWI, "detail": "使用中"}))],
         ):
             studio.link.say(*news)
-            studio.wait(lambda: not studio.link.told)
+            studio.wait(lambda: not studio.link.reported)
             judge(dialog, str(news))
         dialog.close()
         late = latency(studio)
@@ -357,7 +357,7 @@ def test_the_latency_is_measured_and_taken_off_from_then_on(studio: Studio) -> N
     click(part(dialog, QPushButton, "latency_take"))
     assert studio.session.recording.latency_s == pytest.approx(value.value() / 1000.0)
     assert studio.program.editor.settings.midi_device(EWI, "latency_s")
-    assert "compensated from now on" in told(dialog, "latency_told")
+    assert "compensated from now on" in reported(dialog, "latency_told")
     assert "your own timing" in " ".join(label.text() for label in dialog.findChildren(QLabel))
 
 
@@ -365,7 +365,7 @@ def test_too_few_hits_are_refused(studio: Studio) -> None:
     dialog = latency(studio)
     click(part(dialog, QPushButton, "latency_start"))
     blow_on_clicks(studio, dialog, 0.08, 0.004, every=4)
-    assert "Only 3 of 12" in told(dialog, "latency_told")
+    assert "Only 3 of 12" in reported(dialog, "latency_told")
     assert not part(dialog, QPushButton, "latency_take").isEnabled()
 
 
@@ -382,7 +382,7 @@ def test_a_number_is_typed_instead(studio: Studio) -> None:
 def test_escape_ends_measuring_first(studio: Studio) -> None:
     dialog = latency(studio)
     click(part(dialog, QPushButton, "latency_start"))
-    studio.wait(lambda: "light" in told(dialog, "latency_told"))
+    studio.wait(lambda: "light" in reported(dialog, "latency_told"))
     QTest.keyClick(dialog, Qt.Key.Key_Escape)
     assert dialog.isVisible()
     assert part(dialog, QPushButton, "latency_start").text() == "Start"
@@ -394,5 +394,5 @@ def test_a_device_that_goes_ends_measuring(studio: Studio) -> None:
     dialog = latency(studio)
     click(part(dialog, QPushButton, "latency_start"))
     studio.link.say(Lost(EWI, 0))
-    studio.wait(lambda: "Measurement stopped" in told(dialog, "latency_told"))
+    studio.wait(lambda: "Measurement stopped" in reported(dialog, "latency_told"))
     assert not part(dialog, QPushButton, "latency_start").isEnabled()

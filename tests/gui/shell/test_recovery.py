@@ -1,4 +1,4 @@
-"""Unsaved work: written down by itself, offered after a crash, taken over or thrown away; faults are told."""
+"""Unsaved work: written down by itself, offered after a crash, taken over or thrown away; faults are reported."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from app.project.presence import Presence
 from app.project.recovery import Recoverable
 from app.project.storage import load, save
 from app.shell.app import Program
-from app.shell.faults import Faults
+from app.shell.crash_handler import CrashHandler
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
 from widgets.common.session import Severity
@@ -139,17 +139,17 @@ def test_work_that_was_to_be_discarded_is_kept_until_another_file_is_open(
     assert len(offered(start())) == 1
 
 
-def test_a_fault_is_told_noted_down_and_the_work_written(
+def test_a_fault_is_reported_noted_down_and_the_work_written(
     program: Program, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     log = tmp_path / "log" / "faults.log"
     monkeypatch.setattr(sys, "excepthook", sys.excepthook)
-    faults = Faults(program.session, program.editor.files.write_now, log)
+    faults = CrashHandler(program.session, program.editor.files.write_now, log)
     edit(program, "Precious")
     try:
         raise KeyError("a bug")
     except KeyError as error:
-        faults.tell(error)
+        faults.report(error)
     assert "KeyError: 'a bug'" in log.read_text(encoding="utf-8")
     assert "KeyError" in program.window.status.notice_text
     assert str(log) in program.window.status.notice_text
@@ -165,8 +165,8 @@ def test_a_fault_of_saving_does_not_hide_the_first(
     def fail() -> None:
         raise OSError("the disk is full")
 
-    faults = Faults(program.session, fail, tmp_path / "faults.log")
-    faults.tell(KeyError("first"))
+    faults = CrashHandler(program.session, fail, tmp_path / "faults.log")
+    faults.report(KeyError("first"))
     text = (tmp_path / "faults.log").read_text(encoding="utf-8")
     assert "first" in text
     assert "the disk is full" in text

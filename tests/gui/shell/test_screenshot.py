@@ -52,11 +52,11 @@ def test_a_picture_of_the_window(tmp_path: Path) -> None:
     middle = shown[120:460, 300:960].reshape(-1, 3)
     assert len(np.unique(middle // 16, axis=0)) > 60
     assert shown[2, 640].mean() > 200, "the theme is light"
-    # Nothing of the person's is read or written.
+    # Nothing of the user's is read or written.
     assert not (tmp_path / "config").exists()
 
 
-def test_a_file_that_cannot_be_read_is_told(tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_read_is_reported(tmp_path: Path) -> None:
     broken = tmp_path / "broken.mid"
     broken.write_bytes(b"no music")
     done = suisou("edit", str(broken), "--screenshot", str(tmp_path / "window.png"))

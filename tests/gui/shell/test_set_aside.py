@@ -93,13 +93,13 @@ def test_everything_bad_at_once(homes: Path, qtbot: QtBot, qt_app: object) -> No
     before = {folder: content(folder) for folder in folders}
 
     settings = Settings(settings_path())
-    told: list[Message] = []
+    reported: list[Message] = []
     program = Program(settings, ImmediateTasks(), Answers(), Autosave(Presence(recovery)), heard=False)
-    program.session.noticed.connect(lambda message, severity: told.append(message))
+    program.session.noticed.connect(lambda message, severity: reported.append(message))
     program.window.show()
-    qtbot.waitUntil(lambda: len({file_of(message) for message in told}) >= 2 * len(BAD) + 4)
+    qtbot.waitUntil(lambda: len({file_of(message) for message in reported}) >= 2 * len(BAD) + 4)
     try:
-        said = {file_of(message) for message in told}
+        said = {file_of(message) for message in reported}
         assert str(settings_path()) in said
         for folder in folders[:2]:
             missing = {name for name in names[folder] if shown(folder / name) not in said}

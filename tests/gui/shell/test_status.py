@@ -53,7 +53,7 @@ def test_what_is_said_again_and_again_is_listed_once(program: Program) -> None:
     QTest.mouseClick(notice, Qt.MouseButton.LeftButton)
     listed = program.window.findChild(QFrame, "notices")
     assert listed is not None
-    told = [label.text() for label in listed.findChildren(QLabel) if label.text()]
+    reported = [label.text() for label in listed.findChildren(QLabel) if label.text()]
     again, said = sentence(Message("tempo.first_stays")), sentence(Message("problems.none"))
-    assert [text for text in told if text in (again, said)] == [again, said, again]
+    assert [text for text in reported if text in (again, said)] == [again, said, again]
     listed.hide()

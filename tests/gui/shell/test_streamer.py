@@ -18,7 +18,7 @@ from app.errors import Message
 from app.performance.bodies import character_of
 from app.performance.play_along import PlayAlong
 from app.rig.character_library import character_named
-from app.score.take import Wiring
+from app.score.take import ControllerMapping
 from app.shell.app import Program
 from app.shell.settings import Settings
 from app.shell.sound import sound_of
@@ -28,7 +28,7 @@ from tests.support.bad_players import with_instrument
 from tests.support.osc import Frame, Receiver
 from tests.support.performed import playing_of
 from tests.unit.export.unreal.conftest import with_dancers
-from widgets.common.streaming import Line
+from widgets.common.streaming import StreamTarget
 from widgets.dialogs.stream import StreamDialog
 from widgets.players.player_list import PlayerList
 
@@ -120,9 +120,9 @@ def test_who_is_played_from_a_controller_is_sent_as_they_play(program: Program, 
         rested = heard(receiver, qtbot)[-1]
         live = PlayAlong(playing_of(session.performance, player))
         session.live_players.begin(live)
-        session.live_players.hear(player.id, time.perf_counter(), "b0027f", Wiring())
+        session.live_players.hear(player.id, time.perf_counter(), "b0027f", ControllerMapping())
         low = session.performance.instrument(player).range.low
-        session.live_players.hear(player.id, time.perf_counter(), f"90{low + 8:02x}64", Wiring())
+        session.live_players.hear(player.id, time.perf_counter(), f"90{low + 8:02x}64", ControllerMapping())
 
         def moved() -> list[Frame]:
             return [frame for frame in receiver.frames if frame.face != rested.face and frame.bones != rested.bones]
@@ -162,7 +162,7 @@ def test_a_dancer_is_sent_on_the_port_after_the_players(program: Program, qtbot:
     with Receiver(39835) as receiver:
         session.streaming.set(everyone=True)
         stream_to(program, 39831)
-        assert session.streaming.lines[-1] == Line(dancer.id, 39835)
+        assert session.streaming.lines[-1] == StreamTarget(dancer.id, 39835)
         heard(receiver, qtbot, 2)
         chip = program.window.status.findChild(QPushButton, "stream_state")
         assert chip is not None
@@ -181,7 +181,7 @@ def test_a_dancer_is_sent_on_the_port_after_the_players(program: Program, qtbot:
         assert dialog._list.topLevelItem(4).text(0) == "Ana"
 
 
-def test_where_nobody_plays_the_selected_dancer_is_sent(program: Program, qtbot: QtBot, tmp_path: Path) -> None:
+def test_where_no_one_plays_the_selected_dancer_is_sent(program: Program, qtbot: QtBot, tmp_path: Path) -> None:
     session = program.session
     alone = replace(with_dancers(session.project, tmp_path, "Ana", "Bo"), players=(), corrections={}, takes={})
     session.apply(Message("edit.add_dancer"), alone)
@@ -194,7 +194,7 @@ def test_where_nobody_plays_the_selected_dancer_is_sent(program: Program, qtbot:
         assert heard(receiver, qtbot)[-1].root[:3] == (0.0, 0.0, 0.0)
 
 
-def test_nobody_there_is_said_and_hurts_nobody(program: Program, qtbot: QtBot) -> None:
+def test_no_one_there_is_said_and_hurts_no_one(program: Program, qtbot: QtBot) -> None:
     ready(program, qtbot)
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
         free.bind(("127.0.0.1", 0))
@@ -215,13 +215,13 @@ def test_what_is_in_the_way_is_said_once_and_tried_again(
     program: Program, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     ready(program, qtbot)
-    told = list[str]()
-    program.session.noticed.connect(lambda message, severity: told.append(message.id))
+    reported = list[str]()
+    program.session.noticed.connect(lambda message, severity: reported.append(message.id))
     monkeypatch.setattr("app.shell.streamer.RETRY_S", 0.1)
     program.session.streaming.set(host="nobody at all.invalid")
     trigger(program, "stream.toggle")
     assert program.session.streaming.state == "failed"
-    assert told == ["stream.host_unknown"]
+    assert reported == ["stream.host_unknown"]
     send = Sender.send
 
     def unreachable(sender: Sender, datagrams: object) -> None:
@@ -230,9 +230,9 @@ def test_what_is_in_the_way_is_said_once_and_tried_again(
     with Receiver() as receiver:
         monkeypatch.setattr(Sender, "send", unreachable)
         program.session.streaming.set(host="127.0.0.1", port=receiver.port)
-        qtbot.waitUntil(lambda: len(told) > 1)
+        qtbot.waitUntil(lambda: len(reported) > 1)
         qtbot.wait(500)
-        assert told == ["stream.host_unknown", "stream.not_sent"]
+        assert reported == ["stream.host_unknown", "stream.not_sent"]
         assert program.session.streaming.state == "failed"
         monkeypatch.setattr(Sender, "send", send)
         heard(receiver, qtbot)
@@ -247,11 +247,11 @@ def test_the_dialog_by_mouse_and_keys(program: Program, qtbot: QtBot) -> None:
     assert dialog is not None
     qtbot.waitUntil(dialog.isActiveWindow)
     host = dialog.findChild(QLineEdit, "stream_host")
-    warning, told = dialog.findChild(QLabel, "stream_warning"), dialog.findChild(QLabel, "stream_told")
+    warning, reported = dialog.findChild(QLabel, "stream_warning"), dialog.findChild(QLabel, "stream_told")
     toggle, here = dialog.findChild(QPushButton, "stream_toggle"), dialog.findChild(QPushButton, "stream_here")
     assert host is not None
     assert warning is not None
-    assert told is not None
+    assert reported is not None
     assert toggle is not None
     assert here is not None
     assert warning.isHidden()
@@ -269,9 +269,9 @@ def test_the_dialog_by_mouse_and_keys(program: Program, qtbot: QtBot) -> None:
         program.session.streaming.set(port=receiver.port)
         QTest.mouseClick(toggle, Qt.MouseButton.LeftButton)
         heard(receiver, qtbot, 2)
-        qtbot.waitUntil(lambda: "frames per second" in told.text())
+        qtbot.waitUntil(lambda: "frames per second" in reported.text())
         QTest.mouseClick(toggle, Qt.MouseButton.LeftButton)
-        assert told.text() == "Not streaming."
+        assert reported.text() == "Not streaming."
     dialog.close()
 
 
@@ -283,15 +283,15 @@ def test_many_computers_are_sent_to_only_after_a_confirmation(
     trigger(program, "stream.settings")
     dialog = program.window.findChild(StreamDialog)
     assert dialog is not None
-    told, anyway = dialog.findChild(QLabel, "stream_told"), dialog.findChild(QPushButton, "stream_anyway")
-    assert told is not None
+    reported, anyway = dialog.findChild(QLabel, "stream_told"), dialog.findChild(QPushButton, "stream_anyway")
+    assert reported is not None
     assert anyway is not None
     assert anyway.isHidden()
     with Receiver(host="0.0.0.0") as receiver:
         streaming.set(host="127.255.255.255", port=receiver.port)
         trigger(program, "stream.toggle")
         assert streaming.state == "failed"
-        assert "every computer on the network" in told.text()
+        assert "every computer on the network" in reported.text()
         assert not anyway.isHidden()
         qtbot.wait(300)
         assert not receiver.packets
@@ -322,7 +322,7 @@ def test_where_to_is_remembered_but_not_that_it_was_on(start: Start, settings: S
     assert start().session.streaming.faces == "arkit"
 
 
-def test_a_fault_of_sending_is_told_and_the_stream_is_off(
+def test_a_fault_of_sending_is_reported_and_the_stream_is_off(
     program: Program, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     ready(program, qtbot)

@@ -71,6 +71,6 @@ def test_what_is_drawn_is_seen(tokens: Tokens) -> None:
 
 
 @pytest.mark.parametrize("tokens", THEMES.values(), ids=THEMES)
-def test_players_are_told_apart(tokens: Tokens) -> None:
+def test_players_are_distinguished(tokens: Tokens) -> None:
     assert len(set(tokens.players)) == len(tokens.players)
     assert palette(tokens).windowText().color() == QColor(tokens.text)

@@ -22,8 +22,9 @@ from app.plan.corrections import AddGesture, PinFingering, RemoveEvent, SetBreat
 from app.plan.model import PlayerPlan
 from app.project.autosave import Autosave
 from app.project.casting import StagePosition
+from app.project.edit.notes import move
 from app.project.edit.piece import set_audio
-from app.project.edit.players import place
+from app.project.edit.players import join, place
 from app.project.edit.takes import add_takes, comp_whole, set_cleaning
 from app.project.grid import Grid
 from app.project.model import Player, Project, map_choices
@@ -43,7 +44,7 @@ from tests.support.recorder import EWI, RunningClock, SpokenFor
 from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front, wait_until
-from widgets.common.listening import HeardTake
+from widgets.common.listening import RecordedTake
 from widgets.common.selection import EventKey, Selection
 from widgets.common.tokens import DARK
 from widgets.timeline.panel import TimelinePanel
@@ -141,7 +142,7 @@ class Case:
     right : callable
         Whether it did it.
     ready : callable
-        What the person did before.
+        What the user did before.
     edits : bool
         Whether the project is another one afterwards; then undo gives back the very same.
     """
@@ -163,6 +164,21 @@ def typing_name(field: str) -> Right:
 
 def dancing(desk: Desk) -> None:
     desk.session.actions["dancers.add"].trigger()
+
+
+def two_players_in_turn(desk: Desk) -> None:
+    """The second player begins when the first has ended; both are selected."""
+    first, second = desk.project.players[:2]
+    ids = [note.id for note in desk.project.part(second).notes]
+    later = move(desk.project, ids, desk.project.score.end_tick + 8 * 480, 0)
+    desk.session.document.apply(Message("edit.move_notes", {"count": len(ids)}), later)
+    desk.session.set_players((first.id, second.id))
+
+
+def joined(desk: Desk) -> None:
+    two_players_in_turn(desk)
+    first, second = desk.session.players
+    desk.session.document.apply(Message("edit.join_players", {"count": 2}), join(desk.project, second, first))
 
 
 def each(desk: Desk, true: Callable[[Note, Note], bool]) -> bool:
@@ -211,7 +227,8 @@ def typed(desk: Desk, label: str) -> None:
 def type_case(sign: str) -> Case:
     def right(desk: Desk) -> bool:
         if desk.seen["typed"] is None:
-            # No instrument here has it: nothing happens, and the person is told or it is the beginning of a longer one.
+            # No instrument here has it: nothing happens, and the user is informed or it is the beginning of a longer
+            # one.
             return desk.project is desk.before
         player_id, note_id = desk.seen["typed"]  # type: ignore[misc]
         return PinFingering(note_id, sign) in desk.project.corrections[player_id]
@@ -277,12 +294,12 @@ def toggled(action_id: str, state: Callable[[Desk], object]) -> Case:
     return Case(lambda d: state(d) != d.seen["state"], remember("state", state))
 
 
-def becomes(state: Callable[[Desk], object], wanted: object, ready: Deed = lambda desk: None) -> Case:
+def becomes(state: Callable[[Desk], object], requested: object, ready: Deed = lambda desk: None) -> Case:
     def begin(desk: Desk) -> None:
         ready(desk)
-        assert state(desk) != wanted, f"it is {wanted} already"
+        assert state(desk) != requested, f"it is {requested} already"
 
-    return Case(lambda d: state(d) == wanted, begin)
+    return Case(lambda d: state(d) == requested, begin)
 
 
 def command(action_id: str) -> Deed:
@@ -305,7 +322,7 @@ def view(name: str) -> Case:
 
 
 def problem(desk: Desk) -> None:
-    """A note that nobody can play, twice."""
+    """A note that no one can play, twice."""
     notes = desk.notes()
     for note in (notes[4], notes[10]):
         desk.session.select(Selection(frozenset({note.id})))
@@ -357,7 +374,7 @@ def set_language(code: str) -> Deed:
 
 
 def recorded(take_id: str, span: tuple[int, int] | None = None, alone: bool = False) -> Deed:
-    """Somebody recorded two takes, a second and a third above the part, and selected one; perhaps nobody else plays."""
+    """Someone recorded two takes, a second and a third above the part, and selected one; perhaps no one else plays."""
 
     def ready(desk: Desk) -> None:
         clock, player = desk.project.score.tempo_map, desk.player
@@ -397,7 +414,7 @@ def lanes(desk: Desk) -> list[str]:
     return [take.id for take in desk.project.takes[desk.player.id].takes]
 
 
-def heard_take(desk: Desk) -> HeardTake | None:
+def recorded_take(desk: Desk) -> RecordedTake | None:
     """The take that is listened to; it is over when the sound stops."""
     heard = desk.session.listening.take
     assert playing(desk)
@@ -429,8 +446,8 @@ def otherwise_cleaned(desk: Desk) -> None:
 def looping(desk: Desk) -> bool:
     score, notes = desk.project.score, [note for note, _ in desk.chosen()]
     seconds = score.tempo_map.seconds
-    wanted = (seconds(float(notes[0].onset_tick)), seconds(float(max(note.end_tick for note in notes))))
-    return desk.session.loop_s is not None and np.allclose(desk.session.loop_s, wanted)
+    requested = (seconds(float(notes[0].onset_tick)), seconds(float(max(note.end_tick for note in notes))))
+    return desk.session.loop_s is not None and np.allclose(desk.session.loop_s, requested)
 
 
 def bar_s(desk: Desk, bar: int) -> float:
@@ -438,8 +455,10 @@ def bar_s(desk: Desk, bar: int) -> float:
     return score.tempo_map.seconds(float(score.metre_map.tick_of_bar(bar)))
 
 
-def go(ready_s: Callable[[Desk], float], wanted_s: Callable[[Desk], float]) -> Case:
-    return Case(lambda d: abs(d.session.playhead_s - wanted_s(d)) < 1e-6, lambda d: d.session.set_playhead(ready_s(d)))
+def go(ready_s: Callable[[Desk], float], requested_s: Callable[[Desk], float]) -> Case:
+    return Case(
+        lambda d: abs(d.session.playhead_s - requested_s(d)) < 1e-6, lambda d: d.session.set_playhead(ready_s(d))
+    )
 
 
 def onset_s(desk: Desk, index: int) -> float:
@@ -619,6 +638,16 @@ CASES: dict[str, Case] = {
     "players.hear_everyone": Case(
         lambda d: not any(p.muted or p.soloed for p in d.project.players), command("players.mute"), edits=True
     ),
+    "players.join": Case(
+        lambda d: [p.doubles for p in d.project.players[:2]] == ["", d.project.players[0].id],
+        two_players_in_turn,
+        edits=True,
+    ),
+    "players.separate": Case(
+        lambda d: not any(p.doubles for p in d.project.players),
+        joined,
+        edits=True,
+    ),
     "players.next": Case(lambda d: d.player is d.project.players[1]),
     "players.previous": Case(lambda d: d.player is d.project.players[-1]),
     "players.posture": Case(
@@ -727,9 +756,11 @@ CASES: dict[str, Case] = {
         lambda d: not d.project.corrections.get(d.player.id), command("generate.bars"), edits=True
     ),
     # Takes
-    "takes.listen": Case(lambda d: heard_take(d) == HeardTake(d.player.id, "take:2", alone=False), recorded("take:2")),
+    "takes.listen": Case(
+        lambda d: recorded_take(d) == RecordedTake(d.player.id, "take:2", alone=False), recorded("take:2")
+    ),
     "takes.listen_alone": Case(
-        lambda d: heard_take(d) == HeardTake(d.player.id, "take:2", alone=True), recorded("take:2")
+        lambda d: recorded_take(d) == RecordedTake(d.player.id, "take:2", alone=True), recorded("take:2")
     ),
     "takes.whole": Case(lambda d: higher_by(d, 4) and owners(d) == ["take:2"], recorded("take:2"), edits=True),
     "takes.above": Case(
@@ -839,9 +870,9 @@ def place_by_hand(desk: Desk) -> None:
 
 
 def framed(desk: Desk) -> None:
-    told: list[object] = []
-    desk.seen["framed"] = told
-    desk.session.viewport.framed.connect(told.append)
+    reported: list[object] = []
+    desk.seen["framed"] = reported
+    desk.session.viewport.framed.connect(reported.append)
 
 
 def last_work(desk: Desk) -> str:
@@ -1022,6 +1053,6 @@ def check(desk: Desk, action_ids: list[str]) -> None:
                 assert desk.project is desk.before, f"{action_id}: undo gives back the very same project"
             elif desk.session.document.is_saved and action_id.split(".")[0] in ("timeline", "viewport", "play"):
                 assert desk.project is desk.before, f"{action_id}: it is no edit"
-        except Exception:  # noqa: BLE001 - all that is wrong is told at once
+        except Exception:  # noqa: BLE001 - all that is wrong is reported at once
             wrong.append(f"{action_id}: {traceback.format_exc(limit=-2)}")
     assert not wrong, "\n".join(wrong)

@@ -67,7 +67,7 @@ def test_the_example_with_a_dancer_is_on_the_start_page(empty: Program) -> None:
     assert not dancing.rhythm.derived, "the dancer hears the drums"
     assert len({step.state for step in dancing.steps()}) > 4
     assert session.dancer == dancer
-    # It is nobody's file yet, and nothing in the history takes the dancer away.
+    # It is no one's file yet, and nothing in the history takes the dancer away.
     assert empty.editor.files.path is None
     assert empty.editor.settings.recent == ()
     assert not session.document.undone

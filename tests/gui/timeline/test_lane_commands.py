@@ -137,12 +137,12 @@ def test_x_offers_expressions(panel: TimelinePanel, session: Session) -> None:
     assert (item.expression, item.start_tick, item.end_tick) == ("strained", 960, 2880)
 
 
-def test_at_the_end_the_person_is_told_why_not(panel: TimelinePanel, session: Session) -> None:
-    told: list[Message] = []
-    session.noticed.connect(lambda message, severity: told.append(message))
+def test_at_the_end_the_person_is_reported_why_not(panel: TimelinePanel, session: Session) -> None:
+    reported: list[Message] = []
+    session.noticed.connect(lambda message, severity: reported.append(message))
     session.set_playhead(session.performance.time_frame.end_s)
     press(panel, Qt.Key.Key_B)
-    assert [message.id for message in told] == ["edit.no_note_to_breathe_for"]
+    assert [message.id for message in reported] == ["edit.no_note_to_breathe_for"]
     assert not session.document.done
 
 
@@ -189,11 +189,11 @@ def test_a_slide_with_a_trigger_is_typed_too(session: Session) -> None:
 
 def test_what_is_no_fingering_is_said(session: Session) -> None:
     assert session.performance.plans is not None
-    told: list[Message] = []
-    session.noticed.connect(lambda message, severity: told.append(message))
+    reported: list[Message] = []
+    session.noticed.connect(lambda message, severity: reported.append(message))
     choose(session, note_with(session, "0", "13"))
     fingerings.type_fingering(session, "7", now_s=1.0)
-    assert [message.id for message in told] == ["edit.no_such_fingering"]
+    assert [message.id for message in reported] == ["edit.no_such_fingering"]
     assert not session.document.done
 
 
@@ -265,16 +265,16 @@ def test_a_preparation_is_turned_off_and_on(panel: TimelinePanel, session: Sessi
 
 def test_f8_walks_through_the_problems_of_all_players(panel: TimelinePanel, session: Session) -> None:
     # A pinned fingering that does not exist is a problem of that note.
-    wanted = []
+    requested = []
     for player in session.project.players[1:3]:
         note = session.project.part(player).notes[4]
-        wanted.append((player.id, note.id))
+        requested.append((player.id, note.id))
         session.attempt(
             Message("edit.pin_fingerings", {"count": 1}),
             lambda project, player=player, note=note: edit.pin_fingerings(project, player.id, {note.id: "99"}),  # type: ignore[misc]
         )
     all_of_them = problems.problems(session)
-    assert {(player, problem.note_id) for player, problem in all_of_them} >= set(wanted)
+    assert {(player, problem.note_id) for player, problem in all_of_them} >= set(requested)
     revealed: list[float] = []
     session.revealed.connect(revealed.append)
     session.set_playhead(-100.0)
@@ -295,11 +295,11 @@ def test_f8_walks_through_the_problems_of_all_players(panel: TimelinePanel, sess
 
 def test_without_problems_it_says_so(session: Session) -> None:
     assert session.performance.plans is not None
-    told: list[Message] = []
-    session.noticed.connect(lambda message, severity: told.append(message))
+    reported: list[Message] = []
+    session.noticed.connect(lambda message, severity: reported.append(message))
     if not problems.problems(session):
         problems.go_to_problem(session, 1)
-        assert [message.id for message in told] == ["problems.none"]
+        assert [message.id for message in reported] == ["problems.none"]
 
 
 def test_rows_that_make_no_sense_now_are_off(panel: TimelinePanel, session: Session) -> None:

@@ -114,18 +114,18 @@ def test_down_dances_another_basic_motion_there_and_backspace_returns_it(lane: D
     tick = lane.dances[MARY].ticks[5]
     click(lane, place(lane, 5))
     QTest.keyClick(lane.plot, Qt.Key.Key_Down)
-    wanted = (before[5] + 1) % 4
-    assert corrections(lane) == (PinState(tick, wanted),)
-    assert state_at(lane, tick) == wanted
+    requested = (before[5] + 1) % 4
+    assert corrections(lane) == (PinState(tick, requested),)
+    assert state_at(lane, tick) == requested
     QTest.keyClick(lane.plot, Qt.Key.Key_Down)
-    assert corrections(lane) == (PinState(tick, (wanted + 1) % 4),)
+    assert corrections(lane) == (PinState(tick, (requested + 1) % 4),)
     assert not corrections(lane, NINA)
     QTest.keyClick(lane.plot, Qt.Key.Key_Backspace)
     assert corrections(lane) == ()
     assert [step.state for step in lane.dances[MARY].steps] == before
     lane.session.document.undo()
-    assert corrections(lane) == (PinState(tick, (wanted + 1) % 4),)
-    assert state_at(lane, tick) == (wanted + 1) % 4
+    assert corrections(lane) == (PinState(tick, (requested + 1) % 4),)
+    assert state_at(lane, tick) == (requested + 1) % 4
 
 
 def test_a_segment_is_chosen_from_the_menu(lane: DanceLane) -> None:

@@ -261,13 +261,13 @@ def test_a_problem_is_marked_and_a_click_selects_its_note(panel: TimelinePanel, 
     )
     before = len(lane.problems)
     session.attempt(Message("edit.add_breath"), lambda project: edit.add_breath(project, plan, note.onset_tick).project)
-    told: list[Message] = []
-    session.noticed.connect(lambda message, severity: told.append(message))
+    reported: list[Message] = []
+    session.noticed.connect(lambda message, severity: reported.append(message))
     assert len(lane.problems) > before
     problem = next(item for item in lane.problems if item.message.id == "breath.inside_note")
     click(lane, QPointF(lane.axis.x_px(problem.start_s), lane.plot.height() / 2))
     assert session.selection.notes == {problem.note_id}
-    assert told == [problem.message]
+    assert reported == [problem.message]
     assert lane.count.text() == str(len(lane.problems))
 
 

@@ -34,7 +34,7 @@ def test_tables_together_are_in_time_and_know_whose_a_note_is() -> None:
     assert notes.visible(4.6, 5.0) == slice(4, 4)
 
 
-def test_nobody_together_is_nothing() -> None:
+def test_no_one_together_is_nothing() -> None:
     notes = Together([])
     assert notes.visible(0.0, 9.0) == slice(0, 0)
 

@@ -176,8 +176,8 @@ def test_the_source_is_chosen_where_there_is_a_recording(bar: TransportBar, sess
 
 
 def test_a_missing_device_is_said(qtbot: QtBot, bar: TransportBar, session: Session, devices: FakeDevices) -> None:
-    told: list[Message] = []
-    session.noticed.connect(lambda message, severity: told.append(message))
+    reported: list[Message] = []
+    session.noticed.connect(lambda message, severity: reported.append(message))
     assert not bar.silent_sign.isVisible()
     devices.there = False
     qtbot.mouseClick(bar.buttons["play.toggle"], LEFT)
@@ -186,7 +186,7 @@ def test_a_missing_device_is_said(qtbot: QtBot, bar: TransportBar, session: Sess
     assert bar.silent_text.isVisible()
     qtbot.mouseClick(bar.buttons["play.toggle"], LEFT)
     qtbot.mouseClick(bar.buttons["play.toggle"], LEFT)
-    assert [message.id for message in told] == ["audio.no_device"]
+    assert [message.id for message in reported] == ["audio.no_device"]
     bar.resize(1000, bar.height())
     assert not bar.silent_text.isVisible()
 

@@ -74,13 +74,13 @@ def test_playing_from_behind_a_loop_begins_at_its_start(playback: Playback, elap
 
 
 def test_it_stops_at_the_end_and_begins_anew(playback: Playback, elapse: Elapse) -> None:
-    told: list[bool] = []
-    playback.playing_changed.connect(told.append)
+    reported: list[bool] = []
+    playback.playing_changed.connect(reported.append)
     playback.play(19.5)
     elapse(0.6)
     assert not playback.is_playing
     assert playback.position_s() == 20.0
-    assert told == [True, False]
+    assert reported == [True, False]
     playback.play()
     elapse(0.1)
     assert playback.position_s() == pytest.approx(-0.9, abs=0.003)
@@ -135,11 +135,11 @@ def test_scrubbing_lets_a_grain_be_heard(playback: Playback, devices: FakeDevice
 
 def test_scrubbing_without_a_device_says_nothing(playback: Playback, devices: FakeDevices) -> None:
     devices.there = False
-    told: list[bool] = []
-    playback.silent_changed.connect(told.append)
+    reported: list[bool] = []
+    playback.silent_changed.connect(reported.append)
     playback.scrub(3.0)
     assert playback.position_s() == 3.0
-    assert not told
+    assert not reported
 
 
 def test_scrubbing_goes_on_with_another_device(playback: Playback, devices: FakeDevices, time: Time) -> None:
@@ -158,19 +158,19 @@ def test_scrubbing_goes_on_with_another_device(playback: Playback, devices: Fake
 
 
 def test_without_a_device_it_plays_silently_in_time(playback: Playback, devices: FakeDevices, elapse: Elapse) -> None:
-    told: list[bool] = []
-    playback.silent_changed.connect(told.append)
+    reported: list[bool] = []
+    playback.silent_changed.connect(reported.append)
     devices.there = False
     playback.play(1.0)
     elapse(2.0)
     assert playback.position_s() == pytest.approx(3.0, abs=0.002)
     playback.stop()
     playback.play(1.0)
-    assert told == [True]
+    assert reported == [True]
     devices.there = True
     playback.stop()
     playback.play(1.0)
-    assert told == [True, False]
+    assert reported == [True, False]
 
 
 def test_silent_loops_and_speeds(playback: Playback, devices: FakeDevices, elapse: Elapse) -> None:

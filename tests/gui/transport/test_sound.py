@@ -25,7 +25,7 @@ from tests.gui.transport.devices import FakeDevices
 from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
 from tests.unit.audio.pieces import melody, piece, with_players
-from widgets.common.listening import HeardTake
+from widgets.common.listening import RecordedTake
 from widgets.common.session import Session, Severity
 
 NAME = Message("edit.set_offset")
@@ -208,8 +208,8 @@ def test_a_recording_is_heard_at_its_place(
 def test_a_new_recording_finds_its_place_by_itself(
     sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path
 ) -> None:
-    told: list[tuple[Message, Severity]] = []
-    session.noticed.connect(lambda message, severity: told.append((message, severity)))
+    reported: list[tuple[Message, Severity]] = []
+    session.noticed.connect(lambda message, severity: reported.append((message, severity)))
     path = tmp_path / "take.wav"
     soundfile.write(path, mixdown(session.project, -3.21, 30.0), RATE_HZ)
     add(session, path, qtbot)
@@ -219,7 +219,7 @@ def test_a_new_recording_finds_its_place_by_itself(
     assert session.project.audio.confidence is not None
     assert session.project.audio.confidence > 0.6
     assert session.document.done[-1].name.id == "edit.estimate_offset"
-    assert told[-1][0].id == "audio.offset_found"
+    assert reported[-1][0].id == "audio.offset_found"
     session.document.undo()
     assert session.project.audio.offset_s == 0.0
     session.document.undo()
@@ -230,13 +230,13 @@ def test_a_new_recording_finds_its_place_by_itself(
 
 
 def test_another_piece_changes_nothing(sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
-    told: list[Message] = []
-    session.noticed.connect(lambda message, severity: told.append(message))
+    reported: list[Message] = []
+    session.noticed.connect(lambda message, severity: reported.append(message))
     noise = np.random.default_rng(1).normal(scale=0.1, size=(20 * RATE_HZ, 2))
     soundfile.write(tmp_path / "rain.wav", noise, RATE_HZ)
     add(session, tmp_path / "rain.wav", qtbot)
-    qtbot.waitUntil(lambda: bool(told))
-    assert told[-1].id == "audio.not_recognised"
+    qtbot.waitUntil(lambda: bool(reported))
+    assert reported[-1].id == "audio.not_recognised"
     assert session.project.audio is not None
     assert session.project.audio.offset_s == 0.0
     assert len(session.document.done) == 1
@@ -245,17 +245,17 @@ def test_another_piece_changes_nothing(sound: Sound, session: Session, qtbot: Qt
 def test_a_faster_recording_gives_its_tempo_when_asked(
     sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path
 ) -> None:
-    told: list[Message] = []
-    session.noticed.connect(lambda message, severity: told.append(message))
+    reported: list[Message] = []
+    session.noticed.connect(lambda message, severity: reported.append(message))
     before = session.project.score.tempo_map
     faster = scale_tempo(session.project, 1.03)
     soundfile.write(tmp_path / "fast.wav", mixdown(faster, -1.0, 40.0), RATE_HZ)
     add(session, tmp_path / "fast.wav", qtbot)
-    qtbot.waitUntil(lambda: bool(told))
-    assert told[-1].id == "audio.other_tempo"
+    qtbot.waitUntil(lambda: bool(reported))
+    assert reported[-1].id == "audio.other_tempo"
     assert session.project.score.tempo_map is before
     sound.estimate(with_tempo=True)
-    assert told[-1].id == "audio.tempo_fitted"
+    assert reported[-1].id == "audio.tempo_fitted"
     assert session.project.score.tempo_map.bpm[0][1] == pytest.approx(faster.score.tempo_map.bpm[0][1], rel=5e-4)
     assert session.project.audio is not None
     assert session.project.audio.offset_s == pytest.approx(-1.0, abs=0.02)
@@ -263,16 +263,16 @@ def test_a_faster_recording_gives_its_tempo_when_asked(
     assert session.project.score.tempo_map is before
 
 
-def test_a_missing_recording_is_told_once(sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
-    told: list[tuple[Message, Severity]] = []
-    session.noticed.connect(lambda message, severity: told.append((message, severity)))
+def test_a_missing_recording_is_reported_once(sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
+    reported: list[tuple[Message, Severity]] = []
+    session.noticed.connect(lambda message, severity: reported.append((message, severity)))
     session.attempt(NAME, lambda project: set_audio(project, tmp_path / "gone.wav"))
-    qtbot.waitUntil(lambda: bool(told))
-    assert told[0][0].id == "file.cannot_read"
-    assert told[0][1] is Severity.ERROR
+    qtbot.waitUntil(lambda: bool(reported))
+    assert reported[0][0].id == "file.cannot_read"
+    assert reported[0][1] is Severity.ERROR
     edit(session, set_tempo(session.project, 0, 90.0))
     qtbot.wait(1)
-    assert len(told) == 1
+    assert len(reported) == 1
 
 
 def test_a_project_brings_its_own_offset(sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
@@ -343,7 +343,7 @@ def test_a_take_is_heard_in_the_place_of_the_part_until_the_sound_stops(
     recorded: Sound, session: Session, elapse: Elapse, qtbot: QtBot
 ) -> None:
     before, project = heard(recorded, 0.0, 3.0), session.project
-    recorded.listen(HeardTake(first(session), "take:1", alone=False), 0.5)
+    recorded.listen(RecordedTake(first(session), "take:1", alone=False), 0.5)
     qtbot.waitUntil(lambda: session.playing)
     assert session.playhead_s == pytest.approx(0.5, abs=0.02)
     wait_ready(session, qtbot)
@@ -358,7 +358,7 @@ def test_a_take_is_heard_in_the_place_of_the_part_until_the_sound_stops(
 
 def test_a_take_alone_is_all_that_is_heard(recorded: Sound, session: Session, qtbot: QtBot) -> None:
     edit(session, with_players(session.project, p0={"muted": True}, p1={"soloed": True}))
-    recorded.listen(HeardTake(first(session), "take:1", alone=True), 1.0)
+    recorded.listen(RecordedTake(first(session), "take:1", alone=True), 1.0)
     wait_ready(session, qtbot)
     assert loudness(recorded, 1.1, 1.8) > 0.01
     assert loudness(recorded, 2.7, 2.95) < 1e-3
@@ -367,7 +367,7 @@ def test_a_take_alone_is_all_that_is_heard(recorded: Sound, session: Session, qt
 
 
 def test_a_take_that_is_thrown_away_is_heard_no_more(recorded: Sound, session: Session, qtbot: QtBot) -> None:
-    recorded.listen(HeardTake(first(session), "take:1", alone=True), 1.0)
+    recorded.listen(RecordedTake(first(session), "take:1", alone=True), 1.0)
     wait_ready(session, qtbot)
     edit(session, remove_take(session.project, first(session), "take:1"))
     wait_ready(session, qtbot)
@@ -375,7 +375,7 @@ def test_a_take_that_is_thrown_away_is_heard_no_more(recorded: Sound, session: S
 
 
 def test_another_piece_ends_listening(recorded: Sound, session: Session) -> None:
-    recorded.listen(HeardTake(first(session), "take:1", alone=True), 1.0)
+    recorded.listen(RecordedTake(first(session), "take:1", alone=True), 1.0)
     session.document.open(piece(melody((0, 960, 60))))
     assert session.listening.take is None
     assert not session.playing

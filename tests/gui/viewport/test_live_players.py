@@ -14,7 +14,7 @@ from app.performance.ensemble import Performance
 from app.performance.play_along import PlayAlong
 from app.plan.corrections import PoseCorrection
 from app.project.edit.corrections import put
-from app.score.take import Wiring
+from app.score.take import ControllerMapping
 from tests.support.performed import playing_of
 from widgets.common.session import Session
 from widgets.viewport.panel import ViewportPanel
@@ -67,10 +67,10 @@ def test_a_key_that_goes_down_is_seen_at_once(qtbot: QtBot, session: Session, vi
     )
     own = live.player_id
     asked = live.asked
-    session.live_players.hear(own, perf_counter(), f"90{pitch:02x}5a", Wiring())
+    session.live_players.hear(own, perf_counter(), f"90{pitch:02x}5a", ControllerMapping())
     assert live.asked == asked + 1
-    session.live_players.hear(own, perf_counter(), "b0027f", Wiring())
-    session.live_players.hear("nobody", perf_counter(), "903c5a", Wiring())
+    session.live_players.hear(own, perf_counter(), "b0027f", ControllerMapping())
+    session.live_players.hear("nobody", perf_counter(), "903c5a", ControllerMapping())
     assert live.asked == asked + 1
 
     def pressed() -> bool:
@@ -80,7 +80,7 @@ def test_a_key_that_goes_down_is_seen_at_once(qtbot: QtBot, session: Session, vi
     qtbot.waitUntil(pressed)
 
 
-def test_who_stops_playing_is_the_performance_again_and_nobody_is_asked_any_more(
+def test_who_stops_playing_is_the_performance_again_and_no_one_is_asked_any_more(
     qtbot: QtBot, session: Session, viewport: ViewportPanel
 ) -> None:
     live = play_along(session)
@@ -153,7 +153,7 @@ def test_who_begins_and_ends_goes_there_and_back_without_a_jump(
     assert away(pose, performed) < 0.01 * far
     for course in ([0.0, *there], [there[-1], *back]):
         assert max(abs(a - b) for a, b in pairwise(course)) < 0.2
-    # Somebody who comes back on the way goes on from there.
+    # Someone who comes back on the way goes on from there.
     players.begin(live)
     steps(16)
     players.end(live.player_id)

@@ -247,7 +247,7 @@ def test_the_windows_thread_copies_no_figures(
     assert made == []
 
 
-def test_nobody_is_drawn_before_there_is_a_pose(qtbot: QtBot, session: Session, poses: MadeNow) -> None:
+def test_no_one_is_drawn_before_there_is_a_pose(qtbot: QtBot, session: Session, poses: MadeNow) -> None:
     poses.missing = True
     session.set_playhead(AT_S)
     panel = ViewportPanel(session, poses)
@@ -399,7 +399,7 @@ def test_clicking_selects_and_control_adds(qtbot: QtBot, viewport: ViewportPanel
     assert session.players == (players[1],)
 
 
-def test_a_drag_that_begins_on_a_player_selects_nobody(viewport: ViewportPanel, session: Session) -> None:
+def test_a_drag_that_begins_on_a_player_selects_no_one(viewport: ViewportPanel, session: Session) -> None:
     before = session.players
     drag(canvas(viewport), place_of(viewport, 2), QPointF(40, 0))
     assert session.players == before

@@ -1,4 +1,4 @@
-"""The face that is being made is worn by the player in front, and by nobody else."""
+"""The face that is being made is worn by the player in front, and by no one else."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ from app.plan.corrections import (
     Vary,
 )
 from app.plan.generate import plan_ensemble, time_frame
-from app.plan.line import Line, Piece
+from app.plan.line import MonophonicPart, Piece
 from app.plan.parameters import PlayerParameters
 from app.project.model import Project
 from app.score.metre_map import Metre, MetreMap
@@ -183,7 +183,7 @@ def test_a_semitone_that_breaks_a_figure_moves_the_breaths_after_an_edit_too(ind
         Note(f"1:{k + 1}", QUARTER // 2 * k + rest * (k > 5), QUARTER // 2, pitch, 80)
         for k, pitch in enumerate(14 * MOTIF)
     ]
-    line = Line("p", tuple(notes), bundled_maps()["trumpet_Bb"], PlayerParameters(lung_s=4.0))
+    line = MonophonicPart("p", tuple(notes), bundled_maps()["trumpet_Bb"], PlayerParameters(lung_s=4.0))
     notes[index] = msgspec.structs.replace(notes[index], pitch=notes[index].pitch + semitones)
     edited = msgspec.structs.replace(line, notes=tuple(notes))
     frame = time_frame((line,), clock)

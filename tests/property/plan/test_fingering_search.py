@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.plan.fingering import plan_fingerings
-from app.plan.generate import Line
+from app.plan.generate import MonophonicPart
 from app.plan.line import line_times
 from app.plan.search import best_path, fingering_problem
 from instrument_maps.load import bundled_maps
@@ -216,7 +216,7 @@ def share_of_pace(step: float) -> float:
 def test_the_search_finds_the_cheapest_of_all_paths(name: str, data: st.DataObject) -> None:
     instrument, low, high = INSTRUMENTS[name]
     notes = data.draw(phrases(low, high, 6))
-    problem = fingering_problem(notes, line_times(Line("p", notes, instrument), PlainClock()), instrument, {})
+    problem = fingering_problem(notes, line_times(MonophonicPart("p", notes, instrument), PlainClock()), instrument, {})
     path = best_path(problem)
     ranked = [instrument.fingerings_for(note.pitch) for note in notes]
     chosen = naive_cost(notes, [ways[column] for ways, column in zip(ranked, path.tolist(), strict=True)], instrument)
@@ -230,7 +230,7 @@ def test_the_search_finds_the_cheapest_of_all_paths(name: str, data: st.DataObje
 def test_no_phrase_travels_further_or_faster_than_the_first_choices(name: str, data: st.DataObject) -> None:
     instrument, low, high = INSTRUMENTS[name]
     notes = data.draw(phrases(low, high, 60))
-    times = line_times(Line("p", notes, instrument), PlainClock())
+    times = line_times(MonophonicPart("p", notes, instrument), PlainClock())
     events, _ = plan_fingerings(notes, times, instrument, {})
     slides = [control for control in instrument.controls if control.role == "pitch" and control.kind == "slide"]
     kinds = {control.kind for control in instrument.controls if control.role == "pitch"}
@@ -265,7 +265,7 @@ def test_a_pin_is_kept_wherever_it_is(data: st.DataObject) -> None:
     notes = data.draw(phrases(low, high, 20))
     index = data.draw(st.integers(0, len(notes) - 1))
     label = data.draw(st.sampled_from([way.label for way in instrument.fingerings_for(notes[index].pitch)]))
-    times = line_times(Line("p", notes, instrument), PlainClock())
+    times = line_times(MonophonicPart("p", notes, instrument), PlainClock())
     events, _ = plan_fingerings(notes, times, instrument, {notes[index].id: label})
     assert events[index].label == label
     assert [event.corrected for event in events] == [at == index for at in range(len(notes))]

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.performance.loudness import heard, note_loudness, sounding_curve
-from app.plan.generate import Line, make_plans, time_frame
-from app.plan.heard import GASP_S
+from app.plan.breath_envelope import GASP_S
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.parameters import PlayerParameters
 from app.score.model import ControllerCurve, Note, Part
 from instrument_maps.load import bundled_maps
@@ -41,7 +41,9 @@ def parts(draw: st.DrawFn) -> Part:
 @settings(deadline=None, max_examples=120)
 @given(parts(), st.sampled_from((2.0, 9.0)))
 def test_breaths_are_in_order_and_end_before_what_they_serve(part: Part, lung_s: float) -> None:
-    line = Line("p", part.notes, TRUMPET, PlayerParameters(lung_s=lung_s), (), note_loudness(part), heard(part))
+    line = MonophonicPart(
+        "p", part.notes, TRUMPET, PlayerParameters(lung_s=lung_s), (), note_loudness(part), heard(part)
+    )
     frame = time_frame((line,), TEMPO)
     plan = make_plans(piece_of(TEMPO), (line,), frame)["p"]
     onset_s = {f"breath:{note.id}": TEMPO.seconds(float(note.onset_tick)) for note in part.notes}
@@ -56,7 +58,7 @@ def test_breaths_are_in_order_and_end_before_what_they_serve(part: Part, lung_s:
         assert event.start_s >= before_s[event.id], "no note is lost altogether"
         assert event.start_tick <= event.end_tick
         assert 0.0 < event.depth <= 1.0
-        if event.reason.id.startswith("breath.heard"):
+        if event.reason.id.startswith("breath.blown"):
             assert event.end_s - event.start_s >= GASP_S - 0.002
     for one, following in pairwise(plan.breaths):
         assert one.end_s <= following.start_s + 1e-6

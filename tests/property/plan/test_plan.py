@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.plan.catch_lengths import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_PLAYED_S
-from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.generate import MonophonicPart, Piece, make_plans, time_frame
 from app.plan.model import BreathEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
@@ -52,23 +52,25 @@ felt_beats = st.sampled_from([None, None, 720, 240])
 
 
 @st.composite
-def pieces(draw: st.DrawFn) -> tuple[Piece, tuple[Line, ...]]:
+def pieces(draw: st.DrawFn) -> tuple[Piece, tuple[MonophonicPart, ...]]:
     metre = Metre(0, draw(st.integers(2, 7)), draw(st.sampled_from([4, 8])))
     piece = piece_of(draw(clocks), (metre,), draw(felt_beats))
     lines = tuple(
-        Line(f"p{track}", draw(tunes(track)), draw(st.sampled_from(MAPS)), draw(parameters))
+        MonophonicPart(f"p{track}", draw(tunes(track)), draw(st.sampled_from(MAPS)), draw(parameters))
         for track in range(1, draw(st.integers(1, 3)) + 1)
     )
     return piece, lines
 
 
-def made(piece: Piece, lines: tuple[Line, ...]) -> dict[str, PlayerPlan]:
+def made(piece: Piece, lines: tuple[MonophonicPart, ...]) -> dict[str, PlayerPlan]:
     return make_plans(piece, lines, time_frame(lines, piece.clock, beat_ticks=piece.metre_map.felt_ticks_at(0)))
 
 
 @given(pieces())
 @settings(max_examples=150, deadline=None)
-def test_breaths_end_at_onsets_and_never_lie_in_a_sounding_note(drawn: tuple[Piece, tuple[Line, ...]]) -> None:
+def test_breaths_end_at_onsets_and_never_lie_in_a_sounding_note(
+    drawn: tuple[Piece, tuple[MonophonicPart, ...]],
+) -> None:
     piece, lines = drawn
     for line, plan in zip(lines, made(piece, lines).values(), strict=True):
         onsets_s = {note.id: piece.clock.seconds(float(note.onset_tick)) for note in line.notes}
@@ -110,7 +112,7 @@ def _left_out(breath: BreathEvent) -> set[object]:
 
 @given(pieces())
 @settings(max_examples=60, deadline=None)
-def test_events_are_unique_ordered_reasoned_and_repeatable(drawn: tuple[Piece, tuple[Line, ...]]) -> None:
+def test_events_are_unique_ordered_reasoned_and_repeatable(drawn: tuple[Piece, tuple[MonophonicPart, ...]]) -> None:
     piece, lines = drawn
     plans = made(piece, lines)
     assert made(piece, lines) == plans
@@ -137,14 +139,14 @@ def test_events_are_unique_ordered_reasoned_and_repeatable(drawn: tuple[Piece, t
 @given(pieces(), st.integers(1, 5))
 @settings(max_examples=60, deadline=None)
 def test_the_same_notes_a_bar_later_are_fingered_and_breathed_alike(
-    drawn: tuple[Piece, tuple[Line, ...]], bars: int
+    drawn: tuple[Piece, tuple[MonophonicPart, ...]], bars: int
 ) -> None:
     piece, lines = drawn
     steady = Piece(PlainClock(piece.clock.changes[:1]), piece.metre_map)  # type: ignore[attr-defined]
     metre = piece.metre_map.metres[0]
     shift = bars * 1920 * metre.numerator // metre.denominator
     moved = tuple(
-        Line(
+        MonophonicPart(
             line.player_id,
             tuple(dataclasses.replace(note, onset_tick=note.onset_tick + shift) for note in line.notes),  # type: ignore[type-var]
             line.instrument_map,

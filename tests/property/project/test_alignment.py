@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from app.plan.corrections import PinFingering
-from app.project.alignment import GAP_COST, Line, align, cheapest, pair_costs
+from app.project.alignment import GAP_COST, AlignmentPart, align, cheapest, pair_costs
 from app.project.edit.corrections import put
 from app.project.model import Project, map_choices, project_from_score
 from app.project.reimport import reimport
@@ -87,7 +87,7 @@ lines = st.lists(st.tuples(st.integers(0, 24), st.integers(58, 63)), max_size=14
 @given(lines, lines)
 @settings(max_examples=200, deadline=None)
 def test_any_two_lines(old: list[Note], new: list[Note]) -> None:
-    one, other = Line.of(old, QUARTER), Line.of(new, QUARTER)
+    one, other = AlignmentPart.of(old, QUARTER), AlignmentPart.of(new, QUARTER)
     pairs = [(int(first), int(second)) for first, second in align(one, other)]
     assert_in_order(pairs)
     assert all(0 <= first < len(old) and 0 <= second < len(new) for first, second in pairs)
@@ -100,7 +100,7 @@ def test_any_two_lines(old: list[Note], new: list[Note]) -> None:
 def test_taking_out_or_putting_in_costs_no_more_than_it_must(whole: list[Note], data: st.DataObject) -> None:
     some = [note for note in whole if data.draw(st.booleans())]
     for old, new in ((whole, some), (some, whole)):
-        one, other = Line.of(old, QUARTER), Line.of(new, QUARTER)
+        one, other = AlignmentPart.of(old, QUARTER), AlignmentPart.of(new, QUARTER)
         pairs = [(int(first), int(second)) for first, second in align(one, other)]
         if old and new:
             table = pair_costs(one, other, [0.0], 0).tolist()
@@ -133,7 +133,7 @@ def changes(draw: st.DrawFn, notes: list[Note]) -> tuple[list[Note], set[str]]:
 
 @st.composite
 def melodies(draw: st.DrawFn) -> list[Note]:
-    """Lines without rests, of notes that cannot be told by their pitch alone."""
+    """Lines without rests, of notes that cannot be reported by their pitch alone."""
     steps = draw(st.lists(st.tuples(st.integers(60, 66), st.sampled_from([240, 480, 960])), min_size=12, max_size=60))
     notes, tick = [], 0
     for number, (pitch, length) in enumerate(steps, 1):
@@ -146,7 +146,7 @@ def melodies(draw: st.DrawFn) -> list[Note]:
 @settings(max_examples=200, deadline=None)
 def test_survivors_are_found(case: tuple[list[Note], tuple[list[Note], set[str]]]) -> None:
     old, (new, survivors) = case
-    pairs = align(Line.of(old, QUARTER), Line.of(new, QUARTER))
+    pairs = align(AlignmentPart.of(old, QUARTER), AlignmentPart.of(new, QUARTER))
     # Nearly as many are found as there are, whatever the music: of one note repeated through a gap, some stay open ...
     assert len(pairs) >= len(survivors) - max(3, len(old) // 4)
     pitches = [note.pitch for note in old]

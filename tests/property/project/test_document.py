@@ -338,7 +338,7 @@ some_cleaning = st.builds(
 
 
 def record(data: st.DataObject, project: Project, player_id: str) -> Project:
-    """A take or two of a synthetic player who begins early, overlaps, repeats and sends what nobody understands."""
+    """A take or two of a synthetic player who begins early, overlaps, repeats and sends what no one understands."""
     made = []
     for notes_played in data.draw(st.lists(played_notes, min_size=1, max_size=2)):
         notes_played = [(at, at + length, pitch, breath) for at, length, pitch, breath in notes_played]
@@ -398,9 +398,9 @@ class Day(RuleBasedStateMachine):
         self.document = Document(small_project())
         self.past: list[Project] = []
         self.future: list[Project] = []
-        self.told: list[Change] = []
+        self.reported: list[Change] = []
         self.folder = Path(tempfile.mkdtemp())
-        self.document.observe(self.told.append)
+        self.document.observe(self.reported.append)
         self.performance = Performance(self.document.project)
 
     def teardown(self) -> None:
@@ -490,7 +490,7 @@ class Day(RuleBasedStateMachine):
     @precondition(lambda self: self.document.project.players)
     @rule(data=st.data(), steps=st.integers(1, 4))
     def a_drag_that_is_cancelled(self, data: st.DataObject, steps: int) -> None:
-        """No step in the history, and the very project of before; a drag of somebody else stays."""
+        """No step in the history, and the very project of before; a drag of someone else stays."""
         start, done, token = self.document.project, self.document.done, object()
         chosen = [player.id for player in start.players]
         for amount in data.draw(st.lists(st.floats(0.0, 1.0), min_size=steps, max_size=steps)):
@@ -559,8 +559,8 @@ class Day(RuleBasedStateMachine):
     def history_is_what_was_done(self) -> None:
         assert len(self.document.done) == len(self.past)
         assert [step.before for step in self.document.done] == self.past
-        if self.told:
-            assert self.told[-1].after is self.document.project
+        if self.reported:
+            assert self.reported[-1].after is self.document.project
 
 
 def is_done(correction: Correction, plan: PlayerPlan, others: tuple[Correction, ...]) -> bool:

@@ -136,7 +136,7 @@ def test_nested_to_death(depth: int) -> None:
     assert read(in_correction) is None
 
 
-def test_a_key_nobody_knows_is_not_lost_but_refused() -> None:
+def test_a_key_no_one_knows_is_not_lost_but_refused() -> None:
     for path in PATHS:
         whole = json.loads(WHOLE)
         place = whole

@@ -39,7 +39,7 @@ def _world(pose: LimbPose, root: np.ndarray, parent: np.ndarray) -> tuple[np.nda
 
 
 @given(seeds)
-def test_what_is_in_reach_is_reached_with_the_wanted_rotation(seed: int) -> None:
+def test_what_is_in_reach_is_reached_with_the_requested_rotation(seed: int) -> None:
     root, target, parent, rotation, pole = _targets(seed, 0.2, 1.0 - SOFT_SHARE)
     pose = solve_limb(LIMB, root, parent, target, rotation, pole)
     _, end, turned = _world(pose, root, parent)

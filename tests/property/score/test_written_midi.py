@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 from app.score.limits import MOST_HOURS
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, CurveKind, Marker, Note, Part, Score
-from app.score.parts import PartWish
-from app.score.read import read_contents, read_midi, wished_score
+from app.score.parts import PartAssignment
+from app.score.read import assigned_score, read_contents, read_midi
 from app.score.tempo import TempoChange, TempoMap
 from app.score.write import midi_file
 from tests.unit.score.midi_bytes import MAPS
@@ -25,7 +25,7 @@ from tests.unit.score.midi_bytes import MAPS
 LAST_TICK = 200_000
 MOST_NOTES, LONGEST_TICK = 8, 4000
 KINDS: Sequence[CurveKind] = ("aftertouch", "bite", "breath", "expression", "pitch_bend", "volume")
-# What a person may call a part; the reader drops control characters and spaces around, as it does of any file.
+# What the user may call a part; the reader drops control characters and spaces around, as it does of any file.
 WORDS = st.text(st.characters(exclude_categories=("C", "Z")), min_size=1, max_size=20)
 
 
@@ -179,9 +179,10 @@ def test_notes_of_one_pitch_that_overlap_sound_as_long_as_they_did(rows: list[tu
         path = Path(folder) / "piece.mid"
         path.write_bytes(made.data)
         # As one player's: what cannot be one player's would be shortened or shared.
-        wish = PartWish((0,), "trumpet", split="never")
-        again = [note for part in wished_score(read_contents(path), [wish], MAPS).parts for note in part.notes]
-    # Every onset with its pitch and velocity, every end with its pitch; only whose end it is may change, and is told.
+        assignment = PartAssignment((0,), "trumpet", split="never")
+        again = [note for part in assigned_score(read_contents(path), [assignment], MAPS).parts for note in part.notes]
+    # Every onset with its pitch and velocity, every end with its pitch; only whose end it is may change, and is
+    # reported.
     assert sorted((n.onset_tick, n.pitch, n.velocity) for n in again) == sorted((r[0], r[2], r[3]) for r in rows)
     assert sorted((n.end_tick, n.pitch) for n in again) == sorted((n.end_tick, n.pitch) for n in notes)
     nested = any(

@@ -10,7 +10,7 @@ from app.audio.clock import DeviceClock
 
 
 class Device:
-    """Counts in steps; each is told late by up to some jitter; may stand still, and runs at another rate."""
+    """Counts in steps; each is reported late by up to some jitter; may stand still, and runs at another rate."""
 
     def __init__(
         self, seed: int, step_s: float, jitter_s: float, drift: float, stands: tuple[float, float] | None
@@ -20,11 +20,11 @@ class Device:
         played_at = steps * step_s / (1.0 + drift)
         if stands is not None:
             played_at = played_at + np.where(played_at > stands[0], stands[1], 0.0)
-        self._told_at = np.maximum.accumulate(played_at + rng.uniform(0.0, jitter_s, len(steps)))
+        self._reported_at = np.maximum.accumulate(played_at + rng.uniform(0.0, jitter_s, len(steps)))
         self._step_s = step_s
 
     def processed_s(self, time_s: float) -> float:
-        return float(np.searchsorted(self._told_at, time_s, side="right")) * self._step_s
+        return float(np.searchsorted(self._reported_at, time_s, side="right")) * self._step_s
 
 
 def heard(device: Device, poll_s: float, end_s: float, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:

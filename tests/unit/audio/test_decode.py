@@ -140,10 +140,10 @@ def test_it_can_be_stopped(tmp_path: Path) -> None:
     soundfile.write(tmp_path / "long.wav", tone(RATE_HZ, 5.0), RATE_HZ)
     asked: list[bool] = []
 
-    def stop_wanted() -> bool:
+    def stop_requested() -> bool:
         asked.append(True)
         return len(asked) > 1
 
     with pytest.raises(Cancelled):
-        decode(str(tmp_path / "long.wav"), stop_wanted=stop_wanted)
+        decode(str(tmp_path / "long.wav"), stop_requested=stop_requested)
     assert len(asked) == 2

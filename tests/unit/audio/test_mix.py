@@ -111,7 +111,7 @@ def test_with_a_recording_it_is_the_recording_at_its_place(tmp_path: Path) -> No
 
 def test_it_can_be_stopped_and_says_where_it_stands() -> None:
     with pytest.raises(Cancelled):
-        mixdown(quartet(), 0.0, 5.0, stop_wanted=lambda: True)
+        mixdown(quartet(), 0.0, 5.0, stop_requested=lambda: True)
     shares: list[float] = []
     mixdown(DUET, 0.0, 1.0, progress=shares.append)
     assert shares == sorted(shares)

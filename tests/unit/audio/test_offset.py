@@ -156,7 +156,7 @@ def test_shorter_than_a_frame() -> None:
 
 def test_it_can_be_stopped_and_says_where_it_stands() -> None:
     with pytest.raises(Cancelled):
-        estimate_offset(as_samples(noise(5.0, 0.1)), RATE_HZ, quartet().score, stop_wanted=lambda: True)
+        estimate_offset(as_samples(noise(5.0, 0.1)), RATE_HZ, quartet().score, stop_requested=lambda: True)
     shares: list[float] = []
     estimate_offset(as_samples(noise(5.0, 0.1)), RATE_HZ, quartet().score, shares.append)
     assert shares == sorted(shares)

@@ -31,7 +31,7 @@ def test_nothing_is_lost_in_bursts_while_the_editor_is_busy(tmp_path: Path) -> N
         RecorderLink() as link,
     ):
         ear = Ear(link)
-        ear.wait(Ports, lambda told: player.name in told.inputs)
+        ear.wait(Ports, lambda reported: player.name in reported.inputs)
         link.open(player.name)
         ear.wait(Opened)
         link.start(path, Header("p", "player", "EWI", "ewi_usb", 0.0, ""))

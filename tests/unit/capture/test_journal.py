@@ -167,7 +167,7 @@ def test_the_system_s_messages_are_of_no_channel(message: bytes) -> None:
         (b"play 5", "no word"),
     ],
 )
-def test_a_wrong_line_is_told_with_its_place(tmp_path: Path, line: bytes, detail: str) -> None:
+def test_a_wrong_line_is_reported_with_its_place(tmp_path: Path, line: bytes, detail: str) -> None:
     path = tmp_path / "take"
     writer = JournalWriter(str(path), HEADER)
     writer.sync(2, 0.0, 0)

@@ -15,7 +15,7 @@ CLICKS_S = tuple(0.6 * index for index in range(12))
 def player(
     latency_s: float, jitter_s: float, seed: int, missed: int = 0, doubled: int = 0, stray: int = 0
 ) -> list[float]:
-    """Somebody who blows on the clicks."""
+    """Someone who blows on the clicks."""
     chance = random.Random(seed)
     struck = sorted(chance.sample(range(len(CLICKS_S)), len(CLICKS_S) - missed))
     times = [CLICKS_S[index] + latency_s + chance.gauss(0.0, jitter_s) for index in struck]

@@ -51,7 +51,7 @@ def ear() -> Iterator[Ear]:
 
 
 def opened(ear: Ear, name: str) -> Ear:
-    ear.wait(Ports, lambda told: name in told.inputs)
+    ear.wait(Ports, lambda reported: name in reported.inputs)
     ear.link.open(name)
     ear.wait(Opened)
     return ear
@@ -79,20 +79,20 @@ def heard_one(ear: Ear, player: WindPlayer, message: bytes) -> int:
 
 def finished(ear: Ear, path: Path) -> Journal:
     ear.link.stop()
-    told = ear.wait(Finished)
-    assert told.path == os.fsencode(path)
+    reported = ear.wait(Finished)
+    assert reported.path == os.fsencode(path)
     journal = read_journal(path)
     assert journal.complete
-    assert told.count == len(journal.messages)
+    assert reported.count == len(journal.messages)
     return journal
 
 
 def test_devices_come_and_go(ear: Ear) -> None:
     with WindPlayer() as player:
-        told = ear.wait(Ports, lambda told: player.name in told.inputs)
-        assert told.system == "jack"
-        place = len(ear.told)
-    ear.wait(Ports, lambda told: player.name not in told.inputs, after=place)
+        reported = ear.wait(Ports, lambda reported: player.name in reported.inputs)
+        assert reported.system == "jack"
+        place = len(ear.reported)
+    ear.wait(Ports, lambda reported: player.name not in reported.inputs, after=place)
 
 
 def test_what_is_played_arrives_in_order_and_stamped(ear: Ear, tmp_path: Path) -> None:
@@ -152,7 +152,7 @@ def test_another_port_is_opened_while_the_first_is_blown(ear: Ear) -> None:
         opened(ear, first.name)
         first.start()
         ear.wait_for_messages(100)
-        place = len(ear.told)
+        place = len(ear.reported)
         ear.link.open(second.name)
         assert ear.wait(Opened, after=place).port == second.name
         before = len(ear.messages)
@@ -168,7 +168,7 @@ def test_a_take_goes_on_when_another_port_is_opened(ear: Ear, tmp_path: Path) ->
     with WindPlayer("First") as first, WindPlayer("Second") as second:
         started(opened(ear, first.name), path)
         before = heard_one(ear, first, b"\x90\x3c\x40")
-        place = len(ear.told)
+        place = len(ear.reported)
         ear.link.open(second.name)
         for number in range(5):
             # Told while one recorder takes over from the other.
@@ -191,9 +191,9 @@ def test_a_killed_recorder_is_started_again_and_goes_on(ear: Ear, tmp_path: Path
         sent = [message for _, message in player.play(PHRASE)]
         ear.wait_for_most(len(sent))
         before = len(ear.messages)
-        ear.wait(Written, lambda told: told.count >= before)
+        ear.wait(Written, lambda reported: reported.count >= before)
         before = len(ear.messages)
-        place = len(ear.told)
+        place = len(ear.reported)
         child = ear.link._child
         assert child is not None
         child.kill()
@@ -283,7 +283,7 @@ def test_a_journal_that_is_there_is_not_written_over(ear: Ear, tmp_path: Path) -
     assert ear.wait(NotStarted).reason.id == "journal.exists"
     assert path.read_text() == "precious"
     ear.link.start(tmp_path / "nowhere" / "take", HEADER)
-    assert ear.wait(NotStarted, lambda told: told.reason.id == "file.cannot_write")
+    assert ear.wait(NotStarted, lambda reported: reported.reason.id == "file.cannot_write")
 
 
 def test_a_take_that_waits_for_its_device(ear: Ear, tmp_path: Path) -> None:
@@ -400,10 +400,10 @@ def test_a_journal_that_is_there_is_not_gone_on_with(monkeypatch: pytest.MonkeyP
     with RecorderLink() as link:
         ear = Ear(link)
         ear.wait(Ports)
-        tell = link._tell
-        monkeypatch.setattr(link, "_tell", lambda command: False)
+        report = link._report
+        monkeypatch.setattr(link, "_report", lambda command: False)
         link.start(path, HEADER)
-        monkeypatch.setattr(link, "_tell", tell)
+        monkeypatch.setattr(link, "_report", report)
         child = link._child
         assert child is not None
         child.kill()

@@ -37,7 +37,7 @@ def test_windows_numbers_change_and_names_do_not() -> None:
         ("core", ["EWI-USB MIDI 1", "EWI-USB MIDI 1"]),
     ],
 )
-def test_two_of_a_kind_are_told_apart(system: str, found: list[str]) -> None:
+def test_two_of_a_kind_are_distinguished(system: str, found: list[str]) -> None:
     ports = named(found, system)
     assert [port.name for port in ports] == ["EWI-USB MIDI 1", "EWI-USB MIDI 1 (2)"]
     assert [port.index for port in ports] == [0, 1]
@@ -52,7 +52,7 @@ def test_a_nameless_port_has_a_name() -> None:
     assert names(["", ""], "core") == ["MIDI", "MIDI (2)"]
 
 
-def test_a_library_that_cannot_be_loaded_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_library_that_cannot_be_loaded_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     load = builtins.__import__
 
     def refuse(name: str, *arguments: Any, **keywords: Any) -> Any:
@@ -65,7 +65,7 @@ def test_a_library_that_cannot_be_loaded_is_told(monkeypatch: pytest.MonkeyPatch
         MidiSystem()
 
 
-def test_a_system_that_is_not_there_is_told() -> None:
+def test_a_system_that_is_not_there_is_reported() -> None:
     pytest.importorskip("rtmidi")
     with pytest.raises(PortError, match=r"capture\.api_unknown") as caught:
         MidiSystem("telepathy")

@@ -82,7 +82,7 @@ class Bench:
     def __init__(self, monkeypatch: pytest.MonkeyPatch, system: System | None) -> None:
         self.systems: list[System | None] = [system]
 
-        def made(wanted: str) -> System:
+        def made(requested: str) -> System:
             found = self.systems[-1]
             if found is None:
                 raise PortError("capture.no_system")
@@ -93,14 +93,14 @@ class Bench:
         self.journal: SimpleQueue[Any] = SimpleQueue()
         self.recorder = Recorder(self.news, self.journal)
 
-    def told(self) -> list[News]:
+    def reported(self) -> list[News]:
         found = []
         while not self.news.empty():
             found.append(self.news.get())
         return found
 
     def kinds(self) -> list[type]:
-        return [type(told) for told in self.told()]
+        return [type(reported) for reported in self.reported()]
 
     def marks(self) -> list[str]:
         found = []
@@ -109,15 +109,15 @@ class Bench:
         return found
 
 
-def test_devices_are_told_when_they_change(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_devices_are_reported_when_they_change(monkeypatch: pytest.MonkeyPatch) -> None:
     system = System("EWI")
     bench = Bench(monkeypatch, system)
     for _ in range(3):
         bench.recorder.look()
-    assert bench.told() == [Ports(("EWI",), (), "alsa")]
+    assert bench.reported() == [Ports(("EWI",), (), "alsa")]
     system.listed["Piano"] = "Piano 24:0"
     bench.recorder.look()
-    assert bench.told() == [Ports(("EWI", "Piano"), (), "alsa")]
+    assert bench.reported() == [Ports(("EWI", "Piano"), (), "alsa")]
 
 
 def test_a_lost_port_is_opened_again_when_it_comes_back(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -141,32 +141,34 @@ def test_one_that_came_back_unseen_is_noticed(monkeypatch: pytest.MonkeyPatch) -
     system = System("EWI")
     bench = Bench(monkeypatch, system)
     bench.recorder.obey(Open("EWI"))
-    bench.told()
+    bench.reported()
     system.listed["EWI"] = "EWI 24:0"
     bench.recorder.look()
     assert bench.kinds() == [Lost, Back]
 
 
-def test_a_port_in_use_elsewhere_is_told_once_and_opened_when_it_is_free(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_port_in_use_elsewhere_is_reported_once_and_opened_when_it_is_free(monkeypatch: pytest.MonkeyPatch) -> None:
     system = System("EWI")
     system.busy.add("EWI")
     bench = Bench(monkeypatch, system)
     bench.recorder.obey(Open("EWI"))
     for _ in range(3):
         bench.recorder.look()
-    (refused,) = [told for told in bench.told() if isinstance(told, Refused)]
+    (refused,) = [reported for reported in bench.reported() if isinstance(reported, Refused)]
     assert refused.reason.id == "capture.port_refused"
     system.busy.clear()
     bench.recorder.look()
     assert bench.kinds() == [Opened]
 
 
-def test_a_port_that_is_not_there_yet_is_told_once_and_opened_when_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_port_that_is_not_there_yet_is_reported_once_and_opened_when_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     system = System()
     bench = Bench(monkeypatch, system)
     bench.recorder.obey(Open("EWI"))
     bench.recorder.look()
-    assert [told.reason.id for told in bench.told() if isinstance(told, Refused)] == ["capture.port_not_here"]
+    assert [reported.reason.id for reported in bench.reported() if isinstance(reported, Refused)] == [
+        "capture.port_not_here"
+    ]
     system.listed["EWI"] = "EWI 20:0"
     bench.recorder.look()
     assert bench.kinds() == [Ports, Opened]
@@ -179,11 +181,11 @@ def test_a_system_that_comes_later_is_found(monkeypatch: pytest.MonkeyPatch) -> 
     for _ in range(4):
         bench.recorder.look()
         now_s[0] += 0.5
-    assert [type(told) for told in bench.told()] == [Ports, Refused]
+    assert [type(reported) for reported in bench.reported()] == [Ports, Refused]
     bench.systems.append(System("EWI"))
     now_s[0] += 2.0
     bench.recorder.look()
-    assert bench.told() == [Ports(("EWI",), (), "alsa")]
+    assert bench.reported() == [Ports(("EWI",), (), "alsa")]
 
 
 def test_a_jack_server_without_ports_is_asked_anew(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -197,7 +199,7 @@ def test_a_jack_server_without_ports_is_asked_anew(monkeypatch: pytest.MonkeyPat
     now_s[0] += 2.0
     bench.recorder.look()
     assert dead.is_closed
-    assert bench.told()[-1] == Ports(("EWI",), (), "alsa")
+    assert bench.reported()[-1] == Ports(("EWI",), (), "alsa")
 
 
 def test_a_system_that_goes_away_is_left_to_another_recorder(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -219,7 +221,7 @@ def test_what_is_heard_goes_to_the_disk_and_to_the_editor(monkeypatch: pytest.Mo
     system = System("EWI")
     bench = Bench(monkeypatch, system)
     bench.recorder.obey(Open("EWI"))
-    bench.told()
+    bench.reported()
     bench.marks()
     system.heard(([0x90, 60, 80], 0.1), None)
     assert bench.journal.get() == bench.news.get()

@@ -8,7 +8,7 @@ import mido
 import numpy as np
 import pytest
 
-from app.choreography.derived_rhythm import derived_rhythm, heard_rhythm
+from app.choreography.derived_rhythm import audible_rhythm, derived_rhythm
 from app.choreography.rhythm import SYMBOLS
 from app.score.model import Score
 from app.score.read import read_contents, uncast_score
@@ -93,10 +93,10 @@ def test_notes_of_a_chord_that_is_not_quite_together_are_one_moment(tmp_path):
 
 def test_percussion_is_heard_where_there_is_any(tmp_path):
     notes = [(0, 1, 60, 80)]
-    with_drums = heard_rhythm(piece(tmp_path, notes, drums=(1.0,)))
+    with_drums = audible_rhythm(piece(tmp_path, notes, drums=(1.0,)))
     assert not with_drums.derived
     assert with_drums.hits_s.tolist() == [0.5]
-    assert heard_rhythm(piece(tmp_path, notes)).derived
+    assert audible_rhythm(piece(tmp_path, notes)).derived
     assert len(derived_rhythm(piece(tmp_path, drums=(1.0,))).hits_s) == 0
 
 

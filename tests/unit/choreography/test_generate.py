@@ -17,7 +17,7 @@ from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.dance import Dance, Manner
 from app.choreography.generate import Choreographer, mirrored
 from app.choreography.joins import faded
-from app.choreography.sequence import Wishes
+from app.choreography.sequence import Constraints
 from app.choreography.stitch import STAGE_M
 from tests.support.dance_measures import alignments, kinematic_beats_s
 from tests.support.dances import beaten, model, stepping
@@ -144,7 +144,7 @@ def test_a_source_can_be_preferred() -> None:
 
 
 def test_pins_hold() -> None:
-    found = choreographer().steps(beaten(32), Manner(), wishes=Wishes(pinned={20: 2}))
+    found = choreographer().steps(beaten(32), Manner(), constraints=Constraints(pinned={20: 2}))
     assert next(step for step in found if step.place == 20).state == 2
 
 

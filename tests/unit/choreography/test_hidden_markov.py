@@ -111,10 +111,10 @@ def test_a_long_piece_does_not_underflow():
 def test_impossible_steps_are_avoided_or_refused():
     initial = np.array([1.0, 0.0])
     transition = np.array([[0.0, 1.0], [1.0, 0.0]])
-    nothing_heard = log_likelihood(np.full((2, 47), 1 / 47), [np.array([], int)] * 3)
-    assert viterbi(initial, transition, nothing_heard)[0].tolist() == [0, 1, 0]
+    nothing_received = log_likelihood(np.full((2, 47), 1 / 47), [np.array([], int)] * 3)
+    assert viterbi(initial, transition, nothing_received)[0].tolist() == [0, 1, 0]
     with pytest.raises(ValueError, match="possible"):
-        viterbi(initial, np.zeros((2, 2)), nothing_heard)
+        viterbi(initial, np.zeros((2, 2)), nothing_received)
 
 
 def test_a_piece_without_steps_has_no_states():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.choreography.hidden_markov import viterbi
-from app.choreography.sequence import Candidates, Grid, Weights, Wishes, choose, grid_of, symbol_scores
+from app.choreography.sequence import Candidates, Constraints, Grid, Weights, choose, grid_of, symbol_scores
 from tests.support.dances import beaten
 
 PLAIN = Weights(join_per_m=0.0, speed=0.0, off_beat=0.0, chance=0.0, lately=0.0)
@@ -77,7 +77,7 @@ def test_no_way_through_a_small_grid_is_better(seed: int) -> None:
         places = [0, *(at + 1 for at, one in enumerate(used) if one), found[-1][0]]
         ways += [tuple(zip(places, segments, strict=True)) for segments in product(range(3), repeat=len(places))]
     best = max(scored(way, grid, scores, own, weights) for way in ways)
-    # Times are told apart to 2 %.
+    # Times are distinguished to 2 %.
     assert scored(tuple(found), grid, scores, own, weights) == pytest.approx(best, abs=0.12)
 
 
@@ -90,12 +90,14 @@ def test_wishes_are_met_and_solved_around() -> None:
     place = 16
     there = dict(free).get(place)
     wished = next(state for state in range(8) if state != there)
-    pinned = choose(grid, scores, own, seed=5, wishes=Wishes(pinned={place: wished}))
+    pinned = choose(grid, scores, own, seed=5, constraints=Constraints(pinned={place: wished}))
     assert dict(pinned)[place] == wished
     banned = frozenset((at, state) for at in range(len(grid.times_s)) for state in range(4))
-    assert all(segment >= 4 for _, segment in choose(grid, scores, own, seed=5, wishes=Wishes(forbidden=banned)))
-    both = Wishes(pinned={place: 2}, forbidden=banned)
-    assert dict(choose(grid, scores, own, seed=5, wishes=both))[place] == 2
+    assert all(
+        segment >= 4 for _, segment in choose(grid, scores, own, seed=5, constraints=Constraints(forbidden=banned))
+    )
+    both = Constraints(pinned={place: 2}, forbidden=banned)
+    assert dict(choose(grid, scores, own, seed=5, constraints=both))[place] == 2
 
 
 def test_the_same_seed_is_the_same_dance_and_another_is_another() -> None:

@@ -1,4 +1,4 @@
-"""An instrument nobody knew: a map and a model in a person's folder, through the command line to files on the disk."""
+"""An instrument no one knew: a map and a model in the user's folder, through the command line to files on the disk."""
 
 from __future__ import annotations
 

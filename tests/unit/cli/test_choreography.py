@@ -196,7 +196,7 @@ def steps(tmp_path: Path) -> Path:
     return tmp_path / "steps.choreography"
 
 
-def test_a_dance_is_written_and_told(steps: Path, drums: Path, tmp_path: Path, capsys) -> None:
+def test_a_dance_is_written_and_reported(steps: Path, drums: Path, tmp_path: Path, capsys) -> None:
     assert (
         main(["choreography", "generate", str(steps), str(drums), "--to", str(tmp_path / "out"), "--fps", "30"]) == DONE
     )

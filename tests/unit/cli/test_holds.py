@@ -37,9 +37,9 @@ def test_the_search_shows_progress_and_ends_at_ctrl_c(
 ) -> None:
     searched: list[str] = []
 
-    def stopped(character: Any, model: Any, instrument: Any, body: Any, told: Callable[[float], None]) -> None:
+    def stopped(character: Any, model: Any, instrument: Any, body: Any, reported: Callable[[float], None]) -> None:
         searched.append(instrument.id)
-        told(0.5)
+        reported(0.5)
         raise KeyboardInterrupt
 
     monkeypatch.chdir(tmp_path)
@@ -49,7 +49,7 @@ def test_the_search_shows_progress_and_ends_at_ctrl_c(
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
     assert main(command) == STOPPED
-    # Not the trumpets, who come first: nobody asks how they hold theirs.
+    # Not the trumpets, who come first: no one asks how they hold theirs.
     assert searched == ["trombone_tenor_F_attachment"]
     assert "0 %  how the instruments are held" in terminal.getvalue()
     assert list(tmp_path.iterdir()) == []

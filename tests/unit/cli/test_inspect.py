@@ -20,6 +20,6 @@ def test_valves_stand_side_by_side() -> None:
     assert tables("x.mid", found("0", "13", "T2"))[-1].endswith("0 13 T2")
 
 
-def test_fingerings_of_several_keys_are_told_apart() -> None:
+def test_fingerings_of_several_keys_are_distinguished() -> None:
     text = "\n".join(tables("x.mid", found("(open)", "L1 T", "L1 L2 T", "L1 L2 L3 T")))
     assert text.endswith("(open), L1 T, L1 L2 T")

@@ -1,4 +1,4 @@
-"""The commands as a person meets them: what they print, how they end, and that no traceback is ever shown."""
+"""The commands as the user meets them: what they print, how they end, and that no traceback is ever shown."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ def test_the_felt_beat_counts_in_pre_roll_cue_and_breaths(run: Run) -> None:
         assert all(breath["end_beat"] - breath["start_beat"] == pytest.approx(beats) for breath in breaths)
 
 
-def test_an_unknown_player_is_told_who_there_is(run: Run) -> None:
+def test_an_unknown_player_is_reported_who_there_is(run: Run) -> None:
     names = [player["name"] for player in json.loads(run("inspect", QUARTET, "--json")[1])["players"]]
     assert len(names) == 4
     _, _, err = run("inspect", QUARTET, "--set", "nobody.amplitude=1")
@@ -218,7 +218,7 @@ def test_seconds_follow_the_tempo_that_mido_reads(run: Run) -> None:
     assert all(min(abs(onset - other) for other in truth) < 1e-5 for onset in onsets)
 
 
-def test_what_nobody_plays_is_listed(run: Run) -> None:
+def test_what_no_one_plays_is_listed(run: Run) -> None:
     organ = LUTKIN.with_name("trumpet_organ_brown_wedding_CCBY4.mid")
     found = json.loads(run("inspect", organ, "--json")[1])
     assert len(found["players"]) == 1

@@ -73,8 +73,8 @@ def test_a_project_that_is_exported(run: Run, folder: Path) -> None:
     save(quartet_project(), project)
     assert load(project) == quartet_project()
     target = odd(folder, ".out")
-    wanted = ("--to-bar", "1", "--player", "Trumpet 1", "--format", "bvh,fbx,glb,usd", "--sound")
-    status, out, _ = run("export", project, "--to", target, *wanted)
+    requested = ("--to-bar", "1", "--player", "Trumpet 1", "--format", "bvh,fbx,glb,usd", "--sound")
+    status, out, _ = run("export", project, "--to", target, *requested)
     assert status == 0
     assert f"{NAME}/{NAME}.out: " in readable(out)
     written = {path.name for path in target.iterdir()}
@@ -153,8 +153,8 @@ def test_locales_that_are_not_utf8(tmp_path: Path, locale: dict[str, str]) -> No
         assert done.stderr == b""
     if "LC_ALL" not in locale:
         return
-    wanted = ("--format", "bvh", "--fps", "24", "--to-bar", "1")
-    done = suisou("export", odd(tmp_path, ".mid"), "--to", tmp_path / "ファイル", *wanted, env=environment)
+    requested = ("--format", "bvh", "--fps", "24", "--to-bar", "1")
+    done = suisou("export", odd(tmp_path, ".mid"), "--to", tmp_path / "ファイル", *requested, env=environment)
     assert done.returncode == 0, done.stderr
     assert {path.name for path in (tmp_path / "ファイル").iterdir()} == {"report.json", "ホルン.bvh"}
     assert done.stderr == b""

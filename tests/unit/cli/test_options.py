@@ -1,4 +1,4 @@
-"""What a person types."""
+"""What the user types."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ import pytest
 from app.cli import main
 from instrument_maps.load import bundled_maps
 
-# What a part of each name is played on as soon as there is that map; what nobody has is listed with its reason.
+# What a part of each name is played on as soon as there is that map; what no one has is listed with its reason.
 # fmt: off
 PLAYED_ON = {
     "trumpet_Bb": [
@@ -131,7 +131,7 @@ def test_a_name_is_enough(name: str, map_id: str, tmp_path: Path, capsys: pytest
             assert player["instrument"] == map_id
             assert player["name"] == player["part"] == name
         else:
-            # Somebody stands in for it and says so, or it is listed.
+            # Someone stands in for it and says so, or it is listed.
             assert found["warnings"] or found["unplayed"]
 
 
@@ -248,7 +248,7 @@ def test_an_unknown_name_is_listed_with_the_remedy_and_the_remedy_works(
     ("assignment", "said"),
     [("Zugpfeife", "PART=INSTRUMENT"), ("Zugpfeife=zither", "zither"), ("Oboe=oboe", "'Oboe'"), ("=oboe", "PART=")],
 )
-def test_a_wrong_assignment_is_told(
+def test_a_wrong_assignment_is_reported(
     assignment: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     inspected(tmp_path / "one.mid", capsys, b"Zugpfeife")
@@ -256,7 +256,7 @@ def test_a_wrong_assignment_is_told(
     assert said in capsys.readouterr().err
 
 
-def test_how_notes_begin_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_how_notes_begin_is_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     track = mido.MidiTrack([mido.MetaMessage("track_name", name="Flute")])
     before = 0
     for pitch, length in ((72, 480), (74, 480), (76, 432), (77, 240), (79, 432)):

@@ -1,4 +1,4 @@
-"""``suisou ports`` and ``suisou record`` as a person meets them, over real MIDI transport (JACK's dummy server)."""
+"""``suisou ports`` and ``suisou record`` as the user meets them, over real MIDI transport (JACK's dummy server)."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def player(jack: None) -> Iterator[WindPlayer]:
 
 @pytest.fixture
 def playing(player: WindPlayer) -> Iterator[WindPlayer]:
-    """Somebody who does not stop."""
+    """Someone who does not stop."""
     done = threading.Event()
 
     def play() -> None:
@@ -71,12 +71,12 @@ def pitches(path: Path) -> list[int]:
 
 
 def test_the_devices_are_listed(player: WindPlayer, run: Run) -> None:
-    status, told, _ = run("ports")
+    status, reported, _ = run("ports")
     assert status == 0
-    assert f"  {player.name}  Akai EWI USB\n" in told
-    status, told, _ = run("ports", "--json")
+    assert f"  {player.name}  Akai EWI USB\n" in reported
+    status, reported, _ = run("ports", "--json")
     assert status == 0
-    assert json.loads(told) == {
+    assert json.loads(reported) == {
         "system": "jack",
         "inputs": [{"name": player.name, "controller": "ewi_usb"}],
         "outputs": [],
@@ -85,27 +85,27 @@ def test_the_devices_are_listed(player: WindPlayer, run: Run) -> None:
 
 def test_no_device_is_said(jack: None, run: Run, tmp_path: Path) -> None:
     assert run("ports") == (0, "no MIDI device is connected; connect one and switch it on\n", "")
-    status, _, told = run("record", "--port", "EWI", "--to", tmp_path / "take.mid")
-    assert (status, told) == (1, "suisou: no MIDI device is connected; connect one and switch it on\n")
+    status, _, reported = run("record", "--port", "EWI", "--to", tmp_path / "take.mid")
+    assert (status, reported) == (1, "suisou: no MIDI device is connected; connect one and switch it on\n")
     assert not list(tmp_path.iterdir())
 
 
 def test_no_midi_system_is_said(monkeypatch: pytest.MonkeyPatch, run: Run) -> None:
     monkeypatch.setenv("JACK_DEFAULT_SERVER", "suisou-none")
     monkeypatch.setenv("SUISOU_MIDI_API", "jack")
-    status, _, told = run("ports")
+    status, _, reported = run("ports")
     assert status == 1
-    assert "the MIDI system does not respond" in told
+    assert "the MIDI system does not respond" in reported
 
 
 def test_a_take_is_recorded(playing: WindPlayer, run: Run, tmp_path: Path) -> None:
     path = tmp_path / "take.mid"
     arguments = ("--seconds", "2", "--count-in", "1", "--tempo", "240")
-    status, told, errors = run("record", "--port", "ewi", "--to", path, *arguments)
+    status, reported, errors = run("record", "--port", "ewi", "--to", path, *arguments)
     assert status == 0
     assert errors == "suisou: recording\n"
-    assert told.startswith("1 2 3 4\n")
-    assert told.endswith(" notes in 2.0 s\n")
+    assert reported.startswith("1 2 3 4\n")
+    assert reported.endswith(" notes in 2.0 s\n")
     assert list(tmp_path.iterdir()) == [path], "the journal went"
     file = mido.MidiFile(path)
     assert file.type == 1
@@ -128,30 +128,30 @@ def test_ctrl_c_ends_the_take(playing: WindPlayer, tmp_path: Path) -> None:
     assert recording.stderr.readline() == "suisou: recording; Ctrl+C ends it\n"
     time.sleep(1.5)
     recording.send_signal(signal.SIGINT)
-    told, errors = recording.communicate(timeout=900)
+    reported, errors = recording.communicate(timeout=900)
     assert (recording.returncode, errors) == (0, "")
-    assert told.startswith(f"{path}: ")
+    assert reported.startswith(f"{path}: ")
     assert pitches(path)
 
 
 def test_a_device_that_is_not_there_is_said_with_those_that_are(player: WindPlayer, run: Run, tmp_path: Path) -> None:
-    status, _, told = run("record", "--port", "flute", "--to", tmp_path / "take.mid")
-    assert (status, told) == (1, f"suisou: MIDI device 'flute' was not found; connected devices: {player.name}\n")
+    status, _, reported = run("record", "--port", "flute", "--to", tmp_path / "take.mid")
+    assert (status, reported) == (1, f"suisou: MIDI device 'flute' was not found; connected devices: {player.name}\n")
 
 
 def test_silence_is_no_take(player: WindPlayer, run: Run, tmp_path: Path) -> None:
-    status, _, told = run("record", "--port", player.name, "--to", tmp_path / "take.mid", "--seconds", "0.2")
+    status, _, reported = run("record", "--port", player.name, "--to", tmp_path / "take.mid", "--seconds", "0.2")
     assert status == 1
-    assert f"nothing was received from {player.name}" in told
+    assert f"nothing was received from {player.name}" in reported
     assert not list(tmp_path.iterdir())
 
 
 def test_nothing_is_written_over(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "take.mid"
     path.write_text("precious")
-    status, _, told = run("record", "--port", "EWI", "--to", path)
+    status, _, reported = run("record", "--port", "EWI", "--to", path)
     assert status == 1
-    assert "already exists" in told
+    assert "already exists" in reported
     assert path.read_text() == "precious"
 
 
@@ -171,9 +171,9 @@ def left(tmp_path: Path) -> Path:
 def test_what_a_crash_left_is_written(run: Run, tmp_path: Path) -> None:
     left(tmp_path)
     path = tmp_path / "take.mid"
-    status, _, told = run("record", "--port", "EWI", "--to", path)
+    status, _, reported = run("record", "--port", "EWI", "--to", path)
     assert status == 1
-    assert f"'suisou record --rescue --to {path}'" in told
+    assert f"'suisou record --rescue --to {path}'" in reported
     assert run("record", "--rescue", "--to", path) == (0, f"{path}: 1 note in 1.0 s\n", "")
     assert pitches(path) == [60]
     assert list(tmp_path.iterdir()) == [path]
@@ -202,9 +202,9 @@ def test_a_running_recording_is_left_alone(run: Run, tmp_path: Path) -> None:
     journal = tmp_path / "take.mid.take-journal"
     writer = JournalWriter(str(journal), Header("", "", "EWI USB", "ewi_usb", 0.0, ""))
     for arguments in (("--rescue",), ("--port", "EWI")):
-        status, _, told = run("record", *arguments, "--to", tmp_path / "take.mid")
+        status, _, reported = run("record", *arguments, "--to", tmp_path / "take.mid")
         assert status == 1
-        assert "is in progress" in told
+        assert "is in progress" in reported
     writer.close()
 
 

@@ -82,9 +82,9 @@ def test_dancers_of_a_project_have_the_ports_after_the_players(
         assert main([*asked, "--port", "39811", "--player", "Removed", "--player", "Ana"]) == PARTIAL
         assert not first.packets
         sent = second.frames
-    told = capsys.readouterr()
-    assert "Ana: 127.0.0.1:39812" in told.out
-    assert "gone.choreography" in told.err
+    reported = capsys.readouterr()
+    assert "Ana: 127.0.0.1:39812" in reported.out
+    assert "gone.choreography" in reported.err
     motion = dancing_of(performance, ana).motion(span.fps, 0, span.count)
     joint = character_named(ana.character_id).skeleton.index("leftUpperLeg")
     danced = motion.rotations[:, joint] * (1, -1, -1, 1)
@@ -114,9 +114,9 @@ def test_many_computers_are_sent_to_only_where_that_is_asked_for(
     quartet: Path, capsys: pytest.CaptureFixture[str], host: str
 ) -> None:
     assert main(["stream", str(quartet), "--player", "Trombone 1", "--host", host]) == BAD_USE
-    told = capsys.readouterr().err
-    assert host in told
-    assert "--broadcast" in told
+    reported = capsys.readouterr().err
+    assert host in reported
+    assert "--broadcast" in reported
 
 
 def test_a_broadcast_that_is_asked_for_is_sent(quartet: Path, capsys: pytest.CaptureFixture[str]) -> None:

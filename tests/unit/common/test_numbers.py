@@ -1,4 +1,4 @@
-"""Numbers as a person types and reads them."""
+"""Numbers as the user types and reads them."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ def test_syllables() -> None:
     assert pitch_name(70, 4, ("ド", "レ", "ミ", "ファ", "ソ", "ラ", "シ")) == "シ♭4"
 
 
-def test_written_pitch_is_shown_where_it_is_wanted(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_written_pitch_is_shown_where_it_is_requested(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("widgets.common.pitch.tr", lambda id: TEXTS[id][0])
     display = PitchDisplay()
     assert pitch_text(display, 70, 2) == "B♭4"

@@ -116,7 +116,7 @@ def test_on_another_skeleton_its_joints_get_the_names_and_the_hips_the_motion() 
     np.testing.assert_allclose(world[:, hand, :3, 3], meant, atol=1e-3)
 
 
-def test_names_that_bvh_cannot_have_are_joined_and_told_apart() -> None:
+def test_names_that_bvh_cannot_have_are_joined_and_distinguished() -> None:
     scene, _, _ = _scene()
     odd = [replace(bone, name="Bip01 L Thigh" if bone.name == "leftUpperLeg" else bone.name) for bone in scene.bones]
     odd[5] = replace(odd[5], name="bip01_l_thigh")

@@ -1,4 +1,5 @@
-"""Every way in which an asset's skeleton may differ is found; what spoils an animation is told from what does not."""
+"""Every way in which an asset's skeleton may differ is found; what spoils an animation is reported from what does
+not."""
 
 from __future__ import annotations
 
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 
 from app.errors import Message
-from app.export.check_skeleton import Difference, check_skeleton, told
+from app.export.check_skeleton import Difference, check_skeleton, reported
 from app.export.own_skeleton import own_target
 from app.export.target import TargetSkeleton
 from app.messages import text
@@ -102,10 +103,10 @@ def test_an_asset_with_several_roots_is_not_ours() -> None:
     assert found[0] == Difference("root", "root", grave=True, ours="root", theirs="Reference, prop_1")
 
 
-def test_it_is_told_in_words() -> None:
+def test_it_is_reported_in_words() -> None:
     target, figure = exported()
     asset = shifted(shifted(renamed(figure, HAND, "Hand_L"), HEAD, 0.004), PREFIX + "neck", 0.001)
-    said = [text(message) for message in told(check_skeleton(target, asset))]
+    said = [text(message) for message in reported(check_skeleton(target, asset))]
     assert said[0] == f"1 animated bone is not in the asset, so its motion would be lost: {HAND}"
     assert f"2 bones have a different rest position from the asset, by up to 4.0 mm ({HEAD})" in said
     assert "1 bone of the asset is missing from the file and keeps its rest pose: Hand_L" in said

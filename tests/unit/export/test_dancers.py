@@ -53,9 +53,9 @@ def test_who_can_dance_is_written_and_the_other_named(written: tuple[Report, Pat
     assert set(files) == {"character_fbx", "character_bvh"}
     assert sorted(path.name for path in folder.iterdir()) == sorted([*files.values(), "report.json"])
     assert report.file_count == 3
-    told = json.loads((folder / "report.json").read_text())
-    assert told["dancers"][0]["stage"] == {"x_m": 0.0, "z_m": 2.0, "turn_deg": 0.0}
-    assert told["dancers"][0]["choreography"] == "steps"
+    reported = json.loads((folder / "report.json").read_text())
+    assert reported["dancers"][0]["stage"] == {"x_m": 0.0, "z_m": 2.0, "turn_deg": 0.0}
+    assert reported["dancers"][0]["choreography"] == "steps"
 
 
 def test_bones_keep_their_length_and_feet_stand(written: tuple[Report, Path, Project]) -> None:
@@ -93,6 +93,6 @@ def test_a_dancer_who_was_moved_and_renamed_is_written_as_now(
     request = Request(
         performance, (), tmp_path / "out", frozenset(("bvh",)), span, None, "piece.mid", "test", dancers=(now,)
     )
-    [told] = export(request, text).dancers
-    assert (told.name, told.stage.x_m, told.stage.z_m) == ("Now", -2.0, 4.0)
+    [reported] = export(request, text).dancers
+    assert (reported.name, reported.stage.x_m, reported.stage.z_m) == ("Now", -2.0, 4.0)
     assert (tmp_path / "out" / "Now.bvh").is_file()

@@ -56,8 +56,8 @@ def test_whoever_is_asked_for_one_character_and_both_instruments_are_written(wri
     (double,) = player.doubles
     assert (player.name, player.instrument, player.notes) == ("Flute", "flute", 8)
     assert (double.name, double.instrument, double.notes) == ("Piccolo", "piccolo", 4)
-    told = json.loads((folder / "report.json").read_text(encoding="utf-8"))
-    assert told["players"][0]["doubles"][0]["files"]["instrument_fbx"] == "Flute_piccolo.fbx"
+    reported = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    assert reported["players"][0]["doubles"][0]["files"]["instrument_fbx"] == "Flute_piccolo.fbx"
 
 
 def test_both_are_judged_with_that_character_and_keep_every_bound(written: tuple[Path, Report]) -> None:

@@ -1,4 +1,4 @@
-"""What stands on a pin stands on the floor: exported as a person would, read back, for every body."""
+"""What stands on a pin stands on the floor: exported as the user would, read back, for every body."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ def line(path: Path, low: int) -> None:
 
 @pytest.mark.parametrize("character", bundled_characters())
 @pytest.mark.parametrize("instrument", STANDING)
-def test_the_tip_is_on_the_floor_as_long_as_somebody_plays(instrument: str, character: str, tmp_path: Path) -> None:
+def test_the_tip_is_on_the_floor_as_long_as_a_user_plays(instrument: str, character: str, tmp_path: Path) -> None:
     map = bundled_maps()[instrument]
     assert map.endpin is not None
     line(tmp_path / "x.mid", map.range.easy_low)
     settings = {"posture": "seated", "character": character, "amplitude": "1"}
-    told = [word for name, value in settings.items() for word in ("--set", f"*.{name}={value}")]
+    reported = [word for name, value in settings.items() for word in ("--set", f"*.{name}={value}")]
     assert (
         main(
             [
@@ -56,7 +56,7 @@ def test_the_tip_is_on_the_floor_as_long_as_somebody_plays(instrument: str, char
                 "24",
                 "--assign",
                 f"x={instrument}",
-                *told,
+                *reported,
             ]
         )
         == 0

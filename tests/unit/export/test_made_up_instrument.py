@@ -1,4 +1,4 @@
-"""An instrument that nobody has heard of, from a map and a model alone: fitted, played, written and measured."""
+"""An instrument that no one has heard of, from a map and a model alone: fitted, played, written and measured."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from app.export.instrument import instrument_scene
 from app.export.measure import PlayerMeasures, measure_player
 from app.export.report import PlayerReport, StagePlace, failures
 from app.motion.model import Motion
-from app.motion.perform import Playing, prepare
+from app.motion.perform import PerformanceCurves, prepare
 from app.performance.contacts import ContactJudge
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
@@ -48,7 +48,7 @@ class Played:
         ]
         self.plan: PlayerPlan = plan_of(fingerings(rows, NOTE_S))
         parameters = PlayerParameters(seed=1)
-        self.playing: Playing = prepare(
+        self.playing: PerformanceCurves = prepare(
             self.plan, parameters, self.instrument, self.character, self.hold, load_body(), felt_beats=((0, 480),)
         )
         self.motion: Motion = self.playing.motion(FPS, 0, int((rows[-1][1] + 3.0) * FPS))

@@ -245,14 +245,14 @@ def test_a_slide_is_judged_in_millimetres() -> None:
     assert judge(notes).measure(slide, np.full(40, 0.5 + 0.0051 / 0.6)).right == 0
 
 
-def test_what_stops_where_the_hand_ends_is_told_apart_from_what_is_wrong() -> None:
+def test_what_stops_where_the_hand_ends_is_distinguished_from_what_is_wrong() -> None:
     slide = control(kind="slide", finger="right.hand", motion=Motion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5)
     notes, values = [event(1.0, 2.0, 0.9)], np.full(40, 0.8)
     wrong = judge(notes).measure(slide, values)
     assert (wrong.right, wrong.stopped_short, wrong.held_wrong, wrong.held_stopped_short) == (0, 0, 10, 0)
-    told = judge(notes, out_of_reach={"n"}).measure(slide, values)
-    assert (told.right, told.stopped_short, told.held_wrong, told.held_stopped_short) == (0, 1, 0, 10)
-    assert told.most_short_mm == pytest.approx(60.0)
+    reported = judge(notes, out_of_reach={"n"}).measure(slide, values)
+    assert (reported.right, reported.stopped_short, reported.held_wrong, reported.held_stopped_short) == (0, 1, 0, 10)
+    assert reported.most_short_mm == pytest.approx(60.0)
     # Beyond its place it is wrong all the same, and so is what no hand carries.
     assert judge(notes, out_of_reach={"n"}).measure(slide, np.ones(40)).held_wrong == 10
     pressed = msgspec.structs.replace(slide, finger="right.index")

@@ -1,5 +1,5 @@
 """Bodies unlike our own are exported and measured: what they can reach is within the bounds of grown-ups, what they
-lack is told and counted apart."""
+lack is reported and counted apart."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def test_a_face_that_does_not_move_breathes_with_the_torso(tmp_path: Path) -> No
     assert any("no morph opens the mouth" in warning for warning in report["warnings"])
 
 
-def test_what_a_hold_misses_is_told_and_no_more_than_that_is_forgiven() -> None:
+def test_what_a_hold_misses_is_reported_and_no_more_than_that_is_forgiven() -> None:
     def judged(max_mm: float, missed_mm: float) -> tuple[str, ...]:
         spread = Spread(max_mm, max_mm, 2.0, 10)
         measures = msgspec.convert(

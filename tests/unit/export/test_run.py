@@ -1,4 +1,4 @@
-"""A few bars exported as a person would, read back, and held against the plan and the bounds."""
+"""A few bars exported as the user would, read back, and held against the plan and the bounds."""
 
 from __future__ import annotations
 

@@ -166,7 +166,7 @@ def test_cleaning_up_leaves_what_is_under_way_alone(root: Path) -> None:
 
 
 @pytest.mark.skipif(os.name != "posix", reason="a second handle of one process shares the lock elsewhere")
-def test_two_at_once_are_told(root: Path) -> None:
+def test_two_at_once_are_reported(root: Path) -> None:
     partial = root / "src" / f".{'0' * 16}.partial"
     partial.mkdir()
     with (partial / "lock").open("wb") as stream:
@@ -194,7 +194,7 @@ def test_a_list_that_came_with_a_project_leads_nowhere_else(tmp_path: Path, root
 
 @pytest.fixture
 def outside(tmp_path: Path) -> Path:
-    """A folder beside the project, of somebody who does not want it touched."""
+    """A folder beside the project, of someone who does not want it touched."""
     folder = tmp_path / "home"
     folder.mkdir()
     for name in ("one", "two", "three", "precious"):

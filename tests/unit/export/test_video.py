@@ -49,11 +49,11 @@ def test_a_film_has_its_pictures_rate_and_sound(tmp_path: Path, fps: Fraction) -
     with video_into(path, SIZE, fps, np.stack([sound, sound], axis=1)) as writer:
         for index in range(20):
             writer.write(picture(index))
-    told = ffmpeg("-i", str(path)).stderr
-    assert b"64x48" in told
-    assert f"{float(fps):.4g} fps".encode() in told
-    assert b"Audio: aac" in told
-    assert b"Video: h264" in told
+    reported = ffmpeg("-i", str(path)).stderr
+    assert b"64x48" in reported
+    assert f"{float(fps):.4g} fps".encode() in reported
+    assert b"Audio: aac" in reported
+    assert b"Video: h264" in reported
     raw = ffmpeg("-i", str(path), "-f", "rawvideo", "-pix_fmt", "rgb24", "-").stdout
     images = np.frombuffer(raw, np.uint8).reshape(-1, SIZE[1], SIZE[0], 3)
     assert len(images) == 20
@@ -71,7 +71,7 @@ def test_a_film_that_was_stopped_is_not_there_and_the_old_one_stays(tmp_path: Pa
     assert [entry.name for entry in tmp_path.iterdir()] == ["film.mp4"]
 
 
-def test_an_encoder_that_refuses_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_encoder_that_refuses_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(video, "_command", lambda *given: [sys.executable, "-c", "import sys; sys.exit('no room')"])
     with pytest.raises(FileError) as refused:
         film(tmp_path / "film.mp4", 2000)
@@ -80,7 +80,7 @@ def test_an_encoder_that_refuses_is_told(tmp_path: Path, monkeypatch: pytest.Mon
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_folder_that_is_missing_is_told_and_not_made(tmp_path: Path) -> None:
+def test_a_folder_that_is_missing_is_reported_and_not_made(tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"file\.cannot_write.*missing"):
         film(tmp_path / "missing" / "film.mp4", 1)
     assert list(tmp_path.iterdir()) == []

@@ -1,4 +1,4 @@
-"""What comes from outside is read by `app.formats.files` alone: nobody else can forget pipes, sizes or odd errors."""
+"""What comes from outside is read by `app.formats.files` alone: no one else can forget pipes, sizes or odd errors."""
 
 from __future__ import annotations
 

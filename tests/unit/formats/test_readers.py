@@ -105,8 +105,8 @@ def test_blender_keeps_the_places_of_moving_bones_without_any_repair(make: objec
     _needed("blender")
     scene = make(Fraction(60))  # type: ignore[operator]
     write_scene(tmp_path / "scene.fbx", scene)
-    wanted = scenes.expected(scene)
-    frame = wanted.sampled[3]
+    requested = scenes.expected(scene)
+    frame = requested.sampled[3]
     pythons = [os.environ.get("SUISOU_BLENDER_PYTHON", ""), *os.environ.get("CHECK_ANIM_PYTHONS", "").split(":")]
     answers = [
         subprocess.run(
@@ -118,7 +118,7 @@ def test_blender_keeps_the_places_of_moving_bones_without_any_repair(make: objec
     found = [line.split()[1:] for answer in answers for line in answer.splitlines() if line.startswith("JOINT")]
     assert len(found) >= len(scene.bones)
     for name, *place in found:
-        np.testing.assert_allclose([float(v) for v in place], wanted.joints_cm[name][3], atol=0.01, err_msg=name)
+        np.testing.assert_allclose([float(v) for v in place], requested.joints_cm[name][3], atol=0.01, err_msg=name)
 
 
 # -------------------------------------------------------------------------------------------------------------- BVH
@@ -140,8 +140,8 @@ def _write_bvh(path: Path, fps: Fraction) -> Expected:
 
 @pytest.mark.parametrize("fps", RATES + ODD_RATES, ids=_rate_name)
 def test_bvh_by_quick_readers(fps: Fraction, tmp_path: Path) -> None:
-    wanted = _write_bvh(tmp_path / "player.bvh", fps)
-    judge(tmp_path / "player.bvh", wanted, QUICK_BVH)
+    requested = _write_bvh(tmp_path / "player.bvh", fps)
+    judge(tmp_path / "player.bvh", requested, QUICK_BVH)
 
 
 @pytest.mark.readers
@@ -149,8 +149,8 @@ def test_bvh_by_quick_readers(fps: Fraction, tmp_path: Path) -> None:
 @pytest.mark.parametrize("reader", SLOW_BVH)
 def test_bvh_by(reader: str, fps: Fraction, tmp_path: Path) -> None:
     _needed(reader)
-    wanted = _write_bvh(tmp_path / "player.bvh", fps)
-    judge(tmp_path / "player.bvh", wanted, [reader])
+    requested = _write_bvh(tmp_path / "player.bvh", fps)
+    judge(tmp_path / "player.bvh", requested, [reader])
 
 
 # -------------------------------------------------------------------------------------------------------------- GLB

@@ -1,4 +1,4 @@
-"""TOML files: what was written is read; of what nobody means to write only our own errors are heard, and soon."""
+"""TOML files: what was written is read; of what no one means to write only our own errors are heard, and soon."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_what_settings_of_another_version_may_hold_is_written_again() -> None:
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_syntax_that_nobody_writes_is_refused_with_its_line(name: str) -> None:
+def test_syntax_that_no_one_writes_is_refused_with_its_line(name: str) -> None:
     text, line = REFUSED[name]
     begun_s = time.process_time()
     with pytest.raises(MapError) as caught:

@@ -160,15 +160,15 @@ def test_a_still_scene_and_a_bare_skeleton(tmp_path: Path) -> None:
 
 
 @needs_usd
-def test_a_folder_that_is_not_there_is_told(tmp_path: Path) -> None:
-    with pytest.raises(FileError) as told:
+def test_a_folder_that_is_not_there_is_reported(tmp_path: Path) -> None:
+    with pytest.raises(FileError) as reported:
         write_usd(tmp_path / "nowhere" / "scene.usdc", scenes.instrument(Fraction(24)))
-    assert told.value.message.id == "file.cannot_write"
+    assert reported.value.message.id == "file.cannot_write"
 
 
-def test_without_usd_core_the_remedy_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_usd_core_the_remedy_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(usd.importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(UsageError) as told:
+    with pytest.raises(UsageError) as reported:
         write_usd(tmp_path / "scene.usdc", scenes.instrument(Fraction(24)))
-    assert "pip install usd-core" in text(told.value.message)
+    assert "pip install usd-core" in text(reported.value.message)
     assert not list(tmp_path.iterdir())

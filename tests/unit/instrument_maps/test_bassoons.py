@@ -67,8 +67,8 @@ def test_the_register_above_repeats_the_one_below_without_the_whisper_key() -> N
 
 def test_the_map_holds_what_the_script_prints() -> None:
     for written, (one, alternates) in table.ROWS.items():
-        wanted = [label(keys) for keys in (one, *(keys for keys, _ in alternates))]
-        assert [found.label for found in BASSOON.fingerings_for(written)] == wanted
+        requested = [label(keys) for keys in (one, *(keys for keys, _ in alternates))]
+        assert [found.label for found in BASSOON.fingerings_for(written)] == requested
     assert (BASSOON.range.low, BASSOON.range.high) == (min(table.ROWS), max(table.ROWS))
 
 

@@ -110,7 +110,7 @@ def first_choice(name: str, written: int) -> str:
     return instrument.fingerings_for(written - instrument.transposition_semitones)[0].label
 
 
-def told(name: str, written: int) -> dict[str, set[int]]:
+def reported(name: str, written: int) -> dict[str, set[int]]:
     """What the chart says of a note, without what this instrument has no valve for."""
     chart, shift = CHART_OF[name]
     signs = {control.label for control in MAPS[name].controls if control.label}
@@ -133,8 +133,8 @@ def deviation_cents(instrument: InstrumentMap, valves: tuple[str, ...], written:
     again = sum(length for name, length in added.items() if name in valves and name == acoustics.compensator)
     plain = sum(length for name, length in added.items() if name in valves and name != acoustics.compensator)
     lowered = 1200 * math.log2((1 + plain) * (1 + again))
-    wanted = 100 * (written - instrument.transposition_semitones - acoustics.fundamental_pitch)
-    return min((1200 * math.log2(partial) - lowered - wanted for partial in range(1, 17)), key=abs)
+    requested = 100 * (written - instrument.transposition_semitones - acoustics.fundamental_pitch)
+    return min((1200 * math.log2(partial) - lowered - requested for partial in range(1, 17)), key=abs)
 
 
 def valves_of(instrument: InstrumentMap, label: str) -> tuple[str, ...]:
@@ -154,7 +154,7 @@ def test_first_choices_are_the_charts(name: str) -> None:
     for written in written_range(MAPS[name]):
         if written in uncharted(name) or written in FIFTH_VALVE.get(name, {}):
             continue
-        label, rows = first_choice(name, written), told(name, written)
+        label, rows = first_choice(name, written), reported(name, written)
         assert label in rows, (written, label)
         if written in EXCEPTIONS.get(name, {}):
             assert 1 not in rows[label], (written, "an exception that is none")
@@ -171,21 +171,21 @@ def test_the_fifth_valve_plays_what_the_charts_four_are_too_sharp_for(name: str)
     for written, label in FIFTH_VALVE[name].items():
         assert first_choice(name, written) == label
         assert abs(deviation_cents(instrument, valves_of(instrument, label), written)) < 30
-        for charted, ranks in told(name, written).items():
+        for charted, ranks in reported(name, written).items():
             if 1 in ranks:
                 assert deviation_cents(instrument, valves_of(instrument, charted), written) > 45
 
 
 @pytest.mark.parametrize("name", BRASS)
 def test_only_those_notes_are_without_a_chart(name: str) -> None:
-    assert uncharted(name) == {written for written in written_range(MAPS[name]) if not told(name, written)}
+    assert uncharted(name) == {written for written in written_range(MAPS[name]) if not reported(name, written)}
 
 
 @pytest.mark.parametrize("name", BRASS)
 def test_of_several_without_an_order_the_simplest_that_is_in_tune_is_first(name: str) -> None:
     instrument = MAPS[name]
     for written in written_range(instrument):
-        rows, label = told(name, written), first_choice(name, written)
+        rows, label = reported(name, written), first_choice(name, written)
         if any(1 in ranks for ranks in rows.values()):
             continue
         for other in rows:

@@ -93,9 +93,9 @@ def test_the_maps_hold_what_the_script_prints() -> None:
         instrument = MAPS[name]
         shift = instrument.transposition_semitones
         for written in range(low, instrument.range.high + shift + 1):
-            wanted = own(written) or table.rows(written)
+            requested = own(written) or table.rows(written)
             found = [(f.label, f.tags) for f in instrument.fingerings_for(written - shift)]
-            assert found == wanted, written
+            assert found == requested, written
 
 
 def test_little_fingers_have_both_sides() -> None:

@@ -81,8 +81,8 @@ def test_it_is_played_seated_only() -> None:
 
 def test_the_map_holds_what_the_script_prints() -> None:
     for written, (one, alternates) in table.ROWS.items():
-        wanted = [label(keys) for keys in (one, *(keys for keys, _ in alternates))]
-        assert [found.label for found in CONTRA.fingerings_for(written - OCTAVE)] == wanted
+        requested = [label(keys) for keys in (one, *(keys for keys, _ in alternates))]
+        assert [found.label for found in CONTRA.fingerings_for(written - OCTAVE)] == requested
     assert sorted(table.ROWS) == list(range(34, 73))
 
 

@@ -57,8 +57,8 @@ def test_what_lies_in_two_octaves_can_be_played_in_both() -> None:
 def test_the_map_holds_what_the_script_prints() -> None:
     rows = table.rows()
     for pitch, (first, alternates) in rows.items():
-        wanted = [label(keys) for keys in (first, *(keys for keys, _ in alternates))]
-        assert [one.label for one in EWI.fingerings_for(pitch)] == wanted
+        requested = [label(keys) for keys in (first, *(keys for keys, _ in alternates))]
+        assert [one.label for one in EWI.fingerings_for(pitch)] == requested
     assert (EWI.range.low, EWI.range.high) == (min(rows), max(rows)) == (22, 109)
     assert EWI.transposition_semitones == 0
 

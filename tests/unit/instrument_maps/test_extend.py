@@ -49,21 +49,21 @@ def test_controls_it_is_without_are_left_out() -> None:
 
 
 @pytest.mark.parametrize(
-    ("without", "told"),
+    ("without", "reported"),
     [
         ('["valve_9"]', "there is no control 'valve_9' in 'trumpet_Bb'"),
         ("[3]", "there is no control 3 in 'trumpet_Bb'"),
         ('"valve_3"', "is not a list of names of controls"),
     ],
 )
-def test_what_it_is_without_must_be_there(without: str, told: str) -> None:
+def test_what_it_is_without_must_be_there(without: str, reported: str) -> None:
     with pytest.raises(MapError) as caught:
         parse_map(CORNET.replace("id =", f"without = {without}\nid =", 1), "my_cornet.toml")
-    assert caught.value.message.arguments == {"file": "my_cornet.toml", "place": "without", "detail": told}
+    assert caught.value.message.arguments == {"file": "my_cornet.toml", "place": "without", "detail": reported}
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "reported"),
     [
         ('extends = "nothing_there"', "there is no map named 'nothing_there'"),
         ('extends = "../trumpet_Bb"', "'../trumpet_Bb' is not the id of a map"),
@@ -71,15 +71,15 @@ def test_what_it_is_without_must_be_there(without: str, told: str) -> None:
         ('extends = "own"', "'own' extends itself"),
     ],
 )
-def test_a_base_that_is_none_is_told(text: str, told: str, tmp_path: Path) -> None:
+def test_a_base_that_is_none_is_reported(text: str, reported: str, tmp_path: Path) -> None:
     path = tmp_path / "own.toml"
     path.write_text(text, "utf-8")
     with pytest.raises(MapError) as caught:
         load_map(path)
-    assert caught.value.message.arguments == {"file": str(path), "place": "extends", "detail": told}
+    assert caught.value.message.arguments == {"file": str(path), "place": "extends", "detail": reported}
 
 
-def test_two_that_extend_each_other_are_told(tmp_path: Path) -> None:
+def test_two_that_extend_each_other_are_reported(tmp_path: Path) -> None:
     (tmp_path / "a.toml").write_text('extends = "b"', "utf-8")
     (tmp_path / "b.toml").write_text('extends = "a"', "utf-8")
     with pytest.raises(MapError, match="extends itself"):

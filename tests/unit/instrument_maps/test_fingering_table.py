@@ -156,7 +156,7 @@ def test_a_file_that_says_it_in_another_way_is_left_alone(tmp_path: Path) -> Non
     assert path.read_text("utf-8") == text
 
 
-def test_a_file_that_was_broken_meanwhile_is_told_and_left_alone(tmp_path: Path) -> None:
+def test_a_file_that_was_broken_meanwhile_is_reported_and_left_alone(tmp_path: Path) -> None:
     path = tmp_path / "trumpet_Bb.toml"
     text = 'extends = "trumpet_Bb"\nid = "trumpet_Bb\n'
     path.write_text(text, "utf-8")

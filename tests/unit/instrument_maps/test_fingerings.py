@@ -80,7 +80,7 @@ def test_out_of_range_gets_the_nearest_playable_note(instrument: InstrumentMap) 
 
 
 def sounding_cents(instrument: InstrumentMap, fingering: Fingering, partial: int) -> float:
-    """Deviation from the wanted note if a harmonic is blown: from tube lengths only, none of the map's cents.
+    """Deviation from the requested note if a harmonic is blown: from tube lengths only, none of the map's cents.
 
     A valve's own tube is as long as its semitones ask for when it is alone; a trigger lengthens the tube the
     slide then lengthens twice its extension.
@@ -98,8 +98,8 @@ def sounding_cents(instrument: InstrumentMap, fingering: Fingering, partial: int
     if acoustics.slide_control is not None:
         length_m += 2 * slide_m(fingering)
     lowered = 1200 * math.log2(length_m / acoustics.tube_m)
-    wanted = 100 * (fingering.written_pitch - instrument.transposition_semitones - acoustics.fundamental_pitch)
-    return harmonic(partial) - lowered - wanted
+    requested = 100 * (fingering.written_pitch - instrument.transposition_semitones - acoustics.fundamental_pitch)
+    return harmonic(partial) - lowered - requested
 
 
 @pytest.mark.parametrize("instrument", BRASS)

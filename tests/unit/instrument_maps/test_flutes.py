@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.plan.fingering import plan_fingerings
-from app.plan.generate import Line
+from app.plan.generate import MonophonicPart
 from app.plan.line import line_times
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
@@ -104,7 +104,7 @@ def test_high_d_is_trilled_with_e_by_both_trill_keys_and_nothing_else(
     pitches = [written - instrument.transposition_semitones for written in (86, 88)]
 
     def planned(notes: tuple[PlainNote, ...]) -> list[str]:
-        times = line_times(Line("p", notes, instrument), PlainClock())
+        times = line_times(MonophonicPart("p", notes, instrument), PlainClock())
         return [event.label for event in plan_fingerings(notes, times, instrument, {})[0]]
 
     assert planned(even(pitches * 8, step_tick)) == [high_d, trilled] * 8

@@ -50,8 +50,8 @@ def test_a_finger_is_asked_for_one_thing_at_a_time() -> None:
         msgspec.structs.replace(control, finger="right.index") if control.name == "valve_2" else control
         for control in TRUMPET.controls
     ]
-    told = found(msgspec.structs.replace(TRUMPET, controls=tuple(one_finger)))
-    assert any("no contact lets 'right.index' work 'valve_1' and 'valve_2' together" in line for line in told)
+    reported = found(msgspec.structs.replace(TRUMPET, controls=tuple(one_finger)))
+    assert any("no contact lets 'right.index' work 'valve_1' and 'valve_2' together" in line for line in reported)
 
 
 def test_another_finger_than_usual_needs_a_contact_of_its_own() -> None:
@@ -59,12 +59,12 @@ def test_another_finger_than_usual_needs_a_contact_of_its_own() -> None:
         msgspec.structs.replace(fingering, fingers={"valve_3": "right.little"}) if fingering.label == "3" else fingering
         for fingering in TRUMPET.fingerings
     )
-    told = found(msgspec.structs.replace(TRUMPET, fingerings=changed))
-    assert any("no contact lets 'right.little' work 'valve_3'" in line for line in told)
+    reported = found(msgspec.structs.replace(TRUMPET, fingerings=changed))
+    assert any("no contact lets 'right.little' work 'valve_3'" in line for line in reported)
 
 
 @pytest.mark.parametrize(
-    ("control", "told"),
+    ("control", "reported"),
     [
         (Control("x", "key", "pitch", "left.index", label="X"), "only a hole may be without a moving part"),
         (hole("x", "two words"), "must be one word"),
@@ -72,8 +72,10 @@ def test_another_finger_than_usual_needs_a_contact_of_its_own() -> None:
         (hole("x", "1"), "'1' is used twice"),
     ],
 )
-def test_what_a_key_or_hole_must_say(control: Control, told: str) -> None:
-    assert any(told in line for line in found(msgspec.structs.replace(TRUMPET, controls=(*TRUMPET.controls, control))))
+def test_what_a_key_or_hole_must_say(control: Control, reported: str) -> None:
+    assert any(
+        reported in line for line in found(msgspec.structs.replace(TRUMPET, controls=(*TRUMPET.controls, control)))
+    )
 
 
 def test_a_linked_part_goes_with_its_controls() -> None:
@@ -87,9 +89,9 @@ def test_a_linked_part_goes_with_its_controls() -> None:
     assert part_values(part, values, 3).tolist() == [0.5, 0.2, 1.0]
     assert part_values(part._replace(when="all"), values, 3).tolist() == [0.0, 0.1, 0.0]
     wrong = Link(node="valve_1", motion=motion, controls=("nothing",))
-    told = found(msgspec.structs.replace(TRUMPET, links=(wrong,)))
-    assert any("is moved by something else already" in line for line in told)
-    assert any("there is no control named 'nothing'" in line for line in told)
+    reported = found(msgspec.structs.replace(TRUMPET, links=(wrong,)))
+    assert any("is moved by something else already" in line for line in reported)
+    assert any("there is no control named 'nothing'" in line for line in reported)
 
 
 def test_an_endpin_slides_by_a_value_of_its_own_name() -> None:
@@ -103,7 +105,7 @@ def test_an_endpin_slides_by_a_value_of_its_own_name() -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "reported"),
     [
         ({"node": "valve_1"}, "endpin.node: 'valve_1' is moved by something else already"),
         ({"node": "root"}, "endpin.node: 'root' is moved by something else already"),
@@ -112,10 +114,10 @@ def test_an_endpin_slides_by_a_value_of_its_own_name() -> None:
         ({"most_m": 0.0}, "endpin.most_m: 0 is not between 0.001 and 1"),
     ],
 )
-def test_what_an_endpin_must_say(change: dict[str, Any], told: str) -> None:
+def test_what_an_endpin_must_say(change: dict[str, Any], reported: str) -> None:
     pin = Endpin(node="pin", axis=(0.0, -1.0, 0.0), tip_m=(0.0, -1.0, 0.3), most_m=0.2)
     wrong = msgspec.structs.replace(TRUMPET, endpin=msgspec.structs.replace(pin, **change))
-    assert found(wrong) == {told}
+    assert found(wrong) == {reported}
 
 
 def test_fingerings_without_controls_read_them_from_their_label() -> None:

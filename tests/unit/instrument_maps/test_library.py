@@ -1,4 +1,4 @@
-"""A person's own instruments: found, laid over the bundled ones, read again, the last good version kept."""
+"""The user's own instruments: found, laid over the bundled ones, read again, the last good version kept."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def test_only_what_changed_is_another_object(folder: Path) -> None:
         (CHANGED.replace('id = "trumpet_Bb"', 'id = "other"'), "table.invalid", ("place", "id")),
     ],
 )
-def test_what_is_wrong_is_told_exactly_and_the_last_good_version_stays(
+def test_what_is_wrong_is_reported_exactly_and_the_last_good_version_stays(
     folder: Path, text: str, id: str, place: tuple[str, object]
 ) -> None:
     path = folder / "trumpet_Bb.toml"

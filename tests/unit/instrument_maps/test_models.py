@@ -264,16 +264,16 @@ def test_models_are_small_enough_to_ship() -> None:
 
 @pytest.mark.parametrize("instrument", MAPS)
 def test_models_and_maps_are_what_the_script_builds(instrument: InstrumentMap, tmp_path: Path) -> None:
-    build, wanted_contacts, *_ = build_instruments.INSTRUMENTS[instrument.id]
+    build, requested_contacts, *_ = build_instruments.INSTRUMENTS[instrument.id]
     built = build()
     build_instruments.write(built, tmp_path / "again.glb")
     again, shipped = node_triangles(instrument, read_glb(tmp_path / "again.glb")), SURFACES[instrument.id]
     assert again.keys() == shipped.keys()
     for name, triangles in shipped.items():
         assert np.allclose(again[name], triangles, atol=1e-6)
-    contacts = wanted_contacts()
+    contacts = requested_contacts()
     assert [contact["part"] for contact in contacts] == [contact.part for contact in instrument.contacts]
-    for wanted, contact in zip(contacts, instrument.contacts, strict=True):
-        place = np.asarray(wanted["point"]) - built.origins[contact.node]
+    for requested, contact in zip(contacts, instrument.contacts, strict=True):
+        place = np.asarray(requested["point"]) - built.origins[contact.node]
         assert np.allclose(place, contact.position_m, atol=2e-5)
     assert sum(len(part.shape.proxies) for part in built.parts) == len(instrument.proxy)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from app.plan.fingering import plan_fingerings
-from app.plan.generate import Line
+from app.plan.generate import MonophonicPart
 from app.plan.line import line_times
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Fingering, InstrumentMap
@@ -75,8 +75,8 @@ def test_every_fingering_is_in_the_chart_and_possible(fingering: Fingering) -> N
 
 def test_the_map_holds_what_the_script_prints() -> None:
     for written, (first, alternates) in table.ROWS.items():
-        wanted = [table.label(keys) for keys in (first, *(keys for keys, _ in alternates))]
-        assert [one.label for one in OBOE.fingerings_for(written)] == wanted
+        requested = [table.label(keys) for keys in (first, *(keys for keys, _ in alternates))]
+        assert [one.label for one in OBOE.fingerings_for(written)] == requested
 
 
 def test_english_horn_is_fingered_as_the_oboe_a_fifth_lower_from_b_up() -> None:
@@ -117,7 +117,7 @@ def test_trills_over_the_break_open_a_trill_key_and_nothing_else(
     pitches = [written - instrument.transposition_semitones for written in (low, high)]
 
     def planned(notes: tuple[PlainNote, ...]) -> list[str]:
-        times = line_times(Line("p", notes, instrument), PlainClock())
+        times = line_times(MonophonicPart("p", notes, instrument), PlainClock())
         return [event.label for event in plan_fingerings(notes, times, instrument, {})[0]]
 
     assert planned(even(pitches * 8, step_tick)) == [lower, upper] * 8

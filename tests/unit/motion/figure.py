@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.rig import quaternion
-from app.rig.hold import FingerTable, HandHold, Hold, Lips, NodeMotion, Reach, StationTable
+from app.rig.hold import FingerTable, GripPose, HandHold, Lips, NodeMotion, Reach, StationTable
 from app.rig.model import Character, Skeleton
 from instrument_maps import model as maps
 from instrument_maps.model import InstrumentMap
@@ -66,7 +66,7 @@ def _finger(bones: Skeleton, side: str, finger: str, control: str | None) -> Fin
     return FingerTable(f"{side}.{finger.lower()}", joints, (station,))
 
 
-def hold(bones: Skeleton, slide_m: float = 0.0) -> Hold:
+def hold(bones: Skeleton, slide_m: float = 0.0) -> GripPose:
     """Both hands 20 cm before the lips; with ``slide_m`` the right hand goes as far out with a slide."""
     slide = None
     if slide_m:
@@ -100,7 +100,7 @@ def hold(bones: Skeleton, slide_m: float = 0.0) -> Hold:
         values = np.linspace(0.0, 1.0, 21)
         shortfall_m = np.hypot(0.21 + slide_m * values, 0.13) - 0.546
         reaches = (Reach("right", "slide", values, shortfall_m, np.array([0.0, 0.1, 0.995]), 0.546, 1.0),)
-    return Hold("figure", "thing", tuple(hands), lips, reaches)
+    return GripPose("figure", "thing", tuple(hands), lips, reaches)
 
 
 def instrument_map(*controls: maps.Control) -> InstrumentMap:

@@ -104,7 +104,7 @@ def test_the_fitted_player_and_the_one_who_moves_stand_alike() -> None:
     position_m = forward(skeleton, motion.rotations, motion.hips_m)
     _, turn = position_m.of(skeleton.index("head"))
     off = quaternion.to_rotation_vector(quaternion.multiply(quaternion.conjugate(head), turn))
-    # What is left of the motion of somebody who keeps still, and the nods of the cues.
+    # What is left of the motion of someone who keeps still, and the nods of the cues.
     assert np.degrees(np.median(np.linalg.norm(off, axis=1))) < 6.0
     # The instrument is where the carriage has it, whichever way the head is turned.
     still = carriage_rotation(10.0, 0.0, 0.0)

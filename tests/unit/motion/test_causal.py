@@ -1,4 +1,5 @@
-"""What moves without knowing what comes: it starts where it is, never jumps, and comes to rest where it was told."""
+"""What moves without knowing what comes: it starts where it is, never jumps, and comes to rest where it was
+reported."""
 
 from __future__ import annotations
 

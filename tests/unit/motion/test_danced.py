@@ -9,7 +9,7 @@ from scipy.interpolate import CubicHermiteSpline
 from app.choreography.body_layer import MOST
 from app.motion.danced import CHANNELS, BodyLayer
 from app.motion.model import Motion
-from app.motion.perform import Playing, prepare
+from app.motion.perform import PerformanceCurves, prepare
 from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
 from app.rig.hold import hand_targets
@@ -28,7 +28,7 @@ def dance(seed: int = 1) -> BodyLayer:
     return BodyLayer(-2.0, 1 / 30, most * np.sin(2.0 * np.pi * hz * times_s[:, None] + phase))
 
 
-def playing(layer: BodyLayer | None, **parameters: object) -> Playing:
+def playing(layer: BodyLayer | None, **parameters: object) -> PerformanceCurves:
     return prepare(
         piece(),
         PlayerParameters(**parameters),  # type: ignore[arg-type]
@@ -128,13 +128,13 @@ def test_hands_stay_on_the_instrument(posture: str) -> None:
     motion = danced(1.0, posture=posture)
     for hand in HOLD.hands:
         position_m, _ = world(motion, f"{hand.side}Hand")[0]
-        wanted_m, _ = hand_targets(
+        requested_m, _ = hand_targets(
             hand,
             motion.instrument_position_m.astype(np.float64),
             motion.instrument_rotation.astype(np.float64),
             motion.controls,
         )
-        assert np.linalg.norm(position_m - wanted_m, axis=1).max() < 0.001
+        assert np.linalg.norm(position_m - requested_m, axis=1).max() < 0.001
 
 
 def test_the_bell_rises_and_sinks_no_more_than_the_trunk() -> None:

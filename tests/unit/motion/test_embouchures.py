@@ -13,7 +13,7 @@ import pytest
 
 from app.motion.model import Motion
 from app.motion.perform import perform
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
@@ -102,7 +102,7 @@ def played(name: str, character_id: str) -> Played:
         length = (480, 240, 960)[index % 3]
         rows.append((tick, length, 54 + (index * 7) % 30, 30 + (index * 13) % 90))
         tick += length + (240 if index % 7 == 6 else 0) + (7680 if index == 20 else 0)
-    line, clock = Line("p", line_of(*rows), instrument, PlayerParameters(amplitude=0.8)), PlainClock()
+    line, clock = MonophonicPart("p", line_of(*rows), instrument, PlayerParameters(amplitude=0.8)), PlainClock()
     plan = make_plans(piece_of(clock, (Metre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
     hold = hold_for(character, bundled_instrument(trumpet), trumpet, BODY)
     hold = replace(hold, lips=fit_lips(character, instrument, BODY))

@@ -19,7 +19,7 @@ from app.plan.model import GestureEvent, PlayerPlan, TimeFrame
 from app.plan.parameters import PlayerParameters
 from app.rig import quaternion, skinning
 from app.rig.character_library import bundled_characters, character_named
-from app.rig.hold import Hold, hand_targets
+from app.rig.hold import GripPose, hand_targets
 from app.rig.hold_file import hold_for
 from app.rig.model import Character
 from app.rig.skeleton import JointTransforms, forward
@@ -54,7 +54,7 @@ class Case:
 
     instrument: InstrumentMap
     character: Character
-    hold: Hold
+    hold: GripPose
     motion: Motion
 
     @property
@@ -96,9 +96,9 @@ def test_both_hands_stay_on_the_instrument_and_the_trunk_stays_straight(rest: Ca
     place_m, turn = rest.placed
     controls = {name: values[rest.frames].astype(np.float64) for name, values in rest.motion.controls.items()}
     for hand in rest.hold.hands:
-        wanted_m, _ = hand_targets(hand, place_m, turn, controls)
+        requested_m, _ = hand_targets(hand, place_m, turn, controls)
         reached_m, _ = rest.joints.of(rest.character.skeleton.index(f"{hand.side}Hand"))
-        assert np.linalg.norm(reached_m - wanted_m, axis=1).max() < 0.001, hand.side
+        assert np.linalg.norm(reached_m - requested_m, axis=1).max() < 0.001, hand.side
     skeleton = rest.character.skeleton
     chest = skeleton.parents[skeleton.index("leftShoulder")]
     turned = forward(skeleton, rest.motion.rotations[[0, -1]].astype(np.float64), rest.motion.hips_m[[0, -1]], [chest])

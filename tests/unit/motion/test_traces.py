@@ -159,7 +159,7 @@ def test_a_trace_in_place_of_a_curve_changes_everything() -> None:
     assert curve.changed_s(trace) is EVERYWHERE
 
 
-def test_after_an_edit_only_the_spans_that_are_told_have_changed() -> None:
+def test_after_an_edit_only_the_spans_that_are_reported_have_changed() -> None:
     maps = bundled_maps()
     low = maps["trumpet_Bb"].range.easy_low + 5
     part = take([(1.0, 5.0, low), (5.0, 6.0, low + 2), (6.0, 8.6, low + 4)], BLOWN, vibrato_curve(6.2, 8.6, 0.1, 5.0))
@@ -173,11 +173,13 @@ def test_after_an_edit_only_the_spans_that_are_told_have_changed() -> None:
     span = whole_span(second.time_frame, FPS)
     old, new = (player_motion(one, player, span) for one in (first, second))
     times_s = new.first_frame_s + np.arange(new.frames) / float(FPS)
-    told_s = after.changed_s(before)
+    reported_s = after.changed_s(before)
     pad_s = (padding(FPS) + 1) / float(FPS)
-    told = np.any([(times_s >= low_s - pad_s) & (times_s <= high_s + pad_s) for low_s, high_s in told_s], axis=0)
+    reported = np.any(
+        [(times_s >= low_s - pad_s) & (times_s <= high_s + pad_s) for low_s, high_s in reported_s], axis=0
+    )
     changed = np.any([old.morphs[name] != new.morphs[name] for name in new.morphs], axis=0)
     changed |= (old.rotations != new.rotations).any(axis=(1, 2))
     assert changed.any()
-    assert not (changed & ~told).any()
-    assert told.mean() < 0.5, "and not everything is made anew"
+    assert not (changed & ~reported).any()
+    assert reported.mean() < 0.5, "and not everything is made anew"

@@ -131,7 +131,7 @@ def test_players_and_dancers_of_one_variation_dance_in_unison_else_each_alone() 
     assert all(variations)
 
 
-def test_a_player_without_the_choreography_moves_as_is_generated_and_is_told(tmp_path: Path) -> None:
+def test_a_player_without_the_choreography_moves_as_is_generated_and_is_reported(tmp_path: Path) -> None:
     project = piece(LUTKIN)
     player = player_of(project, "trumpet")
     damaged = tmp_path / "damaged.choreography"
@@ -142,11 +142,11 @@ def test_a_player_without_the_choreography_moves_as_is_generated_and_is_told(tmp
         (tmp_path / "gone.choreography", "project.choreography_file_missing"),
         (damaged, "choreography.damaged"),
     ):
-        wanted = set_body_dance(project, (player.id,), choreography)
-        performance = Performance(wanted)
-        assert id in [problem.message.id for problem in performance.plan(wanted.player(player.id)).problems]
+        requested = set_body_dance(project, (player.id,), choreography)
+        performance = Performance(requested)
+        assert id in [problem.message.id for problem in performance.plan(requested.player(player.id)).problems]
         assert not performance.unseen
-        assert bits(motion_of(wanted, player.id, 300)) == generated
+        assert bits(motion_of(requested, player.id, 300)) == generated
 
 
 def test_what_is_shown_follows_an_edit_and_undo() -> None:

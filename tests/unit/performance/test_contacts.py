@@ -1,4 +1,4 @@
-"""Broken contacts are told where the motion breaks them, and nowhere else; against vertices deformed one by one."""
+"""Broken contacts are reported where the motion breaks them, and nowhere else; against vertices deformed one by one."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from app.motion.model import Motion
-from app.motion.perform import Playing
+from app.motion.perform import PerformanceCurves
 from app.performance.bodies import character_of, model_of
 from app.performance.contacts import LIPS_MM, Break, ContactJudge, contact_problems, joined
 from app.performance.ensemble import Performance
@@ -46,7 +46,7 @@ def project_of(path: Path, character_id: str = "man_adult") -> Project:
 
 
 def judged(
-    performance: Performance, player: Player, motion: Motion | None = None, playing: Playing | None = None
+    performance: Performance, player: Player, motion: Motion | None = None, playing: PerformanceCurves | None = None
 ) -> tuple[Problem, ...]:
     playing = playing or playing_of(performance, player)
     motion = motion or playing.motion(FPS, 0, whole_span(performance.time_frame, FPS).count)
@@ -56,7 +56,7 @@ def judged(
 
 @pytest.mark.parametrize("path", [AIR, LUTKIN], ids=["slides", "valves"])
 @pytest.mark.parametrize("character_id", ["man_adult", "woman_adult"])
-def test_what_the_generator_makes_breaks_nothing_that_is_not_told_already(path: Path, character_id: str) -> None:
+def test_what_the_generator_makes_breaks_nothing_that_is_not_reported_already(path: Path, character_id: str) -> None:
     performance = Performance(project_of(path, character_id))
     assert {player.name: judged(performance, player) for player in performance.project.players} == {
         player.name: () for player in performance.project.players
@@ -64,7 +64,7 @@ def test_what_the_generator_makes_breaks_nothing_that_is_not_told_already(path: 
 
 
 @pytest.mark.parametrize(("path", "index", "correction"), [(AIR, 3, BENT), (LUTKIN, 0, LOWERED)])
-def test_a_correction_that_breaks_a_contact_is_told_where_it_does(
+def test_a_correction_that_breaks_a_contact_is_reported_where_it_does(
     path: Path, index: int, correction: Correction
 ) -> None:
     project = project_of(path)
@@ -102,21 +102,21 @@ def test_the_lips_gap_is_that_of_the_vertices() -> None:
     breathes = np.zeros(motion.frames, dtype=bool)
     for breath in plan.breaths:
         breathes |= (times_s >= breath.start_s - 0.001) & (times_s <= breath.end_s + 0.001)
-    told = np.zeros(motion.frames, dtype=bool)
+    reported = np.zeros(motion.frames, dtype=bool)
     for item in problems:
-        told |= (times_s >= item.start_s - 0.07) & (times_s <= item.end_s + 0.07)
+        reported |= (times_s >= item.start_s - 0.07) & (times_s <= item.end_s + 0.07)
     sounds = np.zeros(motion.frames, dtype=bool)
     for note in plan.fingerings:
         sounds |= (times_s > note.start_s) & (times_s < note.end_s)
-    assert gaps_mm[sounds & ~breathes & ~told].max() < LIPS_MM
-    assert told.any()
+    assert gaps_mm[sounds & ~breathes & ~reported].max() < LIPS_MM
+    assert reported.any()
 
 
 def straight(station: StationTable) -> StationTable:
     return replace(station, rotations=np.tile(quaternion.IDENTITY, (*station.rotations.shape[:2], 1)))
 
 
-def test_a_finger_that_misses_its_valve_is_told_alone() -> None:
+def test_a_finger_that_misses_its_valve_is_reported_alone() -> None:
     """The index finger stretched away from its valve: only its touch is broken."""
     project = project_of(LUTKIN)
     player = project.players[0]
@@ -133,8 +133,10 @@ def test_a_finger_that_misses_its_valve_is_told_alone() -> None:
         ]
         hands.append(replace(hand, fingers=tuple(tables)))
     stiff = replace(playing, player=replace(playing.player, hold=replace(hold, hands=tuple(hands))))
-    told = {(item.message.id, item.message.arguments["touch"]) for item in judged(performance, player, playing=stiff)}
-    assert told == {("contact.finger_off", "right.index.pad")}
+    reported = {
+        (item.message.id, item.message.arguments["touch"]) for item in judged(performance, player, playing=stiff)
+    }
+    assert reported == {("contact.finger_off", "right.index.pad")}
 
 
 def test_a_body_that_leaves_its_place_takes_its_feet_along() -> None:
@@ -179,16 +181,16 @@ def test_live_motion_tells_as_it_is_made_and_again_after_an_edit(budget_bytes: i
     live.show(lowered)
     assert live.broken == {}
     all_made(live)
-    told = live.broken
+    reported = live.broken
     whole = playing_of(lowered, player).motion(Fraction(60), 0, whole_span(lowered.time_frame, Fraction(60)).count)
-    assert told == {player.id: judged(lowered, player, whole)}
+    assert reported == {player.id: judged(lowered, player, whole)}
     # What an edit elsewhere does not touch is not judged again, and stays.
     other = project.players[1]
     again = Performance(put(lowered.project, other.id, [LOWERED]), lowered)
     live.show(again)
-    assert live.broken is told
+    assert live.broken is reported
     all_made(live)
-    assert live.broken[player.id] is told[player.id]
+    assert live.broken[player.id] is reported[player.id]
     assert set(live.broken) == {player.id, other.id}
     live.show(Performance(project, again))
     all_made(live)

@@ -15,7 +15,7 @@ from app.choreography.dance import Manner
 from app.choreography.generate import Choreographer
 from app.choreography.model_file import write_model
 from app.errors import AppError
-from app.performance.dancers import dancing_of, visible_faults, wishes_of
+from app.performance.dancers import assignments_of, dancing_of, visible_faults
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.performance.span import whole_span
@@ -153,7 +153,7 @@ def test_corrections_go_to_the_nearest_place() -> None:
     grid = Grid(np.arange(9) * 0.25, np.arange(9) % 2 == 0)
     tempo = played().score.tempo_map
     tick = round(tempo.ticks(0.55))
-    found = wishes_of(
+    found = assignments_of(
         (PinState(tick, 3), UseSegment(tick + 1, 7), ForbidState(0, round(tempo.ticks(0.5)), 1)), grid, tempo
     )
     assert found.pinned == {2: 3}

@@ -121,7 +121,7 @@ def test_a_change_is_made_in_the_rest_and_before_the_breath() -> None:
         assert NEEDED_S <= change.end_s - change.start_s <= USUAL_S
 
 
-def test_nothing_is_planned_for_what_lies_aside_and_nobody_cues_themselves() -> None:
+def test_nothing_is_planned_for_what_lies_aside_and_no_one_cues_themselves() -> None:
     performance = performed()
     flute, piccolo = (performance.plan(player) for player in performance.project.players[:2])
     _, (there, back) = changes_of(performance, performance.project.players[:2])
@@ -136,7 +136,7 @@ def test_nothing_is_planned_for_what_lies_aside_and_nobody_cues_themselves() -> 
     assert apart.plan(apart.project.players[1]).cues
 
 
-def test_too_short_a_rest_is_told_at_the_note_that_suffers() -> None:
+def test_too_short_a_rest_is_reported_at_the_note_that_suffers() -> None:
     performance = performed(0)
     problems = performance.plan(performance.project.players[1]).problems
     assert [problem.message.id for problem in problems] == ["doubling.rest_short"]

@@ -11,7 +11,7 @@ import pytest
 
 from app.motion.curve import frame_times
 from app.motion.model import Motion
-from app.motion.perform import Playing, frame_count
+from app.motion.perform import PerformanceCurves, frame_count
 from app.motion.solve import padding
 from app.performance.ensemble import Performance
 from app.plan.corrections import PoseCorrection
@@ -36,7 +36,7 @@ def before(danced: bool) -> Performance:
     return made
 
 
-def all_frames(playing: Playing) -> Motion:
+def all_frames(playing: PerformanceCurves) -> Motion:
     return playing.motion(FPS, 0, frame_count(playing.plan.time_frame, FPS))
 
 

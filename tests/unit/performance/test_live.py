@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from app.motion.model import Motion
-from app.motion.perform import Playing
+from app.motion.perform import PerformanceCurves
 from app.performance.bodies import character_of
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion, PlayerFault
@@ -71,8 +71,8 @@ def test_a_setting_of_the_piece_costs_what_it_changes(
     live = LiveMotion(performance)
     made = all_made(live)
     assert made
-    wanted = msgspec.structs.replace(piece_settings(performance.project), **settings)
-    changed = Performance(set_piece_settings(performance.project, wanted), performance)
+    requested = msgspec.structs.replace(piece_settings(performance.project), **settings)
+    changed = Performance(set_piece_settings(performance.project, requested), performance)
     for player in changed.project.players:
         before, after = performance.plan(player), changed.plan(player)
         others = {field for field in EVENTS if getattr(before, field) is not getattr(after, field)}
@@ -357,18 +357,18 @@ def test_who_is_another_character_under_the_same_name_is_made_anew(
     assert live.ready_share == 1.0
 
 
-def test_a_fault_in_one_players_motion_is_told_once_and_the_others_are_made(
+def test_a_fault_in_one_players_motion_is_reported_once_and_the_others_are_made(
     performance: Performance, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     first, *others = performance.project.players
-    motion = Playing.motion
+    motion = PerformanceCurves.motion
 
-    def failing(playing: Playing, *arguments: Any) -> Motion:
+    def failing(playing: PerformanceCurves, *arguments: Any) -> Motion:
         if playing.player_id == first.id:
             raise ValueError("a bug")
         return motion(playing, *arguments)
 
-    monkeypatch.setattr(Playing, "motion", failing)
+    monkeypatch.setattr(PerformanceCurves, "motion", failing)
     live = LiveMotion(performance)
     live.want(8.0, 1.0, (first.id,))
     with pytest.raises(PlayerFault, match="ValueError: a bug") as caught:

@@ -14,7 +14,7 @@ RELEASED = Path(__file__).parents[2] / "data" / "fingerings" / "released.txt"
 """Every label that a released version had: map, written pitch, labels with ``|`` between them. Lines are only added."""
 
 
-def test_a_fingering_of_an_old_project_is_played_though_nobody_would_choose_it(tmp_path: Path) -> None:
+def test_a_fingering_of_an_old_project_is_played_though_no_one_would_choose_it(tmp_path: Path) -> None:
     raw = json.loads(SAMPLE.read_bytes())
     raw["players"][0]["instrument_id"] = "clarinet_Bb"
     for note in raw["score"]["parts"][0]["notes"]:

@@ -1,4 +1,4 @@
-"""Somebody who plays now: in place soon after every onset, on the contacts, without a jump, for hours."""
+"""Someone who plays now: in place soon after every onset, on the contacts, without a jump, for hours."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from app.performance.contacts import Break, ContactJudge, joined
 from app.performance.play_along import PlayAlong
 from app.project.model import Player
 from app.rig import quaternion
-from app.score.take import Wiring
+from app.score.take import ControllerMapping
 from instrument_maps.load import bundled_maps
 from metadata.load import load_skeleton
 from tests.support.live import FPS, LATE_S, QUARTER, Played, line, performance_of, played, playing_alone
@@ -177,14 +177,14 @@ def test_where_the_breath_pauses_long_enough_one_breathes_in_and_shuts_the_mouth
 
 
 def test_midi_messages_say_the_same() -> None:
-    told, heard = along(), along()
-    wiring = Wiring(channel=1, breath="cc2", bite="cc1")
-    told.breath(1.0, 100 / 127)
-    told.note_on(1.0, 61, 90)
-    told.bite(1.1, 40 / 127)
-    told.bend(1.1, 0.25)
-    told.note_on(1.2, 63, 90)
-    told.note_off(1.2, 61)
+    reported, heard = along(), along()
+    wiring = ControllerMapping(channel=1, breath="cc2", bite="cc1")
+    reported.breath(1.0, 100 / 127)
+    reported.note_on(1.0, 61, 90)
+    reported.bite(1.1, 40 / 127)
+    reported.bend(1.1, 0.25)
+    reported.note_on(1.2, 63, 90)
+    reported.note_off(1.2, 61)
     messages = [
         (1.0, "b00264"), (1.0, "903d5a"), (1.1, "b00128"), (1.1, "e00050"), (1.2, "903f5a"), (1.2, "903d00"),
         # Another channel's, a clock, a broken one, and one that says nothing here.
@@ -192,7 +192,7 @@ def test_midi_messages_say_the_same() -> None:
     ]  # fmt: skip
     for time_s, raw in messages:
         heard.hear(time_s, raw, wiring)
-    one, other = told.pose(1.3), heard.pose(1.3)
+    one, other = reported.pose(1.3), heard.pose(1.3)
     np.testing.assert_array_equal(one.rotations, other.rotations)
     assert one.morphs == other.morphs
     assert one.controls == other.controls

@@ -1,4 +1,4 @@
-"""Who cannot reach a place is told, note by note; against the exported motion's own hands."""
+"""Who cannot reach a place is reported, note by note; against the exported motion's own hands."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from app.performance.span import whole_span
 from app.plan.corrections import PinFingering
 from app.project.edit.corrections import put
 from app.project.model import Player, Project, map_choices, project_from_score
-from app.rig.hold import Hold, hand_targets
+from app.rig.hold import GripPose, hand_targets
 from app.rig.skeleton import forward
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
@@ -57,8 +57,9 @@ def test_long_arms_reach_everything() -> None:
 
 
 @pytest.mark.parametrize("index", [0, 3])
-def test_what_is_told_is_what_the_motion_shows(index: int) -> None:
-    """In the motion itself, the slide stops as short as is told at the notes told, and at no other; the hand has it."""
+def test_what_is_reported_is_what_the_motion_shows(index: int) -> None:
+    """In the motion itself, the slide stops as short as is reported at the notes told, and at no other; the hand has
+    it."""
     project = short_arms()
     player = project.players[index]
     performance = Performance(project)
@@ -68,18 +69,18 @@ def test_what_is_told_is_what_the_motion_shows(index: int) -> None:
     for hand in hold.hands:
         wrist = skeleton.index(f"{hand.side}Hand")
         reached_m, _ = forward(skeleton, motion.rotations, motion.hips_m, (wrist,)).of(wrist)
-        wanted_m, _ = hand_targets(hand, motion.instrument_position_m, motion.instrument_rotation, motion.controls)
-        assert np.linalg.norm(reached_m - wanted_m, axis=1).max() < 0.001
+        requested_m, _ = hand_targets(hand, motion.instrument_position_m, motion.instrument_rotation, motion.controls)
+        assert np.linalg.norm(reached_m - requested_m, axis=1).max() < 0.001
     problems = performance.plan(player).problems
-    told = {item.note_id: item.message.arguments for item in problems if item.message.id == "contact.out_of_reach"}
-    assert bool(told) == (index == 3)
+    reported = {item.note_id: item.message.arguments for item in problems if item.message.id == "contact.out_of_reach"}
+    assert bool(reported) == (index == 3)
     travel_mm = 1000.0 * performance.instrument(player).control("slide").travel_m
     for event in performance.plan(player).fingerings:
         frame = int(np.ceil((event.start_s - motion.first_frame_s) * FPS))
         short_mm = travel_mm * (event.controls.get("slide", 0.0) - float(motion.controls["slide"][frame]))
-        if event.note_id in told:
-            assert told[event.note_id]["control"] == "slide"
-            assert short_mm == pytest.approx(told[event.note_id]["gap_mm"], abs=15.0)
+        if event.note_id in reported:
+            assert reported[event.note_id]["control"] == "slide"
+            assert short_mm == pytest.approx(reported[event.note_id]["gap_mm"], abs=15.0)
         else:
             assert abs(short_mm) < 5.0
 
@@ -107,29 +108,29 @@ def test_a_model_that_cannot_be_read_is_a_problem_of_its_player_alone(monkeypatc
     project = played_by("man_adult")
     ill = project.players[1].id
 
-    def hold(player: Player, instrument: InstrumentMap) -> Hold:
+    def hold(player: Player, instrument: InstrumentMap) -> GripPose:
         if player.id == ill:
             raise FileError("model.invalid", file="x.glb", detail="damaged")
         return hold_of(player, instrument)
 
     monkeypatch.setattr("app.performance.reach.hold_of", hold)
     plans = Performance(project).plans
-    told = {id_: [problem.message.id for problem in plan.problems] for id_, plan in plans.items()}
-    assert told == {player.id: ["model.invalid"] if player.id == ill else [] for player in project.players}
+    reported = {id_: [problem.message.id for problem in plan.problems] for id_, plan in plans.items()}
+    assert reported == {player.id: ["model.invalid"] if player.id == ill else [] for player in project.players}
     assert all(plan.fingerings for plan in plans.values())
 
 
-def test_after_an_edit_nobody_is_posed_again_for_places_that_were_judged(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_after_an_edit_no_one_is_posed_again_for_places_that_were_judged(monkeypatch: pytest.MonkeyPatch) -> None:
     project = short_arms()
     performance = Performance(project)
     player = next(player for player in project.players if unreached_at(performance, player))
-    told = unreached_at(performance, player)
-    other = next(note for note in project.part(player).notes if note.id not in told)
+    reported = unreached_at(performance, player)
+    other = next(note for note in project.part(player).notes if note.id not in reported)
     monkeypatch.setattr(reach, "_gaps_m", lambda *given: pytest.fail("these places are known"))
     event = next(event for event in performance.plan(player).fingerings if event.note_id == other.id)
     pinned = put(project, player.id, [PinFingering(other.id, event.label)])
     edited = Performance(pinned, performance)
     assert edited.plan(player).fingerings is not performance.plan(player).fingerings
-    assert unreached_at(edited, player) == told
+    assert unreached_at(edited, player) == reported
     monkeypatch.undo()
-    assert unreached_at(Performance(pinned), player) == told
+    assert unreached_at(Performance(pinned), player) == reported

@@ -32,7 +32,7 @@ def test_the_breath_is_where_it_was_taken_though_the_notes_land_on_the_scores() 
     assert [(note.onset_tick, note.end_tick) for note in part.notes] == [(i * 480, i * 480 + 480) for i in range(4)]
     made = plan(project)
     breath = next(event for event in made.breaths if event.id == f"breath:{part.notes[2].id}")
-    assert breath.reason.id == "breath.heard"
+    assert breath.reason.id == "breath.blown"
     assert breath.start_s == pytest.approx(0.7, abs=0.02)
     assert breath.end_s == pytest.approx(1.0, abs=0.05), "it ends with the note's onset at the latest"
     air = [event.air for event in made.embouchures]

@@ -8,14 +8,14 @@ import pytest
 
 from app.plan.bar_phase import with_felt_bars
 from app.plan.generate import Piece
-from app.plan.line import Line, LineTimes, line_times
+from app.plan.line import LineTimes, MonophonicPart, line_times
 from app.score.metre_map import Metre
 from tests.support.engraved_breaths import TICKS, marked_lines
 from tests.support.plan import PlainClock, line_of, piece_of, valves
 
 
 def times_of(*notes: tuple[int, int, int]) -> LineTimes:
-    return line_times(Line("p", line_of(*notes), valves()), PlainClock())
+    return line_times(MonophonicPart("p", line_of(*notes), valves()), PlainClock())
 
 
 def piece_in(numerator: int, denominator: int) -> Piece:

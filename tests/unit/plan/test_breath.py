@@ -10,7 +10,7 @@ import pytest
 
 from app.plan.catch_lengths import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_SOUNDING_S
 from app.plan.corrections import RemoveEvent, SetBreath
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.model import BreathEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
@@ -30,7 +30,7 @@ def plan(
 ) -> PlayerPlan:
     clock = clock or PlainClock()
     piece = piece_of(clock, METRE, felt)
-    line = Line("p", notes, valves(), PlayerParameters(**{"breath_need": 0.0, **parameters}))  # type: ignore[arg-type]
+    line = MonophonicPart("p", notes, valves(), PlayerParameters(**{"breath_need": 0.0, **parameters}))  # type: ignore[arg-type]
     return make_plans(piece, (line,), time_frame((line,), clock, preroll, felt))["p"]
 
 
@@ -180,7 +180,7 @@ def test_a_phrase_longer_than_a_lungful_is_flagged() -> None:
 
 @pytest.mark.parametrize("step_tick", [Q // 2, 7 * Q // 12])
 def test_quick_notes_without_a_rest_are_clipped_for_air(step_tick: int) -> None:
-    # 30 s of eighths at 120: of a quarter of a second a staccato note is left; nobody plays them on one breath.
+    # 30 s of eighths at 120: of a quarter of a second a staccato note is left; no one plays them on one breath.
     plan_ = plan(even([65, 67, 69, 67] * 30, step_tick))
     catches = [event for event in plan_.breaths if event.reason.id == "breath.catch"]
     assert plan_.problems == ()
@@ -240,7 +240,7 @@ def test_in_endless_quick_notes_weak_notes_are_left_out(bpm: float, left_out: in
     # Deleted, it is taken elsewhere, and the notes are played.
     gone = caught[0]
     corrections = (RemoveEvent(gone.id, gone.id.removeprefix("breath:")),)
-    line = Line("p", notes, valves(), PlayerParameters(), corrections)
+    line = MonophonicPart("p", notes, valves(), PlayerParameters(), corrections)
     again = make_plans(piece_of(clock, METRE), (line,), time_frame((line,), clock))["p"]
     assert gone.id not in {event.id for event in again.breaths}
     played = {event.note_id: event for event in again.embouchures}[str(gone.reason.arguments["after_note"])]
@@ -286,7 +286,7 @@ def test_with_circular_breathing_the_line_goes_on_until_a_rest() -> None:
     assert not found.problems
     # A breath by hand stays one.
     hand = SetBreath("1:40", -240, 0, 0.5)
-    line = Line("p", notes, valves(), PlayerParameters(circular_breathing=True), (hand,))
+    line = MonophonicPart("p", notes, valves(), PlayerParameters(circular_breathing=True), (hand,))
     clock = PlainClock()
     made = make_plans(piece_of(clock, METRE), (line,), time_frame((line,), clock))["p"]
     assert "breath:1:40" in {event.id for event in made.breaths}
@@ -297,7 +297,7 @@ def test_an_instrument_that_takes_little_air_is_breathed_for_seldom() -> None:
 
     def breaths(notes_: tuple[PlainNote, ...], air: Air | None, **parameters: float) -> list[BreathEvent]:
         instrument = msgspec.structs.replace(valves(), air=air)
-        line, clock = Line("p", notes_, instrument, PlayerParameters(**parameters)), PlainClock()
+        line, clock = MonophonicPart("p", notes_, instrument, PlayerParameters(**parameters)), PlainClock()
         made = make_plans(piece_of(clock, METRE), (line,), time_frame((line,), clock))["p"]
         return [event for event in made.breaths if event.kind == "breath"]
 
@@ -327,7 +327,7 @@ def test_players_of_one_line_breathe_in_different_places(octave: int) -> None:
         PlainNote(f"2:{index + 1}", n.onset_tick, n.duration_tick, n.pitch + octave) for index, n in enumerate(notes)
     )
     clock = PlainClock()
-    lines = (Line("a", notes, valves()), Line("b", twin, valves()))
+    lines = (MonophonicPart("a", notes, valves()), MonophonicPart("b", twin, valves()))
     plans = make_plans(piece_of(clock, METRE), lines, time_frame(lines, clock))
     places = [{event.end_tick for event in plans[name].breaths if event.reason.id == "breath.catch"} for name in "ab"]
     assert places[0]

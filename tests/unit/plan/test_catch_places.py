@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from tests.support.engraved_breaths import marked_lines, share_at_phrase_ends
@@ -18,7 +18,7 @@ Q = 480
 def catches(notes: tuple[PlainNote, ...], lung_s: float) -> list[float]:
     """Quarters from the start at which breaths after the first one end, at 120."""
     clock = PlainClock()
-    line = Line("p", notes, valves(), PlayerParameters(lung_s=lung_s))
+    line = MonophonicPart("p", notes, valves(), PlayerParameters(lung_s=lung_s))
     plan = make_plans(piece_of(clock, (Metre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
     return [event.end_tick / Q for event in plan.breaths if event.kind == "breath"][1:]
 
@@ -96,7 +96,7 @@ def test_a_breath_between_long_notes_takes_more_than_the_gap_of_an_early_release
     """Notes of two seconds that end 130 ms early: longer than a gasp, but no rest."""
     notes = line_of(*((4 * place * Q, round(3.74 * Q), 65 + place % 2) for place in range(8)))
     clock = PlainClock()
-    line = Line("p", notes, valves(), PlayerParameters(lung_s=7.0))
+    line = MonophonicPart("p", notes, valves(), PlayerParameters(lung_s=7.0))
     plan = make_plans(piece_of(clock, (Metre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
     caught = [event for event in plan.breaths if event.reason.id == "breath.catch"]
     assert caught

@@ -17,7 +17,7 @@ from app.plan.corrections import (
     SetCue,
     SetEmbouchure,
 )
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.model import PlayerPlan
 from app.score.metre_map import Metre
 from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
@@ -29,7 +29,7 @@ NOTES = line_of((0, Q, 65), (Q, 2 * Q, 77), (5 * Q, Q, 67), (6 * Q, Q, 69), (24 
 
 
 def plan(*corrections: Correction, notes: tuple[PlainNote, ...] = NOTES) -> PlayerPlan:
-    line = Line("p", notes, valves(), corrections=corrections)
+    line = MonophonicPart("p", notes, valves(), corrections=corrections)
     return make_plans(PIECE, (line,), time_frame((line,), CLOCK))["p"]
 
 

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import pytest
 
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.model import CueEvent
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from tests.support.plan import PlainClock, line_of, piece_of, slide, valves
 
 Q = 480
-HIGH = Line("high", line_of((0, 4 * Q, 72), (16 * Q, Q, 70), track=1), valves())
-LOW = Line("low", line_of((0, 4 * Q, 60), (16 * Q, Q, 75), track=2), valves())
-LATE = Line("late", line_of((2 * Q, 2 * Q, 50), (16 * Q, Q, 50), track=3), slide())
+HIGH = MonophonicPart("high", line_of((0, 4 * Q, 72), (16 * Q, Q, 70), track=1), valves())
+LOW = MonophonicPart("low", line_of((0, 4 * Q, 60), (16 * Q, Q, 75), track=2), valves())
+LATE = MonophonicPart("late", line_of((2 * Q, 2 * Q, 50), (16 * Q, Q, 50), track=3), slide())
 
 
 def cues(
-    *lines: Line, clock: PlainClock | None = None, felt: int | None = None, preroll: float = 4.0
+    *lines: MonophonicPart, clock: PlainClock | None = None, felt: int | None = None, preroll: float = 4.0
 ) -> list[CueEvent]:
     clock = clock or PlainClock()
     piece = piece_of(clock, (Metre(0, 4, 4),), felt)
@@ -28,8 +28,8 @@ def cues(
     return sorted(found, key=lambda cue: cue.start_s)
 
 
-def led(line: Line, leads: bool) -> Line:
-    return Line(line.player_id, line.notes, line.instrument_map, PlayerParameters(cue_leader=leads))
+def led(line: MonophonicPart, leads: bool) -> MonophonicPart:
+    return MonophonicPart(line.player_id, line.notes, line.instrument_map, PlayerParameters(cue_leader=leads))
 
 
 def test_the_first_part_of_the_melodys_section_leads_each_entry() -> None:
@@ -75,9 +75,9 @@ def test_who_must_not_lead_does_not() -> None:
     ("rest_beats", "bpm", "expected"), [(3, 120.0, 1), (4, 120.0, 2), (8, 120.0, 2), (4, 60.0, 2), (3, 60.0, 1)]
 )
 def test_long_common_rests_and_general_pauses_need_a_new_start(rest_beats: int, bpm: float, expected: int) -> None:
-    line = Line("p", line_of((0, 4 * Q, 65), ((4 + rest_beats) * Q, Q, 65)), valves())
+    line = MonophonicPart("p", line_of((0, 4 * Q, 65), ((4 + rest_beats) * Q, Q, 65)), valves())
     assert len(cues(line, clock=PlainClock(((0, bpm),)))) == expected
-    holding = Line("q", line_of((0, 40 * Q, 60), track=2), valves())
+    holding = MonophonicPart("q", line_of((0, 40 * Q, 60), track=2), valves())
     assert len(cues(line, holding, clock=PlainClock(((0, bpm),)))) == 1
 
 
@@ -86,10 +86,10 @@ def test_a_bar_cut_short_is_no_measure_of_a_rest() -> None:
     metres = (Metre(0, 3, 4), Metre(7 * Q, 3, 4))
     notes = line_of((5 * Q, Q // 2, 65), (8 * Q, Q, 67))
     piece = piece_of(PlainClock(), metres)
-    line = Line("p", notes, valves())
+    line = MonophonicPart("p", notes, valves())
     cues = make_plans(piece, (line,), time_frame((line,), piece.clock))["p"].cues
     assert [cue.end_tick for cue in cues] == [5 * Q]
 
 
 def test_no_notes_no_cue() -> None:
-    assert cues(Line("p", (), valves())) == []
+    assert cues(MonophonicPart("p", (), valves())) == []

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.score.metre_map import Metre
 from app.score.model import Note, sounding_spans
 from app.score.tempo import TempoChange, TempoMap
@@ -222,7 +222,7 @@ def cues_of(row: Row) -> list[tuple[float, str, float]]:
             Note(f"{track}:{number}", round(onset * Q), round(length * Q), pitch, 80)
             for number, (onset, length, pitch) in enumerate(notes, 1)
         )
-        lines.append(Line(name, tuple(made), MAPS[map_id]))
+        lines.append(MonophonicPart(name, tuple(made), MAPS[map_id]))
     heard = sounding_spans(((round(at * Q), round((at + length) * Q)) for at, length, _ in row.unplayed), Q)
     piece = piece_of(clock, metres, felt, bool(first), heard)
     plans = make_plans(piece, tuple(lines), time_frame(tuple(lines), clock))

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from app.motion.body import Layers
 from app.plan.dynamics import grown, vigour_of
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.gesture import ARCH, RELEASE
-from app.plan.line import Heard, Steps
+from app.plan.line import ControllerInput, Steps
 from app.plan.model import PlayerPlan
 from app.score.metre_map import Metre
 from metadata.load import load_body
@@ -27,7 +27,7 @@ BODY = load_body()
 
 
 def plan_of(notes: tuple[PlainNote, ...], **more: object) -> PlayerPlan:
-    line = Line("p", notes, valves(), **more)  # type: ignore[arg-type]
+    line = MonophonicPart("p", notes, valves(), **more)  # type: ignore[arg-type]
     return make_plans(PIECE, (line,), time_frame((line,), CLOCK))["p"]
 
 
@@ -73,7 +73,7 @@ def test_a_start_to_play_softly_is_cued_softly() -> None:
 def test_a_curve_drawn_for_the_dynamics_counts_within_a_held_note() -> None:
     notes = line_of((0, 16 * Q, 67), (16 * Q, 4 * Q, 65))
     swell = Steps(np.arange(0.0, 16.0 * Q, Q / 4), np.linspace(0.2, 1.0, 64))
-    plan = plan_of(notes, loudness=(0.6, 1.0), heard=Heard(breath=swell))
+    plan = plan_of(notes, loudness=(0.6, 1.0), heard=ControllerInput(breath=swell))
     assert sizes(plan, "sway", 5.0, 8.0) > 1.5 * sizes(plan, "sway", 0.0, 3.0)
 
 

@@ -8,7 +8,7 @@ import pytest
 from app.chance import chance
 from app.plan.corrections import ChangeExpression, RemoveEvent
 from app.plan.embouchure import TONGUE_S
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.line import MEZZOFORTE, line_times
 from app.plan.model import ExpressionEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
@@ -21,18 +21,18 @@ CLOCK = PlainClock()
 PIECE = piece_of(CLOCK, (Metre(0, 4, 4),))
 
 
-def plan(line: Line) -> PlayerPlan:
+def plan(line: MonophonicPart) -> PlayerPlan:
     return make_plans(PIECE, (line,), time_frame((line,), CLOCK))[line.player_id]
 
 
 def test_lips_tighten_with_height() -> None:
-    lips = plan(Line("p", even(list(range(52, 83)), Q), valves())).embouchures
+    lips = plan(MonophonicPart("p", even(list(range(52, 83)), Q), valves())).embouchures
     tensions = [event.tension for event in lips]
     assert tensions == sorted(tensions)
     assert tensions[0] < 0.02
     assert tensions[-1] > 0.98
     assert 0.25 < tensions[6] < tensions[22] < 0.65
-    loose = plan(Line("p", even([75], Q), valves(), PlayerParameters(embouchure_tension=0.5))).embouchures[0]
+    loose = plan(MonophonicPart("p", even([75], Q), valves(), PlayerParameters(embouchure_tension=0.5))).embouchures[0]
     assert loose.tension == pytest.approx(0.5 * tensions[75 - 52], abs=1e-3)
 
 
@@ -40,7 +40,7 @@ def test_effort_is_height_loudness_and_length() -> None:
     def effort(pitch: int, velocity: int, length: int) -> float:
         # A second, soft note elsewhere: one velocity throughout would say nothing about dynamics.
         notes = (*line_of((0, length, pitch, velocity)), PlainNote("1:2", 40 * Q, Q, 60, 1))
-        return plan(Line("p", notes, valves())).embouchures[0].effort
+        return plan(MonophonicPart("p", notes, valves())).embouchures[0].effort
 
     easy = effort(65, 60, Q)
     assert easy < 0.1
@@ -51,27 +51,27 @@ def test_effort_is_height_loudness_and_length() -> None:
 
 
 def test_one_velocity_throughout_is_mezzoforte_and_curves_win() -> None:
-    constant = line_times(Line("p", line_of((0, Q, 65, 127), (Q, Q, 65, 127)), valves()), CLOCK)
+    constant = line_times(MonophonicPart("p", line_of((0, Q, 65, 127), (Q, Q, 65, 127)), valves()), CLOCK)
     assert constant.loudness.tolist() == [MEZZOFORTE, MEZZOFORTE]
-    curved = Line("p", line_of((0, Q, 65, 127), (Q, Q, 65, 127)), valves(), loudness=(0.2, 0.9))
+    curved = MonophonicPart("p", line_of((0, Q, 65, 127), (Q, Q, 65, 127)), valves(), loudness=(0.2, 0.9))
     assert line_times(curved, CLOCK).loudness.tolist() == [0.2, 0.9]
 
 
 def test_every_attack_is_tongued_and_a_slur_is_not() -> None:
-    touching = plan(Line("p", even([65, 67, 69], Q), valves())).tongues
+    touching = plan(MonophonicPart("p", even([65, 67, 69], Q), valves())).tongues
     assert [event.note_id for event in touching] == ["1:1", "1:2", "1:3"]
     assert [event.end_s for event in touching] == [0.0, 0.5, 1.0]
     assert all(event.end_s - event.start_s == pytest.approx(TONGUE_S) for event in touching)
     slurred = line_of((0, Q + 20, 65), (Q, Q + 20, 67), (2 * Q, Q, 67))
-    assert [event.note_id for event in plan(Line("p", slurred, valves())).tongues] == ["1:1", "1:3"]
+    assert [event.note_id for event in plan(MonophonicPart("p", slurred, valves())).tongues] == ["1:1", "1:3"]
 
 
 def test_a_slide_that_moves_far_is_tongued_even_in_a_slur() -> None:
     # 58 is 1, 60 is 3 (or thereabouts), 53 is 1 too.
     smear = line_of((0, Q + 20, 58), (Q, Q, 56))
     lip = line_of((0, Q + 20, 58), (Q, Q, 53))
-    assert len(plan(Line("p", smear, slide())).tongues) == 2
-    assert len(plan(Line("p", lip, slide())).tongues) == 1
+    assert len(plan(MonophonicPart("p", smear, slide())).tongues) == 2
+    assert len(plan(MonophonicPart("p", lip, slide())).tongues) == 1
 
 
 def test_faces_follow_effort_entries_and_the_end() -> None:
@@ -80,7 +80,7 @@ def test_faces_follow_effort_entries_and_the_end() -> None:
         *(PlainNote(f"1:{9 + index}", (8 + index) * Q, Q, 82) for index in range(8)),
         PlainNote("1:17", 40 * Q, 2 * Q, 65),
     )
-    follower = Line("p", notes, valves(), PlayerParameters(cue_leader=False))
+    follower = MonophonicPart("p", notes, valves(), PlayerParameters(cue_leader=False))
     faces = {event.id: event for event in plan(follower).expressions}
     assert faces["expression:neutral"].start_s == -2.0
     strained = faces["expression:strained:1:9"]
@@ -88,7 +88,7 @@ def test_faces_follow_effort_entries_and_the_end() -> None:
     entry = faces["expression:brows_up:1:17"]
     assert entry.end_s == 20.0
     assert entry.reason.id == "expression.takes_entry"
-    leader = {event.id: event for event in plan(Line("p", notes, valves())).expressions}
+    leader = {event.id: event for event in plan(MonophonicPart("p", notes, valves())).expressions}
     assert leader["expression:brows_up:cue:1:1"].reason.id == "expression.gives_entry"
     assert leader["expression:brows_up:cue:1:1"].end_s == 0.0
 
@@ -105,9 +105,9 @@ def test_only_a_bright_ending_is_smiled_at(third: int, bpm: float, velocity: int
         *((index * Q, Q, pitch, 100 if index < 16 else velocity) for index, pitch in enumerate(tune)),
     )
     clock = PlainClock(((0, bpm),))
-    line = Line("p", notes, valves())
+    line = MonophonicPart("p", notes, valves())
 
-    def smile(line: Line) -> list[ExpressionEvent]:
+    def smile(line: MonophonicPart) -> list[ExpressionEvent]:
         plan = make_plans(piece_of(clock, (Metre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
         assert plan.problems == ()
         return [event for event in plan.expressions if event.id == "expression:smile"]
@@ -123,12 +123,14 @@ def test_only_a_bright_ending_is_smiled_at(third: int, bpm: float, velocity: int
 def test_cheeks_that_stay_flat_do_not_puff(map_id: str) -> None:
     instrument = bundled_maps()[map_id]
     notes = line_of((0, 4 * Q, instrument.range.low, 127), (8 * Q, 4 * Q, instrument.range.low + 4, 60))
-    assert not [event for event in plan(Line("p", notes, instrument)).expressions if event.expression == "puffed"]
+    assert not [
+        event for event in plan(MonophonicPart("p", notes, instrument)).expressions if event.expression == "puffed"
+    ]
 
 
 def test_low_and_loud_notes_puff() -> None:
     notes = line_of((0, 4 * Q, 53, 127), (8 * Q, 4 * Q, 53, 60), (16 * Q, 4 * Q, 70, 127))
-    puffed = [event for event in plan(Line("p", notes, valves())).expressions if event.expression == "puffed"]
+    puffed = [event for event in plan(MonophonicPart("p", notes, valves())).expressions if event.expression == "puffed"]
     assert [event.id for event in puffed] == ["expression:puffed:1:1"]
 
 
@@ -137,17 +139,20 @@ def test_low_and_loud_notes_puff() -> None:
 )
 def test_the_time_frame(bpm: float, beats: float, start_s: float) -> None:
     clock = PlainClock(((0, bpm),))
-    early, late = Line("a", line_of((0, Q, 65)), valves()), Line("b", line_of((8 * Q, 3 * Q, 65)), valves())
+    early, late = (
+        MonophonicPart("a", line_of((0, Q, 65)), valves()),
+        MonophonicPart("b", line_of((8 * Q, 3 * Q, 65)), valves()),
+    )
     frame = time_frame((late, early), clock, beats)
     assert frame.first_frame_s == pytest.approx(start_s)
     assert frame.end_s == pytest.approx(11 * 60.0 / bpm + 2.0)
 
 
 def test_the_pre_roll_counts_from_the_first_note() -> None:
-    line = Line("p", line_of((16 * Q, Q, 65)), valves())
+    line = MonophonicPart("p", line_of((16 * Q, Q, 65)), valves())
     assert time_frame((line,), CLOCK).first_frame_s == pytest.approx(6.0)
     assert time_frame((line,), CLOCK, 4.0, 3 * Q // 2).first_frame_s == pytest.approx(5.0)
-    assert time_frame((Line("p", (), valves()),), CLOCK).first_frame_s == -2.0
+    assert time_frame((MonophonicPart("p", (), valves()),), CLOCK).first_frame_s == -2.0
 
 
 def test_bars_run_through_metres_backwards_and_from_a_pickup() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from app.plan.fingering import plan_fingerings
-from app.plan.generate import Line
+from app.plan.generate import MonophonicPart
 from app.plan.line import line_times
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
@@ -21,7 +21,7 @@ def keys(
 ) -> list[frozenset[str]]:
     """What is held on each note of an even line, of which each note sounds a part."""
     notes = line_of(*((at * step_tick, round(sounds * step_tick), pitch) for at, pitch in enumerate(pitches)))
-    times = line_times(Line("p", notes, instrument), PlainClock(((0, bpm),)))
+    times = line_times(MonophonicPart("p", notes, instrument), PlainClock(((0, bpm),)))
     return [frozenset(event.controls) for event in plan_fingerings(notes, times, instrument, {})[0]]
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from app.plan.figures import trill_steps
 from app.plan.fingering import plan_fingerings
-from app.plan.generate import Line
+from app.plan.generate import MonophonicPart
 from app.plan.line import line_times
 from app.plan.model import FingeringEvent, Problem, grips_of
 from app.plan.search import PHRASE_SILENCE_S
@@ -33,7 +33,7 @@ TABLE_3_1 = [
 def plan(
     notes: tuple[PlainNote, ...], instrument: InstrumentMap, pins: dict[str, str] | None = None, bpm: float = 120.0
 ) -> tuple[tuple[FingeringEvent, ...], tuple[Problem, ...]]:
-    times = line_times(Line("p", notes, instrument), PlainClock(((0, bpm),)))
+    times = line_times(MonophonicPart("p", notes, instrument), PlainClock(((0, bpm),)))
     return plan_fingerings(notes, times, instrument, pins or {})
 
 
@@ -97,11 +97,11 @@ def test_a_correction_within_a_trill_is_for_its_note_alone() -> None:
 
 
 def test_alternating_thirds_are_no_trill() -> None:
-    times = line_times(Line("p", even([60, 64] * 6, 100), TRUMPET), PlainClock())
+    times = line_times(MonophonicPart("p", even([60, 64] * 6, 100), TRUMPET), PlainClock())
     assert not trill_steps(times).any()
-    times = line_times(Line("p", even([60, 62] * 6, 100), TRUMPET), PlainClock())
+    times = line_times(MonophonicPart("p", even([60, 62] * 6, 100), TRUMPET), PlainClock())
     assert trill_steps(times).all()
-    times = line_times(Line("p", even([60, 62, 64, 65, 67], 100), TRUMPET), PlainClock())
+    times = line_times(MonophonicPart("p", even([60, 62, 64, 65, 67], 100), TRUMPET), PlainClock())
     assert not trill_steps(times).any()
 
 
@@ -124,7 +124,7 @@ def test_the_slide_stays_near_and_comes_back_to_the_same_place(bpm: float) -> No
 @pytest.mark.parametrize("step_tick", [240, 120, 100, 80])
 @pytest.mark.parametrize("figure", [[48, 50, 48, 50], [48, 50] * 4, [50, 48, 50, 48], [43, 48, 50, 48, 43]])
 def test_d_beside_c_is_played_in_four_without_the_attachment(figure: list[int], step_tick: int) -> None:
-    # Nobody turns the lever with every note to save a hand's breadth of the slide's way.
+    # No one turns the lever with every note to save a hand's breadth of the slide's way.
     assert "T4" not in labels(even(figure, step_tick), TROMBONE)
 
 
@@ -224,7 +224,7 @@ def test_a_bassoon_flicks_at_the_attack_and_holds_the_note_without() -> None:
     """Short notes are vented throughout, and so is a note whose fingering is set by hand."""
     notes = line_of((0, 480, 50), (480, 900, 57), (1920, 960, 60), (3840, 100, 57), (4320, 960, 45))
     instrument = bundled_maps()["bassoon"]
-    times = line_times(Line("p", notes, instrument), PlainClock())
+    times = line_times(MonophonicPart("p", notes, instrument), PlainClock())
     events, _ = plan_fingerings(notes, times, instrument, {})
     grips = [(grip.note_id, round(grip.start_s, 3), round(grip.end_s, 3), grip.label) for grip in grips_of(events)]
     assert grips == [

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.plan.figures import attacked_notes, chromatic_notes, glissando_steps, trill_steps
-from app.plan.generate import Line
+from app.plan.generate import MonophonicPart
 from app.plan.line import LineTimes, line_times
 from instrument_maps.load import bundled_maps
 from tests.support.fingering_contexts import SOURCES, contexts, right_of
@@ -33,7 +33,7 @@ def test_nearly_all_tuned_contexts_are_fingered_as_a_teacher_accepts() -> None:
 
 def line(pitches: list[int], step_tick: int, sounds: float = 1.0) -> LineTimes:
     notes = line_of(*((at * step_tick, round(sounds * step_tick), pitch) for at, pitch in enumerate(pitches)))
-    return line_times(Line("p", notes, bundled_maps()["flute"]), PlainClock())
+    return line_times(MonophonicPart("p", notes, bundled_maps()["flute"]), PlainClock())
 
 
 @pytest.mark.parametrize(

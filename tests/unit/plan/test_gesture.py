@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.gesture import ARCH, LOWER_S, LOWERED_LEAST_S, RAISE_S, RELEASE, STIR_S
 from app.plan.model import GestureEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
@@ -20,7 +20,7 @@ CLOCK = PlainClock()
 PIECE = piece_of(CLOCK, (Metre(0, 4, 4),))
 
 
-def plans(*lines: Line, seed: int = 0) -> dict[str, PlayerPlan]:
+def plans(*lines: MonophonicPart, seed: int = 0) -> dict[str, PlayerPlan]:
     return make_plans(PIECE, lines, time_frame(lines, CLOCK), seed)
 
 
@@ -33,7 +33,7 @@ def tune(track: int = 1, bars: int = 32) -> tuple[PlainNote, ...]:
 
 
 def test_sway_goes_from_beat_to_beat_without_gaps() -> None:
-    sways = of_kind(plans(Line("p", tune(), valves()))["p"], "sway")
+    sways = of_kind(plans(MonophonicPart("p", tune(), valves()))["p"], "sway")
     for event, following in itertools.pairwise(sways):
         assert event.end_tick == following.start_tick
         assert event.start_tick % Q == 0
@@ -44,7 +44,7 @@ def test_sway_goes_from_beat_to_beat_without_gaps() -> None:
 def test_a_swing_takes_a_bodys_time_at_every_tempo() -> None:
     for bpm in (40.0, 60.0, 90.0, 132.0, 200.0, 6000.0):
         clock = PlainClock(((0, bpm),))
-        line = Line("p", tune(), valves())
+        line = MonophonicPart("p", tune(), valves())
         plan = make_plans(piece_of(clock), (line,), time_frame((line,), clock))["p"]
         lengths = {round(event.end_s - event.start_s, 3) for event in of_kind(plan, "sway")}
         assert len(lengths) == 1
@@ -56,10 +56,12 @@ def test_silence_between_notes_costs_nothing_however_long_it_is() -> None:
     counts = []
     for hours in (1, 11):
         later = tuple(replace(note, id=f"{note.id}x", onset_tick=note.onset_tick + hours * 7200 * Q) for note in notes)
-        gestures = plans(Line("p", notes + later, valves()))["p"].gestures
+        gestures = plans(MonophonicPart("p", notes + later, valves()))["p"].gestures
         counts.append(len(gestures))
         near = [event for event in gestures if event.kind == "sway" and event.end_s < 8.0 + STIR_S]
-        alone = [event for event in of_kind(plans(Line("p", notes, valves()))["p"], "sway") if event.end_s < 8.0]
+        alone = [
+            event for event in of_kind(plans(MonophonicPart("p", notes, valves()))["p"], "sway") if event.end_s < 8.0
+        ]
         # Near the music nothing is different, and some time after it everybody is still.
         assert near[: len(alone)] == alone
         assert not any(60.0 < event.start_s < 3600.0 * hours - 60.0 for event in gestures if event.kind == "sway")
@@ -73,28 +75,28 @@ def test_two_players_of_one_part_never_sway_alike() -> None:
         events = of_kind(plan, "sway")
         return np.interp(grid_s, [event.end_s for event in events], [event.amount for event in events])
 
-    lines = tuple(Line(f"player {index}", tune(index), valves()) for index in range(12))
+    lines = tuple(MonophonicPart(f"player {index}", tune(index), valves()) for index in range(12))
     curves = [curve(plan) for plan in plans(*lines).values()]
     correlation = np.corrcoef(curves) - np.eye(len(curves))
     assert np.abs(correlation).max() < 0.9
 
 
 def test_gestures_belong_to_player_seed_and_place() -> None:
-    line = Line("p", tune(), valves())
+    line = MonophonicPart("p", tune(), valves())
     again = plans(line)["p"]
     assert plans(line)["p"] == again
     assert plans(line, seed=1)["p"].gestures != again.gestures
-    other = Line("p", tune(), valves(), PlayerParameters(seed=3))
+    other = MonophonicPart("p", tune(), valves(), PlayerParameters(seed=3))
     assert plans(other)["p"].gestures != again.gestures
     # A change at the end leaves the gestures of the beginning alone.
-    longer = Line("p", (*tune(), PlainNote("1:999", 128 * Q, Q, 70)), valves())
+    longer = MonophonicPart("p", (*tune(), PlainNote("1:999", 128 * Q, Q, 70)), valves())
     early = {event.id: event.amount for event in again.gestures if event.kind == "sway" and event.end_s < 50.0}
     changed = {event.id: event.amount for event in plans(longer)["p"].gestures if event.kind == "sway"}
     assert early.items() <= changed.items()
 
 
 def test_weight_rests_somewhere_from_shift_to_shift() -> None:
-    shifts = of_kind(plans(Line("p", tune(bars=128), valves()))["p"], "weight_shift")
+    shifts = of_kind(plans(MonophonicPart("p", tune(bars=128), valves()))["p"], "weight_shift")
     assert 256.0 / 20.0 < len(shifts) < 256.0 / 4.0
     assert any(event.start_tick % Q for event in shifts)
     for event, following in itertools.pairwise(shifts):
@@ -105,7 +107,7 @@ def test_weight_rests_somewhere_from_shift_to_shift() -> None:
 
 def test_the_bell_follows_the_melody() -> None:
     notes = even([60] * 8 + [72] * 8 + [60] * 8, Q)
-    bells = of_kind(plans(Line("p", notes, valves()))["p"], "bell_height")
+    bells = of_kind(plans(MonophonicPart("p", notes, valves()))["p"], "bell_height")
     assert [event.id for event in bells] == [
         "bell_height:1:1",
         "bell_height:1:9",
@@ -121,7 +123,7 @@ def test_the_bell_follows_the_melody() -> None:
 @pytest.mark.parametrize(("rest_beats", "lowered"), [(11, False), (12, True), (40, True)])
 def test_the_instrument_comes_down_only_in_long_rests(rest_beats: int, lowered: bool) -> None:
     notes = line_of((0, Q, 65), ((1 + rest_beats) * Q, Q, 65))
-    plan = plans(Line("p", notes, valves()))["p"]
+    plan = plans(MonophonicPart("p", notes, valves()))["p"]
     spans = [event for event in of_kind(plan, "lower_instrument") if event.id != "lower_instrument:end"]
     assert bool(spans) == lowered
     for span in spans:
@@ -133,8 +135,8 @@ def test_the_instrument_comes_down_only_in_long_rests(rest_beats: int, lowered: 
 
 
 def test_a_late_player_begins_with_the_instrument_down_and_all_end_so() -> None:
-    early = Line("early", tune(), valves())
-    late = Line("late", line_of((64 * Q, Q, 60), track=2), valves())
+    early = MonophonicPart("early", tune(), valves())
+    late = MonophonicPart("late", line_of((64 * Q, Q, 60), track=2), valves())
     plan = plans(early, late)["late"]
     first, last = of_kind(plan, "lower_instrument")
     assert first.start_s < plan.time_frame.first_frame_s
@@ -146,7 +148,7 @@ def test_a_late_player_begins_with_the_instrument_down_and_all_end_so() -> None:
 
 
 def test_a_player_without_notes_holds_the_instrument_down() -> None:
-    plan = plans(Line("p", tune(), valves()), Line("q", (), valves()))["q"]
+    plan = plans(MonophonicPart("p", tune(), valves()), MonophonicPart("q", (), valves()))["q"]
     (span,) = of_kind(plan, "lower_instrument")
     assert span.start_s < plan.time_frame.first_frame_s
     assert span.end_s > plan.time_frame.end_s
@@ -155,7 +157,7 @@ def test_a_player_without_notes_holds_the_instrument_down() -> None:
 def test_sway_follows_the_bars_through_a_pickup_and_odd_metres() -> None:
     metres = (Metre(0, 4, 4), Metre(Q // 2, 4, 4), Metre(8 * Q + Q // 2, 7, 8))
     piece = piece_of(CLOCK, metres, has_pickup=True)
-    line = Line("p", tune(), valves())
+    line = MonophonicPart("p", tune(), valves())
     plan = make_plans(piece, (line,), time_frame((line,), CLOCK))["p"]
     beats = set(piece.metre_map.felt_between(-10 * Q, 140 * Q).tolist())
     assert set(piece.bars(-10 * Q, 140 * Q).tolist()) <= beats

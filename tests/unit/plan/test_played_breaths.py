@@ -1,4 +1,4 @@
-"""Somebody who plays a line breathes where its score says: not elsewhere because of a few milliseconds."""
+"""Someone who plays a line breathes where its score says: not elsewhere because of a few milliseconds."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 import pytest
 
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.line import MEZZOFORTE, marked
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
@@ -46,7 +46,7 @@ def as_played(notes: Iterable[PlainNote], seed: int) -> tuple[PlainNote, ...]:
 def plan(
     notes: tuple[PlainNote, ...], clock: PlainClock, loudness: tuple[float, ...] = (), **parameters: float
 ) -> PlayerPlan:
-    line = Line("p", notes, valves(), PlayerParameters(**parameters), loudness=loudness)
+    line = MonophonicPart("p", notes, valves(), PlayerParameters(**parameters), loudness=loudness)
     return make_plans(piece_of(clock), (line,), time_frame((line,), clock))["p"]
 
 

@@ -38,7 +38,7 @@ def test_without_a_fade_it_comes_as_quickly_as_is_gentle(angle_deg: float) -> No
     assert 0.15 <= event.fade_in_s <= 0.4
 
 
-def test_what_a_body_cannot_do_is_held_back_and_told() -> None:
+def test_what_a_body_cannot_do_is_held_back_and_reported() -> None:
     most = pose_limits("head", TRUMPET, STANDING, load_body())["left_deg"][1]
     items = (
         PoseCorrection("far", "head", 960, 1920, left_deg=80.0, up_deg=2.0),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.line import line_times
 from app.plan.parameters import PlayerParameters
 from app.plan.rests import rest_ticks
@@ -16,7 +16,7 @@ Q = 480
 
 
 def rests(notes: tuple[PlainNote, ...]) -> list[int]:
-    times = line_times(Line("p", notes, valves()), PlainClock())
+    times = line_times(MonophonicPart("p", notes, valves()), PlainClock())
     return rest_ticks(times, piece_of(PlainClock()).beat_ticks_at(times.onset_tick)).tolist()[1:]  # type: ignore[no-any-return]
 
 
@@ -78,7 +78,7 @@ def test_a_rest_is_breathed_in_when_enough_air_is_spent() -> None:
     clock = PlainClock()
 
     def breaths(need: float) -> list[int]:
-        line = Line("p", notes, valves(), PlayerParameters(breath_need=need))
+        line = MonophonicPart("p", notes, valves(), PlayerParameters(breath_need=need))
         plan = make_plans(piece_of(clock, (Metre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
         return [event.end_tick // (4 * Q) for event in plan.breaths if event.kind == "breath"]
 

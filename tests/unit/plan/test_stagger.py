@@ -8,7 +8,7 @@ import random
 import pytest
 
 from app.plan.corrections import Correction, RemoveEvent
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
@@ -24,7 +24,9 @@ def plans(*parts: list[Row], corrections: tuple[Correction, ...] = (), lung_s: f
     clock = PlainClock()
     parameters = PlayerParameters(lung_s=lung_s)
     lines = tuple(
-        Line(f"p{number}", line_of(*rows, track=number), valves(), parameters, corrections if number == 1 else ())
+        MonophonicPart(
+            f"p{number}", line_of(*rows, track=number), valves(), parameters, corrections if number == 1 else ()
+        )
         for number, rows in enumerate(parts, 1)
     )
     return list(make_plans(piece_of(clock, METRES), lines, time_frame(lines, clock)).values())

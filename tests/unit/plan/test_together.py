@@ -1,4 +1,4 @@
-"""Notes that cannot sound together: the highest of a chord is played, the rest is told."""
+"""Notes that cannot sound together: the highest of a chord is played, the rest is reported."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from app.performance.ensemble import Performance
 from app.performance.span import whole_span
-from app.plan.line import Line
+from app.plan.line import MonophonicPart
 from app.plan.together import one_at_a_time
 from app.project.model import project_from_score
 from app.score.model import Note, Part, Score
@@ -22,9 +22,9 @@ CLOCK = TempoMap(480)
 MAP = bundled_maps()["trumpet_Bb"]
 
 
-def line(*notes: tuple[int, int, int]) -> Line:
+def line(*notes: tuple[int, int, int]) -> MonophonicPart:
     ordered = sorted(notes, key=lambda note: (note[0], note[2]))
-    return Line(
+    return MonophonicPart(
         "p",
         tuple(Note(f"1:{i + 1}", onset, length, pitch, 80) for i, (onset, length, pitch) in enumerate(ordered)),
         MAP,

@@ -1,4 +1,4 @@
-"""Where in its bar a note stands that somebody played: where it would be written."""
+"""Where in its bar a note stands that someone played: where it would be written."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.plan.generate import Line, make_plans, time_frame
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.line import line_times
 from app.plan.notation import DIVISIONS, notated, simplest_places, written_onsets
 from tests.support.plan import PlainClock, line_of, piece_of, valves
@@ -32,7 +32,7 @@ def test_a_silence_is_no_longer_than_the_written_step() -> None:
     """Two notes 40 ms apart that share a place in the score, among notes off the grid."""
     onsets = [11, 490, 530, 1013, 1451, 1931]
     clock = PlainClock()
-    line = Line("p", line_of(*((onset, 10, 65) for onset in onsets)), valves())
+    line = MonophonicPart("p", line_of(*((onset, 10, 65) for onset in onsets)), valves())
     score = notated(line_times(line, clock), piece_of(clock))
     assert (score.silence_tick[1:] <= np.diff(score.onset_tick)).all()
     assert (score.played_end_tick >= score.onset_tick).all()
@@ -44,7 +44,7 @@ def test_a_played_note_stands_at_the_simplest_place_near() -> None:
     clock = PlainClock(((0, 200.0),))
     late_s = [0.0, 0.012, -0.013, 0.011, -0.012, 0.0, 0.013, 0.01]
     onsets = [round(QUARTER * (place + 1 + late * 200.0 / 60.0)) for place, late in enumerate(late_s)]
-    line = Line("p", line_of(*((onset, 430, 65) for onset in onsets)), valves())
+    line = MonophonicPart("p", line_of(*((onset, 430, 65) for onset in onsets)), valves())
     score = notated(line_times(line, clock), piece_of(clock))
     assert score.onset_tick.tolist() == [QUARTER * (place + 1) for place in range(len(onsets))]
     # They end 20 to 60 ms early, which is no rest.

@@ -24,7 +24,7 @@ from app.project.dance_corrections import ForbidState, PinState, UseSegment
 from app.project.model import AudioTrack, CompSpan, Dancer, Player, PlayerTakes, Project
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score, UnplayedPart
-from app.score.take import Cleaning, Take, Wiring
+from app.score.take import Cleaning, ControllerMapping, Take
 from app.score.tempo import TempoChange, TempoMap
 from metadata.model import Expression
 
@@ -131,7 +131,7 @@ def full_project(folder: str = "/music") -> Project:
                         colour="#123456",
                         device="EWI5000 MIDI 1",
                         recorded="2026-11-21T12:00:00+00:00",
-                        wiring=Wiring(3, "cc11", "pitch_bend"),
+                        wiring=ControllerMapping(3, "cc11", "pitch_bend"),
                         cleaning=Cleaning(0.04, 0.2, 0.02, 0.01, 0.5, 1 / 3, 0.25),
                         tempo_map=TempoMap(480, (TempoChange(0, 400_000.0),)),
                         start_us=-500_000,

@@ -235,10 +235,10 @@ def test_a_folder_that_refuses_the_work_does_not_lose_it(
         written = made(autosave, writing, 4.0)
         assert written.path == autosave.presence.own_path
         assert written.warning is not None
-        told = text(written.warning)
-        assert os.strerror(number) in told
-        assert str(document) in told
-        assert str(folder) in told
+        reported = text(written.warning)
+        assert os.strerror(number) in reported
+        assert str(document) in reported
+        assert str(folder) in reported
         assert load(autosave.presence.own_path) == project
     # As soon as the folder takes it again it is there, and there alone.
     disks.refusing.clear()
@@ -310,10 +310,10 @@ def test_no_place_at_all(editor: Editor, folder: Path, document: Path, disks: Di
     disks.refusing |= {document.parent: errno.ENOSPC, folder: errno.EROFS}
     with pytest.raises(FileError) as raised:
         write(autosave, 4.0)
-    told = error_text(raised.value)
+    reported = error_text(raised.value)
     assert raised.value.message.id == "autosave.refused"
-    assert os.strerror(errno.ENOSPC) in told
-    assert os.strerror(errno.EROFS) in told
+    assert os.strerror(errno.ENOSPC) in reported
+    assert os.strerror(errno.EROFS) in reported
     # It is tried again.
     assert autosave.due_s == 8.0
     disks.refusing.clear()
@@ -544,7 +544,7 @@ def test_autosaves_of_older_versions_still_work(editor: Editor, folder: Path, do
     assert recoverable_of(document, folder) == (item,)
     assert (item.facts, item.is_file_changed) == (None, False)
     assert load_work(item) == (project, file_hash(document))
-    # Nobody knows what it is based on: perhaps it is older.
+    # No one knows what it is based on: perhaps it is older.
     os.utime(document, (time.time() + 1e6, time.time() + 1e6))
     (item,) = recoverable(folder)
     assert item.is_file_changed

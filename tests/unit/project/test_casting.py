@@ -26,7 +26,7 @@ def test_the_arc_is_open_to_the_audience(count: int) -> None:
     for place, mirrored in zip(places, reversed(places), strict=True):
         assert place.x_m == pytest.approx(-mirrored.x_m)
         assert place.turn_rad == pytest.approx(-mirrored.turn_rad)
-        assert abs(place.turn_rad) < math.pi / 2  # nobody turns the back to the audience
+        assert abs(place.turn_rad) < math.pi / 2  # no one turns the back to the audience
         # Everyone is turned towards the middle.
         assert place.x_m * place.turn_rad <= 0.0
     for one, other in itertools.pairwise(places):

@@ -13,9 +13,9 @@ from app.project.casting import StagePosition, stage_arc
 from app.project.edit import players as edit
 from app.project.edit.corrections import put
 from app.project.model import Project, map_choices, project_from_score
-from app.score.choose import Stream
+from app.score.choose import TrackChannel
 from app.score.model import Note, Part, Score
-from app.score.parts import PartWish, wished_parts
+from app.score.parts import PartAssignment, assigned_parts
 from app.score.tempo import TempoMap
 from instrument_maps.load import bundled_maps
 
@@ -101,7 +101,7 @@ def test_a_newcomer_has_an_empty_part_and_joins_the_arc(trio: Project) -> None:
     assert edit.add_player(empty, MAPS[TRUMPET], MAPS, "")[0].players[0].stage == StagePosition(0.0, 0.0, 0.0)
 
 
-def test_a_double_plays_the_same_part_as_somebody_else(trio: Project) -> None:
+def test_a_double_plays_the_same_part_as_a_user_else(trio: Project) -> None:
     first, second, _ = trio.players
     pinned = put(trio, first.id, [PinFingering("1:1", "13")])
     more, ids = edit.duplicate_players(pinned, (second.id, first.id))
@@ -133,15 +133,15 @@ def test_a_player_may_be_given_another_part(trio: Project) -> None:
         edit.assign(trio, [first.id], part_id="nowhere")
 
 
-def test_an_instrument_that_is_not_there_is_assigned_to_nobody(trio: Project) -> None:
+def test_an_instrument_that_is_not_there_is_assigned_to_no_one(trio: Project) -> None:
     """The same words for a player in a project and for a track of a file."""
     first = trio.players[0]
     assert edit.assign(trio, [first.id], instrument_id="flute").player(first.id).instrument_id == "flute"
     with pytest.raises(AppError, match=r"assign\.instrument_unknown") as caught:
         edit.assign(trio, [first.id], instrument_id="flut")
-    stream = Stream(0, 0, "Lead", "", None, [0], [480], [70], [80], [1], ())
+    stream = TrackChannel(0, 0, "Lead", "", None, [0], [480], [70], [80], [1], ())
     with pytest.raises(AppError) as read:
-        wished_parts([stream], [PartWish((0,), "flut")], map_choices(MAPS.values()), trio.score)
+        assigned_parts([stream], [PartAssignment((0,), "flut")], map_choices(MAPS.values()), trio.score)
     assert read.value.message == caught.value.message
 
 

@@ -112,10 +112,10 @@ def test_a_moved_gesture_or_expression_is_where_it_was_put(event_id: str, ticks:
 def test_a_resized_event_has_the_ends_it_was_given_and_never_turns_round(event_id: str, start: int, end: int) -> None:
     before = event(made(), event_id)
     after = event(plan_of(edit.resize(piece(), made(), (event_id,), start, end)), event_id)
-    wanted = (before.start_tick + start, before.end_tick + end)  # type: ignore[union-attr]
+    requested = (before.start_tick + start, before.end_tick + end)  # type: ignore[union-attr]
     assert after.start_tick < after.end_tick  # type: ignore[union-attr]
-    if wanted[0] < wanted[1]:
-        assert (after.start_tick, after.end_tick) == wanted  # type: ignore[union-attr]
+    if requested[0] < requested[1]:
+        assert (after.start_tick, after.end_tick) == requested  # type: ignore[union-attr]
 
 
 @fast

@@ -33,7 +33,7 @@ def quartet() -> Project:
     )
 
 
-def test_everyone_is_somebody_else(quartet: Project) -> None:
+def test_everyone_is_a_user_else(quartet: Project) -> None:
     assert [player.name for player in quartet.players] == ["Trumpet 1", "trumpet 2", "Pos.", "Bass"]
     assert len({player.id for player in quartet.players}) == 4
     assert len({player.stage for player in quartet.players}) == 4

@@ -1,4 +1,4 @@
-"""What a person may set, and what is said when it is wrong."""
+"""What the user may set, and what is said when it is wrong."""
 
 from __future__ import annotations
 

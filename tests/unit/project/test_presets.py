@@ -1,4 +1,4 @@
-"""Presets and expressions that a person keeps: whatever they are called, and whatever else lies in the folder."""
+"""Presets and expressions that the user keeps: whatever they are called, and whatever else lies in the folder."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def test_a_name_must_be_seen() -> None:
         b"a" * 100, b"x = " + b"[" * 5000,
     ],
 )  # fmt: skip
-def test_what_is_wrong_with_a_file_is_told_and_the_others_are_there(tmp_path: Path, content: bytes) -> None:
+def test_what_is_wrong_with_a_file_is_reported_and_the_others_are_there(tmp_path: Path, content: bytes) -> None:
     presets.save_preset(tmp_path, presets.preset_of(LIVELY, "good"))
     (tmp_path / "bad.toml").write_bytes(content)
     found = presets.presets(tmp_path)

@@ -33,7 +33,7 @@ from app.project.reimport import orphaned, reattached, reimport
 from app.project.storage import load, save
 from app.score.model import Marker, Note, Part, PercussionHit, Score
 from app.score.parts import usual_wishes
-from app.score.read import read_contents, read_midi, wished_score
+from app.score.read import assigned_score, read_contents, read_midi
 from app.score.tempo import TempoChange, TempoMap
 from instrument_maps.load import bundled_maps
 from tests.unit.project.pieces import small_project
@@ -88,11 +88,11 @@ def test_parts_read_as_written_pitches_are_read_so_again() -> None:
     choices = map_choices(MAPS.values())
 
     def score(written: bool, *more: Note) -> Score:
-        wishes = [
-            msgspec.structs.replace(wish, written=written and wish.streams == (0,))
-            for wish in usual_wishes(contents.streams, choices)
+        assignments = [
+            msgspec.structs.replace(assignment, written=written and assignment.streams == (0,))
+            for assignment in usual_wishes(contents.streams, choices)
         ]
-        found = wished_score(contents, wishes, choices)
+        found = assigned_score(contents, assignments, choices)
         return with_notes(found, 0, [*found.parts[0].notes, *more])
 
     project = project_from_score(score(written=True), MAPS)
@@ -344,7 +344,7 @@ def test_twenty_thousand_notes() -> None:
 
 
 def by_hand(project: Project, index: int, change: dict[int, dict[str, int] | None]) -> Project:
-    """Notes of a part, by number, changed (or erased: None) as a person does it."""
+    """Notes of a part, by number, changed (or erased: None) as the user does it."""
     part = project.score.parts[index]
     notes = []
     for number, note in enumerate(part.notes):
@@ -400,7 +400,7 @@ def test_what_a_hand_did_to_notes_stays_where_the_file_did_not_touch_them() -> N
     assert again.project is result.project
 
 
-def test_where_both_changed_a_note_the_files_version_is_taken_and_told() -> None:
+def test_where_both_changed_a_note_the_files_version_is_taken_and_reported() -> None:
     project = read(LUTKIN)
     first = project.score.parts[0].notes
     edited = by_hand(
@@ -424,9 +424,11 @@ def test_where_both_changed_a_note_the_files_version_is_taken_and_told() -> None
     assert first[7].id not in after
     assert after[first[11].id].velocity == 9
     assert after[first[20].id].onset_tick == first[20].onset_tick - 30
-    told = {conflict.note_id: (conflict.by_hand, conflict.file) for conflict in result.conflicts}
+    reported = {conflict.note_id: (conflict.by_hand, conflict.file) for conflict in result.conflicts}
     mine = notes_of(edited)
-    assert told == {id: (mine.get(id), after.get(id)) for id in (first[3].id, first[7].id, first[11].id, first[20].id)}
+    assert reported == {
+        id: (mine.get(id), after.get(id)) for id in (first[3].id, first[7].id, first[11].id, first[20].id)
+    }
     assert result.parts[0].by_hand == 0
 
 

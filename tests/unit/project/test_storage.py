@@ -319,7 +319,7 @@ def test_paths_of_other_systems_stay_what_they_are(tmp_path: Path, path: str) ->
     assert missing_media(project) == Path(path)
 
 
-def test_what_is_not_installed_stays_and_is_told() -> None:
+def test_what_is_not_installed_stays_and_is_reported() -> None:
     project = full_project()
     back = decode(encode(project, Path("/music/a.suisou")), Path("/music/a.suisou"))
     assert back == project
@@ -391,7 +391,7 @@ def test_where_a_file_has_one_name_only_the_backup_is_a_copy(tmp_path: Path, mon
 def test_a_write_protected_file_is_respected(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "piece.suisou"
     save(small_project(), path)
-    # The tests may run as somebody whom no protection stops.
+    # The tests may run as someone whom no protection stops.
     monkeypatch.setattr(os, "access", lambda file, mode: False)
     with pytest.raises(FileError, match=r"project\.read_only"):
         save(small_project(), path)

@@ -140,11 +140,11 @@ def test_a_take_of_a_known_part_lands_on_its_notes() -> None:
     played[12] = (*played[12][:2], played[12][2] + 1, 0.6)
     base, _ = add_takes(base, TRUMPET, [take_of(played, cleaning=Cleaning(align=1.0))])
     found = {note.id: note for note in take_notes(base, TRUMPET, "take:1")}
-    wanted = {note.id: note for note in score_notes}
-    assert len(found.keys() & wanted.keys()) == len(score_notes) - 1
+    requested = {note.id: note for note in score_notes}
+    assert len(found.keys() & requested.keys()) == len(score_notes) - 1
     assert all(
         (found[id].onset_tick, found[id].pitch) == (note.onset_tick, note.pitch)
-        for id, note in wanted.items()
+        for id, note in requested.items()
         if id in found
     )
 

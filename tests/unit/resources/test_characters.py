@@ -276,7 +276,7 @@ def test_skin_weights(character: Character) -> None:
     assert (character.meshes["body"].weights[lips, head] > 0.9).all()
 
 
-def test_nobody_is_undressed(character: Character) -> None:
+def test_no_one_is_undressed(character: Character) -> None:
     """The body's skin is only head, neck and hands; below the collar it is gone, not hidden."""
     skin = character.meshes["body"].t_pose
     beyond_cuff = np.abs(skin[:, 0]) > character.joints["leftHand"][0] - 0.06

@@ -104,11 +104,11 @@ def test_the_tables_of_the_map_can_be_read_and_come_in_the_order_of_the_calls() 
         return work
 
     model, contacts, tables = entry(make)
-    told = tomllib.loads(tables())
-    assert [row["name"] for row in told["controls"]] == ["hole_L1", "key_A"]
-    assert told["controls"][0]["half_value"] == 0.5
-    assert told["controls"][0]["finger"] == "left.index"
-    assert told["links"][0]["controls"] == ["hole_L1"]
+    reported = tomllib.loads(tables())
+    assert [row["name"] for row in reported["controls"]] == ["hole_L1", "key_A"]
+    assert reported["controls"][0]["half_value"] == 0.5
+    assert reported["controls"][0]["finger"] == "left.index"
+    assert reported["links"][0]["controls"] == ["hole_L1"]
     assert [row["part"] for row in contacts()] == ["left.index.pad", "left.index.side", "left.middle.pad"]
     assert contacts()[2]["together"] == ["hole_L1"]
     assert set(model().origins) == {"root", "key_A", "ring"}

@@ -1,4 +1,4 @@
-"""A person's own characters: added, read again, wrong, removed; names that would be paths."""
+"""The user's own characters: added, read again, wrong, removed; names that would be paths."""
 
 import shutil
 from pathlib import Path
@@ -39,7 +39,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return own
 
 
-def test_a_folder_that_is_not_there_holds_nobody(folder: Path) -> None:
+def test_a_folder_that_is_not_there_holds_no_one(folder: Path) -> None:
     assert characters() == dict(bundled_characters())
     assert not folder.exists()
 
@@ -83,7 +83,7 @@ def test_who_cannot_play_is_not_added(folder: Path, tmp_path: Path) -> None:
     assert not folder.exists()
 
 
-def test_the_last_good_version_stays_and_what_is_wrong_is_told(folder: Path) -> None:
+def test_the_last_good_version_stays_and_what_is_wrong_is_reported(folder: Path) -> None:
     id = add_character(OURS, "one")
     good = character_named(id)
     assert not character_problems()
@@ -124,7 +124,7 @@ def test_a_file_with_a_name_in_capitals_is_read_again_too(folder: Path) -> None:
     assert character_revision("one") == 1
 
 
-def test_nobody_takes_the_place_of_one_of_ours(folder: Path) -> None:
+def test_no_one_takes_the_place_of_one_of_ours(folder: Path) -> None:
     folder.mkdir()
     shutil.copy(OURS, folder / "other.glb")
     (folder / "man_adult.toml").write_text('file = "other.glb"\n')

@@ -1,4 +1,4 @@
-"""A face's own morphs make ARKit's shapes: by their names, by the file's expressions, and as a person says."""
+"""A face's own morphs make ARKit's shapes: by their names, by the file's expressions, and as the user says."""
 
 from __future__ import annotations
 
@@ -209,17 +209,17 @@ def test_a_person_has_the_last_word() -> None:
 
 
 @pytest.mark.parametrize(
-    ("wanted", "message", "named"),
+    ("requested", "message", "named"),
     [
         ({"jawOpen": {"Mouth_X": 1.0}}, "figure.no_morph", {"morph": "Mouth_X", "shape": "jawOpen"}),
         ({"jawWide": {"Mouth_A": 1.0}}, "figure.no_shape", {"shape": "jawWide"}),
     ],
 )
 def test_a_correction_that_names_nothing_is_refused(
-    wanted: dict[str, dict[str, float]], message: str, named: dict[str, str]
+    requested: dict[str, dict[str, float]], message: str, named: dict[str, str]
 ) -> None:
     with pytest.raises(FileError) as caught:
-        map_morphs(face_of(["Mouth_A"]), wanted)
+        map_morphs(face_of(["Mouth_A"]), requested)
     assert caught.value.message.id == message
     assert named.items() <= caught.value.message.arguments.items()
     assert WORDINGS[message][0].format(**caught.value.message.arguments)

@@ -412,7 +412,7 @@ def test_a_unit_is_corrected_where_only_one_explains_the_height(height_m: float,
 
 
 @pytest.mark.parametrize("times", [100.0, 0.001])
-def test_a_figure_of_a_wrong_unit_is_told_and_corrected(ours: Character, tmp_path: Path, times: float) -> None:
+def test_a_figure_of_a_wrong_unit_is_reported_and_corrected(ours: Character, tmp_path: Path, times: float) -> None:
     made = foreign(ours)
     world = made.world.copy()
     world[:, :3, 3] *= times

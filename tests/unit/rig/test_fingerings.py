@@ -13,7 +13,7 @@ from app.performance.contacts import bound_mm
 from app.rig import proxy, quaternion, skinning
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.finger_poses import finger_rotations
-from app.rig.hold import FingerTable, HandHold, Hold, Placed, giving_for, hand_targets, wrist_given
+from app.rig.hold import FingerTable, GripPose, HandHold, Placed, giving_for, hand_targets, wrist_given
 from app.rig.hold_file import hold_for
 from app.rig.instrument import node_transforms
 from app.rig.model import Character, InstrumentModel
@@ -43,7 +43,7 @@ class Fingered:
     character: Character
     instrument: InstrumentMap
     model: InstrumentModel
-    hold: Hold
+    hold: GripPose
     labels: list[str]
     working: dict[str, np.ndarray]
     controls: dict[str, np.ndarray]
@@ -110,8 +110,8 @@ def test_every_contact_is_within_its_bound_in_every_fingering(fingered: Fingered
             there = fingered.on_instrument(hand, joints, skin)[:, 0]
             gaps_mm = 1000.0 * np.linalg.norm(there - fingered.points_m(contact), axis=1)
             off = np.flatnonzero(fingered.counts(index) & (gaps_mm > bound_mm(contact)))
-            told = [(fingered.labels[k], round(float(gaps_mm[k]), 2)) for k in off]
-            assert not told, (contact.part, contact.control or contact.node)
+            reported = [(fingered.labels[k], round(float(gaps_mm[k]), 2)) for k in off]
+            assert not reported, (contact.part, contact.control or contact.node)
 
 
 def test_holes_are_left_open(fingered: Fingered) -> None:
@@ -129,8 +129,8 @@ def test_holes_are_left_open(fingered: Fingered) -> None:
             )
             for name in bare:
                 shut = np.flatnonzero((fingered.controls[name] == 0.0) & (gaps_mm <= CLEAR_MM))
-                told = [(fingered.labels[k], round(float(gaps_mm[k]), 2)) for k in shut]
-                assert not told, (contact.part, name)
+                reported = [(fingered.labels[k], round(float(gaps_mm[k]), 2)) for k in shut]
+                assert not reported, (contact.part, name)
 
 
 def test_a_hand_that_gives_way_for_two_fingers_stays_outside(fingered: Fingered) -> None:

@@ -12,7 +12,7 @@ from app.rig import proxy, quaternion, skinning
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.finger_poses import finger_rotations
 from app.rig.fit import fit_hold
-from app.rig.hold import HandHold, Hold, Placed, hand_targets
+from app.rig.hold import GripPose, HandHold, Placed, hand_targets
 from app.rig.hold_file import hold_for
 from app.rig.instrument import node_transforms, part_transform
 from app.rig.lips import fit_lips, lip_places
@@ -30,21 +30,21 @@ PAIRS = [(character, instrument) for character in bundled_characters() for instr
 
 
 @dataclass(frozen=True)
-class Held:
+class SettingBinding:
     character: Character
     instrument: InstrumentMap
     model: InstrumentModel
-    hold: Hold
+    hold: GripPose
 
 
 @pytest.fixture(scope="module", params=PAIRS, ids=lambda pair: "-".join(pair))
-def held(request: pytest.FixtureRequest) -> Held:
+def held(request: pytest.FixtureRequest) -> SettingBinding:
     character, instrument = character_named(request.param[0]), bundled_maps()[request.param[1]]
     model = bundled_instrument(instrument)
-    return Held(character, instrument, model, hold_for(character, model, instrument, load_body()))
+    return SettingBinding(character, instrument, model, hold_for(character, model, instrument, load_body()))
 
 
-def _away(held: Held, side: str) -> list[tuple[str, int]]:
+def _away(held: SettingBinding, side: str) -> list[tuple[str, int]]:
     """The places of a hand's fingers that are not at home: a hand gives way for one at a time."""
     return [
         (finger, number)
@@ -54,12 +54,12 @@ def _away(held: Held, side: str) -> list[tuple[str, int]]:
     ]
 
 
-def _rounds(held: Held) -> range:
+def _rounds(held: SettingBinding) -> range:
     """All at home; then one finger of each hand after the other at each of its other places."""
     return range(1 + max(len(_away(held, side)) for side in ("left", "right")))
 
 
-def _numbers(held: Held, place: int) -> dict[str, int]:
+def _numbers(held: SettingBinding, place: int) -> dict[str, int]:
     """At which of its places each finger is in a round."""
     numbers = dict.fromkeys(stations(held.instrument), 0)
     for side in ("left", "right"):
@@ -70,12 +70,12 @@ def _numbers(held: Held, place: int) -> dict[str, int]:
     return numbers
 
 
-def _at(held: Held, place: int) -> dict[str, Station]:
+def _at(held: SettingBinding, place: int) -> dict[str, Station]:
     """Where the fingers are in a round."""
     return {finger: stations(held.instrument)[finger][number] for finger, number in _numbers(held, place).items()}
 
 
-def _placed(held: Held, place: int) -> dict[str, Placed]:
+def _placed(held: SettingBinding, place: int) -> dict[str, Placed]:
     """The same, as the hold takes it."""
     found = {}
     for finger, number in _numbers(held, place).items():
@@ -84,14 +84,14 @@ def _placed(held: Held, place: int) -> dict[str, Placed]:
     return found
 
 
-def _controls(held: Held, place: int = 0) -> dict[str, np.ndarray]:
+def _controls(held: SettingBinding, place: int = 0) -> dict[str, np.ndarray]:
     """Every control that is worked in a round goes from rest to its end, all at once."""
     worked = {name for station in _at(held, place).values() for name in station.controls}
     carried = {control.name for control in held.instrument.controls if control.finger.endswith(".hand")}
     return dict.fromkeys(worked | carried, GRID)
 
 
-def _fingers(held: Held, place: int = 0) -> JointTransforms:
+def _fingers(held: SettingBinding, place: int = 0) -> JointTransforms:
     """The whole character, only its fingers posed."""
     rotations = np.tile(quaternion.IDENTITY, (len(GRID), len(held.character.skeleton.names), 1))
     turned = finger_rotations(held.hold, _controls(held, place), len(GRID), _placed(held, place))
@@ -100,7 +100,7 @@ def _fingers(held: Held, place: int = 0) -> JointTransforms:
 
 
 def _on_instrument(
-    held: Held, hand: HandHold, transforms: JointTransforms, points: np.ndarray, place: int = 0
+    held: SettingBinding, hand: HandHold, transforms: JointTransforms, points: np.ndarray, place: int = 0
 ) -> np.ndarray:
     """Take points (F, V, 3) of the posed character to where the hand carries them, in the instrument's frame."""
     wrist, _ = transforms.of(held.character.skeleton.index(f"{hand.side}Hand"))
@@ -109,7 +109,7 @@ def _on_instrument(
     return spot[:, None] + quaternion.rotate(turn[:, None], points - wrist[:, None])
 
 
-def _touch(held: Held, contact: Contact, worked: dict[str, np.ndarray]) -> np.ndarray:
+def _touch(held: SettingBinding, contact: Contact, worked: dict[str, np.ndarray]) -> np.ndarray:
     place = held.model.node_positions_m[held.model.node_names.index(contact.node)] + contact.position_m
     mover = next((control for control in held.instrument.controls if control.node == contact.node), None)
     if mover is None or mover.name not in worked:
@@ -118,7 +118,7 @@ def _touch(held: Held, contact: Contact, worked: dict[str, np.ndarray]) -> np.nd
     return quaternion.rotate(turn, place) + moved
 
 
-def test_every_touch_is_met_over_the_whole_travel(held: Held) -> None:
+def test_every_touch_is_met_over_the_whole_travel(held: SettingBinding) -> None:
     for place in _rounds(held):
         transforms, worked = _fingers(held, place), _controls(held, place)
         kept = {index for station in _at(held, place).values() for index in station.contacts}
@@ -151,7 +151,7 @@ def _allowed_m(contact: Contact, place: int) -> float:
     return 0.0026 if ".side" in contact.part else 0.0022
 
 
-def test_no_hand_is_inside_the_instrument(held: Held) -> None:
+def test_no_hand_is_inside_the_instrument(held: SettingBinding) -> None:
     bodies = proxy.bodies(held.instrument.proxy, held.model.node_names)
     for place in _rounds(held):
         transforms, worked = _fingers(held, place), _controls(held, place)
@@ -167,7 +167,7 @@ def test_no_hand_is_inside_the_instrument(held: Held) -> None:
                 assert depth.max() <= 0.003, (hand.side, place, GRID[frame])
 
 
-def test_fingers_stay_within_human_limits(held: Held) -> None:
+def test_fingers_stay_within_human_limits(held: SettingBinding) -> None:
     profile, limits = load_skeleton(), load_body().limits
     names = held.character.skeleton.names
     rotations = finger_rotations(held.hold, _controls(held), len(GRID))
@@ -183,7 +183,7 @@ def test_fingers_stay_within_human_limits(held: Held) -> None:
         assert bound.twist_deg[0] - 0.1 <= twist.min() <= twist.max() <= bound.twist_deg[1] + 0.1, names[joint]
 
 
-def test_tables_are_fine_enough_that_fingers_move_evenly(held: Held) -> None:
+def test_tables_are_fine_enough_that_fingers_move_evenly(held: SettingBinding) -> None:
     fine = np.linspace(0.0, 1.0, 401)
     rotations = finger_rotations(held.hold, {c.name: fine for c in held.instrument.controls}, len(fine))
     step = quaternion.multiply(quaternion.conjugate(rotations[:-1]), rotations[1:])
@@ -192,7 +192,7 @@ def test_tables_are_fine_enough_that_fingers_move_evenly(held: Held) -> None:
     assert np.degrees(speed.max()) < 0.7
 
 
-def test_the_lips_move_with_the_face_as_the_skin_does(held: Held) -> None:
+def test_the_lips_move_with_the_face_as_the_skin_does(held: SettingBinding) -> None:
     body = load_body()
     places = lip_places(held.character, held.instrument, body)
     marks = {**held.character.landmarks, "contact": places.contact, "carrier": places.carrier}
@@ -214,7 +214,7 @@ def test_the_lips_move_with_the_face_as_the_skin_does(held: Held) -> None:
         assert np.all(lips.contact_m(opened, 3)[:, 1] < lips.carried_m(opened, 3)[:, 1])
 
 
-def test_how_far_the_arm_must_be_helped_grows_with_the_slide(held: Held) -> None:
+def test_how_far_the_arm_must_be_helped_grows_with_the_slide(held: SettingBinding) -> None:
     for hand, reach in zip(held.hold.hands, held.hold.reach, strict=True):
         assert reach.side == hand.side
         if hand.motion is None:

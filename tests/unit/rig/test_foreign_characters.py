@@ -114,13 +114,13 @@ def test_limbs_hands_and_head_are_known_by_shape_where_names_say_nothing(path: P
     nameless = replace(figure, bone_names=tuple(f"n{bone}" for bone in range(len(figure.bone_names))), humanoid={})
     found = map_joints(nameless)
     # A file may leave spine bones out, or say that it has no toes; one lone finger is a mitten's.
-    told = {
+    reported = {
         joint: bone
         for joint, bone in mapping.bones.items()
         if not re.search("spine|chest|Eye|jaw", joint, re.IGNORECASE)
         and (path.name != "man_cmu.fbx" or "Thumb" not in joint)
     }
-    assert {joint: found.bones.get(joint) for joint in told} == told
+    assert {joint: found.bones.get(joint) for joint in reported} == reported
     assert found.profile == ""
     assert set(found.doubtful) == set(found.bones)
 

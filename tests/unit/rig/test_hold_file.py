@@ -13,7 +13,7 @@ import pytest
 from app.formats.cache import CACHE_VARIABLE
 from app.rig import hold_file
 from app.rig.character_library import bundled_characters, character_named
-from app.rig.hold import Hold, Lips
+from app.rig.hold import GripPose, Lips
 from app.rig.hold_file import bundled_path, digest_of, hold_for, read_hold, write_hold
 from app.rig.instrument import load_instrument
 from app.rig.lips import fit_lips
@@ -48,7 +48,7 @@ def same(first: Any, second: Any) -> bool:
 
 
 @pytest.fixture(scope="module")
-def shipped() -> tuple[str, Hold]:
+def shipped() -> tuple[str, GripPose]:
     digest = digest_of(*inputs(*PAIRS[0]))
     hold = read_hold(bundled_path(*PAIRS[0]), digest, lips_of(*PAIRS[0]))
     assert hold is not None
@@ -62,13 +62,13 @@ def test_the_shipped_hold_is_up_to_date(pair: tuple[str, str]) -> None:
     )
 
 
-def test_a_hold_comes_back_to_the_bit(tmp_path: Path, shipped: tuple[str, Hold]) -> None:
+def test_a_hold_comes_back_to_the_bit(tmp_path: Path, shipped: tuple[str, GripPose]) -> None:
     digest, hold = shipped
     write_hold(tmp_path / "hold.json", digest, hold)
     assert same(hold, read_hold(tmp_path / "hold.json", digest, hold.lips))
 
 
-def test_a_damaged_or_foreign_file_is_none(tmp_path: Path, shipped: tuple[str, Hold]) -> None:
+def test_a_damaged_or_foreign_file_is_none(tmp_path: Path, shipped: tuple[str, GripPose]) -> None:
     digest, hold = shipped
     path = tmp_path / "hold.json"
     assert read_hold(path, digest, hold.lips) is None
@@ -112,10 +112,12 @@ def test_the_digest_knows_what_fingerings_ask_of_two_fingers_at_once() -> None:
     assert digest_of(character, model, none, body) != digest
 
 
-def test_a_new_pair_is_fitted_once(tmp_path: Path, shipped: tuple[str, Hold], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_new_pair_is_fitted_once(
+    tmp_path: Path, shipped: tuple[str, GripPose], monkeypatch: pytest.MonkeyPatch
+) -> None:
     asked = []
 
-    def fit(*given: Any) -> Hold:
+    def fit(*given: Any) -> GripPose:
         asked.append(given)
         return shipped[1]
 
@@ -129,7 +131,7 @@ def test_a_new_pair_is_fitted_once(tmp_path: Path, shipped: tuple[str, Hold], mo
 
 
 def test_a_cache_that_cannot_be_written_does_not_matter(
-    tmp_path: Path, shipped: tuple[str, Hold], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, shipped: tuple[str, GripPose], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "file").write_bytes(b"")
     monkeypatch.setenv(CACHE_VARIABLE, str(tmp_path / "file"))

@@ -1,4 +1,4 @@
-"""Bones of foreign skeletons become joints: by the file's word, by names, by shape, and as a person corrects them."""
+"""Bones of foreign skeletons become joints: by the file's word, by names, by shape, and as the user corrects them."""
 
 from __future__ import annotations
 
@@ -153,7 +153,7 @@ def test_of_a_rig_the_bones_that_move_the_skin_are_taken() -> None:
     mapping = map_joints(figure)
     assert by_name(bones, mapping) == {joint: f"DEF-{bone}" for joint, bone in known(own).items()}
     assert mapping.profile == "rigify"
-    # They do not hang on one another: whoever looks is told.
+    # They do not hang on one another: whoever looks is reported.
     assert "leftUpperArm" in mapping.doubtful
 
 
@@ -290,7 +290,7 @@ def test_a_spine_of_any_length_is_spread(count: int, expected: dict[str, int]) -
     assert found == {joint: f"spine_0{expected[joint]}" if joint in expected else None for joint in found}
 
 
-def test_a_thumb_of_two_bones_is_told_by_where_it_begins() -> None:
+def test_a_thumb_of_two_bones_is_reported_by_where_it_begins() -> None:
     bones = [bone for bone in listed("mixamo") if bone.name != "mixamorig:LeftHandThumb3"]
     names = by_name(bones, map_joints(figure_of(bones)))
     assert names["leftThumbMetacarpal"] == "mixamorig:LeftHandThumb1"
@@ -322,8 +322,8 @@ def test_what_the_file_says_wins_over_names() -> None:
 
 def test_a_person_has_the_last_word() -> None:
     bones = listed("unreal5")
-    wanted = {"chest": "spine_02", "leftThumbDistal": "", "jaw": "neck_02"}
-    mapping = map_joints(figure_of(bones), wanted)
+    requested = {"chest": "spine_02", "leftThumbDistal": "", "jaw": "neck_02"}
+    mapping = map_joints(figure_of(bones), requested)
     names = by_name(bones, mapping)
     assert names["chest"] == "spine_02"
     assert names["jaw"] == "neck_02"
@@ -335,17 +335,17 @@ def test_a_person_has_the_last_word() -> None:
 
 
 @pytest.mark.parametrize(
-    ("wanted", "message", "named"),
+    ("requested", "message", "named"),
     [
         ({"chest": "spine_99"}, "figure.no_bone", {"bone": "spine_99", "joint": "chest"}),
         ({"breast": "spine_02"}, "figure.no_joint", {"joint": "breast"}),
     ],
 )
 def test_a_correction_that_names_nothing_is_refused(
-    wanted: dict[str, str], message: str, named: dict[str, str]
+    requested: dict[str, str], message: str, named: dict[str, str]
 ) -> None:
     with pytest.raises(FileError) as caught:
-        map_joints(figure_of(listed("unreal5")), wanted)
+        map_joints(figure_of(listed("unreal5")), requested)
     assert caught.value.message.id == message
     assert named.items() <= caught.value.message.arguments.items()
     assert WORDINGS[message][0].format(**caught.value.message.arguments)

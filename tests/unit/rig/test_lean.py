@@ -49,7 +49,7 @@ def test_what_two_fingers_ask_beyond_each_alone_is_found_again(instrument: Instr
     np.testing.assert_allclose(found.turned, stored.turned, atol=0.02)
 
 
-def test_a_hand_that_nobody_asks_or_that_gives_way_for_nobody_keeps_its_leans(
+def test_a_hand_that_no_one_asks_or_that_gives_way_for_no_one_keeps_its_leans(
     instrument: InstrumentMap, left: HandHold
 ) -> None:
     assert leans_beside(left, np.zeros((0, 3)), ()) == ()

@@ -37,10 +37,10 @@ def test_every_joint_is_where_the_matrices_put_it() -> None:
 def test_some_joints_bring_their_ancestors_and_no_others() -> None:
     skeleton = character_named(next(iter(bundled_characters()))).skeleton
     rotations, hips = _pose(skeleton, 2)
-    wanted = skeleton.index("rightIndexDistal")
-    some, everything = fk.forward(skeleton, rotations, hips, [wanted]), fk.forward(skeleton, rotations, hips)
-    assert some.joints == fk.ancestors(skeleton, wanted)
-    np.testing.assert_array_equal(some.of(wanted)[0], everything.of(wanted)[0])
+    requested = skeleton.index("rightIndexDistal")
+    some, everything = fk.forward(skeleton, rotations, hips, [requested]), fk.forward(skeleton, rotations, hips)
+    assert some.joints == fk.ancestors(skeleton, requested)
+    np.testing.assert_array_equal(some.of(requested)[0], everything.of(requested)[0])
 
 
 def test_the_rest_pose_is_the_sum_of_offsets() -> None:

@@ -123,7 +123,7 @@ def test_a_name_with_its_key_goes_to_that_map(map_id: str, name: str) -> None:
     [
         ("Tuba", (30, 45), "tuba_BBb"),
         ("Tuba", (41, 60), "tuba_F"),  # Too high for the BBb tuba: the one that has it most comfortably.
-        ("Trumpet", (60,) * 99 + (84,), "trumpet_Bb"),  # Nobody takes another trumpet for one note of a hundred.
+        ("Trumpet", (60,) * 99 + (84,), "trumpet_Bb"),  # No one takes another trumpet for one note of a hundred.
         ("Recorder", (65, 84), "recorder_alto_F"),
         ("Recorder", (74, 96), "recorder_soprano_C"),
         ("Sax", (50, 80), "sax_alto_Eb"),
@@ -154,7 +154,7 @@ def test_a_track_without_any_name_is_what_the_file_is_called() -> None:
     assert [(part.map_id, part.instrument, part.name) for part in sax.parts] == [
         ("sax_alto_Eb", "alto_saxophone", "Alto Saxophone")
     ]
-    assert [warning.id for warning in sax.warnings] == ["score.told_by_file"]
+    assert [warning.id for warning in sax.warnings] == ["score.instrument_from_file_name"]
     duo = score(("", (60, 86)), ("", (36, 62)), stem="oboe_bassoon_devienne_sonata2")
     assert [part.map_id for part in duo.parts] == ["oboe", "bassoon"]
     mixed = score(("Sopran", (65, 81)), ("Alt", (62, 77)), ("Tenor", (45, 62)), stem="cornets and trombones")
@@ -169,7 +169,7 @@ def test_the_files_name_is_not_heard_where_a_track_says_something_or_does_not_fi
     assert score(("", (60, 70)), stem="tr ob fl").warnings[0].id == "score.chosen_by_range"
 
 
-def test_a_wide_or_rare_instrument_is_given_to_nobody_by_range_alone() -> None:
+def test_a_wide_or_rare_instrument_is_given_to_no_one_by_range_alone() -> None:
     for pitches in ((36, 96), (60, 70), (30, 40), (80, 96)):
         for part in score(("", pitches)).parts:
             assert part.map_id not in ("ewi", "piccolo", "clarinet_A", "tuba_CC", "contrabassoon", "trumpet_C")

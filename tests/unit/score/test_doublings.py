@@ -10,8 +10,8 @@ from app.messages import text
 from app.project.importing import ImportRow, import_project, usual_rows
 from app.project.model import map_choices
 from app.score.model import MOST_VOICES, Score
-from app.score.parts import PartWish
-from app.score.read import read_contents, read_midi, wished_score
+from app.score.parts import PartAssignment
+from app.score.read import assigned_score, read_contents, read_midi
 from instrument_maps.load import bundled_maps
 from tests.unit.score.midi_bytes import END, chunk, header, meta, note
 
@@ -105,14 +105,14 @@ def test_the_muted_program_alone_is_a_trumpet(tmp_path: Path) -> None:
 
 def test_who_merges_the_stretches_has_one_player_again(tmp_path: Path) -> None:
     contents = read_contents(write(tmp_path, "Flute", program(73), LOW, program(72), HIGH, program(73), BACK))
-    (part,) = wished_score(contents, [PartWish((0, 1))], MAPS).parts
+    (part,) = assigned_score(contents, [PartAssignment((0, 1))], MAPS).parts
     assert [one.pitch for one in part.notes] == [72, 74, 86, 88, 90, 76, 77]
 
 
 def test_a_row_of_the_import_is_one_instruments(tmp_path: Path) -> None:
     contents = read_contents(write(tmp_path, "Flute", program(73), LOW, program(72), HIGH))
     rows = usual_rows(contents, bundled_maps())
-    other = ImportRow(rows[1].wish, character_id="somebody")
+    other = ImportRow(rows[1].assignment, character_id="somebody")
     project = import_project(contents, [rows[0], other], bundled_maps())
     # One person plays both, and so is who was chosen for either.
     assert [player.character_id == "somebody" for player in project.players] == [True, True]

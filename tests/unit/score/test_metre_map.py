@@ -91,7 +91,7 @@ def test_bars_and_beats_are_those_that_are_counted_out(given_map: MetreMap) -> N
     end = given_map.metres[-1].tick + 20 * given_map.ticks_per_quarter
     slow = Counted(given_map, end)
     if any(one[1] == two[1] for one, two in pairwise(slow.bars)):
-        return  # Several bars in a tick: a file of a tick to the quarter. Which of them it is nobody can say.
+        return  # Several bars in a tick: a file of a tick to the quarter. Which of them it is no one can say.
     ticks = np.arange(end, dtype=np.int64)
     starts = np.array([start for _, start, _ in slow.bars])
     place = np.searchsorted(starts, ticks, side="right") - 1

@@ -148,7 +148,7 @@ def test_a_part_beyond_its_range_that_fits_as_written_is_said_so() -> None:
         "beat": 2.0,
         "pitch": 72,
     }
-    # Nothing is changed before somebody says so.
+    # Nothing is changed before someone says so.
     assert [note.pitch for note in score.parts[0].notes] == [52, 60, 72]
     # Beyond both, or within as it sounds: nothing is known.
     assert one_part(51, 60, 72, name="Clarinet", maps=(CLARINET,)).warnings == ()

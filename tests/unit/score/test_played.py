@@ -11,8 +11,8 @@ from app.messages import text
 from app.project.model import map_choices
 from app.score.choose import players_named
 from app.score.model import Score
-from app.score.parts import PartWish
-from app.score.read import read_contents, read_midi, wished_score
+from app.score.parts import PartAssignment
+from app.score.read import assigned_score, read_contents, read_midi
 from instrument_maps.load import bundled_maps
 from tests.support.played import Manner, played
 from tests.unit.score.midi_bytes import END, TROMBONE, TRUMPET, chunk, header, meta, note, score_of
@@ -98,7 +98,7 @@ def switch(pitch: int) -> bytes:
     return note(pitch, ticks=6)
 
 
-def test_key_switches_are_left_out_and_told() -> None:
+def test_key_switches_are_left_out_and_reported() -> None:
     music = b"".join(note(pitch) for pitch in (60, 62, 64))
     score = named("Trumpet", (switch(24) + music + switch(26) + music) * 2)
     (part,) = score.parts
@@ -133,7 +133,7 @@ def test_an_unknown_name_is_asked_about(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["", "Track 1", "MIDI 03", "Part", "トラック 2", "Untitled"])
-def test_where_nobody_named_a_track_its_range_chooses_and_says_so(name: str) -> None:
+def test_where_no_one_named_a_track_its_range_chooses_and_says_so(name: str) -> None:
     score = named(name, note(60) + note(62))
     assert [warning.id for warning in score.warnings] == ["score.chosen_by_range"]
 
@@ -143,10 +143,10 @@ def test_who_says_what_an_unknown_name_is_gets_it(tmp_path: Path) -> None:
     track = meta(3, b"Zugpfeife") + note(60) + note(62)
     path.write_bytes(header(1, 2) + chunk(b"MTrk", END) + chunk(b"MTrk", track + END))
     contents = read_contents(path)
-    (part,) = wished_score(contents, [PartWish((0,), "trumpet")], (TRUMPET, TROMBONE)).parts
+    (part,) = assigned_score(contents, [PartAssignment((0,), "trumpet")], (TRUMPET, TROMBONE)).parts
     assert (part.map_id, part.name) == ("trumpet", "Zugpfeife")
     # Ticked but not answered, it still waits.
-    assert wished_score(contents, [PartWish((0,))], (TRUMPET, TROMBONE)).parts == ()
+    assert assigned_score(contents, [PartAssignment((0,))], (TRUMPET, TROMBONE)).parts == ()
 
 
 def test_a_few_low_notes_do_not_change_a_named_instrument() -> None:
@@ -168,6 +168,6 @@ def test_what_is_usual_in_played_files_warns_of_nothing(manner: Manner, tmp_path
     path = tmp_path / "solo_trumpet_bach_bist_du_bei_mir.mid"
     path.write_bytes(played(MIDI / path.name, 3, manner))
     score = read_midi(path, maps=MAPS)
-    assert {warning.id for warning in score.warnings} <= {"score.told_by_file"}
+    assert {warning.id for warning in score.warnings} <= {"score.instrument_from_file_name"}
     assert (score.unplayed, len(score.parts)) == ((), 1)
     assert len(score.tempo_map.changes) > 20

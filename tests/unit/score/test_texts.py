@@ -1,4 +1,4 @@
-"""Texts whose encoding nobody wrote down."""
+"""Texts whose encoding no one wrote down."""
 
 import pytest
 

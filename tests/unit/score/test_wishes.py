@@ -1,4 +1,4 @@
-"""What a person wants of a file's tracks."""
+"""What the user wants of a file's tracks."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import msgspec
 import pytest
 
 from app.project.model import map_choices
-from app.score.parts import PartWish, stream_name, usual_wishes
-from app.score.read import read_contents, read_midi, wished_score
+from app.score.parts import PartAssignment, stream_name, usual_wishes
+from app.score.read import assigned_score, read_contents, read_midi
 from instrument_maps.load import bundled_maps
 
 MIDI = Path(__file__).parents[2] / "data" / "midi" / "ensemble"
@@ -19,14 +19,14 @@ MAPS = map_choices(bundled_maps().values())
 @pytest.mark.parametrize("path", sorted(MIDI.glob("*.mid")), ids=lambda path: path.stem)
 def test_usual_wishes_are_what_the_reader_does(path: Path) -> None:
     contents = read_contents(path)
-    wished = wished_score(contents, usual_wishes(contents.streams, MAPS), MAPS)
+    wished = assigned_score(contents, usual_wishes(contents.streams, MAPS), MAPS)
     assert wished == read_midi(path, maps=MAPS)
 
 
-def test_a_track_nobody_would_play_can_be_given_to_somebody() -> None:
+def test_a_track_no_one_would_play_can_be_given_to_a_user() -> None:
     contents = read_contents(MIDI / "brass_quartet_lutkin_2tpt_tbn_tuba.mid")
     trombone = next(choice.map_id for choice in MAPS if "trombone" in choice.plays)
-    score = wished_score(contents, [PartWish((3,), trombone, name="Bass")], MAPS)
+    score = assigned_score(contents, [PartAssignment((3,), trombone, name="Bass")], MAPS)
     assert [part.name for part in score.parts] == ["Bass"]
     assert {part.map_id for part in score.parts} == {trombone}
     assert len(score.unplayed) == 3
@@ -37,7 +37,7 @@ def test_a_track_nobody_would_play_can_be_given_to_somebody() -> None:
 
 def test_merged_tracks_are_one_line_and_lose_no_note() -> None:
     contents = read_contents(MIDI / "brass_quartet_lutkin_2tpt_tbn_tuba.mid")
-    score = wished_score(contents, [PartWish((0, 1), split="never"), PartWish((2,))], MAPS)
+    score = assigned_score(contents, [PartAssignment((0, 1), split="never"), PartAssignment((2,))], MAPS)
     assert len(score.parts) == 2
     notes = score.parts[0].notes
     assert len(notes) == len(contents.streams[0].pitches) + len(contents.streams[1].pitches)
@@ -45,9 +45,9 @@ def test_merged_tracks_are_one_line_and_lose_no_note() -> None:
     assert [(note.onset_tick, note.pitch) for note in notes] == sorted((note.onset_tick, note.pitch) for note in notes)
 
 
-def test_merged_tracks_are_split_again_where_wanted() -> None:
+def test_merged_tracks_are_split_again_where_requested() -> None:
     contents = read_contents(MIDI / "brass_quartet_lutkin_2tpt_tbn_tuba.mid")
-    score = wished_score(contents, [PartWish((0, 1))], MAPS)
+    score = assigned_score(contents, [PartAssignment((0, 1))], MAPS)
     assert len(score.parts) == 2
     assert len({part.id for part in score.parts}) == 2
 
@@ -56,17 +56,17 @@ BAND = MIDI / "concert_band_hall_tenth_regiment_march.mid"
 SAXOPHONES = {"alto sax": -9, "tenor sax": -14, "baritone sax": -21}
 
 
-def test_written_parts_of_a_real_band_are_told_and_fit_when_read_so() -> None:
+def test_written_parts_of_a_real_band_are_reported_and_fit_when_read_so() -> None:
     contents = read_contents(BAND)
     usual = usual_wishes(contents.streams, MAPS)
-    score = wished_score(contents, usual, MAPS)
-    told = {str(warning.arguments["part"]) for warning in score.warnings if warning.id == "score.looks_written"}
-    assert told == set(SAXOPHONES)
-    wishes = [
-        msgspec.structs.replace(wish, written=stream_name(contents.streams[wish.streams[0]]) in SAXOPHONES)
-        for wish in usual
+    score = assigned_score(contents, usual, MAPS)
+    reported = {str(warning.arguments["part"]) for warning in score.warnings if warning.id == "score.looks_written"}
+    assert reported == set(SAXOPHONES)
+    assignments = [
+        msgspec.structs.replace(assignment, written=stream_name(contents.streams[assignment.streams[0]]) in SAXOPHONES)
+        for assignment in usual
     ]
-    read = wished_score(contents, wishes, MAPS)
+    read = assigned_score(contents, assignments, MAPS)
     assert "score.looks_written" not in [warning.id for warning in read.warnings]
     for before, now in zip(score.parts, read.parts, strict=True):
         shift = SAXOPHONES.get(now.name, 0)

@@ -1,4 +1,4 @@
-"""What a MIDI file cannot hold is told, and bounds are kept."""
+"""What a MIDI file cannot hold is reported, and bounds are kept."""
 
 from __future__ import annotations
 
@@ -68,13 +68,13 @@ def test_a_part_that_says_nothing_is_read_for_who_plays_it(tmp_path: Path) -> No
     assert read.warnings == ()
 
 
-def test_a_name_that_says_another_instrument_is_told() -> None:
+def test_a_name_that_says_another_instrument_is_reported() -> None:
     given = midi_file(score(part("Violin 1", instrument="violin")), {"p": Performer("Violin 1", TRUMPET)})
     assert [warning.id for warning in given.warnings] == ["midi.name_says_other"]
     assert midi_file(score(part()), {"p": Performer("Trumpet 2", TRUMPET)}).warnings == ()
 
 
-def test_notes_together_are_told() -> None:
+def test_notes_together_are_reported() -> None:
     both = (Note("2:1", 0, 96, 60, 64), Note("2:2", 0, 96, 64, 64))
     assert [warning.id for warning in midi_file(score(part(notes=both))).warnings] == ["midi.shared_again"]
 

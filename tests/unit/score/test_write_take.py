@@ -110,6 +110,6 @@ def test_nothing_is_a_file_too(tmp_path: Path) -> None:
     assert file.length == pytest.approx(1.0)
 
 
-def test_a_folder_that_is_not_there_is_told(tmp_path: Path) -> None:
+def test_a_folder_that_is_not_there_is_reported(tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"file\.cannot_write"):
         write_take(tmp_path / "nowhere" / "take.mid", [], [], name="")

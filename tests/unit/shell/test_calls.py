@@ -54,7 +54,7 @@ def test_one_that_waits_in_a_dialog_does_not_hold_the_others(qtbot: QtBot) -> No
     assert made == ["other", "dialog closed"]
 
 
-def test_asking_a_window_that_is_gone_harms_nobody(qtbot: QtBot) -> None:
+def test_asking_a_window_that_is_gone_harms_no_one(qtbot: QtBot) -> None:
     calls = Calls()
     ask = calls.ask
     del calls

@@ -24,9 +24,9 @@ def test_platforms_without_a_display_are_let_through() -> None:
     assert why_no_display({"QT_QPA_PLATFORM": "xcb"}, "linux") is not None
 
 
-def test_a_display_where_nobody_answers() -> None:
-    assert "nobody answers at :7177" in (why_no_display({"DISPLAY": ":7177"}, "linux") or "")
-    assert "nobody answers" in (why_no_display({"WAYLAND_DISPLAY": "wayland-7177"}, "linux") or "")
+def test_a_display_where_no_one_answers() -> None:
+    assert "none answers at :7177" in (why_no_display({"DISPLAY": ":7177"}, "linux") or "")
+    assert "none answers" in (why_no_display({"WAYLAND_DISPLAY": "wayland-7177"}, "linux") or "")
 
 
 def test_a_display_that_answers() -> None:

@@ -13,7 +13,7 @@ def best(query: str, *texts: str) -> str:
 
 
 @pytest.mark.parametrize(
-    ("query", "wanted", "others"),
+    ("query", "requested", "others"),
     [
         ("save", "Save", ("Save As", "Unsaved work")),
         ("sa", "Save As", ("Close Project", "Undo")),
@@ -24,8 +24,8 @@ def best(query: str, *texts: str) -> str:
         ("ライト", "ライトテーマ", ("ダークテーマ",)),
     ],
 )
-def test_the_best_fit(query: str, wanted: str, others: tuple[str, ...]) -> None:
-    assert best(query, wanted, *others) == wanted
+def test_the_best_fit(query: str, requested: str, others: tuple[str, ...]) -> None:
+    assert best(query, requested, *others) == requested
 
 
 def test_letters_must_be_there_in_their_order() -> None:

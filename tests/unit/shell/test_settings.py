@@ -79,8 +79,8 @@ def test_a_file_that_cannot_be_read_is_named_and_left_as_it_is(tmp_path: Path, c
     path = tmp_path / "editor.toml"
     path.write_bytes(content)
     settings = Settings(path)
-    told: list[Message] = []
-    settings.failed.connect(told.append)
+    reported: list[Message] = []
+    settings.failed.connect(reported.append)
     assert settings.count_in_bars == 1
     assert [problem.arguments["file"] for problem in settings.problems] == [str(path)] * 2
     settings.theme = "light"
@@ -88,7 +88,7 @@ def test_a_file_that_cannot_be_read_is_named_and_left_as_it_is(tmp_path: Path, c
     assert settings.theme == "light"
     assert path.read_bytes() == content
     # It was said already.
-    assert told == []
+    assert reported == []
     # What was chosen meanwhile is kept as soon as the file is correct again.
     path.write_text("[interface]\nlanguage = 'ja'\n")
     settings.sync()
@@ -96,16 +96,16 @@ def test_a_file_that_cannot_be_read_is_named_and_left_as_it_is(tmp_path: Path, c
     assert (again.theme, again.language, again.problems) == ("light", "ja", ())
 
 
-def test_a_file_that_cannot_be_written_is_told_once(tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_written_is_reported_once(tmp_path: Path) -> None:
     settings = Settings(tmp_path / "config" / "editor.toml")
     (tmp_path / "config").touch()
-    told: list[Message] = []
-    settings.failed.connect(told.append)
+    reported: list[Message] = []
+    settings.failed.connect(reported.append)
     for theme in ("light", "dark", "light"):
         settings.theme = theme
         settings.sync()
     assert settings.theme == "light"
-    assert [message.id for message in told] == ["file.cannot_read", "settings.set_aside"]
+    assert [message.id for message in reported] == ["file.cannot_read", "settings.set_aside"]
 
 
 def test_two_editors_keep_what_the_other_chose(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from app.shell import streamer
-from app.shell.streamer import RESTING_S, SETTLED_S, _Anchor, _Thread, _Wish
+from app.shell.streamer import RESTING_S, SETTLED_S, _Anchor, _Request, _Thread
 
 RATE_HZ = 30
 LATE_S = 0.002
@@ -46,16 +46,18 @@ class Sending:
     def __init__(self, clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(streamer, "time", clock)
         self.clock = clock
-        self.thread = _Thread(cast(Any, SimpleNamespace(is_live=False)), cast(Any, SimpleNamespace(tell=lambda *_: 0)))
+        self.thread = _Thread(
+            cast(Any, SimpleNamespace(is_live=False)), cast(Any, SimpleNamespace(report=lambda *_: 0))
+        )
         self.thread._changed = Waiting(clock)
         self.sent_s: list[float] = []
         self.places_s: list[float] = []
         self.thread._send = self.send  # type: ignore[method-assign]
-        self.thread.wish(_Wish(cast(Any, None), (), (), (), (), cast(Any, None), RATE_HZ, False))
+        self.thread.request(_Request(cast(Any, None), (), (), (), (), cast(Any, None), RATE_HZ, False))
         self.due_s = clock.now_s - LATE_S
         self.busy_s = 0.0
 
-    def send(self, wish: _Wish, time_s: float, now_s: float) -> bool:
+    def send(self, request: _Request, time_s: float, now_s: float) -> bool:
         self.sent_s.append(now_s)
         self.places_s.append(time_s)
         self.clock.now_s += self.busy_s

@@ -21,11 +21,11 @@ def tasks(qtbot: QtBot) -> ThreadTasks:
     return ThreadTasks()
 
 
-def test_work_is_done_elsewhere_and_told_here(tasks: ThreadTasks, qtbot: QtBot) -> None:
+def test_work_is_done_elsewhere_and_reported_here(tasks: ThreadTasks, qtbot: QtBot) -> None:
     threads: list[object] = []
     here = threading.get_ident()
 
-    def work(progress: object, stop_wanted: object) -> int:
+    def work(progress: object, stop_requested: object) -> int:
         threads.append(threading.get_ident())
         return 7
 
@@ -40,16 +40,16 @@ def test_work_is_done_elsewhere_and_told_here(tasks: ThreadTasks, qtbot: QtBot) 
 
 
 def test_progress_is_kept_within_its_bounds(tasks: ThreadTasks, qtbot: QtBot) -> None:
-    told, go_on = threading.Event(), threading.Event()
+    reported, go_on = threading.Event(), threading.Event()
 
-    def work(progress, stop_wanted) -> None:  # type: ignore[no-untyped-def]
+    def work(progress, stop_requested) -> None:  # type: ignore[no-untyped-def]
         progress(0.5)
-        told.set()
+        reported.set()
         go_on.wait(5)
         progress(7.0)
 
     tasks.run(NAME, work, lambda nothing: None)
-    assert told.wait(5)
+    assert reported.wait(5)
     task = tasks.running[0]
     assert task.share == 0.5
     go_on.set()
@@ -61,8 +61,8 @@ def test_a_cancelled_work_is_asked_to_stop_and_its_result_dropped(tasks: ThreadT
     results: list[object] = []
     ended = threading.Event()
 
-    def work(progress, stop_wanted) -> str:  # type: ignore[no-untyped-def]
-        while not stop_wanted():
+    def work(progress, stop_requested) -> str:  # type: ignore[no-untyped-def]
+        while not stop_requested():
             QThread.msleep(1)
         ended.set()
         return "late"
@@ -78,13 +78,13 @@ def test_a_cancelled_work_is_asked_to_stop_and_its_result_dropped(tasks: ThreadT
 def test_the_same_key_takes_the_place(tasks: ThreadTasks, qtbot: QtBot) -> None:
     results: list[object] = []
 
-    def slow(progress, stop_wanted) -> str:  # type: ignore[no-untyped-def]
-        while not stop_wanted():
+    def slow(progress, stop_requested) -> str:  # type: ignore[no-untyped-def]
+        while not stop_requested():
             QThread.msleep(1)
         return "slow"
 
     tasks.run(NAME, slow, results.append, key="plan")
-    tasks.run(NAME, lambda progress, stop_wanted: "fast", results.append, key="plan")
+    tasks.run(NAME, lambda progress, stop_requested: "fast", results.append, key="plan")
     qtbot.waitUntil(lambda: results == ["fast"])
     qtbot.wait(30)
     assert results == ["fast"]
@@ -92,13 +92,13 @@ def test_the_same_key_takes_the_place(tasks: ThreadTasks, qtbot: QtBot) -> None:
 
 def test_errors_go_where_they_belong(tasks: ThreadTasks, qtbot: QtBot) -> None:
     own: list[AppError] = []
-    told: list[AppError] = []
+    reported: list[AppError] = []
     faults: list[BaseException] = []
-    tasks.failed.connect(told.append)
+    tasks.failed.connect(reported.append)
     tasks.unexpected.connect(faults.append)
 
     def raising(error: BaseException):  # type: ignore[no-untyped-def]
-        def work(progress: object, stop_wanted: object) -> None:
+        def work(progress: object, stop_requested: object) -> None:
             raise error
 
         return work
@@ -112,13 +112,13 @@ def test_errors_go_where_they_belong(tasks: ThreadTasks, qtbot: QtBot) -> None:
     tasks.run(NAME, raising(KeyError(5)), done, own.append)
     qtbot.waitUntil(lambda: not tasks.running)
     assert [error.message.arguments["file"] for error in own] == ["a"]
-    assert [error.message.arguments["file"] for error in told] == ["b"]
+    assert [error.message.arguments["file"] for error in reported] == ["b"]
     assert [type(error) for error in faults] == [KeyError]
 
 
 def test_ending_waits_for_the_workers(tasks: ThreadTasks, qtbot: QtBot) -> None:
-    def work(progress, stop_wanted) -> None:  # type: ignore[no-untyped-def]
-        while not stop_wanted():
+    def work(progress, stop_requested) -> None:  # type: ignore[no-untyped-def]
+        while not stop_requested():
             QThread.msleep(1)
 
     tasks.run(NAME, work, lambda nothing: None)
@@ -132,15 +132,15 @@ def test_what_the_work_knew_dies_in_the_window_s_thread_alone(qtbot: QtBot) -> N
     """Whoever forgets the tasks, and however late the thread is: what its work held is let go of here."""
     died: list[int] = []
 
-    class Held:
+    class SettingBinding:
         def __del__(self) -> None:
             died.append(threading.get_ident())
 
     def begin(end: threading.Event, outcome: Exception | None) -> None:
-        held, tasks = Held(), ThreadTasks()
+        held, tasks = SettingBinding(), ThreadTasks()
         tasks.destroyed.connect(lambda: died.append(threading.get_ident()))
 
-        def work(progress: object, stop_wanted: object) -> Held:
+        def work(progress: object, stop_requested: object) -> SettingBinding:
             end.wait(5)
             if outcome is not None:
                 raise outcome
@@ -162,7 +162,7 @@ def test_what_the_work_knew_dies_in_the_window_s_thread_alone(qtbot: QtBot) -> N
     assert set(died) == {threading.get_ident()}
 
 
-def test_whoever_was_closed_meanwhile_is_told_nothing(tasks: ThreadTasks, qtbot: QtBot) -> None:
+def test_whoever_was_closed_meanwhile_is_reported_nothing(tasks: ThreadTasks, qtbot: QtBot) -> None:
     faults: list[BaseException] = []
     tasks.unexpected.connect(faults.append)
 
@@ -174,7 +174,7 @@ def test_whoever_was_closed_meanwhile_is_told_nothing(tasks: ThreadTasks, qtbot:
             faults.append(AssertionError("told"))
 
     panel, end = Panel(), threading.Event()
-    tasks.run(NAME, lambda progress, stop_wanted: end.wait(5), panel.take, ended=panel.ended)
+    tasks.run(NAME, lambda progress, stop_requested: end.wait(5), panel.take, ended=panel.ended)
     delete(panel)
     end.set()
     qtbot.waitUntil(lambda: not tasks.running)
@@ -182,22 +182,24 @@ def test_whoever_was_closed_meanwhile_is_told_nothing(tasks: ThreadTasks, qtbot:
 
 
 @pytest.mark.parametrize("outcome", [None, AppError("midi.empty", file="a"), Cancelled("work.stopped"), KeyError(1)])
-def test_the_end_is_told_first_whatever_it_was(tasks: ThreadTasks, qtbot: QtBot, outcome: BaseException | None) -> None:
-    told: list[str] = []
-    tasks.unexpected.connect(lambda fault: told.append("fault"))
+def test_the_end_is_reported_first_whatever_it_was(
+    tasks: ThreadTasks, qtbot: QtBot, outcome: BaseException | None
+) -> None:
+    reported: list[str] = []
+    tasks.unexpected.connect(lambda fault: reported.append("fault"))
 
-    def work(progress: object, stop_wanted: object) -> None:
+    def work(progress: object, stop_requested: object) -> None:
         if outcome is not None:
             raise outcome
 
     tasks.run(
         NAME,
         work,
-        lambda nothing: told.append("done"),
-        lambda error: told.append("failed"),
+        lambda nothing: reported.append("done"),
+        lambda error: reported.append("failed"),
         None,
-        lambda: told.append("ended"),
+        lambda: reported.append("ended"),
     )
     qtbot.waitUntil(lambda: not tasks.running)
     expected = {type(None): ["done"], AppError: ["failed"], Cancelled: [], KeyError: ["fault"]}[type(outcome)]
-    assert told == ["ended", *expected]
+    assert reported == ["ended", *expected]

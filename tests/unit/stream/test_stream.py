@@ -242,10 +242,10 @@ def test_packets_fit_and_the_face_is_applied_once_at_its_end() -> None:
     for naming in FACE_NAMES:
         packets = Sent(character, "trombone_tenor", naming).datagrams(pose, 1.0)
         assert max(map(len, packets)) <= MOST_BYTES
-        told = [message for packet in packets for message in read_packet(packet)]
-        assert [message.address for message in told].count("/VMC/Ext/Blend/Apply") == 1
-        assert told[-1].address == "/VMC/Ext/Blend/Apply"
-        assert told[0].address == "/VMC/Ext/OK"
+        reported = [message for packet in packets for message in read_packet(packet)]
+        assert [message.address for message in reported].count("/VMC/Ext/Blend/Apply") == 1
+        assert reported[-1].address == "/VMC/Ext/Blend/Apply"
+        assert reported[0].address == "/VMC/Ext/OK"
 
 
 def test_faces_in_the_names_that_a_receiver_knows() -> None:
@@ -340,7 +340,7 @@ def test_over_the_wire() -> None:
         assert [packet for _, packet in receiver.packets] == packets * 30
 
 
-def test_nobody_there_does_not_hurt_and_who_comes_later_hears() -> None:
+def test_no_one_there_does_not_hurt_and_who_comes_later_hears() -> None:
     character, pose = pose_of(0, 1.0)
     packets = Sent(character, "horn").datagrams(pose, 1.0)
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
@@ -411,7 +411,7 @@ def test_numbers_are_what_the_library_would_write() -> None:
     for packet in Sent(character, "horn").datagrams(pose, 2.5):
         messages = list(OscBundle(packet))
         assert [(message.address, tuple(message.params)) for message in messages] == [
-            (told.address, told.arguments) for told in read_packet(packet)
+            (reported.address, reported.arguments) for reported in read_packet(packet)
         ]
 
 

@@ -106,9 +106,9 @@ def test_widening_keeps_the_zoom() -> None:
 def test_an_edge_stops_before_the_other(tick: int, at_start: bool) -> None:
     start, end = moved_edge(0, 10, at_start, tick)
     assert end - start >= 1
-    kept, wanted = (end, start) if at_start else (start, end)
+    kept, requested = (end, start) if at_start else (start, end)
     assert kept == (10 if at_start else 0)
-    assert wanted == tick or end - start == 1
+    assert requested == tick or end - start == 1
 
 
 def test_a_drag_is_one_step_and_can_be_taken_back() -> None:

@@ -27,8 +27,8 @@ def test_joints_and_skin_are_where_the_rig_puts_them(row: int) -> None:
     own = pose(row)
     transforms = forward(character.skeleton, own.rotations[None], own.hips_m[None])
     world = placed(player.stage)
-    wanted = transforms.positions_m[0] @ world[:, :3].T + world[:, 3]
-    assert stage.joints[row, : len(wanted), :, 3] == pytest.approx(wanted, abs=1e-6)
+    requested = transforms.positions_m[0] @ world[:, :3].T + world[:, 3]
+    assert stage.joints[row, : len(requested), :, 3] == pytest.approx(requested, abs=1e-6)
 
     mesh = character.meshes[0]
     vertices = np.arange(0, len(mesh.positions_m), 97)
@@ -48,9 +48,9 @@ def test_instruments_nodes_are_where_the_map_moves_them(row: int) -> None:
         for off in ([0.0, 0.0, 0.0], [0.01, 0.02, -0.03]):
             inside = rotate(turns[0, node], np.array(off)) + places[0, node]
             player_m = rotate(own.instrument_rotation, inside) + own.instrument_position_m
-            wanted = world[:, :3] @ player_m + world[:, 3]
+            requested = world[:, :3] @ player_m + world[:, 3]
             matrix = stage.node_matrix(row, node)
-            assert matrix[:, :3] @ (rest + off) + matrix[:, 3] == pytest.approx(wanted, abs=2e-6)
+            assert matrix[:, :3] @ (rest + off) + matrix[:, 3] == pytest.approx(requested, abs=2e-6)
 
 
 def test_the_hands_of_a_real_performance_touch_their_instruments() -> None:
@@ -71,7 +71,7 @@ def test_poses_of_some_leave_the_others_as_they_were() -> None:
     assert np.abs(stage.bones[1] - before[1]).max() > 1e-4
 
 
-def test_nobody_is_shown_before_there_is_a_pose() -> None:
+def test_no_one_is_shown_before_there_is_a_pose() -> None:
     project = quartet()
     stage = Stage([member_of(player, kit_of(player)) for player in project.players])
     assert not stage.shown.any()

@@ -1,4 +1,4 @@
-"""The camera between views, flights, followed players and a person's hand, on a clock of the test's own."""
+"""The camera between views, flights, followed players and the user's hand, on a clock of the test's own."""
 
 from __future__ import annotations
 

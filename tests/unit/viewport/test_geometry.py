@@ -37,16 +37,16 @@ def area(geometry: Geometry) -> float:
 @pytest.mark.parametrize("name", CHARACTERS)
 def test_the_finest_level_is_every_triangle_where_it_was_in_its_own_colour(name: str) -> None:
     character, geometry = character_named(name), levels(name)[0]
-    wanted = set()
+    requested = set()
     for mesh in character.meshes:
         for triangle, material in zip(mesh.triangles, mesh.triangle_materials, strict=True):
             color = tuple(np.float32(mesh.materials[material].base_color[:3]).tolist())
-            wanted.add((mesh.positions_m[triangle].tobytes(), color))
+            requested.add((mesh.positions_m[triangle].tobytes(), color))
     places = geometry.shape["a_position"][geometry.triangles]
     colors = geometry.surface["a_color"][geometry.triangles][:, :, :3]
     assert (colors == colors[:, :1]).all()
     found = {(place.tobytes(), tuple(color[0].tolist())) for place, color in zip(places, colors, strict=True)}
-    assert found == wanted
+    assert found == requested
 
 
 @pytest.mark.parametrize("name", CHARACTERS)

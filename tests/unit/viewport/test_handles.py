@@ -149,7 +149,7 @@ def test_a_pose_of_no_angles_is_no_correction() -> None:
 
 @pytest.mark.parametrize("posture", ["standing", "seated"])
 @pytest.mark.parametrize("target", TARGETS)
-def test_nobody_is_turned_farther_than_the_plan_lets_them(target: PoseTarget, posture: str) -> None:
+def test_no_one_is_turned_farther_than_the_plan_lets_them(target: PoseTarget, posture: str) -> None:
     project = quartet()
     for player in project.players:
         parameters = msgspec.structs.replace(player.parameters, posture=posture)

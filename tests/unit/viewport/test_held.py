@@ -47,9 +47,9 @@ def test_nodes_of_every_kind_are_where_the_map_moves_them() -> None:
         for node, rest_m in enumerate(model.node_positions_m):
             for off_m in ([0.0, 0.0, 0.0], [0.01, 0.02, -0.03]):
                 inside_m = rotate(rotations[0, node], np.array(off_m)) + places_m[0, node]
-                wanted_m = held[row, :, :3] @ inside_m + held[row, :, 3]
+                requested_m = held[row, :, :3] @ inside_m + held[row, :, 3]
                 found_m = matrices[row, node, :, :3] @ (rest_m + off_m) + matrices[row, node, :, 3]
-                assert found_m == pytest.approx(wanted_m, abs=1e-9), (instrument.id, model.node_names[node])
+                assert found_m == pytest.approx(requested_m, abs=1e-9), (instrument.id, model.node_names[node])
 
 
 def test_a_control_that_is_not_named_is_at_rest() -> None:
@@ -63,7 +63,7 @@ def test_a_control_that_is_not_named_is_at_rest() -> None:
     assert (instruments.matrices(held) == at_rest).all()
 
 
-def test_there_may_be_nobody_and_nothing_that_moves() -> None:
+def test_there_may_be_no_one_and_nothing_that_moves() -> None:
     assert Instruments([]).matrices(np.zeros((0, 3, 4))).shape == (0, 0, 3, 4)
     recorder = bundled_maps()["recorder_soprano_C"]
     assert not recorder.moving_parts

@@ -162,7 +162,7 @@ class ActingLane(RegionLane):
         return (project.players, said, *(other.cues for other in plans.values() if other is not plan))
 
     def _varied(self, player_id: str) -> list[Region]:
-        """The bars that a person let the player perform anew."""
+        """The bars that the user let the player perform anew."""
         clock = self.session.project.score.tempo_map
         return [
             Region(
@@ -279,15 +279,15 @@ class ActingLane(RegionLane):
     def snapped_move(self, region: Region, ticks: float, mouse: LaneMouse) -> int:
         if region.kind != "cue":
             return super().snapped_move(region, ticks, mouse)
-        score, wanted = self.session.project.score, region.end_tick + ticks
+        score, requested = self.session.project.score, region.end_tick + ticks
         player = self.session.project.player(region.player_id)
         notes = self.session.project.part(player).notes
         if not mouse.alt:
             onsets = np.array([note.onset_tick for note in notes], np.float64)
-            entry = entry_near(onsets, wanted, score.tempo_map, CUE_REACH_PX / self.axis.px_per_s)
+            entry = entry_near(onsets, requested, score.tempo_map, CUE_REACH_PX / self.axis.px_per_s)
             if entry is not None:
                 return entry - region.end_tick
-        return self.snap(wanted, mouse) - region.end_tick
+        return self.snap(requested, mouse) - region.end_tick
 
     def group_at(self, y_px: float) -> str:
         """The kind whose rows are at a height."""

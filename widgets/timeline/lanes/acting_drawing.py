@@ -16,7 +16,7 @@ from widgets.timeline.model.regions import HANDLE_PX
 from widgets.timeline.plot import LaneView
 
 LEAST_SHAPE_PX = 6.0
-"""Something narrower is a bar: nobody sees its fades."""
+"""Something narrower is a bar: no one sees its fades."""
 
 
 class ActingView(LaneView, Protocol):

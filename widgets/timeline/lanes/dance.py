@@ -17,7 +17,7 @@ from app.project.document import Change
 from app.project.edit import dance_corrections as edit
 from app.project.model import Dancer, Project
 from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopWanted
+from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import sentence
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import Lane, LaneMouse
@@ -65,7 +65,7 @@ class DanceLane(Lane):
         self.update_items()
 
     def empty_text(self) -> str:
-        """How there comes to be a dance; empty where somebody dances."""
+        """How there comes to be a dance; empty where someone dances."""
         return "" if self.dancers else self.tr("dance_lane.no_dancers_yet_add_one")
 
     def reason(self, dance: DanceSteps) -> str:
@@ -319,10 +319,10 @@ class DanceLane(Lane):
         return True
 
 
-def _finder(performance: Performance) -> Callable[[Progress, StopWanted], dict[str, DanceSteps]]:
-    def work(progress: Progress, stop_wanted: StopWanted) -> dict[str, DanceSteps]:
+def _finder(performance: Performance) -> Callable[[Progress, StopRequested], dict[str, DanceSteps]]:
+    def work(progress: Progress, stop_requested: StopRequested) -> dict[str, DanceSteps]:
         from app.performance.dance_steps import dances_of
 
-        return dances_of(performance, stop_wanted, progress)
+        return dances_of(performance, stop_requested, progress)
 
     return work

@@ -210,7 +210,7 @@ class RegionLane(Lane):
         """The regions are others."""
 
     def removed_regions(self, plan: PlayerPlan, kinds: Iterable[str], row: Callable[[str], int]) -> list[Region]:
-        """Marks of what a person took out of the generator's."""
+        """Marks of what the user took out of the generator's."""
         project, among = self.session.project, frozenset(kinds)
         onsets: dict[str, int] = {}
         result = []
@@ -319,20 +319,20 @@ class RegionLane(Lane):
 
     def _change_amounts(self, change: Callable[[Region], float], token: object | None = None) -> None:
         """Give all selected regions of the lane another amount."""
-        wanted: dict[str, dict[str, float]] = defaultdict(dict)
+        requested: dict[str, dict[str, float]] = defaultdict(dict)
         for key in self.session.selection.events:
             region = self._table.by_key.get(key)
             if region is not None and not region.removed and not region.steady:
-                wanted[key.player_id][key.event_id] = change(region)
+                requested[key.player_id][key.event_id] = change(region)
         plans = self.session.performance.plans if self.session.performance.planned else {}
 
         def edit(project: Project) -> Project:
-            for player_id, amounts in wanted.items():
+            for player_id, amounts in requested.items():
                 project = set_amounts(project, plans[player_id], amounts)
             return project
 
-        if wanted and plans:
-            count = sum(map(len, wanted.values()))
+        if requested and plans:
+            count = sum(map(len, requested.values()))
             self.session.attempt(Message("edit.set_event_amount", {"count": count}), edit, token)
 
     def key(self, event: QKeyEvent) -> bool:
@@ -383,7 +383,7 @@ class RegionLane(Lane):
             self.plot.setToolTip(self.tip(region) if region is not None else "")
 
     def tip(self, region: Region) -> str:
-        """What is told of a region under the mouse."""
+        """What is reported of a region under the mouse."""
         lines = [region.label or self.kind_name(region.kind)]
         if region.removed:
             lines = [self.kind_name(region.kind), self.tr("region_lane.deleted_by_hand")]

@@ -168,13 +168,13 @@ class TakeHeads(QWidget):
             painter.fillRect(
                 QRectF(0.0, box.top() + 1.0, BAR_PX, box.height() - 2.0), QColor(lane.model.colour_of(row.take_id))
             )
-            is_heard = heard is not None and heard.take_id == row.take_id
-            shows_button = hovered or chosen or is_heard
+            is_audible = heard is not None and heard.take_id == row.take_id
+            shows_button = hovered or chosen or is_audible
             right = self.width() - (BUTTON_PX + 4.0 if shows_button else 4.0)
             self._paint_words(painter, row, QRectF(BAR_PX + 5.0, box.top(), right - BAR_PX - 5.0, box.height()))
             if shows_button:
                 pixels = self._button(box).toRect().adjusted(3, 3, -3, -3)
-                icon("stop" if is_heard else "play", tokens, tokens.accent if is_heard else tokens.text).paint(
+                icon("stop" if is_audible else "play", tokens, tokens.accent if is_audible else tokens.text).paint(
                     painter, pixels
                 )
             painter.setPen(QPen(QColor(tokens.line), 1.0))

@@ -362,11 +362,11 @@ class TakesLane(Lane):
 
     def step(self, by: int) -> None:
         """Take the selected span from the take above (-1) or below (1); without a span, select that take."""
-        selection, wanted = self.session.selection, self.model.beside(by)
+        selection, requested = self.session.selection, self.model.beside(by)
         if selection.span is None:
-            self.choose(wanted)
-        elif wanted != self.model.current():
-            self.take_span(wanted, *selection.span)
+            self.choose(requested)
+        elif requested != self.model.current():
+            self.take_span(requested, *selection.span)
 
     def _step_span(self, by: int) -> None:
         span = self.model.span_beside(by, self.session.playhead_s)

@@ -23,7 +23,7 @@ GROUPS: tuple[tuple[str, ...], ...] = (
 )
 """Kinds that share rows, from the top."""
 VARIED = "vary"
-"""Bars performed anew: not an event, but a person chose it; its row is there only with them, above all others."""
+"""Bars performed anew: not an event, but the user chose it; its row is there only with them, above all others."""
 STRIPS = ("bell_height", "weight_shift", "sway")
 """Kinds of which there are so many that what is generated is drawn as one calm strip."""
 BASE = "expression:neutral"

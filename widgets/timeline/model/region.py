@@ -34,7 +34,7 @@ class Region(msgspec.Struct):
     fixed : bool
         It stays where it is: it can only be taken back.
     removed : bool
-        A person took it out: only its place is shown.
+        The user took it out: only its place is shown.
     """
 
     player_id: str

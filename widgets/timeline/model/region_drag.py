@@ -223,7 +223,7 @@ class RegionDrag(Gesture):
                     new_keys[EventKey(player_id, old)] = EventKey(player_id, new)
             return project
 
-        # Set before the edit: what is told of it draws already.
+        # Set before the edit: what is reported of it draws already.
         self.preview = dict(preview)
         self.hidden = frozenset(self._keys)
         if not self._step.attempt(name, whole):

@@ -30,7 +30,7 @@ USUAL_ROW_PX = 8.0
 AIR_ROWS = 4.0
 """Around what is fitted."""
 
-NOBODY = Behind((), ())
+NO_GHOSTS = Behind((), ())
 
 
 class Ensemble(Editing, Protocol):
@@ -117,7 +117,7 @@ class RollModel:
         """How the players behind are seen."""
         self._tables: dict[str, NoteTable] = {}
         self._flags: dict[str, tuple[NoteTable, Selection, Flags]] = {}
-        self._ghosts_of: tuple[tuple[object, ...], Behind] = ((None, None, None, None), NOBODY)
+        self._ghosts_of: tuple[tuple[object, ...], Behind] = ((None, None, None, None), NO_GHOSTS)
         """The players behind, and what that was found from: it is asked with every repaint."""
 
     def forget(self) -> None:
@@ -142,7 +142,7 @@ class RollModel:
     def ghosts(self) -> Behind:
         """The notes of the players behind."""
         if self.ghosts_mode is Ghosts.ALONE:
-            return NOBODY
+            return NO_GHOSTS
         project, front = self._session.project, self._session.player
         sources = (project.players, project.score, front, self._session.tokens)
         if not all(map(is_, sources, self._ghosts_of[0])):

@@ -43,9 +43,9 @@ def test_a_dancer_is_written_as_a_player_is(unreal: UnrealProject, export: Expor
     written = export(request)
     new = {name for name in set(tree_of(unreal.folder)) - before if name.startswith(SOURCES)}
     assert {path.as_posix() for path in written.plan.written if path.as_posix().startswith(SOURCES)} == new
-    told = read(unreal, "performance.json")
-    assert [player["name"] for player in told["players"]] == ["Trumpet 1"]
-    (dancer,) = told["dancers"]
+    reported = read(unreal, "performance.json")
+    assert [player["name"] for player in reported["players"]] == ["Trumpet 1"]
+    (dancer,) = reported["dancers"]
     assert set(dancer) == {"name", "choreography", "character_id", "stage", "place", "character"}
     assert (dancer["name"], dancer["choreography"], dancer["character_id"]) == ("Ana", "steps", "woman_adult")
     assert (dancer["place"]["x_cm"], dancer["place"]["y_cm"]) == (-50.0, 200.0)
@@ -53,7 +53,7 @@ def test_a_dancer_is_written_as_a_player_is(unreal: UnrealProject, export: Expor
     figure = dancer["character"]
     assert figure["mesh"] == "/Game/Suisou/quartet/Characters/Ana/SK_Ana"
     assert figure["file"] == "Characters/SK_Ana.fbx"
-    assert figure["file"] in told["files"]
+    assert figure["file"] in reported["files"]
     report = read(unreal, "report.json")
     assert report["warnings"] == list(written.report.warnings)
     assert not any("dancer" in warning for warning in report["warnings"])
@@ -110,9 +110,9 @@ def test_who_cannot_dance_is_named_and_stays_as_exported(
     kept = (unreal.folder / SOURCES / "Characters/SK_Ana.fbx").read_bytes()
     gone = msgspec.structs.replace(danced.dancers[0], choreography=str(unreal.folder / "gone.choreography"))
     export(request_of(replace(danced, dancers=(gone, danced.dancers[1])), two, last_bar=2))
-    told = read(unreal, "performance.json")
-    assert [dancer["name"] for dancer in told["dancers"]] == ["Bo"]
-    (left_out,) = told["left_out"]
+    reported = read(unreal, "performance.json")
+    assert [dancer["name"] for dancer in reported["dancers"]] == ["Bo"]
+    (left_out,) = reported["left_out"]
     assert left_out["name"] == "Ana"
     assert "gone.choreography" in left_out["reason"]
     assert left_out["assets"] == [f"/Game/Suisou/quartet/Characters/Ana/{prefix}_Ana" for prefix in ("SK", "SKEL", "A")]
@@ -133,7 +133,7 @@ def test_a_fault_at_a_dancer_leaves_the_old_tree(
     def failing(*arguments: Any, **named: Any) -> Any:
         result = real(*arguments, **named)
         if stage == "write_cast" or arguments[0].name == "SK_Ana.fbx":
-            raise FileError("unreal.file_wrong", file="SK_Ana.fbx", what="frames", found="1", wanted="2")
+            raise FileError("unreal.file_wrong", file="SK_Ana.fbx", what="frames", found="1", requested="2")
         return result
 
     monkeypatch.setattr(run, stage, failing)

@@ -22,15 +22,15 @@ def test_one_character_with_both_instruments(unreal: UnrealProject, export: Expo
         "Instruments/SK_Flute_piccolo.fbx",
     }
     assert {path.as_posix() for path in written.plan.written} >= {f"SuisouSource/changes/{name}" for name in figures}
-    told = json.loads((sources / "performance.json").read_text(encoding="utf-8"))
-    (player,) = told["players"]
+    reported = json.loads((sources / "performance.json").read_text(encoding="utf-8"))
+    (player,) = reported["players"]
     assert player["name"] == "Flute"
     assert [double["instrument_id"] for double in player["doubles"]] == ["piccolo"]
     assert player["doubles"][0]["instrument"]["file"] == "Instruments/SK_Flute_piccolo.fbx"
-    assert set(told["files"]) == figures | {"Audio/S_changes.wav"}
+    assert set(reported["files"]) == figures | {"Audio/S_changes.wav"}
 
 
-def test_names_of_who_doubles_nobody_are_what_they_were() -> None:
+def test_names_of_who_doubles_no_one_are_what_they_were() -> None:
     layout = layout_of(flutist(), "changes")
     assert set(layout.characters) == {"2.1.1", "3.1.1"}
     assert set(layout.instruments) == {"2.1.1", "2.1.17", "3.1.1"}

@@ -58,4 +58,4 @@ def test_any_name_is_harmless(text: str, otherwise: str) -> None:
 def test_unique_where_case_does_not_count(names: list[str]) -> None:
     made = unique(names)
     assert len({name.casefold() for name in made}) == len(names)
-    assert all(name.casefold().startswith(wanted.casefold()) for name, wanted in zip(made, names, strict=True))
+    assert all(name.casefold().startswith(requested.casefold()) for name, requested in zip(made, names, strict=True))

@@ -46,8 +46,8 @@ def exported(unreal: UnrealProject, export: Export) -> list[Path]:
     span = bars_span(request.performance, Fraction(24), (1, 1), 0.0)
     export(replace(request, span=span))
     folder = unreal.folder / "SuisouSource" / "quartet"
-    told = json.loads((folder / "performance.json").read_text(encoding="utf-8"))
-    return [folder / name for name in sorted(told["files"]) if name.endswith(".fbx")]
+    reported = json.loads((folder / "performance.json").read_text(encoding="utf-8"))
+    return [folder / name for name in sorted(reported["files"]) if name.endswith(".fbx")]
 
 
 def test_quick_readers_agree(unreal: UnrealProject, export: Export, tmp_path: Path) -> None:

@@ -77,13 +77,13 @@ def test_what_is_there_and_what_it_says(unreal: UnrealProject, export: Export) -
     assert set(without_plugin(tree)) == OURS | THEIRS
     assert {name: tree[name] for name in THEIRS} == theirs
     assert {path.as_posix() for path in written.plan.written} == set(tree) - THEIRS
-    told = description(unreal)
-    assert (told["schema"], told["frames"], told["rate"]) == (
+    reported = description(unreal)
+    assert (reported["schema"], reported["frames"], reported["rate"]) == (
         3,
         request.span.count,
         {"numerator": 12, "denominator": 1},
     )
-    (player,) = told["players"]
+    (player,) = reported["players"]
     assert player["character"]["mesh"] == "/Game/Suisou/quartet/Characters/Trumpet_1/SK_Trumpet_1"
     assert player["instrument"]["animation"] == (
         "/Game/Suisou/quartet/Instruments/Trumpet_1_trumpet_Bb/A_Trumpet_1_trumpet_Bb"
@@ -92,15 +92,15 @@ def test_what_is_there_and_what_it_says(unreal: UnrealProject, export: Export) -
         scene = read_scene(unreal.folder / SOURCES / figure["file"])
         assert [bone.name for bone in scene.bones] == figure["bones"]
         assert scene.clip is not None
-        assert scene.clip.frames == told["frames"]
-    assert [bar["number"] for bar in told["bars"]] == [1]
+        assert scene.clip.frames == reported["frames"]
+    assert [bar["number"] for bar in reported["bars"]] == [1]
     score = request.performance.project.score
-    assert told["bars"][0]["s"] == pytest.approx(
+    assert reported["bars"][0]["s"] == pytest.approx(
         score.tempo_map.seconds(float(score.metre_map.tick_of_bar(1))) - request.span.first_frame_s
     )
-    assert set(told["files"]) == {"Audio/S_quartet.wav", player["character"]["file"], player["instrument"]["file"]}
+    assert set(reported["files"]) == {"Audio/S_quartet.wav", player["character"]["file"], player["instrument"]["file"]}
     report = json.loads((unreal.folder / SOURCES / "report.json").read_text(encoding="utf-8"))
-    assert set(report["players"][0]["files"].values()) == set(told["files"]) - {"Audio/S_quartet.wav"}
+    assert set(report["players"][0]["files"].values()) == set(reported["files"]) - {"Audio/S_quartet.wav"}
 
 
 def test_the_synthesisers_sound_begins_with_frame_0(unreal: UnrealProject, export: Export) -> None:
@@ -154,7 +154,7 @@ def test_what_is_not_needed_any_more_goes(unreal: UnrealProject, export: Export)
     assert set(without_plugin(tree_of(unreal.folder))) == OURS | THEIRS
 
 
-def test_a_leftover_that_somebody_changed_stays_and_is_told(unreal: UnrealProject, export: Export) -> None:
+def test_a_leftover_that_a_user_changed_stays_and_is_reported(unreal: UnrealProject, export: Export) -> None:
     export(request_of(quartet(), ("Trumpet 1", "Trumpet 2")))
     changed = unreal.folder / SOURCES / "Characters/SK_Trumpet_1.fbx"
     changed.write_bytes(b"retouched")
@@ -190,7 +190,7 @@ def test_what_is_the_artists_is_not_replaced(unreal: UnrealProject, export: Expo
     assert tree_of(unreal.folder) == before
 
 
-def test_a_write_protected_file_is_told_although_it_could_be_replaced(
+def test_a_write_protected_file_is_reported_although_it_could_be_replaced(
     unreal: UnrealProject, export: Export, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     export(request_of(quartet()))
@@ -247,9 +247,9 @@ def test_a_hostile_name_is_harmless(unreal: UnrealProject, export: Export, sourc
     assert all(name.isascii() and not set(name) & set("'\"\\ :;#()") for name in new)
     assert all(len(name) < 120 for name in new)
     (piece,) = {name.split("/")[1] for name in new if name.startswith("SuisouSource/")} - {"notes.txt"}
-    told = description(unreal, piece)
-    assert told["players"][0]["name"] == HOSTILE[0]
-    assert told["players"][0]["character"]["mesh"].startswith(f"/Game/Suisou/{piece}/Characters/")
+    reported = description(unreal, piece)
+    assert reported["players"][0]["name"] == HOSTILE[0]
+    assert reported["players"][0]["character"]["mesh"].startswith(f"/Game/Suisou/{piece}/Characters/")
 
 
 def test_names_do_not_depend_on_who_is_exported() -> None:
@@ -372,7 +372,7 @@ def test_a_newer_plug_in_stays(unreal: UnrealProject, export: Export) -> None:
     assert tree_of(place) == before
 
 
-def test_another_ones_plug_in_is_told(unreal: UnrealProject, export: Export) -> None:
+def test_another_ones_plug_in_is_reported(unreal: UnrealProject, export: Export) -> None:
     place = unreal.folder / "Plugins" / "Suisou"
     place.mkdir()
     (place / "Suisou.uplugin").write_text('{"CreatedBy": "somebody else", "Version": 1}')
@@ -399,10 +399,10 @@ def test_the_command_line(unreal: UnrealProject, capsys: pytest.CaptureFixture[s
     arguments = ["export", str(QUARTET), "--unreal", str(unreal.file), "--fps", "12", "--player", "Trumpet 1"]
     bars = ["--from-bar", "1", "--to-bar", "1"]
     assert main([*arguments, *bars]) == 0
-    told = capsys.readouterr().out
+    reported = capsys.readouterr().out
     for name in OURS:
-        assert name.rsplit("/", 1)[-1] in told
-    assert "Unreal Engine 5.6" in told
+        assert name.rsplit("/", 1)[-1] in reported
+    assert "Unreal Engine 5.6" in reported
     assert main([*arguments, *bars]) == 0
     assert "S_quartet.wav (replaced)" in capsys.readouterr().out
     assert main([*arguments, "--format", "fbx"]) == 2

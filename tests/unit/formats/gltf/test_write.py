@@ -105,11 +105,11 @@ def _check_materials(scene: Scene, model: GltfModel) -> None:
     given = {material.name: material for mesh in scene.meshes for material in mesh.materials}
     assert {material.name for material in model.materials} == set(given)
     for material in model.materials:
-        wanted = given[material.name]
-        assert material.base_color_rgba == pytest.approx(wanted.base_color)
-        assert (material.metallic, material.roughness) == (wanted.metallic, wanted.roughness)
-        assert material.double_sided == wanted.double_sided
-        assert material.alpha_mode == ("BLEND" if wanted.base_color[3] < 1 else "OPAQUE")
+        requested = given[material.name]
+        assert material.base_color_rgba == pytest.approx(requested.base_color)
+        assert (material.metallic, material.roughness) == (requested.metallic, requested.roughness)
+        assert material.double_sided == requested.double_sided
+        assert material.alpha_mode == ("BLEND" if requested.base_color[3] < 1 else "OPAQUE")
 
 
 @pytest.mark.parametrize("fps", RATES, ids=str)

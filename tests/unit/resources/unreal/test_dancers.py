@@ -46,15 +46,15 @@ def test_a_dancer_is_in_the_sequence_at_the_place_of_the_dance(editor: Editor) -
     there = bindings(editor)
     assert set(there) == {"Trumpet 1", "Trumpet 1 (trumpet_Bb)", "Ana"}
     assert {path for path in editor.studio.assets if "/Ana/" in path} >= figure_assets("Characters", "Ana")
-    told = description(editor)
-    (dancer,) = told["dancers"]
+    reported = description(editor)
+    (dancer,) = reported["dancers"]
     place = transform(there["Ana"])
     assert (place["Location.X"], place["Location.Y"]) == (-50.0, 200.0)
     assert place["Rotation.Z"] == dancer["place"]["yaw_deg"] < 0.0
     section = animation(there["Ana"])
-    assert section._range == ("frames", 0, told["frames"] - 1)
+    assert section._range == ("frames", 0, reported["frames"] - 1)
     assert section._animation is editor.studio.assets[dancer["character"]["animation"]]
-    assert section._animation._frames == told["frames"]
+    assert section._animation._frames == reported["frames"]
     assert there["Ana"]._mesh is editor.studio.assets[dancer["character"]["mesh"]]
     assert "eyeBlinkLeft" in section._animation._curves
 
@@ -72,10 +72,10 @@ def test_an_update_moves_a_dancer_and_keeps_the_assets(editor: Editor, danced: P
 
 def test_a_dancer_who_left_leaves_the_sequence_and_the_project(editor: Editor) -> None:
     exported(editor.folder, quartet(), ("Trumpet 1",))
-    told = editor.update_performance()
+    reported = editor.update_performance()
     assert set(bindings(editor)) == {"Trumpet 1", "Trumpet 1 (trumpet_Bb)"}
     assert not [path for path in editor.studio.assets if "/Ana/" in path]
-    assert f"{ROOT}/Characters/Ana/SK_Ana" in told
+    assert f"{ROOT}/Characters/Ana/SK_Ana" in reported
 
 
 def test_a_dancer_who_is_left_out_stays_as_imported(editor: Editor, danced: Project) -> None:
@@ -83,9 +83,9 @@ def test_a_dancer_who_is_left_out_stays_as_imported(editor: Editor, danced: Proj
     ana = bindings(editor)["Ana"]
     gone = msgspec.structs.replace(danced.dancers[0], choreography=str(editor.folder / "gone.choreography"))
     exported(editor.folder, replace(danced, dancers=(gone,)), WHO)
-    told = editor.update_performance()
-    assert "Left out" in told
-    assert "gone.choreography" in told
+    reported = editor.update_performance()
+    assert "Left out" in reported
+    assert "gone.choreography" in reported
     assert {path: id(asset) for path, asset in editor.studio.assets.items() if "/Ana/" in path} == before
     assert bindings(editor)["Ana"] is ana
 
@@ -96,8 +96,8 @@ def changed(editor: Editor, **fields: Any) -> None:
 
 
 def test_a_description_of_an_earlier_suisou_has_no_dancers(editor: Editor) -> None:
-    told = description(editor)
-    files = {name: of for name, of in told["files"].items() if "Ana" not in name}
+    reported = description(editor)
+    files = {name: of for name, of in reported["files"].items() if "Ana" not in name}
     changed(editor, schema=1, files=files)
     path = editor.folder / "SuisouSource/quartet/performance.json"
     without = {name: value for name, value in description(editor).items() if name != "dancers"}

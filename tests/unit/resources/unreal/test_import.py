@@ -1,4 +1,4 @@
-"""Import and update in a fake editor: what is in the project afterwards, and what a person is told."""
+"""Import and update in a fake editor: what is in the project afterwards, and what the user is informed."""
 
 from __future__ import annotations
 
@@ -87,8 +87,8 @@ def moved(project: Project, place: StagePosition) -> Project:
 
 
 def test_the_quartet_is_imported(editor: Editor) -> None:
-    told = editor.import_performance()
-    assert "is imported" in told
+    reported = editor.import_performance()
+    assert "is imported" in reported
     expected = {f"{ROOT}/LS_quartet", f"{ROOT}/Audio/S_quartet"}
     for player, held in zip(QUARTET, HELD, strict=True):
         expected |= figure_assets("Characters", player) | figure_assets("Instruments", f"{player}_{held}")
@@ -160,11 +160,11 @@ def test_everybody_stands_where_they_stand(editor: Editor) -> None:
 
 def test_everybody_plays_from_the_first_frame_to_the_last(editor: Editor) -> None:
     editor.import_performance()
-    told, sequence = description(editor), editor.sequence()
-    last = told["frames"] - 1
+    reported, sequence = description(editor), editor.sequence()
+    last = reported["frames"] - 1
     assert (sequence._start, sequence._end) == (0, last)
     assert (sequence._rate.numerator, sequence._rate.denominator) == (12, 1)
-    for player, held in zip(told["players"], HELD, strict=True):
+    for player, held in zip(reported["players"], HELD, strict=True):
         for name, asset in (
             (player["name"], player["character"]["animation"]),
             (f"{player['name']} ({held})", player["instrument"]["animation"]),
@@ -177,9 +177,9 @@ def test_everybody_plays_from_the_first_frame_to_the_last(editor: Editor) -> Non
 
 def test_the_sound_is_at_its_offset_and_the_bars_are_marked(editor: Editor) -> None:
     path = editor.folder / "SuisouSource/quartet/performance.json"
-    told = description(editor)
-    told["sound"]["offset_s"] = 0.5
-    path.write_text(json.dumps(told), encoding="utf-8")
+    reported = description(editor)
+    reported["sound"]["offset_s"] = 0.5
+    path.write_text(json.dumps(reported), encoding="utf-8")
     editor.import_performance()
     (track,) = editor.sequence()._tracks
     (section,) = track._sections
@@ -187,7 +187,7 @@ def test_the_sound_is_at_its_offset_and_the_bars_are_marked(editor: Editor) -> N
     assert section._sound is sound
     assert section._range == ("seconds", 0.5, 0.5 + sound._duration_s)
     assert section._looping is False
-    assert marks(editor) == {f"Bar {bar['number']}": bar["frame"] for bar in told["bars"]}
+    assert marks(editor) == {f"Bar {bar['number']}": bar["frame"] for bar in reported["bars"]}
     assert list(marks(editor)) == ["Bar 1", "Bar 2"]
     assert marks(editor)["Bar 1"] > 0
 
@@ -206,13 +206,13 @@ def test_rehearsal_markers_are_marked_with_their_bars_and_an_artists_letters_sta
     )
     exported(two.folder, marked(named), last_bar=2)
     two.update_performance()
-    told = description(two)
+    reported = description(two)
     # What lies behind the bars that were exported is not of this performance.
-    assert [(marker["text"], marker["bar"]) for marker in told["markers"]] == [
+    assert [(marker["text"], marker["bar"]) for marker in reported["markers"]] == [
         ("A", 1), ("{rit.}", 1), ("B", 2), ("速く", 2),
     ]  # fmt: skip
-    first, second = (row["frame"] for row in told["bars"])
-    rit = told["markers"][1]["frame"]
+    first, second = (row["frame"] for row in reported["bars"])
+    rit = reported["markers"][1]["frame"]
     assert first < rit < second
     assert marks(two) == {"A": 3, "Bar 1: A": first, "Bar 1: {rit.}": rit, "Bar 2: B, 速く": second}
     before = marks(two)
@@ -225,9 +225,9 @@ def test_rehearsal_markers_are_marked_with_their_bars_and_an_artists_letters_sta
 
 def test_a_description_without_markers_is_of_an_earlier_suisou(editor: Editor) -> None:
     path = editor.folder / "SuisouSource/quartet/performance.json"
-    told = description(editor)
-    del told["markers"]
-    path.write_text(json.dumps(told), encoding="utf-8")
+    reported = description(editor)
+    del reported["markers"]
+    path.write_text(json.dumps(reported), encoding="utf-8")
     editor.import_performance()
     assert list(marks(editor)) == ["Bar 1", "Bar 2"]
 
@@ -263,15 +263,15 @@ def test_length_rate_and_places_follow(two: Editor) -> None:
     place = StagePosition(2.0, 1.0, 0.5)
     exported(two.folder, moved(quartet(), place), last_bar=2, fps=Fraction(30000, 1001))
     two.update_performance()
-    after, told = state(two), description(two)
+    after, reported = state(two), description(two)
     assert after["assets"] == before["assets"]
     assert {name: value[0] for name, value in after["bindings"].items()} == {
         name: value[0] for name, value in before["bindings"].items()
     }
-    assert after["range"] == (0, told["frames"] - 1, 30000, 1001)
-    assert {value[2] for value in after["bindings"].values()} == {("frames", 0, told["frames"] - 1)}
+    assert after["range"] == (0, reported["frames"] - 1, 30000, 1001)
+    assert {value[2] for value in after["bindings"].values()} == {("frames", 0, reported["frames"] - 1)}
     assert after["bindings"]["Trumpet 1"][1]["Location.X"] == 200.0
-    assert after["marks"] == {"Bar 1": told["bars"][0]["frame"], "Bar 2": told["bars"][1]["frame"]}
+    assert after["marks"] == {"Bar 1": reported["bars"][0]["frame"], "Bar 2": reported["bars"][1]["frame"]}
     # Frames are whole ticks of the sequence.
     ticks = two.sequence()._ticks
     assert Fraction(ticks.numerator, ticks.denominator) / Fraction(30000, 1001) % 1 == 0
@@ -285,11 +285,11 @@ def test_who_plays_no_more_goes_and_who_is_used_stays(two: Editor) -> None:
     used = f"{ROOT}/Characters/Trombone_1/SK_Trombone_1"
     two.studio.referencers[used] = ["/Game/Maps/Stage", f"{ROOT}/LS_quartet"]
     exported(two.folder, quartet(), ("Trumpet 1",))
-    told = two.update_performance()
+    reported = two.update_performance()
     assert set(bindings(two)) == {"Trumpet 1", "Trumpet 1 (trumpet_Bb)"}
     assert not own_assets(two) & (gone - {used})
     assert used in two.studio.assets
-    assert f"/Game/Maps/Stage uses it: {used}" in told
+    assert f"/Game/Maps/Stage uses it: {used}" in reported
     assert all(
         "Trombone" not in path for path in two.studio.assets if path.rpartition("/")[0] != used.rpartition("/")[0]
     )
@@ -327,21 +327,21 @@ def test_who_was_moved_in_unreal_stays_there(two: Editor) -> None:
     ]
     track._sections[0]._channels[0].set_default(333.0)
     exported(two.folder, moved(quartet(), StagePosition(2.0, 1.0, 0.5)))
-    told = two.update_performance()
+    reported = two.update_performance()
     assert transform(bindings(two)["Trumpet 1"])["Location.X"] == 333.0
     assert transform(bindings(two)["Trumpet 1 (trumpet_Bb)"])["Location.X"] == 200.0
-    assert "Left where you put it: Trumpet 1" in told
+    assert "Left where you put it: Trumpet 1" in reported
 
 
-def test_channels_of_other_names_are_told(two: Editor) -> None:
+def test_channels_of_other_names_are_reported(two: Editor) -> None:
     for binding in bindings(two).values():
         (track,) = [track for track in binding._tracks if type(track).__name__ == "MovieScene3DTransformTrack"]
         for channel in track._sections[0]._channels:
             channel._name = channel._name.replace("Location", "Translation")
     assert "no channels that Suisou knows" not in two.update_performance()
     exported(two.folder, moved(quartet(), StagePosition(2.0, 1.0, 0.5)))
-    told = two.update_performance()
-    assert told.count("no channels that Suisou knows") == 2
+    reported = two.update_performance()
+    assert reported.count("no channels that Suisou knows") == 2
 
 
 def test_other_bones_make_a_figure_anew(two: Editor) -> None:
@@ -349,10 +349,10 @@ def test_other_bones_make_a_figure_anew(two: Editor) -> None:
     skeleton = f"{ROOT}/Instruments/Trumpet_1_trumpet_Bb/SKEL_Trumpet_1_trumpet_Bb"
     two.studio.metadata[skeleton]["SuisouBones"] = "of before"
     before = dict(two.studio.assets)
-    told = two.update_performance()
+    reported = two.update_performance()
     changed = {path for path, asset in two.studio.assets.items() if before[path] is not asset}
     assert changed == figure_assets("Instruments", "Trumpet_1_trumpet_Bb")
-    assert "bones are others now" in told
+    assert "bones are others now" in reported
     binding = bindings(two)["Trumpet 1 (trumpet_Bb)"]
     assert binding._mesh is two.studio.assets[skeleton.replace("SKEL_", "SK_")]
     assert animation(binding)._animation is two.studio.assets[skeleton.replace("SKEL_", "A_")]

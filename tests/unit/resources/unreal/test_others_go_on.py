@@ -61,9 +61,9 @@ def test_those_that_cannot_be_read_are_named_and_the_others_are_imported(editor:
         damage(copy_piece(editor, name))
     for choose, done in ((editor.import_performance, "is imported"), (editor.update_performance, "is up to date")):
         assert done in choose()
-        told = editor.studio.dialogs[-2]
-        assert "everything else can" in told
-        assert [name for name in DAMAGE if f"/{name}/performance.json" not in told] == []
+        reported = editor.studio.dialogs[-2]
+        assert "everything else can" in reported
+        assert [name for name in DAMAGE if f"/{name}/performance.json" not in reported] == []
     assert {path.split("/")[3] for path in editor.studio.assets} == {"quartet"}
     assert editor.studio.errors == []
 
@@ -73,7 +73,7 @@ def test_one_whose_files_were_changed_does_not_keep_the_next_one_out(editor: Edi
     next(editor.folder.glob("SuisouSource/adagio/Characters/*.fbx")).write_bytes(b"half of it")
     editor.studio.answers = [editor.unreal.AppReturnType.YES_ALL]
     assert "is imported" in editor.import_performance()
-    assert any("is not what Suisou exported" in told for told in editor.studio.dialogs)
+    assert any("is not what Suisou exported" in reported for reported in editor.studio.dialogs)
     assert f"{ROOT}/LS_quartet" in editor.studio.assets
 
 
@@ -82,7 +82,7 @@ def test_cancel_ends_them_all(editor: Editor) -> None:
     editor.studio.answers = [editor.unreal.AppReturnType.YES_ALL]
     editor.studio.cancel_after = 4
     assert "Cancelled" in editor.import_performance()
-    assert sum("Cancelled" in told for told in editor.studio.dialogs) == 1
+    assert sum("Cancelled" in reported for reported in editor.studio.dialogs) == 1
 
 
 def bindings(editor: Editor) -> dict[str, Any]:
@@ -109,8 +109,8 @@ def test_who_is_left_out_of_a_later_export_stays_as_imported(
     # Whoever was not asked for goes, as ever.
     assert not (sources / "Characters" / "SK_Trumpet_2.fbx").exists()
 
-    told = editor.update_performance()
-    assert all(words in told for words in ("Left out", "Trumpet 1", "mori.glb"))
+    reported = editor.update_performance()
+    assert all(words in reported for words in ("Left out", "Trumpet 1", "mori.glb"))
     assert {path: id(asset) for path, asset in editor.studio.assets.items() if "/Trumpet_1" in path} == before
     assert bindings(editor)["Trumpet 1"] is trumpet
     assert "Trumpet 2" not in bindings(editor)

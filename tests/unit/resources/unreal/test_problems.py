@@ -1,4 +1,4 @@
-"""What is wrong is told in a dialog, before anything is changed."""
+"""What is wrong is reported in a dialog, before anything is changed."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def player(field: str, value: object) -> Callable[[dict[str, Any]], None]:
 
 
 @pytest.mark.parametrize(
-    ("damage", "told"),
+    ("damage", "reported"),
     [
         (lambda editor: shutil.rmtree(editor.folder / "SuisouSource"), "There is no performance in"),
         (write("performance.json", b"{"), "cannot be read"),
@@ -74,10 +74,10 @@ def player(field: str, value: object) -> Callable[[dict[str, Any]], None]:
         (without("FbxFactory"), "which lacks FbxFactory"),
     ],
 )
-def test_it_is_told_and_nothing_is_changed(editor: Editor, damage: Callable[[Editor], None], told: str) -> None:
+def test_it_is_reported_and_nothing_is_changed(editor: Editor, damage: Callable[[Editor], None], reported: str) -> None:
     damage(editor)
     before = dict(editor.studio.assets)
-    assert told in editor.import_performance()
+    assert reported in editor.import_performance()
     assert editor.studio.assets == before
     assert editor.studio.imports == []
 
@@ -88,33 +88,33 @@ def test_import_and_update_know_what_is_there(editor: Editor) -> None:
     assert "imported already: " in editor.import_performance()
 
 
-def test_what_unreal_does_not_import_is_told(editor: Editor) -> None:
+def test_what_unreal_does_not_import_is_reported(editor: Editor) -> None:
     refused = f"{ROOT}/Characters/Trombone_1/SK_Trombone_1"
     editor.studio.refuse_import.add(refused)
-    told = editor.import_performance()
-    assert refused in told
-    assert "Output Log" in told
+    reported = editor.import_performance()
+    assert refused in reported
+    assert "Output Log" in reported
     assert f"{ROOT}/LS_quartet" not in editor.studio.assets
     # What was done is kept, and the next time goes on.
     editor.studio.refuse_import.clear()
     assert "is imported" in editor.import_performance()
 
 
-def test_what_unreal_does_not_update_is_told(editor: Editor) -> None:
+def test_what_unreal_does_not_update_is_reported(editor: Editor) -> None:
     editor.import_performance()
     refused = f"{ROOT}/Characters/Trombone_1/A_Trombone_1"
     editor.studio.refuse_import.add(refused)
     assert refused in editor.update_performance()
 
 
-def test_a_length_that_is_not_the_files_is_told(editor: Editor) -> None:
+def test_a_length_that_is_not_the_files_is_reported(editor: Editor) -> None:
     editor.studio.lost_keys = 1
-    told = editor.import_performance()
-    assert "is imported" in told
-    assert told.count("compare it with the sound") == 8
+    reported = editor.import_performance()
+    assert "is imported" in reported
+    assert reported.count("compare it with the sound") == 8
 
 
-def test_what_cannot_be_removed_is_told(editor: Editor) -> None:
+def test_what_cannot_be_removed_is_reported(editor: Editor) -> None:
     editor.import_performance()
     stuck = f"{ROOT}/Characters/Trumpet_1/A_Trumpet_1"
     editor.studio.metadata[stuck.replace("/A_", "/SKEL_")]["SuisouBones"] = "of before"
@@ -122,7 +122,7 @@ def test_what_cannot_be_removed_is_told(editor: Editor) -> None:
     assert stuck in editor.update_performance()
 
 
-def test_a_locked_sequence_is_told(editor: Editor) -> None:
+def test_a_locked_sequence_is_reported(editor: Editor) -> None:
     editor.import_performance()
     editor.sequence()._read_only = True
     asked = len(editor.studio.imports)

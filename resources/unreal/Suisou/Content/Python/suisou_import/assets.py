@@ -1,7 +1,7 @@
-"""Skeletal meshes, skeletons, animations and the sound: made, updated in place, and removed when nobody plays them.
+"""Skeletal meshes, skeletons, animations and the sound: made, updated in place, and removed when no one plays them.
 
 FBX goes through the importer that names its factory, since newer engines would take Interchange by themselves. Every
-asset of ours bears the name of its piece as metadata; what does not is somebody else's and is not touched.
+asset of ours bears the name of its piece as metadata; what does not is someone else's and is not touched.
 """
 
 from __future__ import annotations
@@ -89,27 +89,27 @@ def import_sound(performance: Performance) -> unreal.SoundWave:
 
 
 def remove_leftovers(performance: Performance) -> list[str]:
-    """Remove what is ours and belongs to nobody any more; what is told of it."""
-    wanted = set(performance.assets) | performance.staying
+    """Remove what is ours and belongs to no one any more; what is reported of it."""
+    requested = set(performance.assets) | performance.staying
     gone: list[str] = []
     for path in _listed(performance.content):
         asset = existing(path)
-        if asset is None or path in wanted or not is_ours(asset, performance.piece):
+        if asset is None or path in requested or not is_ours(asset, performance.piece):
             continue
         made_for = unreal.EditorAssetLibrary.get_metadata_tag(asset, MADE_FOR_TAG)
-        if made_for not in wanted:
+        if made_for not in requested:
             gone.append(path)
-    told = []
+    reported = []
     inside = performance.content + "/"
     for path in sorted(gone, key=_order):
         users = unreal.EditorAssetLibrary.find_package_referencers_for_asset(path)
         others = sorted(str(user) for user in users if not str(user).startswith(inside))
         if others:
-            told.append(text("kept", asset=path, user=others[0]))
+            reported.append(text("kept", asset=path, user=others[0]))
         else:
             _delete(path)
-            told.append(text("removed", asset=path))
-    return told
+            reported.append(text("removed", asset=path))
+    return reported
 
 
 def _order(path: str) -> tuple[int, str]:
@@ -165,7 +165,7 @@ def _animation_options(skeleton: unreal.Skeleton, rate: tuple[int, int]) -> unre
 
 
 def sample_rate(rate: tuple[int, int]) -> int:
-    """What the importer is told: the rate, or 0 (the best for the file's keys) where it is no whole number."""
+    """What the importer is reported: the rate, or 0 (the best for the file's keys) where it is no whole number."""
     numerator, denominator = rate
     return 0 if numerator % denominator else numerator // denominator
 

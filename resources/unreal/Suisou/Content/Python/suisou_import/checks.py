@@ -42,7 +42,7 @@ def check_engine() -> None:
 
 
 def check_performance(performance: Performance) -> None:
-    """Raise `Problem` where files are not what was exported, or an asset of somebody else's would be replaced."""
+    """Raise `Problem` where files are not what was exported, or an asset of someone else's would be replaced."""
     check_files(performance)
     for path in performance.assets:
         asset = assets.existing(path)

@@ -81,14 +81,14 @@ def _bring_in(performances: list[Performance], question: str, done: str) -> None
 
 
 def _bring_in_one(performance: Performance, done: str) -> None:
-    told = run.bring_in(performance)
+    reported = run.bring_in(performance)
     run.show(performance)
     first = text(done, name=performance.title, count=len(performance.assets), folder=performance.content)
-    _show("\n".join([first, *([""] if told else []), *told]))
+    _show("\n".join([first, *([""] if reported else []), *reported]))
 
 
 def _chosen(performances: list[Performance], question: str) -> list[Performance]:
-    """Those that a person wants: the only one there is, or what is answered."""
+    """Those that the user wants: the only one there is, or what is answered."""
     if len(performances) == 1:
         return performances
     chosen: list[Performance] = []

@@ -1,4 +1,4 @@
-"""What a person is told in a dialog."""
+"""What is reported to the user in a dialog."""
 
 from __future__ import annotations
 
@@ -145,11 +145,11 @@ TEXTS = {
 
 
 class Problem(Exception):
-    """Something that a person can put right: shown as a dialog."""
+    """Something that the user can put right: shown as a dialog."""
 
 
 class Cancelled(Exception):
-    """The person pressed Cancel."""
+    """The user pressed Cancel."""
 
 
 def text(name: str, /, **arguments: object) -> str:

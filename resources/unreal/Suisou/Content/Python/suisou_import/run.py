@@ -1,4 +1,4 @@
-"""A performance into the project, step by step, with what a person sees meanwhile and afterwards."""
+"""A performance into the project, step by step, with what the user sees meanwhile and afterwards."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ def bring_in(performance: Performance) -> list[str]:
     Returns
     -------
     list of str
-        What a person is told besides that it is done.
+        What is reported to the user besides that it is done.
 
     Raises
     ------
     Problem, Cancelled
     """
-    told: list[str] = []
+    reported: list[str] = []
     count = 2 * len(performance.figures) + 4
     with unreal.ScopedSlowTask(count, performance.title) as task:
         task.make_dialog(True)
@@ -35,27 +35,27 @@ def bring_in(performance: Performance) -> list[str]:
 
         step("step_check")
         checks.check_performance(performance)
-        _assets(performance, step, told)
-    return told + [text("left_out", name=one.name, reason=one.reason) for one in performance.left_out]
+        _assets(performance, step, reported)
+    return reported + [text("left_out", name=one.name, reason=one.reason) for one in performance.left_out]
 
 
-def _assets(performance: Performance, step: Callable[..., None], told: list[str]) -> None:
+def _assets(performance: Performance, step: Callable[..., None], reported: list[str]) -> None:
     anew: set[str] = set()
     for figure in performance.figures:
         step("step_mesh", name=figure.name)
         if assets.import_mesh(performance, figure):
             anew.add(figure.mesh)
-            told.append(text("new_skeleton", asset=figure.mesh))
+            reported.append(text("new_skeleton", asset=figure.mesh))
         step("step_animation", name=figure.name)
         animation = assets.import_animation(performance, figure)
         keys = int(animation.get_editor_property("number_of_sampled_keys"))
         if assets.sample_rate(performance.rate) and keys != performance.frames:
-            told.append(text("other_length", asset=figure.animation, keys=keys, frames=performance.frames))
+            reported.append(text("other_length", asset=figure.animation, keys=keys, frames=performance.frames))
     step("step_sound")
     assets.import_sound(performance)
     step("step_sequence")
-    told += sequence.build(performance, anew)
-    told += assets.remove_leftovers(performance)
+    reported += sequence.build(performance, anew)
+    reported += assets.remove_leftovers(performance)
     step("step_save")
     if not unreal.EditorAssetLibrary.save_directory(performance.content, only_if_is_dirty=True, recursive=True):
         raise problem("not_saved", folder=performance.content)

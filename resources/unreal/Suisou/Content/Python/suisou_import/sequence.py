@@ -1,7 +1,7 @@
 """The level sequence: who stands where and plays what, the sound, the bars and rehearsal markers.
 
 What was put there is remembered in the sequence's metadata, so that an update changes that and nothing else: tracks,
-actors and marks of the artist's stay, and so does a place where the artist has moved somebody.
+actors and marks of the artist's stay, and so does a place where the artist has moved someone.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ def build(performance: Performance, anew: set[str]) -> list[str]:
     Returns
     -------
     list of str
-        What a person is told.
+        What is reported to the user.
     """
     sequence = _sequence(performance)
     state = _state(sequence)
     _set_time(sequence, performance)
-    told: list[str] = []
+    reported: list[str] = []
     known: dict[str, Any] = state["figures"]
     figures: dict[str, Any] = {}
     for figure in performance.figures:
@@ -45,7 +45,7 @@ def build(performance: Performance, anew: set[str]) -> list[str]:
         if binding is None:
             _remove(sequence, known.get(figure.mesh))
             binding, before = _new_binding(sequence, figure), None
-        told += _put(binding, figure, None if before is None else Place(*before["place"]))
+        reported += _put(binding, figure, None if before is None else Place(*before["place"]))
         _play(binding, figure, performance)
         figures[figure.mesh] = {"id": binding.get_id().to_string(), "place": list(figure.place)}
     for mesh, before in known.items():
@@ -57,7 +57,7 @@ def build(performance: Performance, anew: set[str]) -> list[str]:
     marks = _mark(sequence, performance, set(state["marks"]))
     _remember(sequence, {"figures": figures, "marks": marks})
     assets.tag(sequence, performance)
-    return told
+    return reported
 
 
 def last_frame(performance: Performance) -> int:
@@ -137,7 +137,7 @@ def _new_binding(sequence: unreal.LevelSequence, figure: Figure) -> unreal.Movie
 
 
 def _put(binding: unreal.MovieSceneBindingProxy, figure: Figure, before: Place | None) -> list[str]:
-    """Put an actor at its place; where the artist has moved it, it stays. What a person is told."""
+    """Put an actor at its place; where the artist has moved it, it stays. What is reported to the user."""
     tracks = binding.find_tracks_by_exact_type(unreal.MovieScene3DTransformTrack)
     track = tracks[0] if tracks else binding.add_track(unreal.MovieScene3DTransformTrack)
     sections = track.get_sections()
@@ -149,19 +149,19 @@ def _put(binding: unreal.MovieSceneBindingProxy, figure: Figure, before: Place |
         for channel in section.get_all_channels()
         if isinstance(channel, unreal.MovieSceneScriptingDoubleChannel)
     }
-    wanted = _channel_values(figure.place)
-    if not set(wanted) <= set(channels):
+    requested = _channel_values(figure.place)
+    if not set(requested) <= set(channels):
         # It was made where it stands; only what it is moved by from then on is missing.
         return [] if before in (None, figure.place) else [text("unplaced", name=figure.name)]
     if before is not None and sections and _moved(channels, _channel_values(before)):
         return [] if before == figure.place else [text("moved", name=figure.name)]
-    for name, value in wanted.items():
+    for name, value in requested.items():
         channels[name].set_default(value)
     return []
 
 
 def _moved(channels: dict[str, unreal.MovieSceneScriptingDoubleChannel], left: dict[str, float]) -> bool:
-    """Whether somebody has moved an actor since it was put somewhere."""
+    """Whether someone has moved an actor since it was put somewhere."""
     return any(
         channels[name].get_num_keys() > 0 or abs(channels[name].get_default() - value) > _NEAR
         for name, value in left.items()
@@ -260,8 +260,8 @@ def _mark(sequence: unreal.LevelSequence, performance: Performance, before: set[
 
 
 def _labels(performance: Performance) -> dict[int, str]:
-    """What is written at which frame. A frame has one mark: a marker is told with its bar, which also keeps a letter of
-    the piece apart from the letters that the editor gives an artist's own marks."""
+    """What is written at which frame. A frame has one mark: a marker is reported with its bar, which also keeps a
+    letter of the piece apart from the letters that the editor gives an artist's own marks."""
     labels = {frame: text("bar", number=number) for number, frame in performance.bars}
     named: dict[int, list[str]] = {}
     for name, bar, frame in performance.markers:
@@ -274,7 +274,7 @@ def _labels(performance: Performance) -> dict[int, str]:
 
 
 def _state(sequence: unreal.LevelSequence) -> dict[str, Any]:
-    """What was put into a sequence the last time; nothing if that cannot be told."""
+    """What was put into a sequence the last time; nothing if that cannot be reported."""
     try:
         state = json.loads(unreal.EditorAssetLibrary.get_metadata_tag(sequence, STATE_TAG))
         return {"figures": dict(state["figures"]), "marks": list(state["marks"])}

@@ -1,4 +1,4 @@
-"""Faults of the program: nothing is silent, the editor lives on, and the work is written down."""
+"""CrashHandler of the program: nothing is silent, the editor lives on, and the work is written down."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ def log_path() -> Path:
     return platformdirs.user_log_path("suisou", appauthor=False) / "faults.log"
 
 
-class Faults:
-    """The one place where an exception that nobody expected ends.
+class CrashHandler:
+    """The one place where an exception that no one expected ends.
 
     Parameters
     ----------
@@ -64,11 +64,11 @@ class Faults:
         self._ask = window_calls().ask
 
     def install(self) -> None:
-        """Be told of every exception that nobody caught. In the window's thread."""
+        """Receive every exception that no one caught. In the window's thread."""
         sys.excepthook = self._uncaught
         threading.excepthook = self._uncaught_in_thread
 
-    def tell(self, error: BaseException) -> None:
+    def report(self, error: BaseException) -> None:
         """A fault: note it down, save what can be saved, say so; but once while it happens again and again."""
         if self._is_repeated(error):
             return
@@ -85,7 +85,7 @@ class Faults:
             self._note(text)
             try:
                 self._write_down()
-            except Exception:  # noqa: BLE001 - whatever fails here, the first fault is still to be told
+            except Exception:  # noqa: BLE001 - whatever fails here, the first fault is still to be reported
                 self._note(traceback.format_exc())
             detail = f"{type(error).__name__}: {error}"
             self._session.notice(Message("program.fault", {"detail": detail, "log": str(self._log)}), Severity.ERROR)
@@ -120,9 +120,9 @@ class Faults:
         if issubclass(kind, KeyboardInterrupt):
             sys.__excepthook__(kind, error, trace)
             return
-        self.tell(error)
+        self.report(error)
 
     def _uncaught_in_thread(self, arguments: threading.ExceptHookArgs) -> None:
-        # Widgets live in the window's thread: it is told there.
+        # Widgets live in the window's thread: it is reported there.
         if arguments.exc_value is not None:
-            self._ask(partial(self.tell, arguments.exc_value))
+            self._ask(partial(self.report, arguments.exc_value))

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.performance.loudness import heard, note_loudness
+from app.plan.breath_envelope import BLOWS_FROM, STOPS_AT, blown, find_gaps, silences
 from app.plan.corrections import RemoveEvent, SetBreath
-from app.plan.generate import Line, make_plans, time_frame
-from app.plan.heard import BLOWS_FROM, STOPS_AT, blown, find_gaps, silences
+from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.line import line_times
 from app.plan.lungs import air_used_s
 from app.plan.model import BreathEvent, PlayerPlan
@@ -25,7 +25,7 @@ TRUMPET = bundled_maps()["trumpet_Bb"]
 
 
 def plan_of(part: Part, corrections: tuple[object, ...] = (), **parameters: float) -> PlayerPlan:
-    line = Line(
+    line = MonophonicPart(
         "p",
         part.notes,
         TRUMPET,
@@ -43,13 +43,13 @@ def breaths(plan: PlayerPlan) -> list[BreathEvent]:
 
 
 def slow_gaps(at_s: list[float], values: list[float], until_s: float) -> npt.NDArray[np.bool_]:
-    """Whether somebody blows, millisecond by millisecond."""
+    """Whether someone blows, millisecond by millisecond."""
     blows, result = False, []
     for millisecond in range(int(until_s * 1000)):
         value = None
-        for place, told in zip(at_s, values, strict=True):
+        for place, reported in zip(at_s, values, strict=True):
             if place <= millisecond / 1000:
-                value = told
+                value = reported
         if value is not None and value >= BLOWS_FROM:
             blows = True
         elif value is not None and value <= STOPS_AT:
@@ -91,7 +91,7 @@ def test_breaths_are_where_they_were_taken() -> None:
         assert end_s - 0.02 <= event.end_s <= end_s + 0.03
         # A gap of a beat and more is breathed in on its last beat, as a rest is.
         assert max(start_s, end_s - 0.5) - 0.03 <= event.start_s <= max(start_s, end_s - 0.5) + 0.03
-        assert event.reason.id == "breath.heard"
+        assert event.reason.id == "breath.blown"
     lips = {event.note_id: event.end_s for event in plan.embouchures}
     assert lips["1:4"] == pytest.approx(4.0, abs=0.03), "the lips leave where the breath begins"
 
@@ -109,7 +109,7 @@ def test_who_stops_blowing_within_a_note_breathes_there() -> None:
         event = found[id]
         assert event.start_s == pytest.approx(start_s, abs=0.03)
         assert event.end_s == pytest.approx(end_s, abs=0.03)
-        assert event.reason.id == "breath.heard"
+        assert event.reason.id == "breath.blown"
         assert event.depth > 0.3
     assert [(event.note_id, event.end_s) for event in plan.embouchures if event.note_id == "1:2"] == [("1:2", 6.5)]
 
@@ -149,12 +149,12 @@ def test_a_short_gap_is_breathed_in_only_where_air_is_needed() -> None:
     found = breaths(plan_of(part, lung_s=9.0))
     assert found
     for event in found:
-        assert event.reason.id == "breath.heard_short"
+        assert event.reason.id == "breath.blown_short"
         assert event.end_s - event.start_s == pytest.approx(0.2, abs=0.04)
         assert (event.end_s - 0.5) % 2.0 == pytest.approx(0.0, abs=0.02)
 
 
-def test_who_never_stopped_blowing_takes_no_breath_and_is_told() -> None:
+def test_who_never_stopped_blowing_takes_no_breath_and_is_reported() -> None:
     notes = [(0.5 + beat, 1.5 + beat, 65) for beat in range(20)]
     curve = breath_curve([Blow(0.5, 19.1), Blow(19.5, 20.5)])
     plan = plan_of(take(notes, curve), lung_s=6.0)
@@ -190,7 +190,7 @@ def test_corrections_win() -> None:
 
 def test_air_is_what_the_curve_took() -> None:
     part = take(NOTES, breath_curve(BLOWS, noise=0))
-    line = Line("p", part.notes, TRUMPET, loudness=note_loudness(part), heard=heard(part))
+    line = MonophonicPart("p", part.notes, TRUMPET, loudness=note_loudness(part), heard=heard(part))
     assert line.heard is not None
     assert line.heard.breath is not None
     breath, times = blown(line.heard.breath, TEMPO), line_times(line, TEMPO)
@@ -205,7 +205,7 @@ def test_air_is_what_the_curve_took() -> None:
 
 def test_gaps_serve_the_note_they_come_before() -> None:
     part = take(NOTES, breath_curve(BLOWS))
-    line = Line("p", part.notes, TRUMPET, heard=heard(part))
+    line = MonophonicPart("p", part.notes, TRUMPET, heard=heard(part))
     assert line.heard is not None
     assert line.heard.breath is not None
     times = line_times(line, TEMPO)

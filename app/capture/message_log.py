@@ -23,7 +23,7 @@ _NOTES: Final = ("note_on", "note_off")
 _BEND_RANGE: Final = 8192
 
 
-class Line(msgspec.Struct, frozen=True):
+class MessageRow(msgspec.Struct, frozen=True):
     """A message, or several of one kind in a row.
 
     Attributes
@@ -45,7 +45,7 @@ class Line(msgspec.Struct, frozen=True):
     count: int = 1
 
 
-class HeardLog:
+class MessageLog:
     """The last messages. Between two notes, what swells and fades takes one line, however many messages tell it.
 
     Parameters
@@ -55,10 +55,10 @@ class HeardLog:
     """
 
     def __init__(self, most: int = 40) -> None:
-        self._lines: deque[Line] = deque(maxlen=most)
+        self._lines: deque[MessageRow] = deque(maxlen=most)
 
     @property
-    def lines(self) -> tuple[Line, ...]:
+    def lines(self) -> tuple[MessageRow, ...]:
         """The newest first."""
         return tuple(self._lines)
 
@@ -75,23 +75,23 @@ class HeardLog:
         else:
             self._lines[place] = msgspec.structs.replace(line, count=self._lines[place].count + 1)
 
-    def _since_note(self) -> Iterator[tuple[int, Line]]:
+    def _since_note(self) -> Iterator[tuple[int, MessageRow]]:
         for place, line in enumerate(self._lines):
             if line.kind in _NOTES:
                 return
             yield place, line
 
 
-def _is_same(one: Line, other: Line) -> bool:
+def _is_same(one: MessageRow, other: MessageRow) -> bool:
     return (one.kind, one.channel, one.number) == (other.kind, other.channel, other.number)
 
 
-def _line(message: bytes) -> Line:
+def _line(message: bytes) -> MessageRow:
     kind, channel = _KINDS[message[0] >> 4], (message[0] & 0x0F) + 1
     if kind == "note_on" and message[2] == 0:
         kind = "note_off"
     if kind == "pitch_bend":
-        return Line(kind, channel, -1, (message[2] << 7 | message[1]) - _BEND_RANGE)
+        return MessageRow(kind, channel, -1, (message[2] << 7 | message[1]) - _BEND_RANGE)
     if len(message) == 2:
-        return Line(kind, channel, -1, message[1])
-    return Line(kind, channel, message[1], message[2])
+        return MessageRow(kind, channel, -1, message[1])
+    return MessageRow(kind, channel, message[1], message[2])

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from app.capture.heard import HeardLog, Line
+from app.capture.message_log import MessageLog, MessageRow
 
 
-def heard(*messages: tuple[int, ...]) -> tuple[Line, ...]:
-    log = HeardLog()
+def heard(*messages: tuple[int, ...]) -> tuple[MessageRow, ...]:
+    log = MessageLog()
     for message in messages:
         log.add(bytes(message))
     return log.lines
@@ -14,27 +14,27 @@ def heard(*messages: tuple[int, ...]) -> tuple[Line, ...]:
 
 def test_the_newest_is_first() -> None:
     assert heard((0x90, 60, 80), (0x80, 60, 64), (0x91, 62, 1)) == (
-        Line("note_on", 2, 62, 1),
-        Line("note_off", 1, 60, 64),
-        Line("note_on", 1, 60, 80),
+        MessageRow("note_on", 2, 62, 1),
+        MessageRow("note_off", 1, 60, 64),
+        MessageRow("note_on", 1, 60, 80),
     )
 
 
 def test_a_note_of_no_velocity_ends() -> None:
-    assert heard((0x90, 60, 0)) == (Line("note_off", 1, 60, 0),)
+    assert heard((0x90, 60, 0)) == (MessageRow("note_off", 1, 60, 0),)
 
 
 def test_what_swells_takes_one_line_between_two_notes() -> None:
     breath = [((0xB0, 2, value), (0xD0, value), (0xE0, 0, value)) for value in range(10, 60)]
     messages = [message for group in breath for message in group]
     assert heard(*messages, (0x90, 60, 80), *messages) == (
-        Line("pitch_bend", 1, -1, (59 << 7) - 8192, 50),
-        Line("channel_pressure", 1, -1, 59, 50),
-        Line("control", 1, 2, 59, 50),
-        Line("note_on", 1, 60, 80),
-        Line("pitch_bend", 1, -1, (59 << 7) - 8192, 50),
-        Line("channel_pressure", 1, -1, 59, 50),
-        Line("control", 1, 2, 59, 50),
+        MessageRow("pitch_bend", 1, -1, (59 << 7) - 8192, 50),
+        MessageRow("channel_pressure", 1, -1, 59, 50),
+        MessageRow("control", 1, 2, 59, 50),
+        MessageRow("note_on", 1, 60, 80),
+        MessageRow("pitch_bend", 1, -1, (59 << 7) - 8192, 50),
+        MessageRow("channel_pressure", 1, -1, 59, 50),
+        MessageRow("control", 1, 2, 59, 50),
     )
 
 
@@ -44,7 +44,7 @@ def test_other_controllers_and_channels_are_other_lines() -> None:
 
 
 def test_so_many_are_kept() -> None:
-    log = HeardLog(most=3)
+    log = MessageLog(most=3)
     for pitch in range(60, 70):
         log.add(bytes((0x90, pitch, 1)))
     assert [line.number for line in log.lines] == [69, 68, 67]

@@ -27,13 +27,13 @@ BREATH_S = 0.3
 LATE_S = 0.15
 """Who plays a note may blow this much after its onset in the score."""
 SILENT_SHARE = 0.5
-"""A curve tells of breaths if it is at zero in at least this part of the rests."""
+"""A curve shows breaths if it is at zero in at least this part of the rests."""
 LEAST_PLAYED_S = 0.03
 """A note that loses its breath sooner was not blown at all."""
 
 
 @dataclass(frozen=True, eq=False)
-class Blown:
+class BreathEnvelope:
     """A breath curve in time.
 
     Attributes
@@ -41,7 +41,7 @@ class Blown:
     at_s, values : (K,) float64
         A step function; the first value holds before.
     gaps_s : (G, 2) float64
-        Where nobody blows, ordered; from minus to plus infinity.
+        Where no one blows, ordered; from minus to plus infinity.
     """
 
     at_s: FloatArray
@@ -59,7 +59,7 @@ class Blown:
         return np.asarray(self.mean(times.onset_s, ends_s) > STOPS_AT)
 
     def tells_breaths(self, times: LineTimes) -> bool:
-        """Whether its gaps are those of somebody who breathes."""
+        """Whether its gaps are those of someone who breathes."""
         gaps_s = self.gaps_s[np.isfinite(self.gaps_s).all(axis=1)]
         gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= GASP_S]
         played = self.plays(times)
@@ -95,25 +95,25 @@ class Silences:
         return np.nan_to_num(self.end_s - self.start_s)
 
 
-def blown(steps: Steps, clock: TempoMap) -> Blown:
+def blown(steps: Steps, clock: TempoMap) -> BreathEnvelope:
     """A breath curve in time, with its gaps."""
     at_s = clock.seconds(steps.ticks)
-    return Blown(at_s, steps.values, find_gaps(at_s, steps.values))
+    return BreathEnvelope(at_s, steps.values, find_gaps(at_s, steps.values))
 
 
 def find_gaps(at_s: FloatArray, values: FloatArray) -> FloatArray:
-    """(G, 2): where nobody blows, however shortly. Before the first value nobody blows."""
-    told = np.where(values >= BLOWS_FROM, 1, np.where(values <= STOPS_AT, 0, -1))
-    last: IntArray = np.maximum.accumulate(np.where(told >= 0, np.arange(len(told)), -1))
-    blows = np.where(last >= 0, told[last], 0)
+    """(G, 2): where no one blows, however shortly. Before the first value no one blows."""
+    reported = np.where(values >= BLOWS_FROM, 1, np.where(values <= STOPS_AT, 0, -1))
+    last: IntArray = np.maximum.accumulate(np.where(reported >= 0, np.arange(len(reported)), -1))
+    blows = np.where(last >= 0, reported[last], 0)
     changes = np.diff(blows, prepend=0)
     starts_s = np.concatenate(([-np.inf], at_s[changes < 0]))
     ends_s = at_s[changes > 0]
     return np.stack((starts_s, np.append(ends_s, np.inf)[: len(starts_s)]), axis=1)
 
 
-def gaps_within(heard: Blown, times: LineTimes) -> list[tuple[int, float, float]]:
-    """Where somebody stopped blowing for a breath and blew the same note on: note by note its longest gap."""
+def gaps_within(heard: BreathEnvelope, times: LineTimes) -> list[tuple[int, float, float]]:
+    """Where someone stopped blowing for a breath and blew the same note on: note by note its longest gap."""
     gaps_s = heard.gaps_s[np.isfinite(heard.gaps_s).all(axis=1)]
     gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= BREATH_S]
     notes = np.searchsorted(times.onset_s + LEAST_PLAYED_S, gaps_s[:, 0]) - 1
@@ -126,7 +126,7 @@ def gaps_within(heard: Blown, times: LineTimes) -> list[tuple[int, float, float]
     return [(note, *longest[note]) for note in sorted(longest)]
 
 
-def silences(heard: Blown, times: LineTimes) -> Silences:
+def silences(heard: BreathEnvelope, times: LineTimes) -> Silences:
     """Which gap comes before which note: the longest of those between the note before and this one.
 
     A gap in the middle of a note serves none (`gaps_within`); where the note before was not blown either, it begins

@@ -1,4 +1,4 @@
-"""An instrument suited to a body: its size, the touches that the body can have, and what is told."""
+"""An instrument suited to a body: its size, the touches that the body can have, and what is reported."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import pytest
 
 from app.motion.reach import forwards_axis
 from app.rig.character_library import character_named, characters
+from app.rig.fitted_instrument import FittedInstrument, suited
 from app.rig.landmarks import found_landmarks
 from app.rig.model import Character
 from app.rig.skeleton import forward
 from app.rig.skinning import landmark_positions
 from app.rig.stature import sized_body, sized_character, sized_model
-from app.rig.suited import Suited, suited
 from instrument_maps.load import bundled_maps
 from instrument_maps.size import scaled
 from metadata.load import load_body
@@ -24,13 +24,13 @@ from tests.support.models import bundled_instrument
 MAPS = bundled_maps()
 
 
-def suit(character: Character, instrument_id: str) -> Suited:
+def suit(character: Character, instrument_id: str) -> FittedInstrument:
     instrument = MAPS[instrument_id]
     return suited(character, instrument, load_body(), lambda: bundled_instrument(instrument))
 
 
-def told(found: Suited) -> list[str]:
-    return [message.id for message in found.told]
+def reported(found: FittedInstrument) -> list[str]:
+    return [message.id for message in found.reported]
 
 
 @pytest.mark.parametrize("id", characters())
@@ -38,7 +38,7 @@ def told(found: Suited) -> list[str]:
 def test_a_grown_up_plays_the_very_instrument(id: str, instrument_id: str) -> None:
     found = suit(character_named(id), instrument_id)
     assert found.instrument is MAPS[instrument_id]
-    assert found.told == ()
+    assert found.reported == ()
 
 
 @pytest.mark.parametrize("instrument_id", ["trumpet_Bb", "flute", "trombone_tenor_F_attachment", "clarinet_Bb"])
@@ -46,8 +46,8 @@ def test_a_child_plays_a_smaller_one(instrument_id: str) -> None:
     whole, found = MAPS[instrument_id], suit(odd_body("child"), instrument_id)
     size = found.instrument.size
     assert 0.5 <= size < 0.8
-    assert found.told[0].id == "character.instrument_size"
-    assert found.told[0].arguments == {"percent": round(100 * size)}
+    assert found.reported[0].id == "character.instrument_size"
+    assert found.reported[0].arguments == {"percent": round(100 * size)}
     for small, large in zip(found.instrument.contacts, whole.contacts, strict=True):
         assert small.position_m == pytest.approx(tuple(size * x for x in large.position_m))
         assert (small.part, small.normal, small.control) == (large.part, large.normal, large.control)
@@ -75,7 +75,7 @@ def test_twice_scaled_is_scaled_once() -> None:
 
 def test_fingers_that_do_not_bend_guide_the_hand() -> None:
     found = suit(odd_body("mitten"), "flute")
-    assert told(found) == ["character.no_fingers", "character.no_fingers"]
+    assert reported(found) == ["character.no_fingers", "character.no_fingers"]
     fingers = [contact for contact in found.instrument.contacts if ".palm" not in contact.part]
     assert {contact.grip for contact in fingers} == {"guide"}
     assert len({contact.part for contact in fingers}) == len(fingers)
@@ -83,15 +83,15 @@ def test_fingers_that_do_not_bend_guide_the_hand() -> None:
     assert found.instrument.controls is MAPS["flute"].controls
 
 
-def test_what_a_body_lacks_is_told_and_nothing_raises() -> None:
-    assert told(suit(odd_body("still_face"), "trumpet_Bb")) == ["character.lips_still"]
+def test_what_a_body_lacks_is_reported_and_nothing_raises() -> None:
+    assert reported(suit(odd_body("still_face"), "trumpet_Bb")) == ["character.lips_still"]
     whole = odd_body("unmarked")
-    assert suit(whole, "trumpet_Bb").told == ()
+    assert suit(whole, "trumpet_Bb").reported == ()
     no_lips = replace(whole, landmarks={k: v for k, v in whole.landmarks.items() if "lips" not in k})
-    assert told(suit(no_lips, "clarinet_Bb")) == ["character.no_lips"]
+    assert reported(suit(no_lips, "clarinet_Bb")) == ["character.no_lips"]
     one_hand = replace(whole, landmarks={k: v for k, v in whole.landmarks.items() if not k.startswith("left")})
     found = suit(one_hand, "clarinet_Bb")
-    assert told(found) == ["character.no_hand"]
+    assert reported(found) == ["character.no_hand"]
     assert {seed.hand for seed in found.instrument.hands} == {"right"}
     assert all(contact.part.startswith("right.") for contact in found.instrument.contacts)
 
@@ -116,7 +116,7 @@ def test_a_still_face_has_its_mouth_where_it_would_open() -> None:
         assert np.linalg.norm(off) < 0.007, id
 
 
-def test_a_shoulder_without_a_clavicle_moves_nobody_anywhere() -> None:
+def test_a_shoulder_without_a_clavicle_moves_no_one_anywhere() -> None:
     body = odd_body("unmarked")
     offsets_m = body.skeleton.offsets_m.copy()
     for side in ("left", "right"):

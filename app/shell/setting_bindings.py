@@ -13,7 +13,7 @@ from widgets.common.tokens import THEMES
 
 
 @dataclass(frozen=True)
-class Held:
+class SettingBinding:
     """Where a session has a setting while the editor runs."""
 
     get: Callable[[Session], Any]
@@ -21,18 +21,18 @@ class Held:
     changed: Callable[[Session], SignalInstance]
 
 
-def in_pitches(name: str) -> Held:
+def in_pitches(name: str) -> SettingBinding:
     """How pitches are named."""
-    return Held(
+    return SettingBinding(
         lambda session: getattr(session.pitch_display, name),
         lambda session, value: session.pitch_display.set(**{name: value}),
         lambda session: session.pitch_display.changed,
     )
 
 
-def in_listening(name: str) -> Held:
+def in_listening(name: str) -> SettingBinding:
     """How the person listens."""
-    return Held(
+    return SettingBinding(
         lambda session: getattr(session.listening, name),
         lambda session, value: session.listening.set(**{name: value}),
         lambda session: session.listening.changed,
@@ -44,13 +44,13 @@ def _fold(session: Session, folded: dict[str, bool]) -> None:
         session.set_folded(name, is_folded)
 
 
-FOLDED: Final = Held(lambda session: dict(session.folded), _fold, lambda session: session.folded_changed)
-THEME: Final = Held(
+FOLDED: Final = SettingBinding(lambda session: dict(session.folded), _fold, lambda session: session.folded_changed)
+THEME: Final = SettingBinding(
     lambda session: session.tokens.name,
     lambda session, name: session.set_tokens(THEMES[name]),
     lambda session: session.theme_changed,
 )
-TIME: Final = Held(
+TIME: Final = SettingBinding(
     lambda session: session.time_display,
     lambda session, display: session.set_time_display(display),
     lambda session: session.time_display_changed,

@@ -54,14 +54,16 @@ BENDS = 0.5
 """A finger is one of its own where its skin goes along with it by this weight."""
 
 
-class Suited(NamedTuple):
-    """An instrument as one body plays it, and what is to be told of that."""
+class FittedInstrument(NamedTuple):
+    """An instrument as one body plays it, and what is to be reported about that."""
 
     instrument: InstrumentMap
-    told: tuple[Message, ...]
+    reported: tuple[Message, ...]
 
 
-def suited(character: Character, instrument: InstrumentMap, body: Body, model: Callable[[], InstrumentModel]) -> Suited:
+def suited(
+    character: Character, instrument: InstrumentMap, body: Body, model: Callable[[], InstrumentModel]
+) -> FittedInstrument:
     """Suit an instrument to a body. One that lacks nothing and is of a grown-up's size gets the very map.
 
     Parameters
@@ -72,34 +74,34 @@ def suited(character: Character, instrument: InstrumentMap, body: Body, model: C
     model : callable
         Loads the map's model; asked only where arms are short.
     """
-    held, told = _touched(character, instrument)
+    held, reported = _touched(character, instrument)
     held = _carried(character, held, body, model)
     if held.size != 1.0:
-        told = (Message("character.instrument_size", {"percent": round(100.0 * held.size)}), *told)
-    return Suited(held, told)
+        reported = (Message("character.instrument_size", {"percent": round(100.0 * held.size)}), *reported)
+    return FittedInstrument(held, reported)
 
 
 def _touched(character: Character, instrument: InstrumentMap) -> tuple[InstrumentMap, tuple[Message, ...]]:
     """The map with those contacts that the body can have, and what it has not."""
-    told = []
+    reported = []
     contacts, hands = instrument.contacts, instrument.hands
     for side in dict.fromkeys(seed.hand for seed in instrument.hands):
         if not {f"{side}.hand", f"{side}.palm"} <= character.landmarks.keys():
             contacts = tuple(contact for contact in contacts if not contact.part.startswith(f"{side}."))
             hands = tuple(seed for seed in hands if seed.hand != side)
-            told.append(Message("character.no_hand", {"side": side}))
+            reported.append(Message("character.no_hand", {"side": side}))
             continue
         stiff = frozenset(finger for finger in FINGERS if not _bends(character, side, finger))
         if stiff and any(_of(contact, side) in stiff for contact in contacts):
             contacts = _guided(contacts, side, stiff)
-            told.append(Message("character.no_fingers", {"side": side}))
+            reported.append(Message("character.no_fingers", {"side": side}))
     if "lips.contact" not in character.landmarks:
-        told.append(Message("character.no_lips", {}))
+        reported.append(Message("character.no_lips", {}))
     elif not mouth_opens(character):
-        told.append(Message("character.lips_still", {}))
+        reported.append(Message("character.lips_still", {}))
     if contacts is instrument.contacts and hands is instrument.hands:
-        return instrument, tuple(told)
-    return msgspec.structs.replace(instrument, contacts=contacts, hands=hands), tuple(told)
+        return instrument, tuple(reported)
+    return msgspec.structs.replace(instrument, contacts=contacts, hands=hands), tuple(reported)
 
 
 def _of(contact: Contact, side: str) -> str:
@@ -147,10 +149,10 @@ def _carried(
     range of its carriage where that lets it be larger; where they never reach, as near as they come."""
     low, high = instrument.hold.size_range
     hands = _hands(character)
-    wanted = 1.0 if SAME[0] < hands < SAME[1] else round(min(max(hands, low), high), 2)
+    requested = 1.0 if SAME[0] < hands < SAME[1] else round(min(max(hands, low), high), 2)
     if min((arm_size(character.skeleton, seed.hand) for seed in instrument.hands), default=1.0) > SAME[0]:
-        return scaled(instrument, wanted)
-    sizes = np.append(np.arange(wanted, low, -STEP), low)
+        return scaled(instrument, requested)
+    sizes = np.append(np.arange(requested, low, -STEP), low)
     mouth = fit_lips(character, instrument, body)
     best, found = (-np.inf, 0.0), instrument
     for share in LOWERED:
@@ -166,7 +168,7 @@ def _carried(
 
 
 def _hands(character: Character) -> float:
-    """How large the hands are; of supplied ones, which nobody sees, how long the arms are."""
+    """How large the hands are; of supplied ones, which no one sees, how long the arms are."""
     skeleton, own = character.skeleton, character.own
     if own is not None and any(
         own.bone_of_joint[skeleton.index(f"{side}MiddleDistal")] < 0 for side in ("left", "right")
@@ -201,7 +203,7 @@ def _asked(
 ) -> FloatArray:
     """How much of what an arm can do each size (S,) asks of it; where it is beyond 1 the hand is not reached.
 
-    The palm lies where a grown-up's does, if somebody's hold is known, else where its seed is.
+    The palm lies where a grown-up's does, if someone's hold is known, else where its seed is.
     """
     skeleton, side = character.skeleton, seed.hand
     rim_m = np.asarray(instrument.mouthpiece.position_m)
