@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from statistics import median
+
 import numpy as np
 import numpy.typing as npt
 
@@ -159,11 +161,11 @@ def _begins_again(steps: IntArray, pitch: IntArray, rests: IntArray) -> npt.NDAr
         moves = np.sign(np.diff(pitch))
         columns = [steps[place : count - AGAIN_NOTES + place] for place in range(AGAIN_NOTES)]
         columns += [moves[place : count - AGAIN_NOTES + place] for place in range(AGAIN_NOTES)]
-        rows = np.stack(columns, axis=1)
-        _, kinds = np.unique(rows, axis=0, return_inverse=True)
-        kinds = kinds.ravel()
-        entries = np.unique(kinds[rests[: len(kinds)] > 0])
-        result[: len(kinds)] = np.isin(kinds, entries)
+        rows = np.ascontiguousarray(np.stack(columns, axis=1).astype(np.int64))
+        # Compared as bytes: most lines have few entries and many different bars.
+        kinds = rows.view(np.dtype((np.void, rows.shape[1] * rows.itemsize))).ravel().tolist()
+        entries = {kinds[place] for place in np.flatnonzero(rests[: len(kinds)] > 0).tolist()}
+        result[: len(kinds)] = [kind in entries for kind in kinds]
     return result
 
 
@@ -182,5 +184,5 @@ def _lengths_around(duration_s: FloatArray) -> FloatArray:
     if count > 8:
         around[8:] = np.median(np.lib.stride_tricks.sliding_window_view(duration_s[:-1], 8), axis=1)
     for index in range(min(8, count)):
-        around[index] = np.median(duration_s[: max(index, 1)])
+        around[index] = median(duration_s[: max(index, 1)].tolist())
     return around
