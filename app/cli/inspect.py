@@ -32,6 +32,7 @@ from app.plan.model import (
     GestureEvent,
     PoseEvent,
 )
+from app.plan.problem_lines import problem_lines
 from app.project.model import Dancer, Player
 from app.score.model import Note, UnplayedPart
 from app.score.mutes import is_muted
@@ -101,10 +102,10 @@ def inspection(performance: Performance) -> Table:
         "warnings": [
             *(text(message) for message in score.warnings),
             *(
-                f"{player.name}: {text(problem.message)}"
+                f"{player.name}: {line}"
                 for player in project.players
                 if player.id not in absent
-                for problem in performance.plan(player).problems
+                for line in problem_lines(performance.plan(player).problems, score, text, player.part_id)
             ),
         ],
         "unplayed": [

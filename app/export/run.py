@@ -44,6 +44,7 @@ from app.performance.cast import Performer
 from app.performance.dancers import Dancing
 from app.performance.ensemble import Performance, changes_of
 from app.performance.motion import player_motion
+from app.plan.problem_lines import problem_lines
 from app.project.model import Dancer
 from app.project.names import file_stems
 from app.rig.fit import INSIDE_M, missed
@@ -411,12 +412,12 @@ def _report(
 ) -> Report:
     project, span = request.performance.project, request.span
     problems = [
-        f"{player.name}: {wording(message)}"
+        f"{player.name}: {line}"
         for performer in cast.performers
         for player in (performer.player, *(double.player for double in cast.doubles.get(performer.player.id, ())))
-        for message in (
-            *(cast.targets[player.id].messages if player is performer.player else ()),
-            *(problem.message for problem in request.performance.plan(player).problems),
+        for line in (
+            *(map(wording, cast.targets[player.id].messages) if player is performer.player else ()),
+            *problem_lines(request.performance.plan(player).problems, project.score, wording, player.part_id),
         )
     ]
     rate = span.fps

@@ -60,7 +60,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
 
 PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "note.pitch_outside": ("pitch", "low", "high"),
-    "fingering.out_of_range": ("pitch", "low", "high", "played_pitch"),
+    "fingering.out_of_range": ("low", "high", "played_pitch"),
+    "note.place": ("pitch",),
     "gesture.bell_height": ("pitch", "mean_pitch"),
     "embouchure.register": ("pitch", "low", "high"),
     "embouchure.controller": ("pitch", "low", "high"),

@@ -5,6 +5,13 @@ from __future__ import annotations
 from typing import Final
 
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
+    # Problems as lines of a report
+    "note.place": ("{pitch} (bar {bar}, beat {beat})", "{pitch}（{bar} 小節 {beat} 拍）"),
+    "problem.at": ("{problem} (at {place})", "{problem}（{place}）"),
+    "problem.repeated": (
+        "{problem}; the same kind occurs {count} more {count:time|times}: {places}",
+        "{problem}。同じ種類がほかに {count} 件: {places}",
+    ),
     "doubling.rest_short": (
         ("the rest of {rest_s:g} s is too short to change from {before} to {after}; about {needed_s:g} s are needed"),
         "{before} から {after} への持ち替えには {rest_s:g} 秒の休みでは短すぎます。約 {needed_s:g} 秒必要です",
@@ -31,11 +38,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "fingering.by_hand": ("{label}: set manually", "{label}: 手動で指定"),
     "fingering.out_of_range": (
-        (
-            "note {note}: {pitch} is outside this instrument's range ({low} to {high}); the fingering of "
-            "{played_pitch} is shown"
-        ),
-        "音符 {note}: {pitch} はこの楽器の音域（{low}～{high}）の外です。{played_pitch} の運指を表示します",
+        ("note {note} is outside this instrument's range ({low} to {high}); the fingering of {played_pitch} is shown"),
+        "音符 {note} はこの楽器の音域（{low}～{high}）の外です。{played_pitch} の運指を表示します",
     ),
     "fingering.starts_early": (
         (

@@ -147,7 +147,6 @@ def _out_of_range(notes: tuple[Note, ...], times: LineTimes, instrument: Instrum
                 "fingering.out_of_range",
                 {
                     "note": notes[index].id,
-                    "pitch": int(times.pitch[index]),
                     "low": low,
                     "high": high,
                     "played_pitch": instrument.nearest_playable(int(times.pitch[index])),

@@ -8,8 +8,9 @@ from collections.abc import Callable, Mapping
 from app.errors import Argument, Message
 from app.messages import PITCHES, WORDINGS, filled
 from app.messages.pitches import pitch_name
+from app.plan.problem_lines import NOTES, note_of, note_place
 from app.project.model import Player
-from app.score.model import Note, Score
+from app.score.model import Note
 from instrument_maps.library import all_maps
 from instrument_maps.model import PARTS
 from widgets.common.event_names import kind_name, pose_name
@@ -17,9 +18,6 @@ from widgets.common.instrument_name import instrument_name
 from widgets.common.pitch import pitch_text
 from widgets.common.session import Session
 from widgets.common.translated import tr
-
-NOTES = frozenset({"note", "other", "first_note", "after_note", "anchor"})
-"""Arguments that name a note by its id; an anchor may also be an event or a name."""
 
 
 def message_text(message: Message, session: Session | None = None, player_id: str | None = None) -> str:
@@ -49,11 +47,8 @@ def sentence(message: Message, session: Session | None = None, player_id: str | 
 
 def note_text(session: Session, note: Note, player: Player | None) -> str:
     """A note as the user finds it: its pitch, and bar and beat."""
-    score = session.project.score
-    bar, beat = score.metre_map.bar_of_tick(note.onset_tick), score.metre_map.beat_of_tick(note.onset_tick)
-    return tr("word.bar_beat").format(
-        pitch=_pitch(session, note.pitch, player), bar=bar, beat=f"{beat:.2f}".rstrip("0").rstrip(".")
-    )
+    place = note_place(session.project.score, note)
+    return tr(place.id).format(**{**place.arguments, "pitch": _pitch(session, note.pitch, player)})
 
 
 def _reported(message: Message, name: str, session: Session | None, player_id: str | None) -> Argument:
@@ -83,7 +78,7 @@ def _pitch(session: Session, pitch: float, player: Player | None) -> str:
 
 def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -> str:
     """A note's id as the note; an event's as its kind and its note or place; a name as it is."""
-    note = _note(session.project.score, id, player)
+    note = note_of(session.project.score, id, player.part_id if player is not None else None)
     if note is not None:
         return note_text(session, note, player)
     if is_anchor and _NOTE_ID.fullmatch(id):
@@ -91,7 +86,7 @@ def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -
     kind, colon, rest = id.partition(":")
     if not colon or kind_name(kind) == kind:
         return id
-    note = _note(session.project.score, rest, player)
+    note = note_of(session.project.score, rest, player.part_id if player is not None else None)
     place = rest
     if note is not None:
         place = note_text(session, note, player)
@@ -101,21 +96,6 @@ def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -
 
 
 _NOTE_ID = re.compile(r"\d+:\d+")
-
-_indexed: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
-"""Notes by id of each part that someone asked for, by part; made anew where the part has other notes."""
-
-
-def _note(score: Score, id: str, player: Player | None) -> Note | None:
-    """The note of an id: the player's part is asked first."""
-    first = player.part_id if player is not None else None
-    for part in sorted(score.parts, key=lambda part: part.id != first):
-        known = _indexed.get(part.id)
-        if known is None or known[0] is not part.notes:
-            known = _indexed[part.id] = (part.notes, {note.id: note for note in part.notes})
-        if id in known[1]:
-            return known[1][id]
-    return None
 
 
 def _corrections() -> dict[str, str]:

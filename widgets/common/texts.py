@@ -153,7 +153,6 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "pose_name.left_elbow": ("Left elbow", "左ひじ"),
     "pose_name.right_elbow": ("Right elbow", "右ひじ"),
     "pose_name.torso": ("Torso", "上体"),
-    "word.bar_beat": ("{pitch} (bar {bar}, beat {beat})", "{pitch}（{bar} 小節 {beat} 拍）"),
     "word.chosen_as_leader": ("set as leader", "リーダーに指定"),
     "word.index_finger": ("{side} index finger", "{side}手の人差し指"),
     "word.leads_melody": ("section leader of the melody", "旋律セクションのリーダー"),

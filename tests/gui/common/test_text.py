@@ -44,18 +44,18 @@ def test_a_note_is_reported_by_pitch_and_place(session: Session, note: Note) -> 
 
 
 def test_pitches_are_named_as_the_person_wants(session: Session, note: Note) -> None:
-    message = Message("fingering.out_of_range", {"note": note.id, "pitch": 45, **OUTSIDE})
-    assert "A2 is outside this instrument's range (F♯3 to B♭5)" in message_text(message, session)
+    message = Message("fingering.out_of_range", {"note": note.id, **OUTSIDE})
+    assert "F4 (bar 2, beat 2) is outside this instrument's range (F♯3 to B♭5)" in message_text(message, session)
     session.pitch_display.set(middle_c_octave=3)
-    assert "A1 is outside this instrument's range (F♯2 to B♭4)" in message_text(message, session)
+    assert "F3 (bar 2, beat 2) is outside this instrument's range (F♯2 to B♭4)" in message_text(message, session)
     session.pitch_display.set(middle_c_octave=4, written=True)
     # A trumpet in B flat reads a whole tone above what sounds.
-    assert "B2 is outside this instrument's range (A♭3 to C6)" in message_text(message, session)
+    assert "G4 (bar 2, beat 2) is outside this instrument's range (A♭3 to C6)" in message_text(message, session)
 
 
-def test_the_command_line_keeps_ids_and_names_pitches(note: Note) -> None:
-    reported = text(Message("fingering.out_of_range", {"note": note.id, "pitch": 45, **OUTSIDE}))
-    assert reported.startswith(f"note {note.id}: A2 is outside this instrument's range (F♯3 to B♭5)")
+def test_without_a_score_notes_keep_their_ids_and_pitches_are_named(note: Note) -> None:
+    reported = text(Message("fingering.out_of_range", {"note": note.id, **OUTSIDE}))
+    assert reported.startswith(f"note {note.id} is outside this instrument's range (F♯3 to B♭5)")
 
 
 def test_a_note_of_another_player_is_found(session: Session) -> None:

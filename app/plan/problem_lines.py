@@ -1,0 +1,90 @@
+"""Problems as lines of a report: notes by pitch, bar and beat, and one line for what occurs repeatedly."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Final, TypeAlias
+
+from app.errors import Argument, Message
+from app.plan.model import Problem
+from app.score.model import Note, Score
+
+Wording: TypeAlias = Callable[[Message], str]
+"""Words a message, in the language of who reads it."""
+
+NOTES: Final = frozenset({"note", "other", "first_note", "after_note", "anchor"})
+"""Arguments of messages that name a note by its id; an anchor may also be an event or a name."""
+MOST_PLACES: Final = 40
+"""More are counted only."""
+
+
+def problem_lines(problems: Iterable[Problem], score: Score, wording: Wording, part_id: str | None = None) -> list[str]:
+    """One line for each kind of problem of a player, by the time of its first.
+
+    Parameters
+    ----------
+    problems : iterable of Problem
+        Of one player.
+    score : Score
+        Where the notes are.
+    wording : callable
+    part_id : str or None
+        The player's part, whose notes are looked up first.
+    """
+    kinds: dict[str, list[Problem]] = {}
+    for problem in problems:
+        kinds.setdefault(problem.message.id, []).append(problem)
+    return [_line(found, score, wording, part_id) for found in kinds.values()]
+
+
+def note_place(score: Score, note: Note) -> Message:
+    """Where a note is, as a message."""
+    bar, beat = score.metre_map.bar_of_tick(note.onset_tick), score.metre_map.beat_of_tick(note.onset_tick)
+    return Message("note.place", {"pitch": note.pitch, "bar": bar, "beat": f"{beat:.2f}".rstrip("0").rstrip(".")})
+
+
+def note_of(score: Score, note_id: str, part_id: str | None = None) -> Note | None:
+    """The note of an id, or None; the part given is searched first."""
+    for part in sorted(score.parts, key=lambda part: part.id != part_id):
+        known = _indexed.get(part.id)
+        if known is None or known[0] is not part.notes:
+            known = _indexed[part.id] = (part.notes, {note.id: note for note in part.notes})
+        if note_id in known[1]:
+            return known[1][note_id]
+    return None
+
+
+_indexed: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
+"""Notes by id of each part that was searched, by part; made anew where the part has other notes."""
+
+
+def _with_notes_named(message: Message, score: Score, wording: Wording, part_id: str | None) -> Message:
+    """The message with notes by pitch, bar and beat instead of by id; what is no note of the score stays as it is."""
+    named: dict[str, Argument] = {}
+    for name in NOTES & message.arguments.keys():
+        note = note_of(score, str(message.arguments[name]), part_id)
+        if note is not None:
+            named[name] = wording(note_place(score, note))
+    return Message(message.id, {**message.arguments, **named}) if named else message
+
+
+def _line(found: list[Problem], score: Score, wording: Wording, part_id: str | None) -> str:
+    """The first of some problems of a kind, and the places of the others."""
+    message, places = found[0].message, [_place(problem, score, part_id) for problem in found]
+    line = wording(_with_notes_named(message, score, wording, part_id))
+    if not NOTES & message.arguments.keys() and places[0]:
+        line = wording(Message("problem.at", {"problem": line, "place": places[0]}))
+    others = [place for place in dict.fromkeys(places[1:]) if place not in ("", places[0])]
+    if not others:
+        return line
+    listed = ", ".join(others[:MOST_PLACES]) + (", ..." if len(others) > MOST_PLACES else "")
+    return wording(Message("problem.repeated", {"problem": line, "count": len(found) - 1, "places": listed}))
+
+
+def _place(problem: Problem, score: Score, part_id: str | None) -> str:
+    """Bar and beat of a problem's note, else of its begin; empty for what lasts from before the music."""
+    note = note_of(score, problem.note_id, part_id) if problem.note_id is not None else None
+    if note is None and problem.start_s < 0.0:
+        return ""
+    tick = round(score.tempo_map.ticks(problem.start_s)) if note is None else note.onset_tick
+    return score.metre_map.label(tick)
