@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Final
 
 from app.cli.options import Commands, seconds
+from app.messages import LANGUAGES
 
 VIEWS: Final = ("ensemble", "front", "side", "top", "hands", "mouth", "feet")
-LANGUAGES: Final = ("en", "ja")
 THEMES: Final = ("dark", "light")
 LEAST_PX, MOST_PX = (960, 600), (7680, 4320)
 
@@ -49,6 +49,6 @@ def add_command(commands: Commands) -> None:
     command.add_argument(
         "--size", type=size, default=(1600, 1000), metavar="WxH", help="of the picture (default 1600x1000)"
     )
-    command.add_argument("--language", choices=LANGUAGES, default="", help="of the editor")
+    command.add_argument("--language", choices=tuple(LANGUAGES), default="", help="of the editor")
     command.add_argument("--theme", choices=THEMES, default="", help="of the editor")
     command.set_defaults(run=None)

@@ -35,6 +35,8 @@ from app.messages import (
 )
 from app.messages.pitches import pitch_name
 
+LANGUAGES: Final = {"en": "English", "ja": "日本語"}
+"""By code: the name in the language itself; the wordings are in this order."""
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
     **audio.WORDINGS,
     **capture.WORDINGS,

@@ -8,10 +8,10 @@ import PySide6
 from PySide6.QtCore import QEvent, Qt, qVersion
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QPushButton, QVBoxLayout, QWidget
 
+from app.editor.session import Session
 from app.shell.crash_handler import log_path
 from app.version import program_version
 from widgets.common.plain import Label
-from widgets.common.session import Session
 
 
 class AboutDialog(QDialog):

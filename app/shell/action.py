@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from widgets.common.session import Session
+    from app.editor.session import Session
 
 
 @dataclass(frozen=True)

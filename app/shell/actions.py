@@ -12,13 +12,13 @@ from PySide6.QtGui import QAction, QFocusEvent, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QApplication, QMenu, QMenuBar, QWidget
 from shiboken6 import isValid
 
+from app.editor.session import Session
+from app.editor.settings import Settings
+from app.editor.translated import tr
 from app.shell.action import Action
-from app.shell.settings import Settings
 from widgets.common.icons import icon
 from widgets.common.plain import verbatim
-from widgets.common.session import Session
 from widgets.common.text import message_text
-from widgets.common.translated import tr
 
 SUBJECTS: Final = (
     "file",

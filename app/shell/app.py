@@ -15,6 +15,17 @@ from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtWidgets import QApplication
 
 from app.audio.playback import Playback
+from app.editor.files import Files
+from app.editor.generator import Generator
+from app.editor.library_watch import watch_characters, watch_instruments
+from app.editor.questions import Questions
+from app.editor.recorder import Recorder
+from app.editor.session import Session, Severity
+from app.editor.settings import Settings, settings_path
+from app.editor.sound import Sound
+from app.editor.streamer import Streamer
+from app.editor.tasks import Tasks, ThreadTasks
+from app.editor.viewport_state import VIEWS
 from app.errors import AppError, FileError, Message
 from app.formats.atomic import atomic_write
 from app.formats.scratch import scratch_folder
@@ -25,23 +36,12 @@ from app.rig.character_library import begin_characters
 from app.shell.actions import ActionTable, KeyboardButtons, rows
 from app.shell.crash_handler import CrashHandler, log_path
 from app.shell.editor import Editor
-from app.shell.files import Files
 from app.shell.garbage import Garbage
-from app.shell.generator import Generator
 from app.shell.language import Language
-from app.shell.library_watch import watch_characters, watch_instruments
-from app.shell.questions import Questions
-from app.shell.recording import Recorder
-from app.shell.settings import Settings, settings_path
-from app.shell.sound import Sound
-from app.shell.streamer import Streamer
-from app.shell.tasks import ThreadTasks
+from app.shell.questions import DialogQuestions
 from app.shell.theme import apply_font, apply_theme
 from app.shell.window import Window
 from instrument_maps.library import begin
-from widgets.common.session import Session, Severity
-from widgets.common.tasks import Tasks
-from widgets.common.viewport_state import VIEWS
 
 STOP_S = 3.0
 """Workers that are asked to stop when the editor ends get this long."""
@@ -127,7 +127,7 @@ class Program(QObject):
         settings.failed.connect(self._warn)
         for problem in settings.problems:
             QTimer.singleShot(0, self, partial(self._warn, problem))
-        asked = Questions() if questions is None else questions
+        asked = DialogQuestions() if questions is None else questions
         self.language = Language()
         self.language.set(settings.language)
         self.editor = Editor(self.session, settings, self.language, asked)

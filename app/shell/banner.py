@@ -10,10 +10,10 @@ from PySide6.QtCore import QEvent, QSize
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QPushButton, QToolButton, QWidget
 
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
 from widgets.common.icons import icon, pixmap
 from widgets.common.plain import Label
-from widgets.common.session import Session
-from widgets.common.tokens import LEAST_TARGET_PX
 
 NARROW_PX = 560
 """In a banner narrower than this the answers stand below the question."""

@@ -7,6 +7,9 @@ from pathlib import Path
 
 import msgspec
 
+from app.editor.session import Session, Severity
+from app.editor.tasks import Progress, StopRequested
+from app.editor.translated import tr
 from app.encoding import shown
 from app.errors import AppError, Message, shortened
 from app.project.edit.players import change
@@ -23,9 +26,6 @@ from app.rig.figure import Figure
 from app.rig.read_figure import SUFFIXES
 from app.shell.editor import Editor
 from widgets.common.instrument_name import character_name
-from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopRequested
-from widgets.common.translated import tr
 from widgets.dialogs.character import CharacterDialog
 from widgets.dialogs.character_draft import Draft
 from widgets.dialogs.characters import CharactersDialog

@@ -17,9 +17,9 @@ from typing import Final
 
 import platformdirs
 
+from app.editor.calls import window_calls
+from app.editor.session import Session, Severity
 from app.errors import AppError, Message
-from app.shell.calls import window_calls
-from widgets.common.session import Session, Severity
 
 MOST_BYTES: Final = 1_000_000
 """A longer log begins anew."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QDockWidget, QHBoxLayout, QToolButton, QWidget
 
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
 from widgets.common.icons import icon
 from widgets.common.plain import Label
-from widgets.common.session import Session
-from widgets.common.tokens import LEAST_TARGET_PX
 
 
 class Dock(QDockWidget):

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject
 
-from app.shell.setting_bindings import SettingBinding
-from app.shell.settings import SETTINGS, Setting
-from widgets.common.session import Session
+from app.editor.session import Session
+from app.editor.setting_bindings import SettingBinding
+from app.editor.settings import SETTINGS, Setting
 
 if TYPE_CHECKING:
+    from app.editor.files import Files
+    from app.editor.questions import Questions
+    from app.editor.settings import Settings
     from app.shell.actions import ActionTable
-    from app.shell.files import Files
     from app.shell.language import Language
-    from app.shell.questions import Questions
-    from app.shell.settings import Settings
     from app.shell.window import Window
 
 

@@ -7,7 +7,7 @@ from typing import Final
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QObject, QTranslator, Signal
 
-from app.messages import WORDINGS
+from app.messages import LANGUAGES, WORDINGS
 from app.shell.texts import TEXTS as SHELL
 from widgets.common.texts import TEXTS as COMMON
 from widgets.dialogs.texts import TEXTS as DIALOGS
@@ -17,8 +17,6 @@ from widgets.timeline.texts import TEXTS as TIMELINE
 from widgets.transport.texts import TEXTS as TRANSPORT
 from widgets.viewport.texts import TEXTS as VIEWPORT
 
-LANGUAGES: Final[dict[str, str]] = {"en": "English", "ja": "日本語"}
-"""By code: the name in the language itself."""
 ROOMS: Final[tuple[Mapping[str, tuple[str, str]], ...]] = (
     *(WORDINGS, SHELL, COMMON, DIALOGS, INSPECTOR, PLAYERS, TIMELINE, TRANSPORT, VIEWPORT),
 )

@@ -18,11 +18,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
 from app.shell.actions import ActionTable, plain, sequences
 from app.shell.fuzzy import fitness
 from app.shell.texts import TEXTS
 from widgets.common.plain import Label
-from widgets.common.session import Session
 
 WIDTH_PX, ROW_PX, MOST_ROWS = 560, 30, 14
 _ID = int(Qt.ItemDataRole.UserRole)

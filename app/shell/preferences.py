@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
+from app.editor.settings import SETTINGS, Setting
+from app.editor.translated import tr
 from app.shell.actions import CONTEXTS, menu_with_keys, plain
 from app.shell.editor import Editor
-from app.shell.settings import SETTINGS, Setting
-from widgets.common.translated import tr
 from widgets.dialogs.preferences import Choice, PreferencesDialog
 from widgets.dialogs.shortcuts import ShortcutRow
 

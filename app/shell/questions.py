@@ -5,32 +5,30 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Literal
 
 from PySide6.QtWidgets import QApplication, QDialog, QWidget
 
+from app.editor.questions import Answer
+from app.editor.tasks import Tasks
+from app.editor.tokens import Tokens
+from app.editor.translated import tr
 from app.encoding import shown
 from app.project.importing import ImportWish
 from app.score.read import MidiContents
 from instrument_maps.library import all_maps
 from widgets.common.paths import ask_for_file, ask_where_to_save
 from widgets.common.plain import MessageBox
-from widgets.common.tasks import Tasks
-from widgets.common.tokens import Tokens
-from widgets.common.translated import tr
-
-Answer = Literal["save", "discard", "cancel"]
 
 
-class Questions:
-    """How the person is asked: in dialogs. Tests answer by themselves."""
+class DialogQuestions:
+    """`app.editor.questions.Questions` asked in dialogs."""
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
-        """An existing file; None: the user thought better of it."""
+        """See `Questions.open_file`."""
         return ask_for_file(_parent(), title, Path(folder), filters)
 
     def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
-        """A file to write, its name with one of the suffixes; whether one may be replaced was asked."""
+        """See `Questions.save_file`."""
         while True:
             chosen = ask_where_to_save(_parent(), title, Path(proposal), filters)
             if chosen is None:
@@ -42,7 +40,7 @@ class Questions:
             proposal = str(path)
 
     def unsaved(self, name: str) -> Answer:
-        """What becomes of the changes that are in no file."""
+        """See `Questions.unsaved`."""
         box = MessageBox(_parent())
         box.setObjectName("unsaved")
         box.setIcon(MessageBox.Icon.NoIcon)
@@ -60,7 +58,7 @@ class Questions:
         return "save" if clicked is save else "discard" if clicked is discard else "cancel"
 
     def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
-        """Who plays what in a MIDI file, and whether a dancer dances to it."""
+        """See `Questions.import_midi`."""
         from widgets.dialogs.import_midi import ImportDialog
 
         dialog = ImportDialog(contents, all_maps(), tokens, tasks, _parent())
@@ -70,7 +68,7 @@ class Questions:
             dialog.deleteLater()
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
-        """Whether a character goes for good, which these players are."""
+        """See `Questions.remove_character`."""
         box = MessageBox(_parent())
         box.setObjectName("remove_character")
         box.setIcon(MessageBox.Icon.NoIcon)

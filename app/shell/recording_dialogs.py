@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from app.editor.recorder import recorder_of
 from app.shell.editor import Editor
-from app.shell.recording import recorder_of
 from widgets.dialogs.latency import LatencyDialog
 from widgets.dialogs.midi_devices import MidiDevicesDialog
 

@@ -10,13 +10,13 @@ from PySide6.QtCore import QDateTime, QEvent, QLocale, QSize, Qt
 from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QScrollArea, QToolButton, QVBoxLayout, QWidget
 
+from app.editor.files import Files
+from app.editor.session import Session
+from app.editor.settings import Settings
 from app.encoding import shown
 from app.project.recovery import Recoverable
-from app.shell.files import Files
-from app.shell.settings import Settings
 from widgets.common.icons import icon
 from widgets.common.plain import Label, verbatim
-from widgets.common.session import Session
 
 WIDTH_PX = 860
 RECENT_PX, LEAST_FOLDER_PX = 370, 90

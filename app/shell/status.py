@@ -21,15 +21,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.files import Files
+from app.editor.session import Session, Severity
+from app.editor.tasks import Task, ThreadTasks
+from app.editor.tokens import LEAST_TARGET_PX, Tokens
 from app.errors import Message
-from app.shell.files import Files
-from app.shell.tasks import Task, ThreadTasks
 from instrument_maps.library import library
 from widgets.common.icons import icon, pixmap
 from widgets.common.plain import Label, verbatim
-from widgets.common.session import Session, Severity
 from widgets.common.text import message_text, sentence
-from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 
 POLL_MS = 100
 NAME_PX = 48

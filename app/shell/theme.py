@@ -12,9 +12,9 @@ from pathlib import Path
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
 from PySide6.QtWidgets import QApplication, QStyleFactory
 
+from app.editor.tokens import LEAST_TARGET_PX, LEAST_TEXT_PT, Tokens
 from app.formats.scratch import scratch_folder
 from widgets.common.icons import source
-from widgets.common.tokens import LEAST_TARGET_PX, LEAST_TEXT_PT, Tokens
 
 FAINT = 0.6
 """How much of dim text is left in what cannot be used now."""

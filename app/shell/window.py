@@ -13,6 +13,10 @@ from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QMainWindow, QPushButton, QStackedWidget, QToolBar, QVBoxLayout, QWidget
 
+from app.editor.files import AUDIO_SUFFIXES, MIDI_SUFFIXES
+from app.editor.generator import Generator
+from app.editor.session import Session
+from app.editor.tasks import ThreadTasks
 from app.encoding import is_text, shown
 from app.errors import Message
 from app.project.edit.piece import set_audio
@@ -23,16 +27,12 @@ from app.shell.actions import CONTEXTS, ActionTable, Menus
 from app.shell.banner import Banner
 from app.shell.docks import Dock
 from app.shell.editor import Editor
-from app.shell.files import AUDIO_SUFFIXES, MIDI_SUFFIXES
-from app.shell.generator import Generator
 from app.shell.palette import Palette
 from app.shell.start_page import StartPage
 from app.shell.status import StatusLine
-from app.shell.tasks import ThreadTasks
 from widgets.common.icons import icon
 from widgets.common.paths import dropped_paths
 from widgets.common.plain import verbatim, verbatim_title
-from widgets.common.session import Session
 from widgets.inspector.panel import InspectorPanel
 from widgets.players.panel import PlayersPanel
 from widgets.timeline.panel import TimelinePanel

@@ -11,14 +11,14 @@ import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtWidgets import QApplication
 
+from app.editor.session import Session
+from app.editor.tokens import DARK
 from app.project.model import Project, map_choices, project_from_score
 from app.score.read import read_midi
 from app.shell.language import Language
 from app.shell.theme import apply_font, apply_theme
 from instrument_maps.load import bundled_maps
 from tests.support.tasks import ImmediateTasks
-from widgets.common.session import Session
-from widgets.common.tokens import DARK
 
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
 
@@ -71,7 +71,7 @@ def tasks() -> ImmediateTasks:
 @pytest.fixture(autouse=True)
 def _planned_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """A slow machine plans a small piece beside the window; here no test has to wait for it."""
-    monkeypatch.setattr("app.shell.generator.AT_ONCE_S", 60.0)
+    monkeypatch.setattr("app.editor.generator.AT_ONCE_S", 60.0)
 
 
 @pytest.fixture

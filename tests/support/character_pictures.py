@@ -20,11 +20,11 @@ from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialogButtonBox, QWidget
 
+from app.editor.settings import Settings
+from app.editor.tasks import ThreadTasks
 from app.rig.character_library import FOLDER_VARIABLE, character_library
 from app.shell.app import Program, make_application
 from app.shell.characters import bring_character
-from app.shell.settings import Settings
-from app.shell.tasks import ThreadTasks
 from widgets.dialogs.character import CharacterDialog
 from widgets.dialogs.characters import CharactersDialog
 

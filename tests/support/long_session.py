@@ -22,14 +22,14 @@ from pathlib import Path
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, QTimer
 from PySide6.QtWidgets import QApplication, QWidget
 
+from app.editor.settings import Settings
+from app.editor.tasks import ThreadTasks
 from app.project.autosave import Autosave
 from app.project.presence import Presence
 from app.project.storage import save
 from app.shell.app import Program, make_application
 from app.shell.commands.exchange import reimport_from
 from app.shell.garbage import Garbage
-from app.shell.settings import Settings
-from app.shell.tasks import ThreadTasks
 from tests.bench.performance.large import large_project
 from widgets.dialogs.reimport_midi import ReimportDialog
 

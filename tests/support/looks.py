@@ -31,6 +31,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Severity
+from app.editor.settings import Settings
+from app.editor.tokens import LEAST_TARGET_PX
 from app.errors import Message
 from app.project.autosave import Autosave
 from app.project.edit.takes import add_takes, comp_whole
@@ -38,15 +42,11 @@ from app.project.presence import Presence
 from app.project.recovery import Recoverable
 from app.score.read import read_contents
 from app.shell.app import Program, make_application
-from app.shell.settings import Settings
 from instrument_maps.load import bundled_maps
 from tests.gui.shell.conftest import Answers
 from tests.support.real_work import LUTKIN
 from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Severity
-from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.dialogs.import_midi import ImportDialog
 
 ELIDED = {"player_instrument", "front_player", "curve_choice", "notice", "problems_who", "problems_kind"}

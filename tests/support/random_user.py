@@ -31,6 +31,9 @@ import mido
 from PySide6.QtWidgets import QApplication, QDialog, QLineEdit
 
 from app.choreography.model_file import write_model
+from app.editor.questions import Answer
+from app.editor.settings import Settings
+from app.editor.tasks import ThreadTasks
 from app.errors import AppError, Message
 from app.plan.corrections import AddExpression
 from app.project import storage
@@ -48,9 +51,6 @@ from app.project.presence import Presence
 from app.project.recovery import Recoverable
 from app.shell.app import Program, make_application
 from app.shell.commands.exchange import reimport_from
-from app.shell.questions import Answer
-from app.shell.settings import Settings
-from app.shell.tasks import ThreadTasks
 from tests.fuzz.harness import seeds
 from tests.fuzz.harness.mutators import mutated
 from tests.fuzz.harness.readers import KINDS
@@ -285,7 +285,7 @@ class SessionRun:
             settings.language = "en"
         answers = RandomAnswers(self.chance, folder / "files", self.log)
         autosave = Autosave(Presence(folder / "recovery"))
-        patch("app.shell.files.time", self.clock).start()
+        patch("app.editor.files.time", self.clock).start()
         self.program = Program(settings, questions=answers, autosave=autosave, heard=False)
         assert isinstance(self.program.tasks, ThreadTasks)
         self.tasks = self.program.tasks

@@ -20,18 +20,18 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QPushButton, QWidget
 
 from app.audio.mix import mixdown
+from app.editor.session import Severity
+from app.editor.settings import Settings
 from app.errors import Message
 from app.plan.model import PlayerPlan
 from app.project.autosave import Autosave
 from app.project.presence import Presence
 from app.project.recovery import Recoverable
 from app.shell.app import Program, make_application
-from app.shell.settings import Settings
 from tests.gui.shell.conftest import Answers
 from tests.gui.timeline.hand import Hand
 from tests.gui.timeline.lane_hands import drag, middle
 from widgets.common.number_slider import NumberSlider
-from widgets.common.session import Severity
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.panel import TimelinePanel
 from widgets.viewport.panel import ViewportPanel

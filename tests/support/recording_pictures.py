@@ -27,11 +27,11 @@ from PySide6.QtWidgets import QApplication, QPushButton, QTreeWidget, QWidget
 from app.audio.playback import Playback
 from app.audio.sink import SilentSink
 from app.capture.recorder import SYSTEM_VARIABLE
+from app.editor.recorder import Recorder
+from app.editor.settings import Settings
 from app.project.autosave import Autosave
 from app.project.presence import Presence
 from app.shell.app import Program, make_application
-from app.shell.recording import Recorder
-from app.shell.settings import Settings
 from tests.gui.timeline.lane_hands import drag
 from tests.support.jack import QUICK_FRAMES, jack_server
 from tests.support.wind_player import Played, WindPlayer

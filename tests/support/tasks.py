@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
+from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Cancelled, Message
-from widgets.common.tasks import Progress, StopRequested
 
 T = TypeVar("T")
 

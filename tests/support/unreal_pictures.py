@@ -19,11 +19,11 @@ from PySide6.QtCore import QEventLoop, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QPushButton, QSpinBox
 
+from app.editor.settings import Settings
 from app.project.autosave import Autosave
 from app.project.presence import Presence
 from app.shell.app import Program, make_application
 from app.shell.commands.exchange import export_files
-from app.shell.settings import Settings
 from widgets.dialogs.export_files import ExportDialog
 
 ROOT: Final = Path(__file__).parents[2]

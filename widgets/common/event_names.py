@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from widgets.common.translated import tr
+from app.editor.translated import tr
 
 
 def kind_name(kind: str) -> str:

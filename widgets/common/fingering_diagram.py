@@ -19,12 +19,12 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
+from app.editor.session import Session
+from app.editor.tokens import Tokens
+from app.editor.translated import tr
 from instrument_maps.fingering_label import says_words
 from instrument_maps.model import Control, InstrumentMap
 from widgets.common.key_chart import Chart, chart
-from widgets.common.session import Session
-from widgets.common.tokens import Tokens
-from widgets.common.translated import tr
 
 DOWN = 0.5
 """A key further than this counts as down."""

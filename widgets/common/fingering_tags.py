@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from widgets.common.translated import tr
+from app.editor.translated import tr
 
 _BETWEEN = re.compile("[,、，]")
 

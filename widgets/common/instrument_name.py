@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from app.editor.translated import tr
 from app.rig.character_library import character_library
 from instrument_maps.model import InstrumentMap
-from widgets.common.translated import tr
 
 
 def language() -> str:

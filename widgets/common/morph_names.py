@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from widgets.common.translated import tr
+from app.editor.translated import tr
 
 _WHOLE = frozenset({"jawLeft", "jawRight", "mouthLeft", "mouthRight"})
 """Their side is where they move, not where they are."""

@@ -23,9 +23,9 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QLineEdit, QMenu, QSizePolicy, QWidget
 
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX, Tokens
 from widgets.common.numbers import MIXED, number_from, number_text
-from widgets.common.session import Session
-from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 
 DRAG_PX = 3
 """A press that moves less is a click."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from app.editor.session import PitchDisplay
+from app.editor.translated import tr
 from app.messages.pitches import LETTERS, pitch_name
-from widgets.common.session import PitchDisplay
-from widgets.common.translated import tr
 
 BLACK = frozenset({1, 3, 6, 8, 10})
 

@@ -6,8 +6,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
-from widgets.common.session import Session
-from widgets.common.tokens import LEAST_TARGET_PX
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
 
 _CHEVRON_PX = 4.0
 

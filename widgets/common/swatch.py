@@ -6,8 +6,8 @@ from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QIcon, QPainter, QPaintEvent, QPen, QPixmap
 from PySide6.QtWidgets import QColorDialog, QMenu, QPushButton, QWidget
 
-from widgets.common.session import Session
-from widgets.common.tokens import LEAST_TARGET_PX
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
 
 
 class ColourSwatch(QPushButton):

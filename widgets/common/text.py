@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 
+from app.editor.session import Session
+from app.editor.translated import tr
 from app.errors import Argument, Message
 from app.messages import PITCHES, WORDINGS, filled
 from app.messages.pitches import pitch_name
@@ -16,8 +18,6 @@ from instrument_maps.model import PARTS
 from widgets.common.event_names import kind_name, pose_name
 from widgets.common.instrument_name import instrument_name
 from widgets.common.pitch import pitch_text
-from widgets.common.session import Session
-from widgets.common.translated import tr
 
 
 def message_text(message: Message, session: Session | None = None, player_id: str | None = None) -> str:

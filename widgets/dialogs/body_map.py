@@ -11,9 +11,9 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QHelpEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
+from app.editor.session import Session
+from app.editor.tokens import Tokens
 from metadata.load import load_skeleton
-from widgets.common.session import Session
-from widgets.common.tokens import Tokens
 from widgets.dialogs.character_draft import State
 
 ASPECT: Final = 0.86

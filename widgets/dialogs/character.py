@@ -28,14 +28,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
+from app.editor.tasks import Progress, StopRequested
 from app.encoding import shown
 from app.errors import AppError, Message
 from app.rig.figure import Figure
 from widgets.common.character_picture import Crop, Seen, picture, seen
 from widgets.common.icons import icon
 from widgets.common.plain import Label, verbatim, verbatim_title
-from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import message_text
 from widgets.dialogs.body_map import BodyMap, joints
 from widgets.dialogs.bone_tree import BoneTree

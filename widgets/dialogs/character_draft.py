@@ -8,13 +8,13 @@ from typing import Final, Literal
 
 from PySide6.QtCore import QCoreApplication
 
+from app.editor.translated import tr
 from app.rig.face_map import FaceMapping, map_morphs
 from app.rig.figure import Figure
 from app.rig.figure_character import figure_character
 from app.rig.humanoid import JointMapping, map_joints
 from app.rig.model import Character
 from metadata.model import REQUIRED_JOINTS
-from widgets.common.translated import tr
 
 State = Literal["mapped", "doubtful", "missing"]
 

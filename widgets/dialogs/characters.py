@@ -16,6 +16,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
+from app.editor.tasks import Progress, StopRequested
 from app.errors import Message
 from app.rig.character_library import character_library, character_named, character_problems
 from app.rig.read_figure import SUFFIXES
@@ -23,8 +25,6 @@ from widgets.common.character_picture import picture, seen
 from widgets.common.instrument_name import character_name
 from widgets.common.paths import dropped_paths
 from widgets.common.plain import Label
-from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import message_text
 
 _PICTURE_PX = QSize(72, 96)

@@ -20,6 +20,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
+from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
 from app.performance.ensemble import Performance
 from app.project.document import Change
@@ -27,8 +29,6 @@ from app.project.model import Dancer
 from widgets.common.dance_figures import Floats
 from widgets.common.percussion_names import percussion_names
 from widgets.common.plain import Label, verbatim_title
-from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import sentence
 from widgets.dialogs.motion_gallery import MotionGallery
 from widgets.dialogs.probability_table import ProbabilityTable, Side

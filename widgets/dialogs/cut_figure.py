@@ -11,8 +11,8 @@ from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.cuts import Cut
 from app.choreography.features import POSES, FloatArray, features
+from app.editor.session import Session
 from widgets.common.dance_figures import HIGHEST, draw_figures, placed
-from widgets.common.session import Session
 
 _WIDEST = 0.95
 """In parts of the body's height, with the arms to the sides."""

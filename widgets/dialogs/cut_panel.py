@@ -11,9 +11,9 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QPushButton, QToolButton, QVBoxLayout, QWidget
 
 from app.choreography.cuts_by_hand import Cuts
+from app.editor.session import Session
 from widgets.common.icons import icon
 from widgets.common.plain import Label
-from widgets.common.session import Session
 from widgets.dialogs.cut_figure import PoseFigure, pose_of
 from widgets.dialogs.cut_plot import CutPlot
 from widgets.dialogs.learn_draft import Found, PairDraft

@@ -28,7 +28,7 @@ from app.choreography.cuts_by_hand import (
     moved_bound,
     removed_bound,
 )
-from widgets.common.session import Session
+from app.editor.session import Session
 
 NEAR_PX: Final = 6.0
 SNAP_PX: Final = 12.0

@@ -24,6 +24,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session, Severity
+from app.editor.tasks import Progress, StopRequested
+from app.editor.tokens import LEAST_TARGET_PX
 from app.encoding import shown
 from app.errors import AppError, Message
 from app.export.request import Request
@@ -34,10 +37,7 @@ from app.project.model import Player
 from metadata.load import load_bone_names
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
-from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import message_text, sentence
-from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.dialogs.export_destination import Destination, Done, foresee, write
 from widgets.dialogs.export_formats import FormatChooser
 from widgets.dialogs.export_place import PlaceChooser

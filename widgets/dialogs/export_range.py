@@ -5,9 +5,9 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSpinBox, QWidget
 
+from app.editor.session import Session
 from app.score.model import Score
 from widgets.common.plain import ComboBox, Label
-from widgets.common.session import Session
 
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
 TEXT_MARGIN_PX = 6

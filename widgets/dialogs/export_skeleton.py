@@ -16,6 +16,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
+from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
 from app.export.check_skeleton import reported
 from app.export.target import SkeletonChoice
@@ -26,8 +28,6 @@ from app.project.model import Player
 from app.rig.read_figure import SUFFIXES, read_figure
 from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import ComboBox, Label
-from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import sentence
 
 Requested: TypeAlias = tuple[SkeletonChoice, Path | None, tuple[str, ...]]

@@ -18,13 +18,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
 from metadata.model import ARKIT_MORPHS
 from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon
 from widgets.common.morph_names import morph_name
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
-from widgets.common.session import Session
 
 MOST_FACTOR = 2.0
 

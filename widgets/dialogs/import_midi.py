@@ -29,6 +29,8 @@ from PySide6.QtWidgets import (
 )
 
 from app.choreography.library import bundled_choreographies
+from app.editor.tasks import Progress, StopRequested, Tasks
+from app.editor.tokens import LEAST_TARGET_PX, Tokens
 from app.errors import Message
 from app.messages.pitches import pitch_name
 from app.project.importing import (
@@ -49,9 +51,7 @@ from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
 from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.plain import ComboBox, Label
-from widgets.common.tasks import Progress, StopRequested, Tasks
 from widgets.common.text import message_text
-from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 
 _USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _PITCHES, _CHARACTER = range(8)
 _ROW_PX = 40

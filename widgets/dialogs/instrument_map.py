@@ -31,6 +31,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session, Severity
 from app.errors import AppError
 from app.messages.pitches import LETTERS, pitch_name
 from instrument_maps import fingering_table as edit
@@ -43,7 +44,6 @@ from widgets.common.instrument_name import instrument_name
 from widgets.common.paths import show_folder
 from widgets.common.pitch import syllables
 from widgets.common.plain import Label, MessageBox
-from widgets.common.session import Session, Severity
 from widgets.common.text import message_text
 from widgets.dialogs.fingering_draft import Draft, base_of
 

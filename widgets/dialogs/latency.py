@@ -14,8 +14,8 @@ from app.audio.playback import Playback
 from app.audio.track import Mix
 from app.capture.latency import LATEST_S, LEAST_HITS, Measured, hits, measured, placed
 from app.capture.protocol import Events
+from app.editor.session import Session
 from widgets.common.plain import Label
-from widgets.common.session import Session
 
 LEAD: Final = 4
 """Clicks that are only listened to, or played along without counting."""

@@ -31,12 +31,12 @@ from app.choreography.model import ChoreographyModel
 from app.choreography.model_file import SUFFIX, write_model
 from app.choreography.music_offset import CONFIDENT
 from app.choreography.read_pair import CREDITS_SUFFIX, read_pair
+from app.editor.session import Session
+from app.editor.tasks import Progress, StopRequested
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
 from widgets.common.paths import PathEdit, ask_for_files, ask_where_to_save, dropped_paths
 from widgets.common.plain import Label
-from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import message_text, sentence
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX, AutomaticNumber
 from widgets.dialogs.cut_panel import CutHistory, CutPanel

@@ -26,12 +26,12 @@ from app.audio.playback import Playback
 from app.audio.track import Mix
 from app.capture.learn import Learned, learned, learned_bite
 from app.capture.protocol import Events
+from app.editor.session import Session
 from metadata.load import load_controllers
 from metadata.model import BiteSource
 from widgets.common.combo import Combo, Option
 from widgets.common.instrument_name import language
 from widgets.common.plain import Label
-from widgets.common.session import Session
 from widgets.common.text import sentence
 from widgets.dialogs.midi_monitor import MidiMonitor, source_name
 

@@ -8,12 +8,12 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QListWidget, QProgressBa
 
 from app.capture.message_log import MessageLog, MessageRow
 from app.capture.protocol import Events
+from app.editor.session import Session
+from app.editor.translated import tr
 from app.score.take import decoded, is_wired, said
 from instrument_maps.library import all_maps
 from widgets.common.pitch import pitch_text
 from widgets.common.plain import Label
-from widgets.common.session import Session
-from widgets.common.translated import tr
 
 SHOW_MS = 40
 """The list is shown anew at most so often, however much comes in."""

@@ -26,9 +26,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TEXT_PT
 from widgets.common.dance_figures import draw_figures, placed
-from widgets.common.session import Session
-from widgets.common.tokens import LEAST_TEXT_PT
 
 if TYPE_CHECKING:
     from app.choreography.overview import BasicMotion

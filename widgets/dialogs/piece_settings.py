@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
 from app.errors import Message
 from app.project import limits
 from app.project.edit.generation import vary_everyone
@@ -27,7 +28,6 @@ from app.project.edit.piece import PieceSettings, piece_settings, set_piece_sett
 from app.project.frame_rate import USUAL_RATES, frame_rate, frame_rate_text
 from widgets.common.icons import icon
 from widgets.common.plain import ComboBox, Label
-from widgets.common.session import Session
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX
 
 PROBLEM_PX = 40

@@ -26,6 +26,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
+from app.editor.tasks import Progress, StopRequested
+from app.editor.viewport_state import View
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
 from app.export.video import video_into
@@ -33,10 +36,7 @@ from app.performance.span import FrameSpan, cut_span, whole_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
 from widgets.common.paths import PathEdit, ask_where_to_save, show_folder
 from widgets.common.plain import ComboBox, Label
-from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import message_text
-from widgets.common.viewport_state import View
 
 Pictures = npt.NDArray[np.uint8]
 Render = Callable[[int, int, float, View | None], Pictures]

@@ -22,13 +22,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
+from app.editor.translated import tr
 from app.encoding import shown
 from instrument_maps.library import library, own_folder
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
-from widgets.common.session import Session
 from widgets.common.text import message_text
-from widgets.common.translated import tr
 from widgets.dialogs.shortcuts import ShortcutRow, ShortcutsPage
 
 

@@ -19,9 +19,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX, LEAST_TEXT_PT, Tokens
 from widgets.common.dance_figures import Floats, draw_figures, placed
-from widgets.common.session import Session
-from widgets.common.tokens import LEAST_TARGET_PX, LEAST_TEXT_PT, Tokens
 
 AnyIndex = QModelIndex | QPersistentModelIndex
 

@@ -18,12 +18,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.tokens import Tokens
 from app.plan.corrections import Correction
 from app.project.model import Project
 from app.project.reimport import Conflict, Reimport
 from app.score.model import Note
 from widgets.common.plain import Label
-from widgets.common.tokens import Tokens
 
 
 class ReimportDialog(QDialog):

@@ -20,8 +20,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
 from widgets.common.plain import Label
-from widgets.common.session import Session
 
 _TEXT, _PLACE, _KEYS, _CONTEXT = range(4)
 

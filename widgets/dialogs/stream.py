@@ -21,11 +21,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
+from app.editor.streaming import RATES_HZ
 from app.stream.sender import LEAST_PORT, LOOPBACK, MOST_PORT, TO_MANY, is_loopback
 from widgets.common.combo import Combo, Option
 from widgets.common.plain import Label
-from widgets.common.session import Session
-from widgets.common.streaming import RATES_HZ
 from widgets.common.text import sentence
 
 _LIST_PX = 130

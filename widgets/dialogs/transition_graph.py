@@ -10,8 +10,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFocusEvent, QKeyEvent, QMouseEvent, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from app.editor.session import Session
 from widgets.common.dance_figures import Floats, draw_figures, placed
-from widgets.common.session import Session
 
 LEARNED: Final = 1.5
 """A transition was seen whose probability is this many times that of the row's least, which smoothing gives to all."""

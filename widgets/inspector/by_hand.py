@@ -6,9 +6,9 @@ from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
 
+from app.editor.session import Session
 from widgets.common.icons import icon
 from widgets.common.plain import Label
-from widgets.common.session import Session
 
 
 class ByHandLine(QWidget):

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.plan.corrections import Correction, PinFingering, SetEmbouchure, Vary
 from app.plan.model import Event, PlayerPlan
@@ -16,8 +18,6 @@ from app.project.model import Player, Project
 from app.project.reimport import orphaned, reattached
 from widgets.common.icons import icon
 from widgets.common.plain import Label
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session
 from widgets.common.text import message_text
 from widgets.inspector.generated import Generated
 from widgets.inspector.rows import LineList, ListRow

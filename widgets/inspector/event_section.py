@@ -8,6 +8,7 @@ import msgspec
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QGridLayout, QVBoxLayout, QWidget
 
+from app.editor.session import Session
 from app.errors import Message
 from app.plan.corrections import PoseCorrection, SetBreath, SetCue
 from app.plan.cue import LEAD_BEATS
@@ -21,7 +22,6 @@ from widgets.common.event_names import expression_name, kind_name
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.common.section import Section
-from widgets.common.session import Session
 from widgets.common.text import message_text
 from widgets.inspector.by_hand import ByHandLine
 from widgets.inspector.generated import Generated

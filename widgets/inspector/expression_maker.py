@@ -9,6 +9,7 @@ import shiboken6
 from PySide6.QtCore import QCoreApplication, QEvent, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
+from app.editor.session import Session, Severity
 from app.errors import AppError, Message
 from app.project import presets
 from app.project.document import Change
@@ -24,7 +25,6 @@ from widgets.common.morph_names import morph_name
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.common.section import Section
-from widgets.common.session import Session, Severity
 
 GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("brows", ("brow",)),

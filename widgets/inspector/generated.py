@@ -6,12 +6,12 @@ from dataclasses import replace
 
 from PySide6.QtCore import QObject, Signal
 
+from app.editor.session import Session
+from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
 from app.performance.ensemble import Performance
 from app.plan.model import PlayerPlan
 from app.project.model import Project
-from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopRequested
 
 AT_ONCE_NOTES = 3000
 """So many notes are planned while the user hardly notices ..."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from widgets.common.session import Session
+from app.editor.session import Session
 from widgets.common.text import message_text
 from widgets.inspector.rows import LineList, ListRow
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QGridLayout, QVBoxLayout, QWidget
 
+from app.editor.session import Session
 from app.errors import MapError, Message
 from app.plan.corrections import PinFingering, SetEmbouchure
 from app.plan.model import EmbouchureEvent, FingeringEvent, PlayerPlan
@@ -22,7 +23,6 @@ from widgets.common.number_slider import NumberSlider
 from widgets.common.pitch import pitch_text
 from widgets.common.plain import Label
 from widgets.common.section import Section
-from widgets.common.session import Session
 from widgets.common.text import message_text, sentence
 from widgets.inspector.by_hand import ByHandLine
 from widgets.inspector.generated import Generated

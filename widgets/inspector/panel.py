@@ -5,9 +5,9 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QScrollArea, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
+from app.editor.session import Session
 from app.project.document import Change
 from widgets.common.plain import Label
-from widgets.common.session import Session
 from widgets.inspector.correction_list import CorrectionList
 from widgets.inspector.event_section import EventSection
 from widgets.inspector.expression_maker import ExpressionMaker

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 import unicodedata
 
+from app.editor.session import PitchDisplay
 from app.messages.pitches import LETTERS
 from widgets.common.pitch import syllables
-from widgets.common.session import PitchDisplay
 
 _STEP_SEMITONES = (0, 2, 4, 5, 7, 9, 11)
 _ACCIDENTALS = {"": 0, "#": 1, "♯": 1, "b": -1, "♭": -1, "##": 2, "bb": -2, "x": 2}

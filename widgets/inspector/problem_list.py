@@ -7,13 +7,13 @@ from operator import is_
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
+from app.editor.selection import Selection
+from app.editor.session import Session
 from app.plan.model import Problem
 from app.project.model import Dancer, Player
 from app.score.model import Score
 from widgets.common.combo import Combo, Option
 from widgets.common.plain import Label
-from widgets.common.selection import Selection
-from widgets.common.session import Session
 from widgets.common.text import sentence
 from widgets.inspector.rows import LineList, ListRow
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+from app.editor.session import Session
 from app.plan.model import FingeringEvent, PlayerPlan
 from app.project.edit.events import Placed, placed_events
 from app.project.model import Player
 from app.score.model import Note, Part
-from widgets.common.session import Session
 
 MOST_NOTES = 500
 """Of a larger selection so many are looked at: whether values differ is known by then."""

@@ -11,20 +11,20 @@ import msgspec
 from PySide6.QtCore import QEvent, QSize
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPushButton, QToolButton, QVBoxLayout, QWidget
 
+from app.editor.grids import GRIDS
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
 from app.errors import Message
 from app.project.edit.takes import colour_take, rename_take, set_cleaning, take_cleaned
 from app.project.limits import CLEANING
 from app.project.model import Player
 from app.score.take import Cleaning, Take
 from widgets.common.combo import Combo, Option
-from widgets.common.grids import GRIDS
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.common.section import Section
-from widgets.common.session import Session
 from widgets.common.swatch import ColourSwatch
 from widgets.common.take_times import when_text
-from widgets.common.tokens import LEAST_TARGET_PX
 
 BUTTONS: Final = ("takes.listen", "takes.listen_alone", "takes.whole", "takes.remove")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from app.editor.translated import tr
 from app.plan.corrections import (
     AddExpression,
     AddGesture,
@@ -21,7 +22,6 @@ from app.plan.model import FingeringEvent as Fingered
 from app.project.edit.events import Placed
 from app.score.model import Score
 from widgets.common.event_names import expression_name, kind_name, pose_name
-from widgets.common.translated import tr
 
 
 def amount_field(event: Placed) -> str | None:

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QToolButton, QVBoxLayout, QWidget
 
 from app.choreography.library import bundled_choreographies
 from app.choreography.model_file import SUFFIX
+from app.editor.session import Session
 from app.encoding import shown
 from app.plan.parameters import PARAMETERS
 from app.project.edit import body_dance as edit
@@ -20,7 +21,6 @@ from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon
 from widgets.common.paths import ask_for_file
 from widgets.common.plain import Label
-from widgets.common.session import Session
 from widgets.common.text import parameter_text
 from widgets.players.parameter_rows import ParameterSlider, rows_of
 

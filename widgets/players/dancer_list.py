@@ -26,10 +26,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
 from app.project.model import Dancer
 from widgets.common.icons import icon
-from widgets.common.session import Session
-from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.players.ordered_list import ID_ROLE, OrderedList
 
 AnyIndex = QModelIndex | QPersistentModelIndex

@@ -21,6 +21,8 @@ from PySide6.QtWidgets import (
 from app.chance import next_seed
 from app.choreography.library import bundled_choreographies, choreography_path
 from app.choreography.model_file import SUFFIX, read_model
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
 from app.encoding import shown
 from app.errors import AppError, Message
 from app.project.document import Change
@@ -33,9 +35,7 @@ from widgets.common.instrument_name import character_name
 from widgets.common.paths import ask_for_file
 from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
-from widgets.common.session import Session
 from widgets.common.text import parameter_text
-from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.players.dancer_list import DancerList
 from widgets.players.newcomers import add_dancer, duplicate_dancer, remove_dancer
 from widgets.players.parameter_rows import ParameterSlider, rows_of

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import dancers, players
 from app.project.model import Project
 from instrument_maps.library import all_maps
 from widgets.common.instrument_name import instrument_name
-from widgets.common.session import Session
 
 
 def add_player(session: Session, instrument_id: str) -> None:

@@ -8,7 +8,7 @@ from PySide6.QtCore import QItemSelectionModel, QPoint, QRect, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QAbstractItemView, QApplication, QListView, QWidget
 
-from widgets.common.session import Session
+from app.editor.session import Session
 
 ID_ROLE: Final = Qt.ItemDataRole.UserRole + 1
 """A row's id, str."""

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
 from app.errors import Message
 from app.project.document import Change
 from app.project.edit import players as edit
@@ -25,7 +26,6 @@ from widgets.common.instrument_name import instrument_name
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
-from widgets.common.session import Session
 from widgets.common.text import sentence
 from widgets.players.dancers import DancersSection
 from widgets.players.newcomers import add_player, duplicate_players

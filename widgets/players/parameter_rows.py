@@ -6,11 +6,11 @@ from collections.abc import Mapping
 
 from PySide6.QtWidgets import QHBoxLayout
 
+from app.editor.session import Session
 from app.plan.parameters import PARAMETERS, Parameter
 from widgets.common.combo import Combo, Option
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
-from widgets.common.session import Session
 from widgets.common.text import parameter_text
 
 LARGEST = 2**31 - 1

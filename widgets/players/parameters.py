@@ -10,6 +10,8 @@ from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QIcon, QImage, QPixmap, QShowEvent
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QToolButton, QVBoxLayout, QWidget
 
+from app.editor.session import Session
+from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
 from app.plan.parameters import Parameter, Value
 from app.project.edit import players as edit
@@ -22,9 +24,7 @@ from widgets.common.icons import icon
 from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.plain import Label
 from widgets.common.section import Section
-from widgets.common.session import Session
 from widgets.common.swatch import ColourSwatch
-from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import parameter_text
 from widgets.players.body_dance import BodyDanceRows
 from widgets.players.parameter_rows import ParameterChoice, ParameterSlider, rows_of

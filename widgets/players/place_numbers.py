@@ -6,10 +6,10 @@ import math
 
 import msgspec
 
+from app.editor.session import Session
+from app.editor.translated import tr
 from app.project.casting import StagePosition
 from widgets.common.number_slider import NumberSlider
-from widgets.common.session import Session
-from widgets.common.translated import tr
 from widgets.players.stage import FARTHEST_M
 
 

@@ -38,9 +38,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
 from app.project.model import Player
 from widgets.common.icons import icon
-from widgets.common.session import Session
 from widgets.players.ordered_list import ID_ROLE, OrderedList
 
 AnyIndex = QModelIndex | QPersistentModelIndex

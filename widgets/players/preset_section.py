@@ -5,13 +5,13 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
+from app.editor.session import Session, Severity
 from app.errors import AppError, Message
 from app.project import presets
 from app.project.edit import players as edit
 from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon
 from widgets.common.section import Section
-from widgets.common.session import Session, Severity
 
 _TOOLS = (("apply", "check"), ("save", "save"), ("delete", "delete"))
 

@@ -20,9 +20,9 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from app.editor.session import Session
 from app.project.casting import StagePosition
 from app.project.model import Dancer, Player
-from widgets.common.session import Session
 
 DISC_M = 0.28
 NOSE_M = 0.62

@@ -5,13 +5,13 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent
 from PySide6.QtWidgets import QGridLayout, QToolButton, QVBoxLayout, QWidget
 
+from app.editor.session import Session
 from app.errors import Message
 from app.project.casting import StagePosition
 from app.project.edit import players as edit
 from app.project.edit.dancers import place_dancers
 from widgets.common.icons import icon
 from widgets.common.section import Section
-from widgets.common.session import Session
 from widgets.players.place_numbers import name_places, place_sliders, shown_number, with_number
 from widgets.players.stage import StageView
 

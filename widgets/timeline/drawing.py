@@ -12,7 +12,7 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF
 from shiboken6 import wrapInstance
 
-from widgets.common.tokens import LEAST_TEXT_PT, Tokens
+from app.editor.tokens import LEAST_TEXT_PT, Tokens
 from widgets.timeline.model.hand import Box
 
 Floats = npt.NDArray[np.float64]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from widgets.common.session import Session
+from app.editor.session import Session
 
 MARGIN_S = 2.0
 ROOM_SHARE = 0.1

@@ -10,9 +10,9 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QMouseEvent, QPainter, QPen, QWheelEvent
 from PySide6.QtWidgets import QToolTip, QWidget
 
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TEXT_PT
 from app.score.model import Score
-from widgets.common.session import Session
-from widgets.common.tokens import LEAST_TEXT_PT
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.pictured import Pictured

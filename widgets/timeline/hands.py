@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QPoint, QPointF, Qt
 
-from widgets.common.session import Session
+from app.editor.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.model.gestures import snapped
 from widgets.timeline.model.hand import LaneMouse

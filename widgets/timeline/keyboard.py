@@ -8,8 +8,8 @@ from PySide6.QtCore import QEvent, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QMouseEvent, QPainter, QPaintEvent, QPen, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
+from app.editor.session import Session
 from widgets.common.pitch import BLACK
-from widgets.common.session import Session
 
 KEYBOARD_PX = 50
 

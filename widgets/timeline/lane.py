@@ -18,11 +18,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.selection import Selection
+from app.editor.session import Session
 from app.plan.model import PlayerPlan
 from app.project.document import Change
 from app.project.model import Player
-from widgets.common.selection import Selection
-from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.hands import mouse_at
 from widgets.timeline.lane_header import GUTTER_PX, LaneHeader

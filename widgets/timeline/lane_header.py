@@ -6,9 +6,9 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
+from app.editor.tokens import Tokens
+from app.editor.translated import tr
 from widgets.common.plain import Label
-from widgets.common.tokens import Tokens
-from widgets.common.translated import tr
 
 GUTTER_PX = 144
 """Width of the header of every lane."""

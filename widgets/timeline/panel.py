@@ -14,12 +14,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
+from app.editor.timeline_view import Ghosts, Tool
 from app.errors import FileError
 from app.formats.json_data import decode_json
 from app.project.document import Change
 from widgets.common.icons import icon
-from widgets.common.session import Session
-from widgets.common.timeline_view import Ghosts, Tool
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.extent import scroll_limits, selected_span
 from widgets.timeline.flags import Flags

@@ -15,11 +15,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import notes
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import ComboBox, Label
-from widgets.common.session import Session
 
 GRIDS: tuple[tuple[str, Fraction], ...] = (
     ("1/1", Fraction(4)),

@@ -9,17 +9,17 @@ from PySide6.QtCore import QEvent, QLineF, QRectF, Qt, Signal
 from PySide6.QtGui import QAction, QCursor, QFont, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QMenu, QToolTip, QWidget
 
+from app.editor.selection import Selection
+from app.editor.session import Session
+from app.editor.timeline_view import Ghosts, Tool
+from app.editor.tokens import LEAST_TEXT_PT
 from app.errors import AppError, Message
 from app.project.document import Change
 from app.project.edit import notes
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap
 from widgets.common.pitch import pitch_text
-from widgets.common.selection import Selection
-from widgets.common.session import Session
 from widgets.common.text import sentence
-from widgets.common.timeline_view import Ghosts, Tool
-from widgets.common.tokens import LEAST_TEXT_PT
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import rect
 from widgets.timeline.keyboard import KEYBOARD_PX, Keyboard

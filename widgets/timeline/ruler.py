@@ -21,10 +21,10 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 
+from app.editor.selection import Selection
+from app.editor.session import Session, Severity, TimeDisplay
+from app.editor.tokens import LEAST_TEXT_PT
 from app.errors import Message
-from widgets.common.selection import Selection
-from widgets.common.session import Session, Severity, TimeDisplay
-from widgets.common.tokens import LEAST_TEXT_PT
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_lines
 from widgets.timeline.hands import mouse_at

@@ -8,8 +8,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu, QToolButton, QWidget
 
+from app.editor.session import Session, TimeDisplay
 from widgets.common.icons import icon
-from widgets.common.session import Session, TimeDisplay
 
 
 class UnitButton(QToolButton):

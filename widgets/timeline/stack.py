@@ -8,7 +8,7 @@ from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QFrame, QScrollArea, QVBoxLayout, QWidget
 
-from widgets.common.session import Session
+from app.editor.session import Session
 from widgets.timeline.lane import FOLDED_PX, Lane
 
 HANDLE_PX = 4

@@ -6,11 +6,11 @@ from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QActionGroup, QColor, QIcon, QPalette, QPixmap
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
+from app.editor.session import Session
+from app.editor.timeline_view import Ghosts, Tool
 from app.project.document import Change
 from widgets.common.icons import icon
 from widgets.common.plain import ComboBox, Label
-from widgets.common.session import Session
-from widgets.common.timeline_view import Ghosts, Tool
 from widgets.timeline.roll import PianoRoll
 
 ICONS = {Tool.SELECT: "pointer", Tool.DRAW: "pencil", Tool.ERASE: "eraser", Tool.SPLIT: "split"}

@@ -8,16 +8,16 @@ from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
+from app.editor.grids import GRIDS
+from app.editor.listening import LEAST_SPEED, MOST_SPEED, SOURCES
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
 from app.project.document import Change
 from app.project.grid import Grid
 from widgets.common.combo import Combo, Option
-from widgets.common.grids import GRIDS
 from widgets.common.icons import icon, pixmap
-from widgets.common.listening import LEAST_SPEED, MOST_SPEED, SOURCES
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
-from widgets.common.session import Session
-from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.transport.beat_light import BeatLight
 from widgets.transport.fields import BarsField, ClockField, FramesField
 

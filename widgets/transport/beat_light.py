@@ -9,7 +9,7 @@ from PySide6.QtCore import QSize
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from widgets.common.session import Session
+from app.editor.session import Session
 
 FLASH_S = 0.11
 """How long it shines."""

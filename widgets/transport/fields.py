@@ -6,9 +6,9 @@ import math
 import re
 import unicodedata
 
+from app.editor.session import Session
 from app.score.model import Score
 from widgets.common.number_slider import NumberSlider
-from widgets.common.session import Session
 
 _CLOCK = re.compile(r"^\s*(-?)(?:(?:(\d+)\s*:\s*)?(\d+)\s*:\s*)?(\d+(?:\.\d*)?|\.\d+)\s*$")
 MOST_S = 12 * 3600.0

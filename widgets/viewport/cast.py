@@ -13,6 +13,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from app.editor.poses import Posed
 from app.errors import AppError
 from app.performance.bodies import body_of, character_of, lies_at, model_of, suited_to
 from app.project.casting import StagePosition
@@ -25,7 +26,6 @@ from instrument_maps.library import find_map
 from instrument_maps.model import InstrumentMap
 from metadata.model import Posture
 from widgets.viewport.held import Instruments
-from widgets.viewport.poses import Posed
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.intp]

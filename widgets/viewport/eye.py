@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from widgets.common.viewport_state import View
+from app.editor.viewport_state import View
 from widgets.viewport import camera as moves
 from widgets.viewport.camera import Camera
 

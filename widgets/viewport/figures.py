@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from app.editor.tasks import Progress, StopRequested
 from app.errors import Cancelled
 from app.performance.bodies import is_held
 from app.performance.cast import LeftOut, attempt
 from app.project.model import Dancer, Player, Project
 from app.rig.character_library import character_revision
 from instrument_maps.library import library
-from widgets.common.tasks import Progress, StopRequested
 from widgets.viewport.cast import Member, RenderAssets, Stage, dancer_kit, dancing_member, kit_of, member_of, stand_of
 from widgets.viewport.geometry import Crowd
 from widgets.viewport.renderer import Shapes, crowd_of, shapes_of

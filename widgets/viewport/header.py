@@ -8,11 +8,11 @@ from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
+from app.editor.viewport_state import SHOWN, VIEWS, Shown, View
 from widgets.common.icons import icon
 from widgets.common.plain import Label
-from widgets.common.session import Session
-from widgets.common.tokens import LEAST_TARGET_PX
-from widgets.common.viewport_state import SHOWN, VIEWS, Shown, View
 
 _SHOWN_ICONS: dict[Shown, str] = {
     "names": "player",

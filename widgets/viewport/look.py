@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from widgets.common.tokens import Tokens
+from app.editor.tokens import Tokens
 
 Color = tuple[float, float, float]
 

@@ -10,8 +10,8 @@ import numpy.typing as npt
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 
+from app.editor.tokens import Tokens
 from app.plan.model import PoseTarget
-from widgets.common.tokens import Tokens
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
 from widgets.viewport.contacts import Touch

@@ -12,11 +12,12 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QSize, Qt, 
 from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtWidgets import QMenu, QStackedWidget, QVBoxLayout, QWidget
 
+from app.editor.poses import Poses
+from app.editor.session import Session
+from app.editor.viewport_state import SHOWN, VIEWS, View
 from app.errors import AppError
 from app.project.document import Change
 from widgets.common.plain import Label
-from widgets.common.session import Session
-from widgets.common.viewport_state import SHOWN, VIEWS, View
 from widgets.viewport.camera import Camera, frame, triple
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
 from widgets.viewport.eye import Eye
@@ -27,7 +28,6 @@ from widgets.viewport.look import look_of
 from widgets.viewport.overlay import paint
 from widgets.viewport.pointer import Pointer
 from widgets.viewport.pose_tool import PoseTool
-from widgets.viewport.poses import Poses
 from widgets.viewport.renderer import Emphasis, Renderer
 from widgets.viewport.scene import Scene
 from widgets.viewport.views import bounds, in_the_way, tracked, view_camera

@@ -6,7 +6,7 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
-from widgets.common.session import Session
+from app.editor.session import Session
 from widgets.viewport.eye import Eye
 from widgets.viewport.handles import Handle
 from widgets.viewport.overlay import handle_at

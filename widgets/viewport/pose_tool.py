@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from app.editor.session import Session
 from app.errors import Message
 from app.performance.bodies import body_of
 from app.plan.corrections import PoseCorrection
 from app.plan.model import PoseTarget
 from app.plan.pose import pose_limits
 from app.project.model import Project
-from widgets.common.session import Session
 from widgets.viewport.camera import Camera
 from widgets.viewport.handles import (
     FINER,

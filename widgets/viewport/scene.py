@@ -9,10 +9,12 @@ import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QObject, Signal
 
+from app.editor.live_poses import LivePoses
+from app.editor.poses import Posed, Poses, same
+from app.editor.session import Session, Severity
 from app.errors import Message
 from app.performance.cast import LeftOut
 from app.project.model import Dancer, Player
-from widgets.common.session import Session, Severity
 from widgets.common.text import message_text
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Member, Stage
@@ -20,11 +22,9 @@ from widgets.viewport.contacts import touches
 from widgets.viewport.figures import Loaded, cast_key, load, moved, same_figures
 from widgets.viewport.handles import TARGETS, Handle, handles
 from widgets.viewport.limbs import Limbs, hit
-from widgets.viewport.live_poses import LivePoses
 from widgets.viewport.look import Color, rgb
 from widgets.viewport.overlay import Marks, Name, over_heads_m
 from widgets.viewport.pose_tool import PoseTool
-from widgets.viewport.poses import Posed, Poses, same
 from widgets.viewport.renderer import Shapes
 from widgets.viewport.worn_face import WornFaces
 

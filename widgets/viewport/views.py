@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from app.editor.viewport_state import View
 from app.rig.stature import face_size, hand_size
-from widgets.common.viewport_state import View
 from widgets.viewport.camera import Camera, frame
 from widgets.viewport.cast import Stage
 from widgets.viewport.limbs import model_bounds

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from widgets.common.session import Session
-from widgets.viewport.poses import Floats, Posed, Poses
+from app.editor.poses import Floats, Posed, Poses
+from app.editor.session import Session
 
 
 @dataclass(frozen=True, eq=False)

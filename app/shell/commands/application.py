@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from functools import partial
 
+from app.editor.session import Session
+from app.editor.tokens import THEMES
 from app.shell.action import Action
 from app.shell.editor import editor_of
-from widgets.common.session import Session
-from widgets.common.tokens import THEMES
 
 
 def palette(session: Session) -> None:

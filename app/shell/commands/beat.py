@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from app.editor.session import Session
 from app.errors import Message
 from app.project.edit.piece import set_felt_beat
 from app.shell.action import Action
-from widgets.common.session import Session
 
 
 def _felt(name: str, quarters: float | None) -> Action:

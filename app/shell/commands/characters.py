@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from app.editor.session import Session
 from app.shell.action import Action
 from app.shell.editor import editor_of
-from widgets.common.session import Session
 
 
 def add(session: Session) -> None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections import defaultdict
 
+from app.editor.session import Session
 from app.plan.model import PlayerPlan
 from app.project.model import Player
 from app.score.model import Note
-from widgets.common.session import Session
 
 
 def notes_by_player(session: Session) -> dict[Player, list[Note]]:

@@ -6,12 +6,12 @@ import os
 from pathlib import Path
 
 from app.choreography.library import bundled_choreographies
+from app.editor.session import Session
+from app.editor.translated import tr
 from app.errors import Message
 from app.project.edit.dancers import set_choreography
 from app.shell.action import Action
 from app.shell.editor import editor_of
-from widgets.common.session import Session
-from widgets.common.translated import tr
 from widgets.players import newcomers
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from app.editor.session import Session
 from app.shell.action import Action
-from widgets.common.session import Session
 
 
 def undo(session: Session) -> None:

@@ -9,6 +9,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QCursor
 from PySide6.QtWidgets import QApplication, QMainWindow, QMenu
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import PlayerPlan
 from app.project.edit.events import (
@@ -31,8 +33,6 @@ from app.shell.action import Action
 from app.shell.commands.chosen import events_by_player, notes_by_player, plan_of
 from widgets.common.event_names import expression_name
 from widgets.common.plain import verbatim
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session
 
 NEW_BEATS = 2
 """Length of an added gesture or expression at the playhead."""

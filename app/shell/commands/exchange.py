@@ -8,6 +8,10 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt
 
+from app.editor.files import MIDI_SUFFIXES
+from app.editor.session import Session, Severity
+from app.editor.tasks import Progress, StopRequested
+from app.editor.translated import tr
 from app.encoding import shown
 from app.errors import AppError, Message
 from app.project.midi_out import export_midi as write_piece
@@ -16,13 +20,9 @@ from app.project.reimport import Reimport, reimport
 from app.score.read import read_midi
 from app.shell.action import Action
 from app.shell.editor import editor_of
-from app.shell.files import MIDI_SUFFIXES
 from app.version import program_version
 from instrument_maps.library import all_maps
-from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import message_text, note_text
-from widgets.common.translated import tr
 from widgets.inspector.words import correction_title
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from app.editor.files import AUDIO_SUFFIXES, MIDI_SUFFIXES
+from app.editor.session import Session
+from app.editor.translated import tr
 from app.project.storage import SUFFIX
 from app.shell.action import Action
 from app.shell.editor import editor_of
-from app.shell.files import AUDIO_SUFFIXES, MIDI_SUFFIXES
-from widgets.common.session import Session
-from widgets.common.translated import tr
 
 
 def new_piece(session: Session) -> None:

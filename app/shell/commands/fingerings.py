@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from weakref import WeakKeyDictionary
 
+from app.editor.session import Session, Severity
 from app.errors import AppError, Message
 from app.project.edit.events import pin_fingerings
 from app.project.model import Player, Project
@@ -12,7 +13,6 @@ from app.score.model import Note
 from app.shell.action import Action
 from app.shell.commands.chosen import notes_by_player, plan_of
 from instrument_maps.model import Fingering
-from widgets.common.session import Session, Severity
 
 TYPED_TOGETHER_S = 0.6
 """Signs typed within this time are one fingering: 1 and 3 are 13."""

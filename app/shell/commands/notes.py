@@ -9,14 +9,14 @@ import msgspec
 from PySide6.QtCore import QByteArray, QMimeData
 from PySide6.QtGui import QGuiApplication
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session, Severity
+from app.editor.timeline_view import Tool
 from app.errors import Message
 from app.project.edit import events as event_edits
 from app.project.edit import notes
 from app.project.model import Project
 from app.shell.action import Action
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session, Severity
-from widgets.common.timeline_view import Tool
 
 MIME_TYPE = "application/x-suisou-notes+json"
 VELOCITY_STEP = 8

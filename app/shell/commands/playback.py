@@ -6,14 +6,14 @@ from collections.abc import Callable
 from math import ceil, floor
 from typing import TYPE_CHECKING
 
+from app.editor.session import Session
+from app.editor.sound import sound_of
 from app.errors import Message
 from app.project.edit.piece import set_audio
 from app.shell.action import Action
-from app.shell.sound import sound_of
-from widgets.common.session import Session
 
 if TYPE_CHECKING:
-    from widgets.common.listening import Source
+    from app.editor.listening import Source
 
 _NEAR_S = 1e-4
 """Two moments that are the same moment."""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import players as edit
 from app.project.model import Player, Project
 from app.shell.action import Action
 from app.shell.editor import editor_of
 from instrument_maps.library import all_maps
-from widgets.common.session import Session
 from widgets.players import newcomers
 
 

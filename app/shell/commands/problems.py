@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from weakref import WeakKeyDictionary
 
+from app.editor.selection import Selection
+from app.editor.session import Session, Severity
 from app.errors import Message
 from app.plan.model import Problem
 from app.shell.action import Action
-from widgets.common.selection import Selection
-from widgets.common.session import Session, Severity
 
 _visited: WeakKeyDictionary[Session, tuple[str, Problem]] = WeakKeyDictionary()
 

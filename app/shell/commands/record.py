@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from math import ceil, floor
 
+from app.editor.recorder import recorder_of
+from app.editor.session import Session
 from app.shell.action import Action
 from app.shell.editor import editor_of
-from app.shell.recording import recorder_of
-from widgets.common.session import Session
 
 
 def toggle(session: Session) -> None:

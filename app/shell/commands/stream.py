@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from app.editor.session import Session
+from app.editor.streamer import streamer_of
 from app.shell.action import Action
 from app.shell.editor import editor_of
-from app.shell.streamer import streamer_of
-from widgets.common.session import Session
 
 
 def toggle(session: Session, on: bool = True) -> None:

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from app.editor.listening import RecordedTake
+from app.editor.selection import Selection
+from app.editor.session import Session, Severity
+from app.editor.sound import sound_of
+from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
 from app.project.edit import takes as edit
 from app.project.edit.takes import BEFORE
@@ -9,11 +14,6 @@ from app.project.limits import LAST_TICK
 from app.project.model import Player, Project
 from app.score.take import Cleaning, Floats, Take
 from app.shell.action import Action
-from app.shell.sound import sound_of
-from widgets.common.listening import RecordedTake
-from widgets.common.selection import Selection
-from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopRequested
 
 
 def _takes(session: Session) -> tuple[Take, ...]:

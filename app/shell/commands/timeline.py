@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from app.editor.session import Session, TimeDisplay
+from app.editor.timeline_view import Ghosts, TimelineView
 from app.shell.action import Action
-from widgets.common.session import Session, TimeDisplay
-from widgets.common.timeline_view import Ghosts, TimelineView
 
 
 def _asked(run: Callable[[TimelineView], None]) -> Callable[[Session], None]:

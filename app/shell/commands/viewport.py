@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from functools import partial
 
+from app.editor.session import Session
+from app.editor.viewport_state import Shown, View
 from app.shell.action import Action
-from widgets.common.session import Session
-from widgets.common.viewport_state import Shown, View
 
 
 def show_view(view: View, session: Session) -> None:

@@ -19,13 +19,13 @@ from app.audio.playback import Playback
 from app.audio.reader import Reader
 from app.audio.synth import Synthesiser
 from app.audio.track import RATE_HZ, Mix, Piece, Track
+from app.editor.session import Session
+from app.editor.sound import Sound
 from app.errors import Message
 from app.project.model import Project
-from app.shell.sound import Sound
 from tests.gui.transport.devices import FakeDevices, Time
 from tests.support.tasks import ImmediateTasks
 from tests.unit.audio.pieces import quartet
-from widgets.common.session import Session
 from widgets.transport.bar import TransportBar
 
 pytestmark = pytest.mark.bench

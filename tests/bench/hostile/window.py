@@ -20,6 +20,10 @@ from typing import Any, Final
 from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QApplication, QDialog, QDialogButtonBox
 
+from app.editor.session import Severity
+from app.editor.settings import Settings
+from app.editor.tasks import Tasks, ThreadTasks
+from app.editor.tokens import Tokens
 from app.errors import AppError, Message
 from app.project.autosave import Autosave
 from app.project.importing import ImportWish
@@ -28,16 +32,11 @@ from app.score.read import MidiContents
 from app.shell.app import Program, make_application
 from app.shell.commands.exchange import reimport_from
 from app.shell.garbage import Garbage
-from app.shell.questions import Questions
-from app.shell.settings import Settings
-from app.shell.tasks import ThreadTasks
+from app.shell.questions import DialogQuestions
 from tests.fuzz.harness.child import forget_peak, status_kb
 from tests.fuzz.harness.readers import KINDS
 from tests.gui.shell.conftest import Answers
 from tests.support.restless import QUARTET
-from widgets.common.session import Severity
-from widgets.common.tasks import Tasks
-from widgets.common.tokens import Tokens
 
 PATIENCE_S: Final = 60.0
 LOOK_S: Final = float(os.environ.get("SUISOU_LOOK_S", "1.5"))
@@ -80,7 +79,7 @@ class ImportAnswers(Answers):
         timer.timeout.connect(self._agree)
         timer.start()
         try:
-            return Questions().import_midi(contents, tokens, tasks)
+            return DialogQuestions().import_midi(contents, tokens, tasks)
         finally:
             timer.stop()
 

@@ -25,7 +25,7 @@ import sys, time
 start = time.perf_counter()
 from pathlib import Path
 from app.shell.app import Program, make_application
-from app.shell.settings import Settings
+from app.editor.settings import Settings
 application = make_application()
 program = Program(Settings(Path(sys.argv[1])))
 program.window.show()

@@ -12,6 +12,8 @@ from PySide6.QtCore import QCoreApplication
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.editor.selection import Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.plan.parameters import PlayerParameters
@@ -21,8 +23,6 @@ from app.project.model import Player, Project
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 from tests.support.tasks import ImmediateTasks
-from widgets.common.selection import Selection
-from widgets.common.session import Session
 from widgets.timeline.panel import TimelinePanel
 
 PLAYERS, NOTES, TPQ = 50, 2000, 480

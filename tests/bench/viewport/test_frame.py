@@ -12,12 +12,12 @@ import pytest
 from pytestqt.qtbot import QtBot
 from vispy.gloo.gl import use_gl
 
+from app.editor.session import Session
 from app.performance.chunks import Pose
 from app.project.casting import Footprint, stage_seats
 from app.project.model import Project
 from tests.support.tasks import ImmediateTasks
 from tests.unit.viewport.poses import live, quartet
-from widgets.common.session import Session
 from widgets.viewport.panel import ViewportPanel
 
 FRAMES = 40

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication
 
+from app.editor.selection import Selection
 from app.errors import Message
 from app.plan.corrections import AddExpression, Correction, PinFingering, SetBreath
 from app.project.edit import notes
 from app.project.edit.corrections import put
 from app.project.model import Project
 from tests.bench.window.editor import LargeEditor, Turn, calibration_s, memory_mb
-from widgets.common.selection import Selection
 
 FRAMES = 40
 CORRECTIONS = 3

@@ -241,7 +241,7 @@ def character_entry(path: Path, folder: Path) -> None:
 
 def settings(path: Path, folder: Path) -> None:
     """Every setting has a value, whatever the file says."""
-    from app.shell.settings import Settings
+    from app.editor.settings import Settings
 
     found = Settings(path)
     for name, member in vars(Settings).items():

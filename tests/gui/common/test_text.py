@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import pytest
 from PySide6.QtWidgets import QApplication
 
+from app.editor.session import Session
 from app.errors import Message
 from app.messages import PITCHES, WORDINGS, text
 from app.project.edit.notes import move
 from app.score.model import Note
 from app.shell.language import Texts
-from widgets.common.session import Session
 from widgets.common.text import message_text
 
 OUTSIDE = {"low": 54, "high": 82, "played_pitch": 54}

@@ -17,6 +17,7 @@ from pytestqt.qtbot import QtBot
 
 from app.choreography.model import ChoreographyModel
 from app.choreography.model_file import write_model
+from app.editor.session import Session
 from app.errors import Message
 from app.performance.dancers import dancing_of
 from app.performance.ensemble import Performance
@@ -26,7 +27,6 @@ from app.score.model import PercussionHit, Score
 from tests.support.dances import model
 from tests.support.windows import show_in_front
 from widgets.common.percussion_names import percussion_names
-from widgets.common.session import Session
 from widgets.dialogs.choreography import ChoreographyDialog
 
 COWBELL, CLAVES = 56, 75

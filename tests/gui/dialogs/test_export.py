@@ -11,6 +11,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton, QSpinBox
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
+from app.editor.tasks import ThreadTasks
 from app.export.request import Request
 from app.export.run import export
 from app.formats import usd
@@ -18,11 +20,9 @@ from app.formats.bvh import read_bvh
 from app.messages import text
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span
-from app.shell.tasks import ThreadTasks
 from tests.gui.conftest import quartet_project
 from tests.support.bad_players import own_folders, with_character, with_instrument
 from tests.support.tasks import ImmediateTasks
-from widgets.common.session import Session
 from widgets.dialogs.export_files import ExportDialog
 
 

@@ -10,6 +10,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QComboBox, QLabel, QLineEdit, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
 from app.export.character import character_scene
 from app.export.targets import target_skeleton
 from app.formats.fbx.write import write_scene
@@ -21,7 +22,6 @@ from tests.gui.conftest import quartet_project
 from tests.support.bad_players import with_character
 from tests.support.performed import player_motion
 from tests.support.tasks import ImmediateTasks
-from widgets.common.session import Session
 from widgets.dialogs.export_files import ExportDialog
 
 

@@ -11,10 +11,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QPushButton, QSpinBox
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
 from app.errors import Message
 from app.export.unreal.project import find_project
 from tests.unit.export.unreal.conftest import with_dancers
-from widgets.common.session import Session
 from widgets.dialogs.export_files import ExportDialog
 
 

@@ -23,13 +23,13 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
+from app.editor.tokens import DARK
 from app.project import importing
 from app.project.importing import import_project, usual_rows
 from app.project.model import Project, map_choices, project_from_score
 from app.score.read import read_contents, read_midi
 from instrument_maps.load import bundled_maps
 from tests.support.tasks import ImmediateTasks
-from widgets.common.tokens import DARK
 from widgets.dialogs.import_midi import ImportDialog, NotesPreview
 
 LUTKIN = Path(__file__).parents[2] / "data" / "midi" / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"

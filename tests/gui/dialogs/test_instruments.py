@@ -14,13 +14,13 @@ from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
 import instrument_maps.library as library
-from app.shell.library_watch import watch_instruments
+from app.editor.library_watch import watch_instruments
+from app.editor.session import Session
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import delete_now
 from tests.support.pipe import add
 from tests.support.windows import show_in_front
 from widgets.common.fingering_diagram import FingeringDiagram
-from widgets.common.session import Session
 from widgets.dialogs.instrument_map import CENTS, LABEL, TAGS, InstrumentsDialog
 
 D5, HIGH = 74, 84

@@ -15,14 +15,14 @@ from pytestqt.qtbot import QtBot
 from app.choreography.learn import learn
 from app.choreography.model_file import encode_model, read_model
 from app.choreography.read_pair import read_pair
-from app.shell.tasks import ThreadTasks
+from app.editor.session import Session
+from app.editor.tasks import ThreadTasks
 from tests.gui.conftest import quartet_project
 from tests.support.dances import stepping
 from tests.support.windows import show_in_front
 from tests.unit.choreography.test_cuts import arm_swings
 from tests.unit.cli.test_choreography import write_clip, write_drums
 from widgets.common.paths import PathEdit, url_of
-from widgets.common.session import Session
 from widgets.dialogs import learn_choreography, learn_pair
 from widgets.dialogs.learn_choreography import LearnDialog
 from widgets.dialogs.learn_draft import PairDraft, with_files

@@ -17,11 +17,11 @@ from app.choreography.cuts import Cut, segment
 from app.choreography.cuts_by_hand import bounds, extrema
 from app.choreography.model_file import read_model
 from app.choreography.read_motion import read_motion
+from app.editor.session import Session
 from tests.gui.dialogs.test_learn_choreography import child, drop, press, row_texts, select, shown, type_number
 from tests.support.dances import stepping
 from tests.unit.choreography.test_cuts import arm_swings
 from tests.unit.cli.test_choreography import write_clip, write_drums
-from widgets.common.session import Session
 from widgets.dialogs.cut_figure import pose_of
 from widgets.dialogs.cut_plot import CutLine, CutPlot
 from widgets.dialogs.learn_choreography import LearnDialog

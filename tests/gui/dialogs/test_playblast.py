@@ -12,11 +12,11 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
+from app.editor.tasks import ThreadTasks
+from app.editor.viewport_state import View
 from app.errors import AppError
-from app.shell.tasks import ThreadTasks
 from tests.gui.conftest import quartet_project
-from widgets.common.session import Session
-from widgets.common.viewport_state import View
 from widgets.dialogs.playblast import PlayblastDialog
 
 

@@ -7,14 +7,14 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialogButtonBox, QListWidget, QTableWidget
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
+from app.editor.tokens import LIGHT
 from app.project.reimport import reimport
 from app.shell.language import Language
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import quartet_project
 from tests.unit.project.test_reimport import by_hand, file_with
-from widgets.common.session import Session
 from widgets.common.text import note_text
-from widgets.common.tokens import LIGHT
 from widgets.dialogs.reimport_midi import ReimportDialog
 
 

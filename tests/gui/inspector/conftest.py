@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
 from app.performance.ensemble import Performance
 from app.project import presets
 from app.project.document import Change
 from tests.support.windows import show_in_front
-from widgets.common.session import Session
 from widgets.inspector.panel import InspectorPanel
 
 

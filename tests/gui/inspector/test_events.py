@@ -7,6 +7,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QTabWidget
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.plan.corrections import ChangeExpression, ChangeGesture, PinFingering, PoseCorrection, SetBreath
 from app.plan.model import PlayerPlan
@@ -14,8 +16,6 @@ from app.project.edit import events as edit
 from app.project.edit.corrections import put
 from app.project.model import Player
 from tests.gui.inspector.hands import child, click, click_line, drag, number, show_tab, type_into
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session
 from widgets.inspector.by_hand import ByHandLine
 from widgets.inspector.panel import InspectorPanel
 from widgets.inspector.rows import LineList

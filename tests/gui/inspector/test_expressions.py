@@ -7,13 +7,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLineEdit, QToolButton, QWidget
 
+from app.editor.session import Session
 from app.project import presets
 from metadata.load import load_expression
 from metadata.model import ARKIT_MORPHS
 from tests.gui.inspector.hands import child, click, drag, number, type_into
 from widgets.common.number_slider import NumberSlider
 from widgets.common.section import Section
-from widgets.common.session import Session
 from widgets.inspector.expression_maker import GROUPS, mirrored
 from widgets.inspector.panel import InspectorPanel
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QApplication
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import events as edit
 from app.shell.language import Texts
 from tests.gui.inspector.hands import show_tab
 from tests.gui.japanese import english_in, texts_of
 from widgets.common.section import Section
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session
 from widgets.inspector.panel import InspectorPanel
 from widgets.inspector.rows import LineList
 

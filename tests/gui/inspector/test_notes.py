@@ -7,6 +7,8 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.plan.corrections import PinFingering, SetEmbouchure
 from app.project.edit.corrections import put
@@ -16,8 +18,6 @@ from instrument_maps.library import find_map
 from tests.gui.inspector.hands import child, click, drag, number, type_into
 from widgets.common.chip import Chip
 from widgets.common.fingering_diagram import FingeringDiagram, slide_slots
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session
 from widgets.inspector.by_hand import ByHandLine
 from widgets.inspector.panel import InspectorPanel
 from widgets.inspector.pitch_reading import pitch_from

@@ -8,6 +8,7 @@ import msgspec
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.plan.model import Problem
@@ -17,7 +18,6 @@ from app.shell.commands.problems import problems
 from app.shell.status import problem_count
 from tests.gui.conftest import quartet_project
 from tests.support.tasks import ImmediateTasks
-from widgets.common.session import Session
 from widgets.inspector.problem_list import MOST_LINES, ProblemList
 
 

@@ -12,17 +12,17 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QLineEdit
 from pytestqt.qtbot import QtBot
 
+from app.editor.selection import Selection
+from app.editor.session import Session, Severity
+from app.editor.settings import Settings
 from app.errors import Message
 from app.project.edit.takes import add_takes, comp_whole
 from app.score.take import Cleaning, Take
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, takes
-from app.shell.settings import Settings
 from tests.gui.inspector.hands import child, click, drag, number, type_into
 from tests.support.takes import take_of
 from widgets.common.combo import Combo
-from widgets.common.selection import Selection
-from widgets.common.session import Session, Severity
 from widgets.inspector.panel import InspectorPanel
 
 PLAYED = [(0.1, 0.5, 60, 0.6), (0.52, 0.55, 62, 0.1), (0.6, 1.0, 64, 0.6), (1.01, 1.04, 66, 0.03), (1.2, 2.0, 65, 0.6)]

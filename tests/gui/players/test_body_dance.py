@@ -11,12 +11,12 @@ from PySide6.QtWidgets import QLineEdit, QToolButton
 from pytestqt.qtbot import QtBot
 
 from app.choreography.model_file import write_model
+from app.editor.session import Session
 from app.project.model import Player
 from tests.support.dances import model
 from tests.support.windows import show_in_front
 from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
-from widgets.common.session import Session
 from widgets.players import body_dance
 from widgets.players.parameters import ParameterSections
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from app.editor.session import Session
 from app.project.casting import StagePosition, stage_arc
 from app.project.edit.players import place
 from app.shell.commands import players as commands
 from tests.support.doubled import flutist
-from widgets.common.session import Session
 
 ROWS = {row.id: row for row in commands.ACTIONS}
 

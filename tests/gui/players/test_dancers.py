@@ -12,12 +12,12 @@ from PySide6.QtWidgets import QApplication, QCheckBox, QLineEdit, QMenu, QToolBu
 from pytestqt.qtbot import QtBot
 
 from app.choreography.model_file import write_model
+from app.editor.session import Session
 from app.errors import Message
 from tests.support.dances import model
 from tests.support.windows import show_in_front
 from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
-from widgets.common.session import Session
 from widgets.players import dancers
 from widgets.players.dancers import DancersSection
 from widgets.players.stage_section import StageSection

@@ -6,6 +6,7 @@ import pytest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
 from app.messages import WORDINGS
 from app.plan.parameters import PARAMETERS, Parameter
 from app.project.edit.body_dance import set_body_dance
@@ -16,7 +17,6 @@ from tests.support.parameters import others
 from tests.support.windows import show_in_front
 from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
-from widgets.common.session import Session
 from widgets.common.text import sentence
 from widgets.players.panel import PlayersPanel
 

@@ -8,9 +8,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from app.shell.settings import Settings
+from app.editor.session import Session
+from app.editor.settings import Settings
 from widgets.common.section import Section
-from widgets.common.session import Session
 from widgets.players.panel import PlayersPanel
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
 from app.shell.language import Texts
 from tests.gui.japanese import english_in, texts_of
-from widgets.common.session import Session
 from widgets.players.panel import PlayersPanel
 
 

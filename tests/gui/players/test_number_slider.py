@@ -9,9 +9,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
 from tests.support.windows import show_in_front
 from widgets.common.number_slider import NumberSlider
-from widgets.common.session import Session
 
 
 class Reported:

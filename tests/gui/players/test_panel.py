@@ -12,6 +12,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLineEdit, QMenu, QPushButton, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
 from app.project.casting import stage_arc
 from app.project.edit import players as players_edit
 from app.project.edit.players import cast_parameters, duplicate_players
@@ -21,7 +22,6 @@ from instrument_maps.library import find_map
 from tests.support.windows import show_in_front
 from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
-from widgets.common.session import Session
 from widgets.players.panel import PlayersPanel
 from widgets.players.player_list import PlayerList
 from widgets.players.stage import StageView

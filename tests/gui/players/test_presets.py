@@ -10,11 +10,11 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit, QToolButton
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
 from app.project import presets
 from app.project.edit.players import set_parameters
 from widgets.common.combo import Combo
 from widgets.common.section import Section
-from widgets.common.session import Session
 from widgets.players.panel import PlayersPanel
 
 

@@ -10,25 +10,26 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.audio.playback import Playback
+from app.editor.files import Files
+from app.editor.questions import Answer
+from app.editor.recorder import Recorder
+from app.editor.session import Session
+from app.editor.settings import Settings
+from app.editor.sound import sound_of
+from app.editor.tasks import Tasks
+from app.editor.tokens import Tokens
 from app.project.autosave import Autosave
 from app.project.importing import ImportWish, usual_rows
 from app.project.presence import Presence
 from app.score.read import MidiContents
 from app.shell.app import Program
-from app.shell.files import Files
-from app.shell.questions import Answer, with_suffix
-from app.shell.recording import Recorder
-from app.shell.settings import Settings
-from app.shell.sound import sound_of
+from app.shell.questions import with_suffix
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import QUARTET, delete_now
 from tests.support.recorder import EWI, Clock, SpokenFor
 from tests.support.studio import Studio
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front
-from widgets.common.session import Session
-from widgets.common.tasks import Tasks
-from widgets.common.tokens import Tokens
 
 
 class Answers:

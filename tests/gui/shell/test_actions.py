@@ -8,11 +8,11 @@ from PySide6.QtGui import QContextMenuEvent, QKeySequence
 from PySide6.QtWidgets import QApplication, QMenu, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.editor.settings import Settings
 from app.errors import Message
 from app.project.edit.piece import set_title
 from app.shell.actions import CONTEXTS, MENUS, ActionTable, menu_with_keys, rows, sequences
 from app.shell.app import Program
-from app.shell.settings import Settings
 from app.shell.texts import TEXTS
 from app.shell.window import Window
 from tests.gui.shell.conftest import trigger

@@ -14,13 +14,13 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QDialogButtonBox, QLabel, QLineEdit, QListWidget, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.editor.generator import Generator
 from app.errors import Message
 from app.project.edit.players import change
 from app.rig.character import load_character
 from app.rig.character_library import FOLDER_VARIABLE, character_library, character_named, reload_characters
 from app.shell.app import Program
 from app.shell.characters import bring_character
-from app.shell.generator import Generator
 from tests.gui.shell.conftest import Answers, trigger
 from widgets.common.character_picture import picture, seen
 from widgets.common.number_slider import NumberSlider

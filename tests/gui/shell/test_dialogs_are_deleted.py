@@ -20,7 +20,7 @@ from app.shell import characters, questions
 from app.shell.app import Program
 from app.shell.commands.exchange import reimport_from
 from app.shell.licences_dialog import LicencesDialog
-from app.shell.questions import Questions
+from app.shell.questions import DialogQuestions
 from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import Studio, trigger
 from tests.unit.cli.test_main import ROOT
@@ -66,11 +66,11 @@ OPENED: dict[str, Open] = {
     "MidiDevicesDialog": command("record.devices"),
     "LatencyDialog": lambda program: program.window.show_latency(),
     "ReimportDialog": lambda program: reimport_from(program.session, QUARTET),
-    "ImportDialog": lambda program: Questions().import_midi(
+    "ImportDialog": lambda program: DialogQuestions().import_midi(
         read_contents(QUARTET), program.session.tokens, program.session.tasks
     ),
-    "MessageBox of unsaved changes": lambda program: Questions().unsaved("x"),
-    "MessageBox of a character": lambda program: Questions().remove_character("x", ("y",)),
+    "MessageBox of unsaved changes": lambda program: DialogQuestions().unsaved("x"),
+    "MessageBox of a character": lambda program: DialogQuestions().remove_character("x", ("y",)),
     "MessageBox of a file": lambda program: questions._may_replace("x", Path("y")),
     "MessageBox of instruments": ask_about_instruments,
 }

@@ -6,16 +6,16 @@ from typing import Any
 
 from PySide6.QtWidgets import QApplication, QComboBox, QRadioButton
 
+from app.editor.listening import SOURCES
+from app.editor.session import Session
+from app.editor.settings import SETTINGS, Setting, Settings
+from app.editor.translated import tr
 from app.shell.app import Program
 from app.shell.editor import Editor
 from app.shell.preferences import show_preferences
-from app.shell.settings import SETTINGS, Setting, Settings
 from app.shell.texts import TEXTS
 from tests.gui.conftest import quartet_project
 from tests.support.tasks import ImmediateTasks
-from widgets.common.listening import SOURCES
-from widgets.common.session import Session
-from widgets.common.translated import tr
 
 
 def other(setting: Setting[Any]) -> object:

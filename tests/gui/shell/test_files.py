@@ -16,6 +16,10 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.editor.files import Files
+from app.editor.session import Session
+from app.editor.settings import Settings
+from app.editor.tasks import ThreadTasks
 from app.errors import Message
 from app.formats import atomic
 from app.project import autosave as autosave_module
@@ -24,12 +28,8 @@ from app.project.edit.piece import new_piece, set_title
 from app.project.presence import Presence
 from app.project.recovery import Recoverable, load_work, recoverable
 from app.project.storage import load, save
-from app.shell.files import Files
-from app.shell.settings import Settings
-from app.shell.tasks import ThreadTasks
 from tests.gui.shell.conftest import Answers
 from tests.support.tasks import ImmediateTasks
-from widgets.common.session import Session
 
 
 class Desk:
@@ -76,7 +76,7 @@ class Clock:
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
     result = Clock()
-    monkeypatch.setattr("app.shell.files.time.monotonic", result)
+    monkeypatch.setattr("app.editor.files.time.monotonic", result)
     return result
 
 
@@ -262,10 +262,10 @@ from app.errors import Message
 from app.project.autosave import Autosave
 from app.project.edit.piece import new_piece, set_title
 from app.project.presence import Presence
-from app.shell.files import Files
-from app.shell.settings import Settings
-from app.shell.tasks import ThreadTasks
-from widgets.common.session import Session
+from app.editor.files import Files
+from app.editor.settings import Settings
+from app.editor.tasks import ThreadTasks
+from app.editor.session import Session
 folder = Path(sys.argv[1])
 application = QCoreApplication(["suisou"])
 session = Session(new_piece(), ThreadTasks())

@@ -12,6 +12,10 @@ from PySide6.QtWidgets import QApplication, QLabel, QToolButton
 from pytestqt.qtbot import QtBot
 
 import instrument_maps.library as instruments
+from app.editor.recorder import Recorder
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Severity
+from app.editor.settings import Settings
 from app.errors import Message
 from app.project import storage
 from app.project.autosave import Autosave
@@ -24,9 +28,7 @@ from app.score.read import read_contents
 from app.score.write import write_midi
 from app.shell.app import Program
 from app.shell.commands.events import choose_expression
-from app.shell.questions import Questions, _may_replace
-from app.shell.recording import Recorder
-from app.shell.settings import Settings
+from app.shell.questions import DialogQuestions, _may_replace
 from instrument_maps.library import all_maps
 from tests.gui.conftest import delete_now, quartet_project
 from tests.gui.shell.conftest import Answers, Start
@@ -36,8 +38,6 @@ from tests.support.foreign_text import CHARACTER, Judge, Spoken, hostile_score, 
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show
 from widgets.common.section import SectionHeader
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Severity
 from widgets.dialogs.character import CharacterDialog
 from widgets.dialogs.character_draft import Draft
 from widgets.dialogs.import_midi import ImportDialog
@@ -217,7 +217,7 @@ def dialogs(program: Program, judge: Judge) -> None:
 
 def questions(program: Program, judge: Judge) -> None:
     """Boxes that wait for an answer."""
-    asked, name = Questions(), judge.canary.name
+    asked, name = DialogQuestions(), judge.canary.name
 
     def answer(state: str) -> None:
         judge.look(state, program.window)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import pytest
 from pytestqt.qtbot import QtBot
 
+from app.editor import generator as module
+from app.editor.generator import Generator
+from app.editor.selection import Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.plan.corrections import SetEmbouchure, Vary
 from app.project.edit.corrections import put
-from app.shell import generator as module
 from app.shell.commands import generate
-from app.shell.generator import Generator
-from widgets.common.selection import Selection
-from widgets.common.session import Session
 
 
 @pytest.mark.parametrize("at_once", [True, False])

@@ -10,6 +10,10 @@ import msgspec
 import pytest
 from pytestqt.qtbot import QtBot
 
+from app.editor import generator as module
+from app.editor.generator import Generator
+from app.editor.session import Session, Severity
+from app.editor.tasks import ThreadTasks
 from app.errors import Message
 from app.performance import bodies
 from app.performance.chunks import Pose
@@ -20,12 +24,8 @@ from app.plan.model import Problem
 from app.project.edit import players
 from app.project.edit.corrections import put
 from app.rig.character_library import character_named
-from app.shell import generator as module
 from app.shell.commands.problems import go_to_problem
-from app.shell.generator import Generator
-from app.shell.tasks import ThreadTasks
 from tests.support.bodies import playing as odd_bodies
-from widgets.common.session import Session, Severity
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lanes.problems import ProblemsLane

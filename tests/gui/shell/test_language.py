@@ -22,10 +22,10 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from app.choreography.library import bundled_choreographies
+from app.editor.settings import Settings
 from app.shell.app import Program
 from app.shell.language import ROOMS
 from app.shell.preferences import show_preferences
-from app.shell.settings import Settings
 from app.shell.theme import JAPANESE_FAMILIES
 from tests.gui.shell.conftest import trigger
 

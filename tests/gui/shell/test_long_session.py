@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from PySide6.QtWidgets import QApplication, QLabel
 
+from app.editor.settings import Settings
 from app.project.autosave import Autosave
 from app.project.presence import Presence
 from app.shell.app import Program
-from app.shell.settings import Settings
 from tests.gui.conftest import delete_now
 from tests.support.long_session import LongDay, footprint, larger_piece
 

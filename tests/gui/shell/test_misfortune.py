@@ -18,6 +18,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Severity
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.project import storage
@@ -29,7 +30,6 @@ from app.shell.app import Program
 from tests.gui.conftest import quartet_project
 from tests.gui.shell.conftest import Answers, Start, trigger
 from tests.support.tasks import ImmediateTasks
-from widgets.common.session import Severity
 from widgets.common.text import message_text
 
 

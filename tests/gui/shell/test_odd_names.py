@@ -15,14 +15,14 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QFileDialog, QLabel, QLineEdit, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.editor.settings import Settings
 from app.errors import Message
 from app.project.edit.piece import set_title
 from app.project.names import file_stem
 from app.project.recovery import Recoverable
 from app.project.storage import load
 from app.shell.app import Program
-from app.shell.questions import Questions
-from app.shell.settings import Settings
+from app.shell.questions import DialogQuestions
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
 from tests.support.odd_names import NAME, odd, on_bytes
@@ -152,8 +152,8 @@ def test_dialogs_give_the_bytes_and_begin_where_qt_can_be(
     for name in ("getOpenFileUrl", "getSaveFileUrl"):
         monkeypatch.setattr(QFileDialog, name, chosen)
     monkeypatch.setattr(QFileDialog, "getExistingDirectoryUrl", lambda *given, **more: chosen(*given, **more)[0])  # type: ignore[index]
-    assert Questions().open_file("Open", str(folder), "*") == odd(folder, ".suisou")
-    assert Questions().save_file("Save", str(odd(folder, ".suisou")), "*", (".suisou",)) == odd(folder, ".suisou")
+    assert DialogQuestions().open_file("Open", str(folder), "*") == odd(folder, ".suisou")
+    assert DialogQuestions().save_file("Save", str(odd(folder, ".suisou")), "*", (".suisou",)) == odd(folder, ".suisou")
     assert ask_for_folder(None, "Folder", folder) == odd(folder, ".suisou")
     assert ask_for_file(None, "Open", None, "*") == odd(folder, ".suisou")
     assert begun == [str(folder.parent), f"{folder.parent}/{NAME}.suisou", str(folder.parent), str(Path.home())]

@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt, QTimer, QUrl
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
 
-from app.shell.questions import Questions
+from app.shell.questions import DialogQuestions
 
 SUFFIXES = (".mid", ".midi")
 
@@ -40,7 +40,7 @@ class Typed:
 
 
 def save(folder: Path) -> Path | None:
-    return Questions().save_file("Export MIDI", str(folder / "x.mid"), "MIDI (*.mid)", SUFFIXES)
+    return DialogQuestions().save_file("Export MIDI", str(folder / "x.mid"), "MIDI (*.mid)", SUFFIXES)
 
 
 @pytest.mark.parametrize("typed", ["piece", "piece.v2", "piece.MID", "piece.midi"])

@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QApplication, QLabel
 
 from app.capture.journal import Header, JournalWriter
 from app.capture.protocol import Back, Lost, Ports, Refused, Written
+from app.editor.live_player import REST_S
+from app.editor.recorder import recorder_of
 from app.errors import Message
-from app.shell.live_player import REST_S
-from app.shell.recording import recorder_of
 from tests.support.recorder import EWI
 from tests.support.studio import Studio
 

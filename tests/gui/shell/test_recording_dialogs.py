@@ -22,10 +22,10 @@ from PySide6.QtWidgets import (
 )
 
 from app.capture.protocol import Back, Lost, Opened, Ports, Refused
+from app.editor.recorder import recorder_of
 from app.errors import Message
 from app.messages.pitches import pitch_name
 from app.score.take import ControllerMapping
-from app.shell.recording import recorder_of
 from instrument_maps.library import all_maps
 from metadata.load import load_controllers
 from tests.gui.japanese import english_in, texts_of

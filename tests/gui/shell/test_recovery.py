@@ -12,6 +12,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Severity
 from app.errors import Message
 from app.project.autosave import DELAY_S
 from app.project.edit.piece import set_title
@@ -22,7 +23,6 @@ from app.shell.app import Program
 from app.shell.crash_handler import CrashHandler
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
-from widgets.common.session import Severity
 
 
 def edit(program: Program, title: str) -> None:
@@ -52,7 +52,7 @@ def later(program: Program, monkeypatch: pytest.MonkeyPatch) -> None:
 
     now = time.monotonic()
     with monkeypatch.context() as patch:
-        patch.setattr("app.shell.files.time.monotonic", lambda: now + DELAY_S + 1.0)
+        patch.setattr("app.editor.files.time.monotonic", lambda: now + DELAY_S + 1.0)
         program.editor.files.tick()
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
+from app.editor.settings import Settings, settings_path
 from app.encoding import shown
 from app.errors import Message
 from app.project.autosave import Autosave
@@ -18,7 +19,6 @@ from app.project.presets import expression_folder, preset_folder
 from app.rig import character_library
 from app.rig.character_library import bundled_characters, character_named
 from app.shell.app import Program
-from app.shell.settings import Settings, settings_path
 from instrument_maps import library as instrument_library
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import QUARTET

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 from pytestqt.qtbot import QtBot
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.project.edit.notes import erase
 from app.project.edit.takes import add_takes
@@ -12,8 +14,6 @@ from app.shell.actions import rows
 from app.shell.app import Program
 from tests.gui.shell.conftest import trigger
 from tests.support.takes import take_of
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session
 
 COMMANDS = [
     row.id

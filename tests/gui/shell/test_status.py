@@ -7,9 +7,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QFrame, QLabel, QProgressBar, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Severity
 from app.errors import Message
 from app.shell.app import Program
-from widgets.common.session import Severity
 from widgets.common.text import sentence
 
 

@@ -14,21 +14,21 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.editor.settings import Settings
+from app.editor.sound import sound_of
+from app.editor.streaming import StreamTarget
 from app.errors import Message
 from app.performance.bodies import character_of
 from app.performance.play_along import PlayAlong
 from app.rig.character_library import character_named
 from app.score.take import ControllerMapping
 from app.shell.app import Program
-from app.shell.settings import Settings
-from app.shell.sound import sound_of
 from app.stream.sender import Sender
 from tests.gui.shell.conftest import Start, trigger
 from tests.support.bad_players import with_instrument
 from tests.support.osc import Frame, Receiver
 from tests.support.performed import playing_of
 from tests.unit.export.unreal.conftest import with_dancers
-from widgets.common.streaming import StreamTarget
 from widgets.dialogs.stream import StreamDialog
 from widgets.players.player_list import PlayerList
 
@@ -217,7 +217,7 @@ def test_what_is_in_the_way_is_said_once_and_tried_again(
     ready(program, qtbot)
     reported = list[str]()
     program.session.noticed.connect(lambda message, severity: reported.append(message.id))
-    monkeypatch.setattr("app.shell.streamer.RETRY_S", 0.1)
+    monkeypatch.setattr("app.editor.streamer.RETRY_S", 0.1)
     program.session.streaming.set(host="nobody at all.invalid")
     trigger(program, "stream.toggle")
     assert program.session.streaming.state == "failed"

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from PySide6.QtGui import QColor
 
+from app.editor.tokens import THEMES, Tokens
 from app.shell.theme import faint, palette
-from widgets.common.tokens import THEMES, Tokens
 
 READABLE, VISIBLE = 4.5, 3.0
 """Least contrasts of text and of drawings: WCAG 2.2, success criteria 1.4.3 and 1.4.11."""

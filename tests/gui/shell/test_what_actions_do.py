@@ -17,6 +17,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialog, QLineEdit, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.editor.listening import RecordedTake
+from app.editor.recorder import Recorder
+from app.editor.selection import EventKey, Selection
+from app.editor.settings import Settings
+from app.editor.sound import sound_of
+from app.editor.tokens import DARK
 from app.errors import Message
 from app.plan.corrections import AddGesture, PinFingering, RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.model import PlayerPlan
@@ -34,9 +40,6 @@ from app.score.read import read_midi
 from app.score.take import Cleaning
 from app.shell.actions import rows
 from app.shell.app import Program
-from app.shell.recording import Recorder
-from app.shell.settings import Settings
-from app.shell.sound import sound_of
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import Answers
@@ -44,9 +47,6 @@ from tests.support.recorder import EWI, RunningClock, SpokenFor
 from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front, wait_until
-from widgets.common.listening import RecordedTake
-from widgets.common.selection import EventKey, Selection
-from widgets.common.tokens import DARK
 from widgets.timeline.panel import TimelinePanel
 from widgets.viewport.panel import ViewportPanel
 

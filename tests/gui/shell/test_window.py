@@ -12,12 +12,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.editor.settings import Settings
 from app.errors import Message
 from app.performance.dancers import dancing_of
 from app.project.edit.piece import set_title
 from app.project.storage import load
 from app.shell.app import Program
-from app.shell.settings import Settings
 from app.shell.window import SIDES
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger

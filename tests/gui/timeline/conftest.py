@@ -11,6 +11,8 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
+from app.editor.settings import Settings
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.grid import Grid
@@ -19,11 +21,9 @@ from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, events, notes, timeline
-from app.shell.settings import Settings
 from tests.gui.timeline.hand import Hand, Place
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front
-from widgets.common.session import Session
 from widgets.timeline.panel import TimelinePanel
 from widgets.timeline.roll import PianoRoll
 

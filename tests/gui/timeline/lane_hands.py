@@ -7,11 +7,11 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
+from app.editor.session import Session
 from app.performance.ensemble import Performance
 from app.plan.model import PlayerPlan
 from app.project.document import Change
 from tests.support.windows import show
-from widgets.common.session import Session
 from widgets.timeline.lane import Lane
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.model.region import Region

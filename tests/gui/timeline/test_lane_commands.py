@@ -11,6 +11,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu
 from pytestqt.qtbot import QtBot
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
+from app.editor.settings import Settings
 from app.errors import Message
 from app.plan.corrections import AddExpression, AddGesture, PinFingering, RemoveEvent, SetBreath, SetCue
 from app.plan.model import Problem
@@ -19,11 +22,8 @@ from app.score.model import Note
 from app.shell.actions import ActionTable
 from app.shell.commands import edit as undoing
 from app.shell.commands import events, fingerings, problems
-from app.shell.settings import Settings
 from tests.gui.timeline.lane_hands import front_plan, shown_panel
 from tests.support.windows import show_in_front
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session
 from widgets.timeline.panel import TimelinePanel
 
 

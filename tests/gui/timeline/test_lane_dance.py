@@ -16,6 +16,7 @@ from PySide6.QtWidgets import QApplication, QMenu
 from pytestqt.qtbot import QtBot
 
 from app.choreography.model_file import write_model
+from app.editor.session import Session
 from app.errors import Message
 from app.performance.dancers import dancing_of
 from app.project.casting import StagePosition
@@ -29,7 +30,6 @@ from tests.gui.timeline.lane_hands import LEFT, SHIFT, click, planned
 from tests.support.dances import model
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front
-from widgets.common.session import Session
 from widgets.timeline.lanes.dance import DanceLane
 from widgets.timeline.panel import TimelinePanel
 

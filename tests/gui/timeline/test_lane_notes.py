@@ -12,6 +12,8 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from app.audio.peaks import Peaks
+from app.editor.selection import Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.plan.corrections import PinFingering, SetEmbouchure
 from app.plan.model import FingeringEvent
@@ -19,8 +21,6 @@ from app.project.edit import events as edit
 from app.project.model import AudioTrack
 from tests.gui.timeline.lane_hands import CTRL, SHIFT, click, double_click, drag, front_plan, shown_panel, viewport
 from widgets.common.chip import Chip
-from widgets.common.selection import Selection
-from widgets.common.session import Session
 from widgets.timeline.lanes.curves import CurvesLane
 from widgets.timeline.lanes.fingering import FingeringLane, slide_places
 from widgets.timeline.lanes.problems import ProblemsLane

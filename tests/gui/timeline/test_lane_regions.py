@@ -9,6 +9,8 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.plan.corrections import (
     AddExpression,
@@ -36,8 +38,6 @@ from tests.gui.timeline.lane_hands import (
     shown_panel,
     viewport,
 )
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session
 from widgets.timeline.lanes.acting import ActingLane
 from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.model.regions import LEAST_REGION_PX

@@ -12,20 +12,20 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QMenu
 from pytestqt.qtbot import QtBot
 
+from app.editor.selection import Selection
+from app.editor.session import Session
+from app.editor.settings import Settings
 from app.errors import Message
 from app.project.edit.takes import BEFORE, add_takes, set_cleaning
 from app.project.grid import Grid
 from app.score.take import Cleaning
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, notes, takes, timeline
-from app.shell.settings import Settings
 from tests.gui.timeline.conftest import TPQ, scale_project
 from tests.gui.timeline.lane_hands import ALT, click, double_click, drag, move_to
 from tests.support.takes import PlayedNote, take_of
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front
-from widgets.common.selection import Selection
-from widgets.common.session import Session
 from widgets.timeline.lanes.takes import TakesLane
 from widgets.timeline.panel import TimelinePanel
 

@@ -6,12 +6,12 @@ import numpy as np
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
 from app.project.model import project_from_score
 from app.score.model import Score
 from instrument_maps.load import bundled_maps
 from tests.support.blown import TEMPO, Blow, breath_curve, take, vibrato_curve
 from tests.support.tasks import ImmediateTasks
-from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lanes.curves import CurvesLane
 

@@ -11,17 +11,17 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
+from app.editor.settings import Settings
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.plan.corrections import AddExpression, Vary
 from app.project.edit.corrections import put
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, events, generate
-from app.shell.settings import Settings
 from tests.gui.timeline.lane_hands import click, drag, middle, region_of, shown_panel
 from tests.support.windows import show_in_front
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session
 from widgets.inspector.correction_list import CorrectionList
 from widgets.inspector.generated import Generated
 from widgets.timeline.lanes.acting import ActingLane

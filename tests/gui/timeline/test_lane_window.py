@@ -8,12 +8,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
+from app.editor.selection import Selection
 from app.plan.corrections import PinFingering, SetBreath
 from app.plan.model import PlayerPlan
 from app.shell.app import Program
 from tests.gui.shell.conftest import answers, program, settings, start  # noqa: F401  (fixtures)
 from tests.gui.timeline.lane_hands import ALT, drag, middle, region_of
-from widgets.common.selection import Selection
 from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.panel import TimelinePanel
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication
 
+from app.editor.timeline_view import Ghosts
 from app.score.model import Note, Part
 from app.score.tempo import TempoMap
 from tests.gui.timeline.conftest import TPQ, Stage
-from widgets.common.timeline_view import Ghosts
 from widgets.timeline import roll_items
 from widgets.timeline.model.note_table import Behind, NoteTable, Together
 from widgets.timeline.roll_items import picture_behind

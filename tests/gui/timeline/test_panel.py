@@ -13,6 +13,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.editor.selection import Selection
+from app.editor.session import Session
+from app.editor.timeline_view import Ghosts, Tool
+from app.editor.tokens import LIGHT
 from app.errors import Message
 from app.plan.model import Problem
 from app.project.model import Project
@@ -22,10 +26,6 @@ from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import Hand
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show
-from widgets.common.selection import Selection
-from widgets.common.session import Session
-from widgets.common.timeline_view import Ghosts, Tool
-from widgets.common.tokens import LIGHT
 from widgets.timeline.panel import TimelinePanel
 from widgets.timeline.plot import Background
 from widgets.timeline.ruler import Ruler

@@ -11,14 +11,14 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+from app.editor.selection import Selection
+from app.editor.timeline_view import Ghosts, Tool
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.plan.model import Problem
 from app.project.edit import notes
 from tests.gui.timeline.conftest import SCALE, TPQ, Stage
 from tests.gui.timeline.hand import ALT, CTRL, MIDDLE, SHIFT, Hand
-from widgets.common.selection import Selection
-from widgets.common.timeline_view import Ghosts, Tool
 
 STEP = TPQ // 4
 

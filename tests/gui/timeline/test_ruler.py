@@ -10,12 +10,12 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QMenu
 
+from app.editor.selection import Selection
 from app.score.metre_map import Metre
 from app.score.model import Score
 from app.score.tempo import TempoChange, TempoMap
 from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import ALT, CTRL, Hand, Place
-from widgets.common.selection import Selection
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.model.ruler import clock

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from app.audio.playback import Playback
-from app.shell.sound import Sound
+from app.editor.session import Session
+from app.editor.sound import Sound
 from tests.gui.transport.devices import FakeDevices, Time
-from widgets.common.session import Session
 
 STEP_S = 0.01
 

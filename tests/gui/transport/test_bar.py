@@ -11,20 +11,20 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QLineEdit
 from pytestqt.qtbot import QtBot
 
+from app.editor.grids import GRIDS
+from app.editor.session import Session
+from app.editor.settings import Settings
+from app.editor.sound import Sound
+from app.editor.tokens import LIGHT
 from app.errors import Message
 from app.project.edit.piece import set_audio, set_fps
 from app.project.edit.tempo import set_metre, set_tempo
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, playback
-from app.shell.settings import Settings
-from app.shell.sound import Sound
 from tests.gui.transport.conftest import Elapse
 from tests.gui.transport.devices import FakeDevices
 from tests.support.windows import show
-from widgets.common.grids import GRIDS
 from widgets.common.number_slider import NumberSlider
-from widgets.common.session import Session
-from widgets.common.tokens import LIGHT
 from widgets.transport.bar import TransportBar
 from widgets.transport.fields import bars_text, clock_seconds, clock_text
 

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import pytest
 
+from app.editor.selection import Selection
+from app.editor.session import Session
+from app.editor.settings import Settings
+from app.editor.sound import Sound
 from app.errors import Message
 from app.project.edit.piece import set_audio
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, playback
-from app.shell.settings import Settings
-from app.shell.sound import Sound
 from tests.gui.transport.conftest import Elapse
-from widgets.common.selection import Selection
-from widgets.common.session import Session
 
 
 @pytest.fixture

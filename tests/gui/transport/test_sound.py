@@ -14,19 +14,19 @@ from app.audio.mix import mixdown
 from app.audio.playback import Playback
 from app.audio.render_process import RenderProcess
 from app.audio.track import RATE_HZ
+from app.editor.listening import RecordedTake
+from app.editor.session import Session, Severity
+from app.editor.sound import Sound, sound_of
 from app.errors import Message
 from app.project.edit.piece import set_audio, set_offset
 from app.project.edit.takes import add_takes, remove_take
 from app.project.edit.tempo import scale_tempo, set_tempo
 from app.project.model import Project
-from app.shell.sound import Sound, sound_of
 from tests.gui.transport.conftest import Elapse
 from tests.gui.transport.devices import FakeDevices
 from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
 from tests.unit.audio.pieces import melody, piece, with_players
-from widgets.common.listening import RecordedTake
-from widgets.common.session import Session, Severity
 
 NAME = Message("edit.set_offset")
 

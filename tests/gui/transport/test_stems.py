@@ -11,10 +11,10 @@ from PySide6.QtCore import QObject
 from pytestqt.qtbot import QtBot
 
 from app.audio.track import RATE_HZ, Mix
+from app.editor import stems as module
+from app.editor.stems import Stems
 from app.errors import AppError, Cancelled, Message
 from app.project.model import Project
-from app.shell import stems as module
-from app.shell.stems import Stems
 from tests.support.tasks import ImmediateTasks
 from tests.unit.audio.pieces import melody, piece
 

@@ -10,12 +10,12 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.editor.session import Session
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.project.model import Project
 from tests.support.windows import show
-from widgets.common.session import Session
 from widgets.viewport.panel import ViewportPanel
 
 AT_S = 6.0

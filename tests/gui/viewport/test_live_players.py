@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
+from app.editor.poses import Posed
+from app.editor.session import Session
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.performance.play_along import PlayAlong
@@ -16,9 +18,7 @@ from app.plan.corrections import PoseCorrection
 from app.project.edit.corrections import put
 from app.score.take import ControllerMapping
 from tests.support.performed import playing_of
-from widgets.common.session import Session
 from widgets.viewport.panel import ViewportPanel
-from widgets.viewport.poses import Posed
 
 
 class Still(PlayAlong):
@@ -113,7 +113,7 @@ def test_who_begins_and_ends_goes_there_and_back_without_a_jump(
     session: Session, viewport: ViewportPanel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     now_s = [100.0]
-    monkeypatch.setattr("widgets.common.live_players.perf_counter", lambda: now_s[0])
+    monkeypatch.setattr("app.editor.live_players.perf_counter", lambda: now_s[0])
     live, players = play_along(session), session.live_players
     lowest = session.performance.instrument(session.project.players[0]).range.low
     live.breath(99.0, 1.0)

@@ -19,6 +19,9 @@ from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.choreography.model_file import write_model
+from app.editor.session import Session
+from app.editor.tokens import LIGHT
+from app.editor.viewport_state import VIEWS
 from app.errors import AppError, Message
 from app.plan.corrections import PoseCorrection
 from app.project.casting import StagePosition
@@ -27,9 +30,6 @@ from app.project.edit.players import parameter_edit
 from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
 from tests.support.dances import model
 from tests.support.windows import show
-from widgets.common.session import Session
-from widgets.common.tokens import LIGHT
-from widgets.common.viewport_state import VIEWS
 from widgets.viewport.panel import ViewportPanel
 
 ROOT = Path(__file__).parents[3]
@@ -580,7 +580,7 @@ app = QApplication(["suisou"])
 from app.shell.language import Language
 from tests.gui.conftest import quartet_project
 from tests.support.tasks import ImmediateTasks
-from widgets.common.session import Session
+from app.editor.session import Session
 from widgets.viewport.panel import ViewportPanel
 
 class Nothing:

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from widgets.common.session import Session
-from widgets.viewport.poses import Posed, same
+from app.editor.poses import Posed, same
+from app.editor.session import Session
 from widgets.viewport.worn_face import WornFaces
 
 

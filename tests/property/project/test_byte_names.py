@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from app.capture.journal import Header, JournalWriter, read_journal
+from app.editor.settings import Settings
 from app.encoding import restored, stored
 from app.project.autosave import Autosave
 from app.project.casting import StagePosition
@@ -18,7 +19,6 @@ from app.project.model import AudioTrack, Dancer
 from app.project.presence import Presence, note_of
 from app.project.recovery import load_work, recoverable
 from app.project.storage import decode, encode, load, save
-from app.shell.settings import Settings
 from tests.support.odd_names import NAME, byte_names, odd, on_bytes
 from tests.unit.project.pieces import small_project
 

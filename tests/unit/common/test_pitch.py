@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from app.editor.session import PitchDisplay
 from app.messages.pitches import pitch_name
 from widgets.common.pitch import pitch_text
-from widgets.common.session import PitchDisplay
 from widgets.common.texts import TEXTS
 
 

@@ -15,7 +15,7 @@ def test_the_window_comes_up_without_what_is_needed_later(tmp_path: Path) -> Non
 import sys
 from pathlib import Path
 from app.shell.app import Program, make_application
-from app.shell.settings import Settings
+from app.editor.settings import Settings
 application = make_application()
 program = Program(Settings(Path(sys.argv[1])), heard=False)
 program.window.show()

@@ -8,9 +8,9 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from app.messages import WORDINGS
+from app.messages import LANGUAGES, WORDINGS
 from app.shell.actions import rows
-from app.shell.language import LANGUAGES, ROOMS
+from app.shell.language import ROOMS
 
 ROOT = Path(__file__).parents[3]
 TEXTS = {id: wording for room in ROOMS for id, wording in room.items()}

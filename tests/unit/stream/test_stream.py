@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+from app.editor.streaming import Streaming
 from app.messages import error_text
 from app.performance.bodies import character_of
 from app.performance.chunks import Pose
@@ -40,7 +41,6 @@ from metadata.load import load_skeleton
 from tests.support.doubled import flutist
 from tests.support.osc import Frame, Receiver, frames, read_packet
 from tests.unit.export.unreal.conftest import with_dancers
-from widgets.common.streaming import Streaming
 
 Floats = npt.NDArray[np.float64]
 _FINGERS = ("Thumb", "Index", "Middle", "Ring", "Little")

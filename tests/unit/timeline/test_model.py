@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.editor.selection import Selection
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.plan.parameters import PlayerParameters
@@ -20,7 +21,6 @@ from app.project.grid import Grid
 from app.project.model import Player, Project
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
-from widgets.common.selection import Selection
 from widgets.timeline.model.gestures import Band, Step, either, moved_edge
 from widgets.timeline.model.hand import Box, LaneMouse, spanned
 from widgets.timeline.model.region import Region

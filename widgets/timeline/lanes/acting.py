@@ -10,6 +10,8 @@ from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import GestureEvent, PlayerPlan
 from app.project.edit.events import (
@@ -27,8 +29,6 @@ from app.project.model import Project
 from app.score.tempo import TempoMap
 from widgets.common.event_names import expression_name, kind_name, pose_name
 from widgets.common.plain import verbatim
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_columns, draw_mark, draw_rects, shade
 from widgets.timeline.lanes.acting_drawing import ActingPainter

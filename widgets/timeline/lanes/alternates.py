@@ -6,6 +6,8 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QApplication, QFrame, QHBoxLayout, QMenu, QPushButton
 
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
 from app.errors import Message
 from app.plan.model import FingeringEvent
 from app.project.edit.events import corrections_of, give_back, pin_fingerings
@@ -14,8 +16,6 @@ from widgets.common.chip import Chip
 from widgets.common.fingering_tags import words_of_tags
 from widgets.common.icons import icon
 from widgets.common.plain import verbatim
-from widgets.common.session import Session
-from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.timeline.lane import Lane
 
 

@@ -6,13 +6,13 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import PlayerPlan
 from app.project.edit.events import add_breath, toggle_preparation
 from app.project.model import Project
 from widgets.common.event_names import kind_name
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_mark, draw_text, shade
 from widgets.timeline.lane import LaneMouse

@@ -9,13 +9,13 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import EmbouchureEvent, PlayerPlan
 from app.project.document import Change
 from app.score.model import Part
 from widgets.common.plain import ComboBox, verbatim
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_lines, draw_mark, draw_path, draw_rects, draw_text, shade, small_font

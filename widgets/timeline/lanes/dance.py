@@ -9,6 +9,8 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.editor.session import Session
+from app.editor.tasks import Progress, StopRequested
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.project import limits
@@ -16,8 +18,6 @@ from app.project.dance_corrections import DanceCorrection
 from app.project.document import Change
 from app.project.edit import dance_corrections as edit
 from app.project.model import Dancer, Project
-from widgets.common.session import Session
-from widgets.common.tasks import Progress, StopRequested
 from widgets.common.text import sentence
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import Lane, LaneMouse

@@ -10,10 +10,10 @@ import numpy as np
 from PySide6.QtGui import QAction, QColor, QIcon
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.editor.session import Session
 from app.project.dance_corrections import DanceCorrection
 from widgets.common.dance_figures import ICON_PX, Floats, figure_icon
 from widgets.common.plain import verbatim
-from widgets.common.session import Session
 
 if TYPE_CHECKING:
     from app.performance.dance_steps import DanceSteps

@@ -10,14 +10,14 @@ from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.editor.selection import Selection
+from app.editor.session import Session
 from app.errors import AppError
 from app.plan.model import FingeringEvent, PlayerPlan
 from app.project.document import Change
 from app.project.model import Player
 from instrument_maps.model import Control, InstrumentMap
 from widgets.common.fingering_text import short_label
-from widgets.common.selection import Selection
-from widgets.common.session import Session
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import (

@@ -8,8 +8,8 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QFocusEvent, QKeyEvent
 from PySide6.QtWidgets import QLineEdit
 
+from app.editor.tokens import LEAST_TARGET_PX
 from widgets.common.numbers import number_from, number_text
-from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.timeline.lane import Lane
 
 WIDTH_PX = 84

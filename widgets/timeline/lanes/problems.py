@@ -7,10 +7,10 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from app.editor.selection import Selection
+from app.editor.session import Session, Severity
 from app.plan.model import Problem
 from widgets.common.plain import Label
-from widgets.common.selection import Selection
-from widgets.common.session import Session, Severity
 from widgets.common.text import sentence
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import shade

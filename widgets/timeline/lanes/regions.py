@@ -10,14 +10,14 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QAction, QColor, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
 from app.errors import Message
 from app.plan.corrections import RemoveEvent
 from app.plan.model import PlayerPlan
 from app.project.document import Change
 from app.project.edit.events import set_amounts
 from app.project.model import Project
-from widgets.common.selection import EventKey, Selection
-from widgets.common.session import Session
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import MARK_PX, draw_mark, rect, shade, small_font

@@ -6,14 +6,14 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.editor.selection import Selection
+from app.editor.session import Session
 from app.project.document import Change
 from app.project.edit.takes import BEFORE
 from app.project.model import CompSpan
 from app.score.clean import Fault
 from instrument_maps.library import all_maps
 from widgets.common.pitch import pitch_text
-from widgets.common.selection import Selection
-from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import Lane, LaneMouse
 from widgets.timeline.lanes.take_drawing import STRIP_PX, TakesItem

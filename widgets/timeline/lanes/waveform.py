@@ -10,12 +10,12 @@ from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.audio.peaks import Peaks
+from app.editor.session import Session
 from app.errors import Message
 from app.project.document import Change
 from app.project.edit.piece import set_offset
 from app.project.model import Project
 from widgets.common.numbers import number_text
-from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import Floats, draw_lines, draw_text, shade, small_font
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse

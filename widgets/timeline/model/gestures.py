@@ -7,13 +7,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
+from app.editor.selection import Selection
 from app.errors import AppError, Message
 from app.performance.ensemble import Performance
 from app.project.document import Document
 from app.project.grid import Grid
 from app.project.model import Project
 from app.score.model import Score
-from widgets.common.selection import Selection
 from widgets.timeline.model.hand import Box, LaneMouse, spanned
 from widgets.timeline.model.view import Scale
 

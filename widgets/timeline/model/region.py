@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 import msgspec
 import numpy as np
 
+from app.editor.selection import EventKey
 from app.errors import Message
-from widgets.common.selection import EventKey
 from widgets.timeline.model.geometry import Spans
 
 

@@ -8,12 +8,12 @@ from typing import Protocol
 
 from msgspec.structs import replace
 
+from app.editor.selection import EventKey, Selection
 from app.errors import Message
 from app.plan.corrections import SetBreath
 from app.plan.model import PlayerPlan
 from app.project.edit.events import Edited, corrections_of, move, resize, set_amounts, set_fades
 from app.project.model import Project
-from widgets.common.selection import EventKey, Selection
 from widgets.timeline.model.gestures import DRAG_PX, Band, Editing, Gesture, Plane, Step, either, moved_edge
 from widgets.timeline.model.hand import Box, LaneMouse
 from widgets.timeline.model.region import Region

@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from widgets.common.selection import EventKey
+from app.editor.selection import EventKey
 from widgets.timeline.model.geometry import Ints
 from widgets.timeline.model.hand import Box, LaneMouse
 from widgets.timeline.model.region import Region, spans_of

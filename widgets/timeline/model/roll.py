@@ -8,12 +8,12 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
+from app.editor.selection import Selection
+from app.editor.timeline_view import Ghosts
+from app.editor.tokens import Tokens
 from app.project.grid import Grid
 from app.project.model import Player, Project
 from app.score.model import Note, Score
-from widgets.common.selection import Selection
-from widgets.common.timeline_view import Ghosts
-from widgets.common.tokens import Tokens
 from widgets.timeline.model.gestures import Editing
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.note_table import Behind, Flags, Floats, NoteTable, Sounding

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from app.editor.selection import Selection
 from app.errors import Message
 from app.project.edit import notes
 from app.project.model import Project
 from app.score.model import Note
-from widgets.common.selection import Selection
 from widgets.timeline.model.gestures import Band, Far, Gesture, Plane, Step, snapped, together
 from widgets.timeline.model.hand import Box, LaneMouse
 from widgets.timeline.model.roll import Ensemble, RollModel, cell

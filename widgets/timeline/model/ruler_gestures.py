@@ -7,9 +7,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
+from app.editor.selection import Selection
 from app.errors import Message
 from app.project.edit import tempo as tempo_edit
-from widgets.common.selection import Selection
 from widgets.timeline.model.gestures import Editing, Far, Gesture, Step, snapped
 from widgets.timeline.model.hand import LaneMouse
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from app.editor.selection import Selection
+from app.editor.tokens import Tokens
 from app.errors import Message
 from app.project.edit.takes import BEFORE, comp, comp_whole, comp_with, move_take, rename_take
 from app.project.model import CompSpan, Player, PlayerTakes, Project
 from app.score.metre_map import Metre
 from app.score.take import Take
 from app.score.tempo import TempoMap
-from widgets.common.selection import Selection
-from widgets.common.tokens import Tokens
 from widgets.timeline.model.gestures import DRAG_PX, Editing, Gesture, along
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.take_rows import TakeRow, comp_of, edges, pitch_range, rows_of, span_at

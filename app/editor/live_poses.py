@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from app.editor.poses import Posed, Poses, blended
+from app.editor.session import Session
 from app.performance.chunks import Pose
-from widgets.common.session import Session
-from widgets.viewport.poses import Posed, Poses, blended
 
 
 class LivePoses:

@@ -36,21 +36,21 @@ from app.capture.protocol import (
     Restarted,
     Written,
 )
+from app.editor.calls import window_calls
+from app.editor.files import Files
+from app.editor.live_player import LivePlayer
+from app.editor.session import Session, Severity
+from app.editor.settings import Settings
+from app.editor.sound import sound_of
+from app.editor.translated import tr
 from app.encoding import stored
 from app.errors import AppError, Message
 from app.project.edit.takes import add_takes, comp
 from app.project.journals import journal_path, journals_of
 from app.project.model import Project
 from app.score.take import ControllerMapping, Take, decoded, is_wired, said
-from app.shell.calls import window_calls
-from app.shell.files import Files
-from app.shell.live_player import LivePlayer
-from app.shell.settings import Settings
-from app.shell.sound import sound_of
 from metadata.load import load_controllers, recognised_controller
 from metadata.model import Controller
-from widgets.common.session import Session, Severity
-from widgets.common.translated import tr
 
 EARLY_S: Final = 0.12
 """So much before the beginning of a take a note may be struck that is meant for it."""

@@ -9,8 +9,8 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from app.shell import streamer
-from app.shell.streamer import RESTING_S, SETTLED_S, _Anchor, _Request, _Thread
+from app.editor import streamer
+from app.editor.streamer import RESTING_S, SETTLED_S, _Anchor, _Request, _Thread
 
 RATE_HZ = 30
 LATE_S = 0.002

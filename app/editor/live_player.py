@@ -8,12 +8,12 @@ from typing import Final
 
 from PySide6.QtCore import QObject, QTimer
 
+from app.editor.session import Session
 from app.performance.cast import performers_of
 from app.performance.motion import playing_of
 from app.performance.play_along import PlayAlong
 from app.plan.model import PoseEvent
 from app.score.take import ControllerMapping
-from widgets.common.session import Session
 
 REST_S: Final = 4.0
 """So long after the last event the player is shown as the performance has them again."""

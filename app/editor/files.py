@@ -13,6 +13,10 @@ from typing import Final
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
 from app.choreography.library import bundled_choreographies
+from app.editor.questions import Questions
+from app.editor.session import Session, Severity
+from app.editor.settings import Settings
+from app.editor.translated import tr
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
 from app.project import storage
@@ -26,11 +30,7 @@ from app.project.names import file_stem
 from app.project.recovery import Recoverable, discard, load_work, recoverable, recoverable_of
 from app.rig.character_library import reload_characters
 from app.score.read import MidiContents, read_contents
-from app.shell.questions import Questions
-from app.shell.settings import Settings
 from instrument_maps.library import all_maps, reload
-from widgets.common.session import Session, Severity
-from widgets.common.translated import tr
 
 MIDI_SUFFIXES: Final = (".mid", ".midi", ".smf", ".kar", ".rmi")
 AUDIO_SUFFIXES: Final = (".wav", ".flac", ".mp3", ".ogg", ".aif", ".aiff")

@@ -13,9 +13,9 @@ from app.audio.mix import player_gains, player_phrases
 from app.audio.render_process import RenderProcess
 from app.audio.synth import Phrase, Synthesiser
 from app.audio.track import RATE_HZ, Track
+from app.editor.tasks import Progress, StopRequested, Tasks
 from app.errors import Cancelled, Message
 from app.project.model import Player, Project
-from widgets.common.tasks import Progress, StopRequested, Tasks
 
 _SETTLE_MS = 120
 """Rendering waits until a drag rests for so long."""

@@ -23,13 +23,13 @@ import platformdirs
 from PySide6.QtCore import QByteArray, QCoreApplication, QObject, QTimer, Signal
 
 from app import encoding
+from app.editor.listening import Source
+from app.editor.setting_bindings import FOLDED, THEME, TIME, SettingBinding, in_listening, in_pitches
 from app.errors import AppError, FileError, MapError, Message
 from app.formats.atomic import atomic_write
 from app.formats.toml import read_toml, shaped, toml
-from app.shell.language import LANGUAGES
-from app.shell.setting_bindings import FOLDED, THEME, TIME, SettingBinding, in_listening, in_pitches
+from app.messages import LANGUAGES
 from app.stream.sender import LEAST_PORT, MOST_PORT
-from widgets.common.listening import Source
 
 T = TypeVar("T")
 

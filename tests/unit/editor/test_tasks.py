@@ -10,8 +10,8 @@ from PySide6.QtCore import QObject, QThread
 from pytestqt.qtbot import QtBot
 from shiboken6 import delete
 
+from app.editor.tasks import ThreadTasks
 from app.errors import AppError, Cancelled, Message
-from app.shell.tasks import ThreadTasks
 
 NAME = Message("work.open")
 

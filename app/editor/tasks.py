@@ -11,16 +11,52 @@ import weakref
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 from shiboken6 import isValid
 
+from app.editor.calls import Ask, window_calls
 from app.errors import AppError, Cancelled, Message
-from app.shell.calls import Ask, window_calls
-from widgets.common.tasks import Progress, StopRequested
 
 T = TypeVar("T")
+
+Progress = Callable[[float], None]
+"""Called with the share 0..1 that is done; may be called from the worker."""
+StopRequested = Callable[[], bool]
+"""Asked now and then by the worker; true stops the work."""
+
+
+class Tasks(Protocol):
+    """Runs work beside the window; shows its name and progress in the status line, where it can be cancelled."""
+
+    def run(
+        self,
+        name: Message,
+        work: Callable[[Progress, StopRequested], T],
+        done: Callable[[T], None],
+        failed: Callable[[AppError], None] | None = None,
+        key: str | None = None,
+        ended: Callable[[], None] | None = None,
+    ) -> None:
+        """Start work in a thread; ``done`` or ``failed`` follows in the window's thread.
+
+        Parameters
+        ----------
+        name : Message
+            What is being done.
+        work : callable
+            Gets progress and stop_wanted; it takes snapshots of values and touches no widget.
+        done : callable
+            Gets the result. Not called after a cancel.
+        failed : callable, optional
+            Gets an error the user can act on; without it the session shows it.
+        key : str, optional
+            Work with a key takes the place of work with the same key, which is stopped.
+        ended : callable, optional
+            Called in the window's thread when the work is over, however it went and before anything else is reported.
+        """
+        ...
 
 
 @dataclass(eq=False)
@@ -50,7 +86,7 @@ class Task:
 
 
 class ThreadTasks(QObject):
-    """The editor's task runner; implements `widgets.common.tasks.Tasks`.
+    """The editor's task runner.
 
     Signals
     -------

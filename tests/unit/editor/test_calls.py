@@ -8,7 +8,7 @@ import threading
 from PySide6.QtCore import QEventLoop
 from pytestqt.qtbot import QtBot
 
-from app.shell.calls import Calls
+from app.editor.calls import Calls
 
 
 def test_they_are_made_here_in_order(qtbot: QtBot) -> None:

@@ -10,25 +10,26 @@ from enum import Enum
 from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtGui import QAction
 
+from app.editor.listening import Listening
+from app.editor.live_players import LivePlayers
+from app.editor.recording import Recording
+from app.editor.selection import Selection
+from app.editor.streaming import Streaming
+from app.editor.tasks import Tasks
+from app.editor.timeline_view import TimelineView
+from app.editor.tokens import DARK, Tokens
+from app.editor.viewport_state import ViewportState
 from app.errors import AppError, Message
 from app.performance.ensemble import Performance
 from app.plan.model import Problem
 from app.project.document import Change, Document
 from app.project.grid import Grid
 from app.project.model import Dancer, Player, Project
-from widgets.common.listening import Listening
-from widgets.common.live_players import LivePlayers
-from widgets.common.recording import Recording
-from widgets.common.selection import Selection
-from widgets.common.streaming import Streaming
-from widgets.common.tasks import Tasks
-from widgets.common.timeline_view import TimelineView
-from widgets.common.tokens import DARK, Tokens
-from widgets.common.viewport_state import ViewportState
 
 if TYPE_CHECKING:
+    from PySide6.QtGui import QAction
+
     from app.audio.playback import Playback
 
 TimeDisplay = Literal["bars", "seconds", "frames"]

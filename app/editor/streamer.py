@@ -18,22 +18,22 @@ from typing import Final
 from PySide6.QtCore import QObject, Qt
 from shiboken6 import isValid
 
+from app.editor.calls import window_calls
+from app.editor.live_poses import LivePoses
+from app.editor.poses import Poses
+from app.editor.session import Session, Severity
+from app.editor.settings import Settings
+from app.editor.streaming import RATES_HZ, StreamState
+from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
 from app.performance.cast import attempt
 from app.project.casting import StagePosition
 from app.project.model import Dancer, Player
 from app.rig.character_library import character_named
 from app.rig.model import Character
-from app.shell.calls import window_calls
-from app.shell.settings import Settings
 from app.stream.faces import FACE_NAMES, FaceNames
 from app.stream.sender import MOST_PORT, TO_MANY, Address, Outcome, Sender, StreamError, find_address, reaches_many
 from app.stream.vmc import IN_THE_MIDDLE, Sent
-from widgets.common.session import Session, Severity
-from widgets.common.streaming import RATES_HZ, StreamState
-from widgets.common.tasks import Progress, StopRequested
-from widgets.viewport.live_poses import LivePoses
-from widgets.viewport.poses import Poses
 
 RESTING_S: Final = 0.2
 """Between two frames while nothing moves."""

@@ -8,8 +8,8 @@ from typing import Any, Final
 
 from PySide6.QtCore import SignalInstance
 
-from widgets.common.session import Session
-from widgets.common.tokens import THEMES
+from app.editor.session import Session
+from app.editor.tokens import THEMES
 
 
 @dataclass(frozen=True)

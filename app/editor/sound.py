@@ -16,6 +16,10 @@ from app.audio.offset import Estimate, estimate_offset
 from app.audio.peaks import Peaks
 from app.audio.playback import Playback
 from app.audio.track import RATE_HZ, Mix, Track
+from app.editor.listening import RecordedTake
+from app.editor.session import Session, Severity
+from app.editor.stems import Stems
+from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
 from app.plan.generate import frame_around
 from app.plan.model import TimeFrame
@@ -25,10 +29,6 @@ from app.project.edit.players import change as change_players
 from app.project.edit.takes import comp_whole
 from app.project.edit.tempo import scale_tempo
 from app.project.model import Project
-from app.shell.stems import Stems
-from widgets.common.listening import RecordedTake
-from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopRequested
 
 _FRAME_MS = 16
 _TAKE_WAIT_MS = 1000

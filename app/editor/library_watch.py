@@ -7,13 +7,13 @@ from typing import Any
 
 from PySide6.QtCore import QObject, QTimer
 
+from app.editor.folder_watch import FolderWatch
+from app.editor.session import Session, Severity
+from app.editor.tasks import Progress, StopRequested
 from app.errors import Message
 from app.formats.user_folder import Shelf, UserFolder
 from app.rig.character_library import LIBRARY as CHARACTERS
-from app.shell.folder_watch import FolderWatch
 from instrument_maps.library import LIBRARY as INSTRUMENTS
-from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopRequested
 
 
 class LibraryWatch(QObject):

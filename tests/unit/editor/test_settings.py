@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QByteArray
 
+from app.editor.settings import MOST_RECENT, Settings
 from app.errors import Message
 from app.messages import text
-from app.shell.settings import MOST_RECENT, Settings
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,9 @@ from typing import Protocol
 from PySide6.QtCore import QObject, QTimer, Signal
 from shiboken6 import isValid
 
+from app.editor.calls import window_calls
+from app.editor.session import Session, Severity
+from app.editor.tasks import Progress, StopRequested, Tasks
 from app.errors import AppError, Cancelled, Message
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion, PlayerFault
@@ -23,10 +26,7 @@ from app.plan.model import Problem
 from app.project.document import Change
 from app.project.model import Project
 from app.rig.character_library import character_library
-from app.shell.calls import window_calls
 from instrument_maps.library import library
-from widgets.common.session import Session, Severity
-from widgets.common.tasks import Progress, StopRequested, Tasks
 
 AT_ONCE_NOTES = 2500
 """So many notes are planned within the time of two pictures ..."""

@@ -1,0 +1,33 @@
+"""What the user is asked, so that files need no dialog; the shell asks in dialogs, tests answer by themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Literal, Protocol
+
+from app.editor.tasks import Tasks
+from app.editor.tokens import Tokens
+from app.project.importing import ImportWish
+from app.score.read import MidiContents
+
+Answer = Literal["save", "discard", "cancel"]
+
+
+class Questions(Protocol):
+    """How the user is asked."""
+
+    def open_file(self, title: str, folder: str, filters: str) -> Path | None:
+        """An existing file; None: the user thought better of it."""
+
+    def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
+        """A file to write, its name with one of the suffixes; whether one may be replaced was asked."""
+
+    def unsaved(self, name: str) -> Answer:
+        """What becomes of the changes that are in no file."""
+
+    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
+        """Who plays what in a MIDI file, and whether a dancer dances to it; None: it is not imported."""
+
+    def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
+        """Whether a character goes for good, which these players are."""
