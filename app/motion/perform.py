@@ -404,56 +404,6 @@ def _comparable(
     return same and before.player_id == plan.player_id
 
 
-def perform(
-    plan: PlayerPlan,
-    parameters: PlayerParameters,
-    instrument_map: InstrumentMap,
-    character: Character,
-    hold: GripPose,
-    body: Body,
-    *,
-    felt_beats: FeltBeats,
-    fps: Fraction,
-    frames: int | None = None,
-    first_frame: int = 0,
-    expressions: Mapping[str, Expression] | None = None,
-) -> Motion:
-    """Make one player's motion.
-
-    Parameters
-    ----------
-    plan : PlayerPlan
-    parameters : PlayerParameters
-        Amplitude, posture, seed and the sizes of single layers.
-    instrument_map : InstrumentMap
-    character : Character
-    hold : GripPose
-        Fitted for this character and instrument.
-    body : Body
-        Sizes, limits and postures.
-    felt_beats : tuple of (tick, ticks)
-        Ticks of a beat; a rest as long brings controls back to rest.
-    fps : Fraction
-    frames : int, optional
-        How many; to the end of the performance without it.
-    first_frame : int
-        Index of the first requested frame. A part is identical to the same frames of the whole.
-    expressions : mapping of str to Expression, optional
-        The bundled ones without it.
-
-    Returns
-    -------
-    Motion
-        ``first_frame_s`` is the time of its first frame.
-    """
-    if frames is None:
-        frames = max(0, frame_count(plan.time_frame, fps) - first_frame)
-    playing = prepare(
-        plan, parameters, instrument_map, character, hold, body, felt_beats=felt_beats, expressions=expressions
-    )
-    return playing.motion(fps, first_frame, frames)
-
-
 def _grip_of_lips(lips: Lips, embouchure: Embouchure) -> FloatArray:
     """From where one lip alone would carry the mouthpiece to where it is played, at a middling embouchure (3,)."""
     morphs = {name: np.array([weight]) for name, weight in usual_morphs(embouchure, lips).items()}
