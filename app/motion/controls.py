@@ -92,7 +92,10 @@ def control_curves(
     felt_beats: FeltBeats,
     farthest: Mapping[str, float] = MappingProxyType({}),
 ) -> dict[str, Curve]:
-    """Curves of all controls of an instrument, by name; some go no farther than ``farthest`` (values by name)."""
+    """Curves 0..1 of all controls of an instrument, by name; some go no farther than ``farthest`` (values by name).
+
+    Fingerings are in order, each from its note's onset to its end; a control they do not name is at rest.
+    """
     starts = np.array([event.start_tick for event in fingerings], np.int64)
     ends = np.array([event.end_tick for event in fingerings], np.int64)
     rests = np.zeros(len(starts), dtype=np.bool_)

@@ -240,7 +240,11 @@ def prepare(
     before: PerformanceCurves | None = None,
     dance: BodyLayer | None = None,
 ) -> PerformanceCurves:
-    """Make a plan ready to be seen; parameters as of `perform`.
+    """Make a plan ready to be seen.
+
+    Parameters set amplitude, posture, seed and the sizes of single layers; ``hold`` is fitted for this character and
+    instrument, ``body`` has sizes, limits and postures; a rest as long as a felt beat brings controls back to rest;
+    the expressions are the bundled ones where none are given.
 
     Curves of events that are the very same tuples in ``before`` (the player as it was prior to an edit) are taken from
     there. ``dance`` is added to the body by the parameters' amount, and takes the place of as much of the generated
