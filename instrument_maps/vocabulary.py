@@ -221,11 +221,6 @@ class Vocabulary:
             and (known.sort_of == general or self.is_sort(known.sort_of, general))
         )
 
-    def lineage(self, id: str) -> tuple[str, ...]:
-        """An instrument and what it is a sort of, from itself to the most general."""
-        known = self.instruments.get(id)
-        return (id, *(self.lineage(known.sort_of) if known is not None and known.sort_of else ()))
-
     def family(self, ids: tuple[str, ...]) -> str:
         """The section of the first of these instruments that has one; empty if none has."""
         families = (self.instruments[id].family for id in ids if id in self.instruments)

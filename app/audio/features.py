@@ -27,19 +27,19 @@ _BANDS: Final = 64
 _LOWEST_BAND_HZ: Final = 40.0
 _COMPRESSION: Final = 1e4
 """Band energies are compared by their logarithm, down to this part of the mean energy."""
+_TUNED_FRAME: Final = 8192
+"""Samples of a spectrum that the tuning is found from."""
 _FRAMES: Final = 1024
 """Transformed at once; all of an hour would not fit into memory."""
 
 
-def tuning(sound: Sound, rate_hz: int, size: int = 8192) -> float:
+def tuning(sound: Sound, rate_hz: int) -> float:
     """How far a sound lies from 440 Hz: the circular mean over the peaks of its spectra.
 
     Parameters
     ----------
     sound : float32 array, shape (n,)
     rate_hz : int
-    size : int
-        Samples of a spectrum.
 
     Returns
     -------
@@ -47,12 +47,12 @@ def tuning(sound: Sound, rate_hz: int, size: int = 8192) -> float:
         Semitones, -0.5..0.5.
     """
     total = 0.0 + 0.0j
-    for power in _spectra(sound, size, size // 2):
+    for power in _spectra(sound, _TUNED_FRAME, _TUNED_FRAME // 2):
         level = np.log(power + 1e-12)
         frame, line = np.nonzero((level[:, 1:-1] > level[:, :-2]) & (level[:, 1:-1] > level[:, 2:]))
         below, peak, above = level[frame, line], level[frame, line + 1], level[frame, line + 2]
         # The top of the parabola through the three.
-        hz = (line + 1 + 0.5 * (below - above) / (below - 2.0 * peak + above)) * rate_hz / size
+        hz = (line + 1 + 0.5 * (below - above) / (below - 2.0 * peak + above)) * rate_hz / _TUNED_FRAME
         weights = np.exp(0.5 * peak) * ((hz > _PITCHED_HZ[0]) & (hz < _PITCHED_HZ[1]))
         total += complex((weights * np.exp(2j * np.pi * 12.0 * np.log2(hz / _A4_HZ))).sum())
     return float(np.angle(total) / (2.0 * np.pi))

@@ -16,7 +16,6 @@ def takes_of(
     wiring: ControllerMapping,
     name: str,
     start_s: float | None = None,
-    cleaning: Cleaning | None = None,
     taken: Collection[str] = (),
 ) -> tuple[Take, ...]:
     """A take for every pass in which a note was played, in order; their ids are given by the project.
@@ -33,7 +32,6 @@ def takes_of(
     start_s : float, optional
         Where the recording was requested from: what was played before, while it was counted in, stays in the take,
         which begins there. By default the first moment that is known.
-    cleaning : Cleaning, optional
     taken : collection of str
         Names of the takes that are there: numbers go on after them.
     """
@@ -55,7 +53,7 @@ def takes_of(
                 device=journal.header.port,
                 recorded=journal.header.started,
                 wiring=wiring,
-                cleaning=cleaning or Cleaning(),
+                cleaning=Cleaning(),
                 tempo_map=tempo_map,
                 start_us=first_us,
                 end_us=max(last_us, first_us, *played.times_us[-1:]),

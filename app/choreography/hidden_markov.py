@@ -1,8 +1,7 @@
-"""The hidden Markov model of basic motions: its probabilities counted, its best sequence of states for a piece.
+"""The hidden Markov model of basic motions: its probabilities, counted.
 
 Source: K. Kameda, I. Watanabe, M. Yamamoto, "Music Driven Computer Animation Based On HMM": while learning, the states
-are visible, so that transition, emission and initial probabilities are counted; a new piece is solved by the Viterbi
-algorithm.
+are visible, so that transition, emission and initial probabilities are counted (`app.choreography.sequence` solves).
 """
 
 from __future__ import annotations
@@ -64,61 +63,6 @@ def count(
         for state, symbols in zip(clip_states, clip_symbols, strict=True):
             np.add.at(emissions[state], symbols, 1.0)
     return _smoothed(transitions, smoothing), _smoothed(emissions, smoothing), _smoothed(starts, smoothing)
-
-
-def log_likelihood(emission: FloatArray, symbols_per_step: Sequence[IntArray]) -> FloatArray:
-    """Log probability of the symbols of each step in each state, shape (steps, states).
-
-    The symbols of a step are independent observations of its state; a step without symbols says nothing about it.
-    """
-    with np.errstate(divide="ignore"):
-        log_emission = np.log(emission.T)
-    if not symbols_per_step:
-        return np.zeros((0, len(emission)))
-    return np.stack([log_emission[symbols].sum(axis=0) for symbols in symbols_per_step])
-
-
-def viterbi(initial: FloatArray, transition: FloatArray, log_likelihoods: FloatArray) -> tuple[IntArray, float]:
-    """Most probable sequence of states, found in the log domain, and its log probability.
-
-    Parameters
-    ----------
-    initial : (K,) float64
-    transition : (K, K) float64
-    log_likelihoods : (T, K) float64
-        See `log_likelihood`.
-
-    Returns
-    -------
-    states : (T,) int64
-        Of equally probable sequences always the same one: the last state, and each before it, is the one of the
-        lowest number.
-    log_probability : float
-
-    Raises
-    ------
-    ValueError
-        If no sequence has a probability greater than 0.
-    """
-    steps = len(log_likelihoods)
-    if not steps:
-        return np.zeros(0, np.int64), 0.0
-    with np.errstate(divide="ignore"):
-        log_transition = np.log(transition)
-        score = np.log(initial) + log_likelihoods[0]
-    best_before = np.zeros((steps, len(initial)), np.int64)
-    for step in range(1, steps):
-        reached = score[:, None] + log_transition
-        best_before[step] = reached.argmax(axis=0)
-        score = reached.max(axis=0) + log_likelihoods[step]
-    states = np.empty(steps, np.int64)
-    states[-1] = score.argmax()
-    log_probability = float(score[states[-1]])
-    if np.isneginf(log_probability):
-        raise ValueError("no sequence of states is possible")
-    for step in range(steps - 1, 0, -1):
-        states[step - 1] = best_before[step, states[step]]
-    return states, log_probability
 
 
 def _smoothed(counts: FloatArray, smoothing: float) -> FloatArray:

@@ -76,8 +76,6 @@ class ReadMotion:
         Axis of the file that points up, e.g. ``"+Z"``.
     file_fps : Fraction
         As the file says; the clip's may have been given.
-    floor_m : float
-        Height of the floor in the file's frame, upright and in metres.
     lead_in : int
         Frames left out at the start: a rest pose before the motion (`app.choreography.flips.lead_in`).
     flips : tuple of Flip
@@ -95,7 +93,6 @@ class ReadMotion:
     unit_m: float
     up: str
     file_fps: Fraction
-    floor_m: float
     lead_in: int
     flips: tuple[Flip, ...]
     joints_doubtful: tuple[str, ...]
@@ -187,7 +184,7 @@ def motion_of(bvh: BvhClip, file: str, fps: Fraction | None = None) -> ReadMotio
     clip, steps = mend_steps(clip)
     clip = replace(clip, hips_m=clip.hips_m - clip.hips_m[0] * (1.0, 0.0, 1.0))
     return ReadMotion(
-        clip, mapping.profile, unit, unit_m, up, bvh.fps, floor_m, before, flips + steps, mapping.doubtful, apart_m
+        clip, mapping.profile, unit, unit_m, up, bvh.fps, before, flips + steps, mapping.doubtful, apart_m
     )
 
 

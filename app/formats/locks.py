@@ -23,7 +23,7 @@ def lock(stream: IO[Any]) -> bool:
     """Lock a file for as long as it is open; whether no other process has. Raises OSError where there are no locks."""
     try:
         if sys.platform == "win32":
-            place = stream.report()
+            place = stream.tell()
             stream.seek(_BYTE)
             try:
                 msvcrt.locking(stream.fileno(), msvcrt.LK_NBLCK, 1)

@@ -77,8 +77,6 @@ class BodyMotion:
         Both elbows out.
     eyes_yaw_rad, eyes_pitch_rad : array
         Of the eyes in the head: left, down.
-    inhaled : array
-        How full the lungs are; 1 after a full breath.
     lowered : array
         0 with the instrument at the lips, 1 with it lowered.
     protraction_rad : dict of str to array
@@ -107,7 +105,6 @@ class BodyMotion:
     elbows_rad: FloatArray
     eyes_yaw_rad: FloatArray
     eyes_pitch_rad: FloatArray
-    inhaled: FloatArray
     lowered: FloatArray
     protraction_rad: dict[str, FloatArray]
     elbow_held_rad: dict[str, FloatArray]
@@ -567,7 +564,6 @@ def body_motion(
         elbows_rad=deg(body.breath.elbow_out_deg) * inhaled,
         eyes_yaw_rad=look.yaw_rad - 0.5 * look.head_yaw_rad - EYES_BACK * aside_rad,
         eyes_pitch_rad=look.pitch_rad - 0.5 * look.head_pitch_rad,
-        inhaled=inhaled,
         lowered=lowered,
         protraction_rad={},
         elbow_held_rad=elbows_held,

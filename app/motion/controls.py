@@ -86,27 +86,16 @@ def _phase(share: float) -> float:
     return float(np.interp(share, minimum_jerk(_PHASES), _PHASES))
 
 
-def control_curve(fingerings: Sequence[FingeringEvent], control: Control, felt_beats: FeltBeats) -> Curve:
-    """The value 0..1 of one control through a player's notes.
-
-    Parameters
-    ----------
-    fingerings : sequence of FingeringEvent
-        In order; each starts at its note's onset and ends with it. A control they do not name is at rest.
-    control : Control
-    felt_beats : tuple of (tick, ticks)
-        A rest of the beat that is felt where it ends brings the control back to rest.
-    """
-    return control_curves(fingerings, (control,), felt_beats)[control.name]
-
-
 def control_curves(
     fingerings: Sequence[FingeringEvent],
     controls: Iterable[Control],
     felt_beats: FeltBeats,
     farthest: Mapping[str, float] = MappingProxyType({}),
 ) -> dict[str, Curve]:
-    """Curves of all controls of an instrument, by name; some go no farther than ``farthest`` (values by name)."""
+    """Curves 0..1 of all controls of an instrument, by name; some go no farther than ``farthest`` (values by name).
+
+    Fingerings are in order, each from its note's onset to its end; a control they do not name is at rest.
+    """
     starts = np.array([event.start_tick for event in fingerings], np.int64)
     ends = np.array([event.end_tick for event in fingerings], np.int64)
     rests = np.zeros(len(starts), dtype=np.bool_)

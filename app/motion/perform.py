@@ -240,7 +240,11 @@ def prepare(
     before: PerformanceCurves | None = None,
     dance: BodyLayer | None = None,
 ) -> PerformanceCurves:
-    """Make a plan ready to be seen; parameters as of `perform`.
+    """Make a plan ready to be seen.
+
+    Parameters set amplitude, posture, seed and the sizes of single layers; ``hold`` is fitted for this character and
+    instrument, ``body`` has sizes, limits and postures; a rest as long as a felt beat brings controls back to rest;
+    the expressions are the bundled ones where none are given.
 
     Curves of events that are the very same tuples in ``before`` (the player as it was prior to an edit) are taken from
     there. ``dance`` is added to the body by the parameters' amount, and takes the place of as much of the generated
@@ -402,56 +406,6 @@ def _comparable(
     """Whether curves of the same events are the same curves."""
     same = before.instrument_map is instrument_map and before.body is body and before.felt_beats == felt_beats
     return same and before.player_id == plan.player_id
-
-
-def perform(
-    plan: PlayerPlan,
-    parameters: PlayerParameters,
-    instrument_map: InstrumentMap,
-    character: Character,
-    hold: GripPose,
-    body: Body,
-    *,
-    felt_beats: FeltBeats,
-    fps: Fraction,
-    frames: int | None = None,
-    first_frame: int = 0,
-    expressions: Mapping[str, Expression] | None = None,
-) -> Motion:
-    """Make one player's motion.
-
-    Parameters
-    ----------
-    plan : PlayerPlan
-    parameters : PlayerParameters
-        Amplitude, posture, seed and the sizes of single layers.
-    instrument_map : InstrumentMap
-    character : Character
-    hold : GripPose
-        Fitted for this character and instrument.
-    body : Body
-        Sizes, limits and postures.
-    felt_beats : tuple of (tick, ticks)
-        Ticks of a beat; a rest as long brings controls back to rest.
-    fps : Fraction
-    frames : int, optional
-        How many; to the end of the performance without it.
-    first_frame : int
-        Index of the first requested frame. A part is identical to the same frames of the whole.
-    expressions : mapping of str to Expression, optional
-        The bundled ones without it.
-
-    Returns
-    -------
-    Motion
-        ``first_frame_s`` is the time of its first frame.
-    """
-    if frames is None:
-        frames = max(0, frame_count(plan.time_frame, fps) - first_frame)
-    playing = prepare(
-        plan, parameters, instrument_map, character, hold, body, felt_beats=felt_beats, expressions=expressions
-    )
-    return playing.motion(fps, first_frame, frames)
 
 
 def _grip_of_lips(lips: Lips, embouchure: Embouchure) -> FloatArray:

@@ -11,7 +11,7 @@ preset.no_name, preset.none_of_name : name, table.invalid : file, place, detail;
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Generic, TypeVar
@@ -65,13 +65,12 @@ def expression_folder() -> Path:
     return platformdirs.user_data_path("suisou", appauthor=False) / "expressions"
 
 
-def preset_of(parameters: PlayerParameters, name: str, only: Iterable[str] | None = None) -> Preset:
-    """A preset with a player's parameters, all that can be shared or only some. Raises UsageError without a name."""
+def preset_of(parameters: PlayerParameters, name: str) -> Preset:
+    """A preset with all of a player's parameters that can be shared. Raises UsageError without a name."""
     cleaned = clean_name(name)[: limits.MOST_NAME]
     if not cleaned:
         raise UsageError("preset.no_name")
-    requested = _SHARED if only is None else [field for field in _SHARED if field in set(only)]
-    return Preset(cleaned, {field: getattr(parameters, field) for field in requested})
+    return Preset(cleaned, {field: getattr(parameters, field) for field in _SHARED})
 
 
 def presets(folder: Path) -> Found[Preset]:

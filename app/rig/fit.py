@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from importlib import import_module
 
 import numpy as np
 import numpy.typing as npt
@@ -31,7 +32,7 @@ from app.rig.grip_lean import Leaning, lean_of, leanings, whole_hand
 from app.rig.grip_problem import Problem, grip_problem, joint_angles, travel, wrist_transform
 from app.rig.grip_search import Progress, finished, no_progress, search_knots, starts
 from app.rig.grip_ways import lifted_ways
-from app.rig.hold import ContactFit, GripPose, HandHold, NodeMotion, Reach, StationTable
+from app.rig.hold import ContactFit, GripPose, HandHold, NodeMotion, StationTable
 from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
 from app.rig.stations import asked_together
@@ -74,7 +75,7 @@ def fit_hold(
     Returns
     -------
     GripPose
-        What could not be met stands in its ``contacts``, ``penetration_m`` and ``reach``.
+        What could not be met stands in its hands' ``contacts`` and ``penetration_m``.
 
     Raises
     ------
@@ -91,7 +92,7 @@ def fit_hold(
         instrument_map = scaled(instrument_map, 1.0 / size)
         stand = Upright(stand.joints_m / size, stand.instrument_m / size, stand.instrument_rotation)
     # Only a library that is loaded is limited, and SciPy brings its own; heavy, and holds are fitted seldom.
-    import scipy.optimize  # noqa: F401
+    import_module("scipy.optimize")
 
     # The matrices are small: more threads make it no faster, far slower on a busy machine, and change the last bits.
     with threadpool_limits(limits=1, user_api="blas"):
@@ -99,9 +100,7 @@ def fit_hold(
         for number, seed in enumerate(instrument_map.hands):
             part = _part(progress, number / len(instrument_map.hands), (number + 1) / len(instrument_map.hands))
             fitted.append(_fit_hand(character, model, instrument_map, body, seed, stand, size, part))
-    hands = tuple(sized(hand, size) for hand, _ in fitted)
-    reach = tuple(sized(reach, size) for _, reach in fitted)
-    return GripPose(character.id, instrument_map.id, hands, lips, reach)
+    return GripPose(character.id, instrument_map.id, tuple(sized(hand, size) for hand in fitted), lips)
 
 
 def _part(progress: Progress, first: float, last: float) -> Progress:
@@ -127,7 +126,7 @@ def _fit_hand(
     stand: Upright,
     size: float,
     progress: Progress,
-) -> tuple[HandHold, Reach]:
+) -> HandHold:
     """Fit one hand. Where the best start does not end well, the next ones are tried; the best end counts."""
     problem, carrier = grip_problem(character, model, instrument_map, body, seed, stand)
     if carrier is not None:
@@ -137,15 +136,15 @@ def _fit_hand(
         # A wrist between knots follows a smooth curve; the fingers are then solved for it.
         path = PchipInterpolator(knots, holds)(MOVED_VALUES)
         return _held(problem, model, instrument_map, carrier, holds[0], path, seed, stand, _part(progress, 0.55, 1.0))
-    best: tuple[HandHold, Reach] | None = None
+    best: HandHold | None = None
     for number, start in enumerate(starts(problem, _part(progress, 0.0, 0.4))):
         part = _part(progress, 0.4 + 0.2 * number, 0.6 + 0.2 * number)
         part(0.0)
         whole = finished(problem, start)
         found = _held(problem, model, instrument_map, None, whole, whole[None], seed, stand, part)
-        if best is None or _missed(found[0], size) < _missed(best[0], size):
+        if best is None or _missed(found, size) < _missed(best, size):
             best = found
-        if _missed(best[0], size) <= 1.0:
+        if _missed(best, size) <= 1.0:
             break
     assert best is not None
     return best
@@ -176,7 +175,7 @@ def _held(
     seed: HandSeed,
     stand: Upright,
     progress: Progress,
-) -> tuple[HandHold, Reach]:
+) -> HandHold:
     """A solved hand: its fingers at all their places, how it gives way for them, and how well it all meets.
 
     ``best`` (n,) are the parameters that were found, ``path`` (S, n) those along what carries the hand.
@@ -214,7 +213,7 @@ def _held(
         whole = [touch.positions[0] for touch in problem.touches if touch.contact.part in whole_hand(hand.side)]
         more = leans_beside(hold, np.reshape(whole, (-1, 3)), asked_together(instrument_map))
         hold = replace(hold, leans=leans + more)
-    return hold, _reach(problem, values, position, carrier, stand.instrument_rotation)
+    return hold
 
 
 def _leant_tables(
@@ -242,31 +241,4 @@ def _node_motion(control: Control) -> NodeMotion | None:
         axis=np.asarray(motion.axis, dtype=np.float64),
         angle_rad=motion.angle_rad or 0.0,
         pivot_m=np.asarray(motion.pivot_m or (0.0, 0.0, 0.0), dtype=np.float64),
-    )
-
-
-def _reach(
-    problem: Problem,
-    values: FloatArray,
-    position: FloatArray,
-    carrier: Control | None,
-    instrument_rotation: FloatArray,
-) -> Reach:
-    if carrier is None:
-        values, position = np.zeros(1), position[:1]
-    way = travel(carrier) if carrier is not None else np.zeros(3)
-    line = position + np.multiply.outer(values, way) - problem.shoulder_m
-    length = np.linalg.norm(line, axis=1)
-    arm = problem.upper_m + problem.lower_m
-    # Where the length crosses the arm's, between samples.
-    fine = np.linspace(0.0, 1.0, 201)
-    reached = fine[np.interp(fine, values, length) <= arm]
-    return Reach(
-        side=problem.hand.side,
-        control=None if carrier is None else carrier.name,
-        values=values,
-        shortfall_m=length - arm,
-        direction=quaternion.rotate(instrument_rotation, line[-1] / length[-1]),
-        arm_m=arm,
-        max_value=float(reached.max(initial=0.0)),
     )

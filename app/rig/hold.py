@@ -223,38 +223,6 @@ class HandHold:
 
 
 @dataclass(frozen=True)
-class Reach:
-    """Whether an upright body's arm reaches its hand's place over the range of the control that moves it.
-
-    With the upper body upright and the instrument as it is usually carried.
-
-    Attributes
-    ----------
-    side, control : str
-        ``control`` is None for a hand on the root (then there is one value).
-    values : (S,) float64
-        Values of the control.
-    shortfall_m : (S,) float64
-        How far the shoulder joint must come towards the hand: distance from shoulder to wrist minus `arm_m`; negative
-        where the arm is still bent.
-    direction : (3,) float64
-        Unit vector from the shoulder to the wrist at the last value, in the player's frame.
-    arm_m : float
-        Upper plus lower arm.
-    max_value : float
-        Largest value reached without help.
-    """
-
-    side: Side
-    control: str | None
-    values: FloatArray
-    shortfall_m: FloatArray
-    direction: FloatArray
-    arm_m: float
-    max_value: float
-
-
-@dataclass(frozen=True)
 class Lips:
     """Where an instrument is on the lips, in the frame of the head joint, linear in the morph weights.
 
@@ -327,15 +295,12 @@ class GripPose:
     character_id, instrument_id : str
     hands : tuple of HandHold
     lips : Lips
-    reach : tuple of Reach
-        One per hand.
     """
 
     character_id: str
     instrument_id: str
     hands: tuple[HandHold, ...]
     lips: Lips
-    reach: tuple[Reach, ...]
 
     @property
     def finger_joints(self) -> tuple[int, ...]:

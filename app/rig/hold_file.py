@@ -27,7 +27,7 @@ from app.formats.json_data import decode_json
 from app.rig.carriage import usual_posture
 from app.rig.fit import FIT_VERSION, PLACES_VERSION, fit_hold, require_landmarks
 from app.rig.grip_search import Progress, no_progress
-from app.rig.hold import GripPose, HandHold, Lips, Reach
+from app.rig.hold import GripPose, HandHold, Lips
 from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
 from app.rig.stations import asked_together, only_at
@@ -40,14 +40,16 @@ DIGITS = 6
 """A millionth of a radian or of a metre is far below what anybody sees, and keeps the files small."""
 
 
-class _StoredHold(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What is slow to fit; the lips are not, and they follow the face's weights, which the hands do not."""
+class _StoredHold(msgspec.Struct, frozen=True):
+    """What is slow to fit; the lips are not, and they follow the face's weights, which the hands do not.
+
+    Files of older versions hold more, which is passed over: to fit a hold anew takes a minute.
+    """
 
     digest: str
     character_id: str
     instrument_id: str
     hands: tuple[HandHold, ...]
-    reach: tuple[Reach, ...]
 
 
 def digest_of(character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body) -> str:
@@ -120,15 +122,15 @@ def usual_wrists(instrument_id: str) -> Mapping[str, tuple[npt.NDArray[np.float6
 def write_hold(path: Path, digest: str, hold: GripPose) -> None:
     """Write a hold; the file appears whole or not at all. Raises FileError."""
     with atomic_write(path) as file:
-        stored = _StoredHold(digest, hold.character_id, hold.instrument_id, hold.hands, hold.reach)
+        stored = _StoredHold(digest, hold.character_id, hold.instrument_id, hold.hands)
         file.write(msgspec.json.encode(stored, enc_hook=_plain))
 
 
 def stored(hold: GripPose) -> GripPose:
     """The hold as it comes back from a file: with rounded numbers."""
-    kept = _StoredHold("", hold.character_id, hold.instrument_id, hold.hands, hold.reach)
+    kept = _StoredHold("", hold.character_id, hold.instrument_id, hold.hands)
     back = msgspec.json.decode(msgspec.json.encode(kept, enc_hook=_plain), type=_StoredHold, dec_hook=_array)
-    return replace(hold, hands=back.hands, reach=back.reach)
+    return replace(hold, hands=back.hands)
 
 
 def read_hold(path: Path, digest: str, lips: Lips) -> GripPose | None:
@@ -139,7 +141,7 @@ def read_hold(path: Path, digest: str, lips: Lips) -> GripPose | None:
         return None
     if stored.digest != digest:
         return None
-    return GripPose(stored.character_id, stored.instrument_id, stored.hands, lips, stored.reach)
+    return GripPose(stored.character_id, stored.instrument_id, stored.hands, lips)
 
 
 def hold_for(

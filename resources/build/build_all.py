@@ -84,7 +84,6 @@ STEPS = (
         ),
         "--soundfont: FluidR3_GM.sf2",
     ),
-    Step("icons", ("resources/icons/*.svg",), _modules("resources.build.build_icons")),
     Step("licences", ("docs/licences.md",), _modules("resources.build.build_licences")),
     Step(
         "pictures",

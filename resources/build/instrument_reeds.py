@@ -128,11 +128,6 @@ class SingleReed:
         """Where it ends and barrel or neck begins."""
         return self.length - self.tip_m
 
-    @property
-    def half_width_m(self) -> float:
-        """Half its width where the lips close."""
-        return self._half_width(self.tip_m)
-
     def _reed_at(self, from_tip: ArrayLike) -> Array:
         vamp = 0.52 * self.reed_length
         share = np.clip(np.asarray(from_tip, float) / vamp, 0, 1)
@@ -252,11 +247,6 @@ class DoubleReed:
     def lips_apart_m(self) -> float:
         """Height of the reed where the lips close."""
         return 2 * self._half(self.tip_m)[1]
-
-    @property
-    def half_width_m(self) -> float:
-        """Half its width there."""
-        return self._half(self.tip_m)[0]
 
     @property
     def end_z(self) -> float:

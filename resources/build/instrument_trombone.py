@@ -43,7 +43,6 @@ LOWER = SLIDE_WIDTH * DOWN
 INNER_R, OUTER_R = 0.0073, 0.0081
 INNER_BRACE_Z, OUTER_BRACE_Z = 0.072, 0.150
 OUTER_START_Z, BOW_Z = 0.130, 0.842
-TRAVEL_M = 0.62
 STAY_R = 0.0048
 GOOSENECK = LOWER + 0.030 * ACROSS
 BELL = LOWER + 0.165 * ACROSS
@@ -53,12 +52,10 @@ BELL_STAY_Z = 0.0185
 RECEIVER_R = 0.0108
 TRIGGER_PIVOT = LOWER + 0.0190 * ACROSS + np.array([0, 0, -0.008])
 TRIGGER_PAD = LOWER + 0.0420 * ACROSS + 0.014 * OUT + np.array([0, 0, -0.004])
-TRIGGER_RAD = 0.30
 ROTOR_Z = -0.085
 SECOND_LEVER = 0.046 * DOWN + 0.0875 * Z - 0.001 * LEFT
 """The second lever's paddle, in front of the inner slide's brace; its pad faces the finger that pulls it."""
 SECOND_PULL = np.array([0.0, 0.0, -1.0])
-SECOND_TRAVEL_M = 0.007
 
 
 @dataclass(frozen=True)

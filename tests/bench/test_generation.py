@@ -9,10 +9,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from app.motion.perform import perform
 from app.plan.model import GestureEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
 from metadata.load import load_body
+from tests.support.performed import perform
 from tests.unit.motion import figure
 from tests.unit.motion.events import REASON, TICKS, breath, cue, fingerings, plan_of, press, slide
 

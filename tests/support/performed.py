@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from typing import Any
+
 from app.motion.model import Motion
-from app.motion.perform import PerformanceCurves
+from app.motion.perform import PerformanceCurves, frame_count, prepare
 from app.performance import motion
 from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.plan.corrections import PinFingering
+from app.plan.model import PlayerPlan
 from app.project.edit.corrections import put
 from app.project.model import Player, Project
+from app.score.metre_map import FeltBeats
 
 
 def playing_of(performance: Performance, player: Player, before: PerformanceCurves | None = None) -> PerformanceCurves:
@@ -21,6 +26,20 @@ def playing_of(performance: Performance, player: Player, before: PerformanceCurv
 def player_motion(performance: Performance, player: Player, span: FrameSpan) -> Motion:
     """The player's motion over some frames."""
     return motion.player_motion(performance, performer_of(performance, player), span)
+
+
+def perform(
+    plan: PlayerPlan,
+    *player: Any,
+    felt_beats: FeltBeats,
+    fps: Fraction,
+    frames: int | None = None,
+    first_frame: int = 0,
+) -> Motion:
+    """One player's motion, to the end of the performance or so many frames; ``player`` is what `prepare` asks for."""
+    if frames is None:
+        frames = max(0, frame_count(plan.time_frame, fps) - first_frame)
+    return prepare(plan, *player, felt_beats=felt_beats).motion(fps, first_frame, frames)
 
 
 def in_seventh(project: Project, player: Player) -> Project:

@@ -1,4 +1,4 @@
-"""Binary FBX, both ways: bytes, elements, scenes of bones, skinned meshes and one clip, and a text dump."""
+"""Binary FBX, both ways: bytes, elements, scenes of bones, skinned meshes and one clip."""
 
 from app.formats.fbx.read import read_scene
 from app.formats.fbx.write import encode_scene, write_scene

@@ -65,11 +65,10 @@ class GltfPrimitive:
 
 @dataclass(frozen=True, eq=False)
 class GltfMesh:
-    """A mesh; `extras` is what the file's author put there."""
+    """A mesh: its parts of one material each."""
 
     name: str
     primitives: tuple[GltfPrimitive, ...]
-    extras: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +117,6 @@ class GltfNode:
     scale : ndarray, shape (3,)
     mesh : int or None
     skin : int or None
-    extras : mapping
     extensions : mapping
     """
 
@@ -129,7 +127,6 @@ class GltfNode:
     scale: FloatArray
     mesh: int | None
     skin: int | None
-    extras: Mapping[str, Any] = field(default_factory=dict)
     extensions: Mapping[str, Any] = field(default_factory=dict)
 
 
@@ -177,10 +174,8 @@ class GltfModel:
         Files of images as they are, none of them looked at; empty where they are not in the file.
     extensions : mapping
         The document's, e.g. ``VRMC_vrm``, as parsed JSON.
-    extras : mapping
-        The document's.
     scene_extras : mapping
-        Those of the scene that is shown.
+        The ``extras`` of the scene that is shown.
     generator : str
         The program that wrote the file.
     animations : tuple of GltfAnimation
@@ -193,7 +188,6 @@ class GltfModel:
     materials: tuple[GltfMaterial, ...]
     images: tuple[bytes, ...] = ()
     extensions: Mapping[str, Any] = field(default_factory=dict)
-    extras: Mapping[str, Any] = field(default_factory=dict)
     scene_extras: Mapping[str, Any] = field(default_factory=dict)
     generator: str = ""
     animations: tuple[GltfAnimation, ...] = ()

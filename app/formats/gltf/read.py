@@ -95,7 +95,6 @@ def decode_gltf(data: bytes, file: str, *, animated: bool = False) -> GltfModel:
         materials=tuple(reader.material(material) for material in reader.items("materials")),
         images=reader.images(),
         extensions=reader.mapping(reader.document, "extensions"),
-        extras=reader.mapping(reader.document, "extras"),
         scene_extras=reader.scene_extras(),
         generator=str(field(reader.mapping(reader.document, "asset"), "generator") or ""),
         animations=tuple(reader.animation(one) for one in reader.items("animations")) if animated else (),
@@ -106,9 +105,8 @@ class _Reader(Accessors):
     """Makes values of a checked document."""
 
     def mesh(self, mesh: object, index: int) -> GltfMesh:
-        extras = self.mapping(mesh, "extras")
         primitives = self.items("primitives", mesh)
-        names = extras.get("targetNames")
+        names = self.mapping(mesh, "extras").get("targetNames")
         if not isinstance(names, list) and primitives:  # some exporters name them here
             names = self.mapping(primitives[0], "extras").get("targetNames")
         names = [str(name) for name in names] if isinstance(names, list) else []
@@ -116,7 +114,6 @@ class _Reader(Accessors):
         return GltfMesh(
             self.text(mesh, "name", f"mesh_{index}"),
             tuple(self._primitive(primitive, names, known) for primitive in primitives),
-            extras,
         )
 
     def check_instances(self, nodes: tuple[GltfNode, ...], meshes: tuple[GltfMesh, ...]) -> None:
@@ -339,7 +336,6 @@ class _Reader(Accessors):
             scale=scale,
             mesh=self.optional_index(node, "mesh", len(self.items("meshes"))),
             skin=self.optional_index(node, "skin", len(self.items("skins"))),
-            extras=self.mapping(node, "extras"),
             extensions=self.mapping(node, "extensions"),
         )
 

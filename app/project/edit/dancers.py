@@ -33,10 +33,9 @@ from app.rig.character_library import bundled_characters
 MOST_IN_ROW: Final = 5
 
 
-def add_dancer(
-    project: Project, choreography: str | os.PathLike[str], name: str, character_id: str | None = None
-) -> tuple[Project, str]:
-    """Add a dancer at a free place in front of the players; the dancer's id comes with the project.
+def add_dancer(project: Project, choreography: str | os.PathLike[str], name: str) -> tuple[Project, str]:
+    """Add a dancer at a free place in front of the players, in the bundled character that is seen least often; the
+    dancer's id comes with the project.
 
     Parameters
     ----------
@@ -44,8 +43,6 @@ def add_dancer(
         A ``.choreography`` file, or the name of a bundled choreography.
     name : str
         Gets a number where another performer carries it.
-    character_id : str, optional
-        By default the bundled character that is seen least often.
 
     Raises
     ------
@@ -57,7 +54,7 @@ def add_dancer(
         id=dancer_id,
         name=free_name(_visible(name), project.performer_names()),
         choreography=checked_choreography(choreography),
-        character_id=_seldom_seen(project) if character_id is None else character_id,
+        character_id=_seldom_seen(project),
         stage=StagePosition(0.0, 0.0, 0.0),
     )
     return _with_more(project, [dancer]), dancer_id

@@ -149,9 +149,7 @@ def pin_fingerings(project: Project, player_id: str, labels: Mapping[str, str]) 
 # Adding
 
 
-def add_breath(
-    project: Project, plan: PlayerPlan, tick: int, kind: BreathKind = "breath", depth: float = 1.0
-) -> Edited:
+def add_breath(project: Project, plan: PlayerPlan, tick: int, kind: BreathKind = "breath") -> Edited:
     """A breath (or preparation) for the first note at or after a tick. One that is there already stays as it is.
 
     It takes the rest before the note, at most one felt beat; where notes touch, `CATCH_S` of the note before, at most
@@ -175,7 +173,7 @@ def add_breath(
         start = end - beat
     else:
         start = _room_before(project, notes, index)
-    added = SetBreath(note.id, start - note.onset_tick, end - note.onset_tick, depth, kind, added=not removed)
+    added = SetBreath(note.id, start - note.onset_tick, end - note.onset_tick, 1.0, kind, added=not removed)
     return Edited(put(take_back(project, plan.player_id, removed), plan.player_id, (added,)), (event_id,))
 
 
@@ -191,7 +189,7 @@ def toggle_preparation(project: Project, plan: PlayerPlan, note_id: str) -> Edit
     return Edited(project, ()) if note is None else add_breath(project, plan, note.onset_tick, "preparation")
 
 
-def add_cue(project: Project, plan: PlayerPlan, tick: int, beats: float = 1.0) -> Edited:
+def add_cue(project: Project, plan: PlayerPlan, tick: int) -> Edited:
     """A cue to the player's first entry at or after a tick. One that is there already stays as it is."""
     notes = _notes(project, plan.player_id)
     index = bisect_left(notes, tick, key=lambda note: note.onset_tick)
@@ -201,7 +199,7 @@ def add_cue(project: Project, plan: PlayerPlan, tick: int, beats: float = 1.0) -
     if any(event.id == event_id for event in plan.cues):
         return Edited(project, (event_id,))
     removed = [item for item in corrections_of(project, plan.player_id, (event_id,)) if isinstance(item, RemoveEvent)]
-    added = SetCue(notes[index].id, beats, added=not removed)
+    added = SetCue(notes[index].id, 1.0, added=not removed)
     return Edited(put(take_back(project, plan.player_id, removed), plan.player_id, (added,)), (event_id,))
 
 

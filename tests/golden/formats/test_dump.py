@@ -13,7 +13,7 @@ import numpy as np
 
 from app.formats.fbx import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh, encode_scene
 from app.formats.fbx.decode import read_elements
-from app.formats.fbx.dump import text
+from tests.support.fbx_dump import text
 
 GOLDEN = Path(__file__).with_name("scene.txt")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.rig import quaternion
-from app.rig.hold import FingerTable, GripPose, HandHold, Lips, NodeMotion, Reach, StationTable
+from app.rig.hold import FingerTable, GripPose, HandHold, Lips, NodeMotion, StationTable
 from app.rig.model import Character, Skeleton
 from instrument_maps import model as maps
 from instrument_maps.model import InstrumentMap
@@ -95,12 +95,7 @@ def hold(bones: Skeleton, slide_m: float = 0.0) -> GripPose:
         {"mouthPucker": np.array([0.0, 0.0, 0.004])},
         np.array([0.0, -0.035, 0.115]),
     )
-    reaches: tuple[Reach, ...] = ()
-    if slide_m:
-        values = np.linspace(0.0, 1.0, 21)
-        shortfall_m = np.hypot(0.21 + slide_m * values, 0.13) - 0.546
-        reaches = (Reach("right", "slide", values, shortfall_m, np.array([0.0, 0.1, 0.995]), 0.546, 1.0),)
-    return GripPose("figure", "thing", tuple(hands), lips, reaches)
+    return GripPose("figure", "thing", tuple(hands), lips)
 
 
 def instrument_map(*controls: maps.Control) -> InstrumentMap:

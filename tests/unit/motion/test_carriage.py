@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from app.motion.model import Motion
-from app.motion.perform import perform
 from app.plan.model import GestureEvent
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import pose_limits
@@ -19,6 +18,7 @@ from app.rig.skeleton import forward
 from instrument_maps.model import Carriage, InstrumentMap
 from metadata.load import load_body
 from metadata.model import NECK_JOINTS, TRUNK_JOINTS
+from tests.support.performed import perform
 from tests.unit.motion import figure
 from tests.unit.motion.events import REASON, TICKS, cue, fingerings, plan_of, press
 

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.motion.controls import control_curve, window_s
+from app.motion.controls import control_curves, window_s
 from app.motion.curve import frame_times
 from tests.unit.motion.events import TICKS, fingerings, press, slide
 
@@ -30,6 +30,10 @@ def passages(draw: st.DrawFn, name: str, values: st.SearchStrategy[float], short
         rows.append((time_s, time_s + length_s, {name: draw(values)}))
         time_s += length_s + gap_s
     return fingerings(rows)
+
+
+def control_curve(events, control, felt_beats):
+    return control_curves(events, (control,), felt_beats)[control.name]
 
 
 def judged_frame(onset_s: float, fps: Fraction) -> int:

@@ -12,7 +12,6 @@ import numpy.typing as npt
 import pytest
 
 from app.motion.model import Motion
-from app.motion.perform import perform
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
@@ -29,6 +28,7 @@ from instrument_maps.model import Carriage, Embouchure, InstrumentMap
 from metadata.load import load_body
 from tests.support.deformed import deform
 from tests.support.models import bundled_instrument
+from tests.support.performed import perform
 from tests.support.plan import PlainClock, line_of, piece_of
 
 FloatArray = npt.NDArray[np.float64]

@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 
 from app.motion.model import Motion
-from app.motion.perform import frame_count, perform
+from app.motion.perform import frame_count
 from app.plan.model import GestureEvent, PlayerPlan, TimeFrame
 from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
 from app.rig.hold import hand_targets
 from app.rig.skeleton import forward, rest_positions
 from metadata.load import load_body, load_skeleton
+from tests.support.performed import perform
 from tests.unit.motion import figure
 from tests.unit.motion.events import REASON, TICKS, breath, cue, fingerings, plan_of, press, slide
 

@@ -10,13 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.motion.model import Motion
-from app.motion.perform import perform
 from app.motion.reach import softly_capped, softly_over
 from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
 from app.rig.hold import hand_targets
 from app.rig.skeleton import forward
 from metadata.load import load_body
+from tests.support.performed import perform
 from tests.unit.motion import figure
 from tests.unit.motion.events import TICKS, fingerings, plan_of, press, slide
 

@@ -11,13 +11,13 @@ from hypothesis import strategies as st
 
 from app.export.joints import angular_accelerations
 from app.motion.model import Motion
-from app.motion.perform import perform
 from app.motion.stop import EASE, LONGEST
 from app.plan.parameters import PlayerParameters
 from app.rig.hold import hand_targets
 from app.rig.ik import arm
 from app.rig.skeleton import forward
 from metadata.load import load_body
+from tests.support.performed import perform
 from tests.unit.motion import figure
 from tests.unit.motion.events import TICKS, fingerings, plan_of, press, slide
 

@@ -58,8 +58,7 @@ def test_a_preset_whose_choreography_can_be_none_is_refused(tmp_path: Path) -> N
 
 
 def test_only_some_parameters(tmp_path: Path) -> None:
-    preset = presets.preset_of(LIVELY, "breath", only=("lung_s", "breath_min_beats", "seed"))
-    assert set(preset.parameters) == {"lung_s", "breath_min_beats"}
+    preset = presets.Preset("breath", {"lung_s": LIVELY.lung_s, "breath_min_beats": LIVELY.breath_min_beats})
     presets.save_preset(tmp_path, preset)
     assert presets.presets(tmp_path).items["breath"] == preset
 

@@ -41,7 +41,7 @@ def test_what_is_missing_is_said_and_a_failure_ends_it(
 
     def run(command: tuple[str, ...], **_: object) -> subprocess.CompletedProcess[str]:
         ran.append(list(command))
-        return subprocess.CompletedProcess(command, 1 if "resources.build.build_icons" in command else 0)
+        return subprocess.CompletedProcess(command, 1 if "resources.build.build_licences" in command else 0)
 
     monkeypatch.setattr(subprocess, "run", run)
     assert build_all.main(["soundfont", "characters", "examples"]) == 0
@@ -52,7 +52,7 @@ def test_what_is_missing_is_said_and_a_failure_ends_it(
     said = capfd.readouterr().out
     assert "left out: soundfont" in said
     assert "left out: characters" in said
-    assert build_all.main(["licences", "icons", "examples", "--characters-python", "x"]) == 1
-    assert [command[-1] for command in ran[4:]] == ["resources.build.build_icons"]
+    assert build_all.main(["pictures", "licences", "examples", "--characters-python", "x"]) == 1
+    assert [command[-1] for command in ran[4:]] == ["resources.build.build_licences"]
     with pytest.raises(SystemExit):
         build_all.main(["nonsense"])

@@ -214,18 +214,6 @@ def test_the_lips_move_with_the_face_as_the_skin_does(held: SettingBinding) -> N
         assert np.all(lips.contact_m(opened, 3)[:, 1] < lips.carried_m(opened, 3)[:, 1])
 
 
-def test_how_far_the_arm_must_be_helped_grows_with_the_slide(held: SettingBinding) -> None:
-    for hand, reach in zip(held.hold.hands, held.hold.reach, strict=True):
-        assert reach.side == hand.side
-        if hand.motion is None:
-            assert reach.shortfall_m.shape == (1,)
-            assert reach.shortfall_m[0] < 0.0
-        else:
-            assert reach.control == hand.motion.control
-            assert reach.shortfall_m[0] < 0.0 < reach.shortfall_m[-1]
-            assert 0.4 < reach.max_value < 1.0
-
-
 def test_the_first_fit_of_a_process_has_one_thread() -> None:
     """SciPy brings a BLAS of its own, which can be limited only once it is loaded."""
     program = """

@@ -191,4 +191,3 @@ def test_every_wind_sits_somewhere_and_every_sort_is_of_something() -> None:
             assert instrument.family, instrument.id
         if instrument.sort_of:
             assert words.is_sort(instrument.id, instrument.sort_of)
-            assert words.lineage(instrument.id)[:2] == (instrument.id, instrument.sort_of)

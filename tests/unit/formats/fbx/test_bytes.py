@@ -16,8 +16,8 @@ from hypothesis.extra import numpy as st_numpy
 
 from app.errors import FileError
 from app.formats.fbx import decode, encode, write_scene
-from app.formats.fbx.dump import text
 from app.formats.fbx.encode import Element, encode_elements, pack_array
+from tests.support.fbx_dump import text
 from tests.support.readers import QUICK_FBX, judge
 from tests.unit.formats import scenes
 

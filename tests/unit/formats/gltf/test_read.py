@@ -137,7 +137,6 @@ def test_a_character_is_read_whole() -> None:
     model = decode_gltf(character().glb(), "x.glb")
     assert [node.name for node in model.nodes] == ["hand", "arm", "root", "node_3"]
     assert [node.parent for node in model.nodes] == [1, 2, -1, -1]
-    assert model.nodes[0].extras == {"note": 1}
     np.testing.assert_array_equal(model.nodes[0].rotation_xyzw, [0, 0, 1, 0])
     np.testing.assert_array_equal(model.nodes[0].translation, [1, 2, 3])
     np.testing.assert_array_equal(model.nodes[1].scale, [1, 1, 2])
