@@ -41,7 +41,7 @@ from app.editor.files import Files
 from app.editor.live_player import LivePlayer
 from app.editor.session import Session, Severity
 from app.editor.settings import Settings
-from app.editor.sound import sound_of
+from app.editor.sound import Sound
 from app.editor.translated import tr
 from app.encoding import stored
 from app.errors import AppError, Message
@@ -102,6 +102,8 @@ class Recorder(QObject):
         Beside the project's file lie the journals.
     settings : Settings
         Remember the device, and what is known of each.
+    sound : Sound
+        Counts a take in, and goes on beyond the end of the piece.
     make_link : callable
     now_ns : callable
         The clock of the events.
@@ -114,13 +116,13 @@ class Recorder(QObject):
         session: Session,
         files: Files,
         settings: Settings,
+        sound: Sound,
         make_link: MakeLink | None = None,
         now_ns: Callable[[], int] = time.perf_counter_ns,
         make_playback: Callable[[], Playback] = Playback,
     ) -> None:
         super().__init__(session)
-        self.setObjectName("recorder")
-        self._session, self._files, self._settings = session, files, settings
+        self._session, self._files, self._settings, self._sound = session, files, settings, sound
         self._state = session.recording
         self._make_link: MakeLink = make_link if make_link is not None else RecorderLink
         self.now_ns = now_ns
@@ -306,11 +308,11 @@ class Recorder(QObject):
         """Count in and record the armed player from the playhead on, in the loop where there is one."""
         session, state = self._session, self._state
         player_id = self.recorded_player()
-        playback, sound = session.playback, sound_of(session)
+        playback = session.playback
         if player_id is None:
             session.notice(Message("record.no_player"), Severity.WARNING)
             return
-        if playback is None or sound is None:
+        if playback is None:
             return
         self.begin()
         if state.connection != "open" or self._link is None:
@@ -337,7 +339,7 @@ class Recorder(QObject):
         )
         self._running = _Running(path, player_id, start_s, session.loop_s, self._state.wiring, session.project)
         self._link.start(path, header)
-        sound.set_recording((lead_s, start_s))
+        self._sound.set_recording((lead_s, start_s))
         state.set(running=True, start_s=start_s, counted_from_s=lead_s, passes=1, events=0)
         playback.play(lead_s)
         self._sync_timer.start()
@@ -413,9 +415,7 @@ class Recorder(QObject):
     def _ended(self) -> None:
         self._sync_timer.stop()
         self._state.set(running=False)
-        sound = sound_of(self._session)
-        if sound is not None:
-            sound.set_recording(None)
+        self._sound.set_recording(None)
 
     # What becomes of it
 
@@ -535,8 +535,3 @@ def _whole(takes: tuple[Take, ...]) -> int:
     longest_us = max(take.end_us - take.start_us for take in takes)
     whole = [index for index, take in enumerate(takes) if take.end_us - take.start_us > 0.9 * longest_us]
     return whole[-1]
-
-
-def recorder_of(session: Session) -> Recorder | None:
-    """The recorder of a session; None where nothing is recorded."""
-    return session.findChild(Recorder, "recorder", Qt.FindChildOption.FindDirectChildrenOnly)

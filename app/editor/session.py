@@ -78,7 +78,7 @@ class Session(QObject):
     problems_changed()
         `problems` of some players are others, and the plans are the same: the motion was made, and looked at.
     selection_changed(), players_changed(), playhead_changed(float), playing_changed(bool), loop_changed(),
-    grid_changed(), theme_changed(), time_display_changed(), follow_changed()
+    grid_changed(), theme_changed(), time_display_changed(), follow_changed(), language_changed()
         The value of that name is another one.
     dancer_changed()
         Another dancer is selected, in the same project.
@@ -115,6 +115,7 @@ class Session(QObject):
     theme_changed = Signal()
     time_display_changed = Signal()
     follow_changed = Signal()
+    language_changed = Signal()
     folded_changed = Signal()
     preview_changed = Signal()
     noticed = Signal(object, object)

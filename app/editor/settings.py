@@ -15,6 +15,7 @@ from __future__ import annotations
 import base64
 import binascii
 import os
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, Final, Generic, TypeVar, overload
 
@@ -24,6 +25,7 @@ from PySide6.QtCore import QByteArray, QCoreApplication, QObject, QTimer, Signal
 
 from app import encoding
 from app.editor.listening import Source
+from app.editor.session import Session
 from app.editor.setting_bindings import FOLDED, THEME, TIME, SettingBinding, in_listening, in_pitches
 from app.errors import AppError, FileError, MapError, Message
 from app.formats.atomic import atomic_write
@@ -258,6 +260,21 @@ class Settings(QObject):
             self._table = {}
             self._is_reported = True
             self.problems = (error.message, Message("settings.set_aside", {"file": os.fspath(path)}))
+
+    def hold(self, session: Session) -> None:
+        """Restore what a session holds, and remember it there whenever it changes."""
+        for setting in SETTINGS:
+            if setting.held is not None:
+                setting.held.set(session, getattr(self, setting.name))
+        for setting in SETTINGS:
+            if setting.held is not None:
+                setting.held.changed(session).connect(partial(self._remember, session, setting, setting.held))
+
+    def _remember(self, session: Session, setting: Setting[Any], held: SettingBinding) -> None:
+        # Notified of much else, as of every phrase that is made: only what the user chose is written.
+        value = held.get(session)
+        if getattr(self, setting.name) != value:
+            setattr(self, setting.name, value)
 
     # What is in the file
 

@@ -59,7 +59,6 @@ class Sound(QObject):
 
     def __init__(self, session: Session, playback: Playback | None = None, heard: bool = True) -> None:
         super().__init__(session)
-        self.setObjectName("sound")
         self._session = session
         self.playback = playback if playback is not None else Playback(parent=self)
         self._heard = heard
@@ -372,8 +371,3 @@ def span_of(project: Project) -> TimeFrame:
     last_tick = max((part.end_tick for part in parts), default=0)
     beat_ticks = project.metre_map.felt_ticks_at(first_tick)
     return frame_around(first_tick, last_tick, project.score.tempo_map, project.preroll_beats, beat_ticks)
-
-
-def sound_of(session: Session) -> Sound | None:
-    """The sound of a session; None where nothing is heard."""
-    return session.findChild(Sound, "sound", Qt.FindChildOption.FindDirectChildrenOnly)

@@ -15,7 +15,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from PySide6.QtCore import QObject, Qt
+from PySide6.QtCore import QObject
 from shiboken6 import isValid
 
 from app.editor.calls import window_calls
@@ -63,7 +63,6 @@ class Streamer(QObject):
 
     def __init__(self, session: Session, settings: Settings, poses: Poses) -> None:
         super().__init__(session)
-        self.setObjectName("streamer")
         self._session, self._settings, self._state = session, settings, session.streaming
         self._poses = LivePoses(session, poses)
         self._address: Address | None = None
@@ -407,8 +406,3 @@ class _Thread:
         for sender in self._senders.values():
             sender.close()
         self._senders.clear()
-
-
-def streamer_of(session: Session) -> Streamer | None:
-    """The streamer of a session; None where nothing is streamed."""
-    return session.findChild(Streamer, "streamer", Qt.FindChildOption.FindDirectChildrenOnly)

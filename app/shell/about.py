@@ -3,25 +3,31 @@
 from __future__ import annotations
 
 import platform
+from pathlib import Path
 
 import PySide6
 from PySide6.QtCore import QEvent, Qt, qVersion
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QPushButton, QVBoxLayout, QWidget
 
-from app.editor.session import Session
 from app.shell.crash_handler import log_path
 from app.version import program_version
 from widgets.common.plain import Label
 
 
 class AboutDialog(QDialog):
-    """About Suisou."""
+    """About Suisou.
 
-    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+    Parameters
+    ----------
+    settings : Path
+        Where the settings are.
+    """
+
+    def __init__(self, settings: Path, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("about")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self._session = session
+        self._settings = settings
         self._name, self._text = Label("Suisou"), Label()
         font = self._name.font()
         font.setPointSizeF(20.0)
@@ -57,7 +63,7 @@ class AboutDialog(QDialog):
                     self.tr("about_dialog.performance_of_wind_ensemble_from"),
                     self.tr("about_dialog.version_under_apache_license_2").format(version=program_version()),
                     versions,
-                    self.tr("about_dialog.settings").format(path=self._settings_path()),
+                    self.tr("about_dialog.settings").format(path=self._settings),
                     self.tr("about_dialog.faults_are_noted_in").format(path=log_path()),
                 )
             )
@@ -67,11 +73,6 @@ class AboutDialog(QDialog):
         from app.shell.licences_dialog import LicencesDialog
 
         LicencesDialog(self).open()
-
-    def _settings_path(self) -> str:
-        from app.shell.editor import editor_of
-
-        return str(editor_of(self._session).settings.path)
 
     def changeEvent(self, event: QEvent) -> None:
         """Another language."""

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import ClassVar, Generic, TypeVar
 
-if TYPE_CHECKING:
-    from app.editor.session import Session
+from app.editor.session import Session
+from app.editor.translated import tr
+from app.errors import Message
+
+Subject = TypeVar("Subject")
 
 
 @dataclass(frozen=True)
-class Action:
+class Row(Generic[Subject]):
     """Something the user can do; menus, palette, tool tips and shortcuts all read this row.
+
+    Its functions are given what it is about: `Action` the session, `app.shell.editor.EditorAction` the whole editor.
 
     Attributes
     ----------
@@ -20,9 +25,10 @@ class Action:
         ``"notes.split"``; settings keep shortcuts by it. Its text is ``"action.notes.split"`` of `app.shell.texts`,
         with a trailing ``...`` where a dialog follows.
     run : callable
-        Takes the session (and the checked state, where ``checked`` is given).
+        Takes the session or editor (and the checked state, where ``checked`` is given).
     menu : str
-        Path of the menu, ``"Edit/Notes"``; empty: only in the palette.
+        Path of the menu, ``"edit/notes"``, whose parts have their texts as ``"menu.notes"``; empty: only in the
+        palette.
     shortcut : str
         Portable text as of `QKeySequence`; several are separated by ``;``; empty: none by default.
     context : str
@@ -33,13 +39,44 @@ class Action:
         Makes it a toggle: whether it is on.
     icon : str
         Name of an icon in ``resources/icons``; empty: none.
+    step : callable, optional
+        What it would do now, which its text names; None: nothing.
     """
+
+    about_editor: ClassVar[bool] = False
 
     id: str
     run: Callable[..., None]
     menu: str = ""
     shortcut: str = ""
     context: str = "window"
-    enabled: Callable[[Session], bool] | None = None
-    checked: Callable[[Session], bool] | None = None
+    enabled: Callable[[Subject], bool] | None = None
+    checked: Callable[[Subject], bool] | None = None
     icon: str = ""
+    step: Callable[[Subject], Message | None] | None = None
+
+    @property
+    def text(self) -> str:
+        """Its text in the language of the editor."""
+        return tr(f"action.{self.id}")
+
+    @property
+    def place(self) -> str:
+        """Where it stands in the menus, in the language of the editor; empty: nowhere."""
+        return " › ".join(without_key(tr(f"menu.{part}")) for part in self.menu.split("/") if part)
+
+
+class Action(Row[Session]):
+    """A row about the project and what of it is shown: its functions take the session."""
+
+
+def without_dots(text: str) -> str:
+    """An action's text without dots and marks."""
+    return text.replace("&", "").removesuffix("...").removesuffix("…")
+
+
+def without_key(text: str) -> str:
+    """A menu's name without the mark of its key: ``&File``, ``ファイル(&F)``."""
+    if text.endswith(")") and "(&" in text:
+        text = text[: text.rindex("(&")]
+    return text.replace("&", "")

@@ -33,12 +33,15 @@ from app.project.autosave import Autosave
 from app.project.edit.piece import new_piece
 from app.project.presence import Presence, recovery_folder
 from app.rig.character_library import begin_characters
-from app.shell.actions import ActionTable, KeyboardButtons, rows
+from app.shell.actions import ActionTable
+from app.shell.commands import characters
 from app.shell.crash_handler import CrashHandler, log_path
 from app.shell.editor import Editor
 from app.shell.garbage import Garbage
+from app.shell.keyboard_buttons import KeyboardButtons
 from app.shell.language import Language
 from app.shell.questions import DialogQuestions
+from app.shell.rows import rows
 from app.shell.theme import apply_font, apply_theme
 from app.shell.window import Window
 from instrument_maps.library import begin
@@ -113,7 +116,7 @@ class Program(QObject):
         autosave: Autosave | None = None,
         heard: bool = True,
         playback: Playback | None = None,
-        recorder: Callable[[Session, Files], Recorder] | None = None,
+        recorder: Callable[[Session, Files, Settings, Sound], Recorder] | None = None,
     ) -> None:
         super().__init__()
         # The user's own are read beside the window, which may take as long as it likes.
@@ -128,26 +131,27 @@ class Program(QObject):
         for problem in settings.problems:
             QTimer.singleShot(0, self, partial(self._warn, problem))
         asked = DialogQuestions() if questions is None else questions
-        self.language = Language()
-        self.language.set(settings.language)
-        self.editor = Editor(self.session, settings, self.language, asked)
-        self.editor.files = Files(self.session, settings, asked, autosave)
+        language = Language()
+        language.set(settings.language)
+        language.changed.connect(self.session.language_changed)
+        settings.hold(self.session)
+        files = Files(self.session, settings, asked, autosave)
         self.session.theme_changed.connect(self._apply_theme)
         self._apply_theme()
         self.generator = Generator(self.session, self.tasks)
         # Children of the session: they stay.
-        Sound(self.session, playback, heard)
+        sound = Sound(self.session, playback, heard)
         watch_instruments(self.session)
         watch_characters(self.session)
-        self.recorder = (
-            Recorder(self.session, self.editor.files, settings)
-            if recorder is None
-            else recorder(self.session, self.editor.files)
+        self.recorder = (Recorder if recorder is None else recorder)(self.session, files, settings, sound)
+        streamer = Streamer(self.session, settings, self.generator.live)
+        table = ActionTable(self.session, settings, rows())
+        self.window = Window(self.session, files, settings, asked, table, self.generator)
+        self.editor = Editor(
+            self.session, settings, language, asked, files, sound, self.recorder, streamer, table, self.window
         )
-        self.streamer = Streamer(self.session, settings, self.generator.live)
-        self.editor.table = ActionTable(self.session, settings, rows())
-        self.language.changed.connect(self.editor.table.retranslate)
-        self.window = Window(self.editor, self.generator)
+        table.begin(self.editor)
+        self.window.character_dropped.connect(partial(characters.bring, self.editor))
         KeyboardButtons(application, self)
 
     def _warn(self, message: Message) -> None:
@@ -159,7 +163,7 @@ class Program(QObject):
     def end(self) -> None:
         """Stop everything that works beside the window."""
         self.recorder.close()
-        self.streamer.close()
+        self.editor.streamer.close()
         self.generator.close()
         if isinstance(self.tasks, ThreadTasks):
             self.tasks.cancel_all(STOP_S)

@@ -33,16 +33,16 @@ from widgets.dialogs.characters import CharactersDialog
 
 def show_characters(editor: Editor) -> None:
     """Show the user's own characters; once."""
-    dialog = editor.window.findChild(CharactersDialog)
-    if dialog is None:
+
+    def make() -> CharactersDialog:
         dialog = CharactersDialog(editor.session, editor.window)
         dialog.add_asked.connect(lambda: ask_for_character(editor))
         dialog.edit_asked.connect(lambda id: edit_character(editor, id))
         dialog.remove_asked.connect(lambda id: remove(editor, id))
         dialog.dropped.connect(lambda path: bring_character(editor, path))
-    dialog.show()
-    dialog.raise_()
-    dialog.activateWindow()
+        return dialog
+
+    editor.show_once(CharactersDialog, make)
 
 
 def ask_for_character(editor: Editor) -> None:

@@ -19,7 +19,8 @@ from PySide6.QtWidgets import (
 )
 
 from app.editor.session import Session
-from app.shell.actions import ActionTable, plain, sequences
+from app.shell.action import without_dots
+from app.shell.actions import ActionTable, sequences
 from app.shell.fuzzy import fitness
 from app.shell.texts import TEXTS
 from widgets.common.plain import Label
@@ -96,9 +97,9 @@ class Palette(QFrame):
         self.model.clear()
         for action_id in self._best(query):
             action = self._table.actions[action_id]
-            item = QStandardItem(plain(action.text()))
+            item = QStandardItem(without_dots(action.text()))
             item.setData(action_id, _ID)
-            item.setData(self._table.place(action_id), _PLACE)
+            item.setData(self._table.rows[action_id].place, _PLACE)
             native = QKeySequence.SequenceFormat.NativeText
             keys = sequences(self._table.keys(action_id))
             item.setData(keys[0].toString(native) if keys else "", _KEYS)
@@ -128,8 +129,8 @@ class Palette(QFrame):
                 recent = self._ran.index(action_id) if action_id in self._ran else len(self._ran)
                 scored.append((False, not action.isEnabled(), float(recent), order, action_id))
                 continue
-            menu, english = row.menu.replace("/", " "), plain(TEXTS[f"action.{action_id}"][0])
-            names = (plain(action.text()), english, f"{self._table.place(action_id)} {action.text()}", menu)
+            menu, english = row.menu.replace("/", " "), without_dots(TEXTS[f"action.{action_id}"][0])
+            names = (without_dots(action.text()), english, f"{row.place} {action.text()}", menu)
             values = [fitness(query, name) for name in (*names[:3], f"{menu} {english}")]
             fits = [value - 0.5 * (place > 1) for place, value in enumerate(values) if value is not None]
             if fits:

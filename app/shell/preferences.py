@@ -7,8 +7,10 @@ from typing import Any
 
 from app.editor.settings import SETTINGS, Setting
 from app.editor.translated import tr
-from app.shell.actions import CONTEXTS, menu_with_keys, plain
+from app.shell.action import without_dots
+from app.shell.actions import CONTEXTS
 from app.shell.editor import Editor
+from app.shell.menus import menu_with_keys
 from widgets.dialogs.preferences import Choice, PreferencesDialog
 from widgets.dialogs.shortcuts import ShortcutRow
 
@@ -59,8 +61,8 @@ def shortcut_rows(editor: Editor) -> tuple[ShortcutRow, ...]:
     return tuple(
         ShortcutRow(
             id=row.id,
-            text=plain(table.text(row.id)),
-            place=table.place(row.id),
+            text=without_dots(row.text),
+            place=row.place,
             context=tr(CONTEXTS[row.context]),
             keys=table.keys(row.id),
             default=row.shortcut,

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from app.editor.recorder import recorder_of
+from functools import partial
+
 from app.shell.editor import Editor
 from widgets.dialogs.latency import LatencyDialog
 from widgets.dialogs.midi_devices import MidiDevicesDialog
@@ -10,34 +11,28 @@ from widgets.dialogs.midi_devices import MidiDevicesDialog
 
 def show_devices(editor: Editor) -> None:
     """Show the MIDI devices; what is chosen there holds at once."""
-    recorder = recorder_of(editor.session)
-    if recorder is None:
-        return
-    dialog = editor.window.findChild(MidiDevicesDialog)
-    if dialog is None:
+    recorder = editor.recorder
+
+    def make() -> MidiDevicesDialog:
         dialog = MidiDevicesDialog(editor.session, recorder.make_playback(), editor.window)
         dialog.chosen.connect(recorder.choose)
         dialog.controller_chosen.connect(recorder.set_controller)
         dialog.wiring_chosen.connect(recorder.set_wiring)
-        dialog.latency_asked.connect(lambda: show_latency(editor))
+        dialog.latency_asked.connect(partial(show_latency, editor))
         recorder.begin()
-    _to_front(dialog)
+        return dialog
+
+    editor.show_once(MidiDevicesDialog, make)
 
 
 def show_latency(editor: Editor) -> None:
     """Find out how late the MIDI device comes."""
-    recorder = recorder_of(editor.session)
-    if recorder is None:
-        return
-    dialog = editor.window.findChild(LatencyDialog)
-    if dialog is None:
+    recorder = editor.recorder
+
+    def make() -> LatencyDialog:
         dialog = LatencyDialog(editor.session, recorder.make_playback(), recorder.now_ns, editor.window)
         dialog.latency_chosen.connect(recorder.set_latency)
         recorder.begin()
-    _to_front(dialog)
+        return dialog
 
-
-def _to_front(dialog: MidiDevicesDialog | LatencyDialog) -> None:
-    dialog.show()
-    dialog.raise_()
-    dialog.activateWindow()
+    editor.show_once(LatencyDialog, make)

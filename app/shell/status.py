@@ -7,7 +7,7 @@ import time
 from collections import deque
 from functools import partial
 
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer
 from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import (
     QApplication,
@@ -52,23 +52,7 @@ class StatusLine(QStatusBar):
     files : Files
     tasks : ThreadTasks or None
         None: work is not shown.
-
-    Signals
-    -------
-    problems_asked()
-        The user wants to see the problems.
-    instruments_asked()
-        The user wants to see what is wrong with instruments of their own.
-    devices_asked()
-        The user wants to see the MIDI devices.
-    streaming_asked()
-        The user wants to see what is streamed.
     """
-
-    problems_asked = Signal()
-    instruments_asked = Signal()
-    devices_asked = Signal()
-    streaming_asked = Signal()
 
     def __init__(self, session: Session, files: Files, tasks: ThreadTasks | None, parent: QWidget) -> None:
         super().__init__(parent)
@@ -106,16 +90,16 @@ class StatusLine(QStatusBar):
         self._risk.clicked.connect(lambda: files.save_as())
         self.addPermanentWidget(self._risk)
         self._instruments = _flat("instrument_problems")
-        self._instruments.clicked.connect(self.instruments_asked)
+        self._instruments.clicked.connect(partial(self._do, "application.instruments"))
         self.addPermanentWidget(self._instruments)
         self._device = _flat("midi_device")
-        self._device.clicked.connect(self.devices_asked)
+        self._device.clicked.connect(partial(self._do, "record.devices"))
         self.addPermanentWidget(self._device)
         self._stream = _flat("stream_state")
-        self._stream.clicked.connect(self.streaming_asked)
+        self._stream.clicked.connect(partial(self._do, "stream.settings"))
         self.addPermanentWidget(self._stream)
         self._problems = _flat("problems")
-        self._problems.clicked.connect(self.problems_asked)
+        self._problems.clicked.connect(partial(self._do, "problems.next"))
         self._saved, self._rate, self._motion = Label(), Label(), Label()
         self._saved.setObjectName("saved")
         self._rate.setObjectName("frame_rate")
@@ -153,6 +137,9 @@ class StatusLine(QStatusBar):
         if tasks is not None:
             tasks.changed.connect(self._tasks_changed)
         self.retranslate()
+
+    def _do(self, action_id: str) -> None:
+        self._session.actions[action_id].trigger()
 
     # Work
 

@@ -8,14 +8,16 @@ from functools import partial
 from pathlib import Path
 from typing import Final
 
-from PySide6.QtCore import QByteArray, QEvent, QPoint, QSize, Qt, QTimer
+from PySide6.QtCore import QByteArray, QEvent, QPoint, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QMainWindow, QPushButton, QStackedWidget, QToolBar, QVBoxLayout, QWidget
 
-from app.editor.files import AUDIO_SUFFIXES, MIDI_SUFFIXES
+from app.editor.files import AUDIO_SUFFIXES, MIDI_SUFFIXES, Files
 from app.editor.generator import Generator
+from app.editor.questions import Questions
 from app.editor.session import Session
+from app.editor.settings import Settings
 from app.editor.tasks import ThreadTasks
 from app.encoding import is_text, shown
 from app.errors import Message
@@ -23,10 +25,10 @@ from app.project.edit.piece import set_audio
 from app.project.recovery import Recoverable
 from app.project.storage import SUFFIX
 from app.rig.read_figure import SUFFIXES as CHARACTER_SUFFIXES
-from app.shell.actions import CONTEXTS, ActionTable, Menus
+from app.shell.actions import CONTEXTS, ActionTable
 from app.shell.banner import Banner
 from app.shell.docks import Dock
-from app.shell.editor import Editor
+from app.shell.menus import Menus
 from app.shell.palette import Palette
 from app.shell.start_page import StartPage
 from app.shell.status import StatusLine
@@ -61,23 +63,39 @@ class Window(QMainWindow):
 
     Parameters
     ----------
-    editor : Editor
-        With its files and its table.
+    session : Session
+    files : Files
+    settings : Settings
+        Remember the layout.
+    questions : Questions
+    table : ActionTable
     generator : Generator
         Makes what the viewport shows.
+
+    Signals
+    -------
+    character_dropped(Path)
+        A character's file was dropped here.
     """
 
-    def __init__(self, editor: Editor, generator: Generator) -> None:
+    character_dropped = Signal(object)
+
+    def __init__(
+        self,
+        session: Session,
+        files: Files,
+        settings: Settings,
+        questions: Questions,
+        table: ActionTable,
+        generator: Generator,
+    ) -> None:
         super().__init__()
         self.setObjectName("window")
         self.setAcceptDrops(True)
         self.setDockNestingEnabled(True)
         self.setMinimumSize(LEAST_SIZE)
-        self.editor = editor
-        self.session: Session = editor.session
-        editor.window = self
-        self._files = editor.files
-        self._table: ActionTable = editor.table
+        self.session, self._files, self._settings, self._questions = session, files, settings, questions
+        self._table = table
         self._closing = False
         self._full: QByteArray | None = None
         self._layout = QByteArray()
@@ -94,7 +112,7 @@ class Window(QMainWindow):
             "transport": TransportBar(self.session),
         }
         self.banner = Banner(self.session)
-        self.start_page = StartPage(self.session, self._files, editor.settings)
+        self.start_page = StartPage(self.session, self._files, settings)
         self._pages = QStackedWidget()
         self._pages.addWidget(self.start_page)
         self._pages.addWidget(self.viewport)
@@ -134,7 +152,7 @@ class Window(QMainWindow):
                 self._table.attach(name, place)
         # Window-wide shortcuts work also where their menu is hidden, as in full screen.
         self._table.attach("window", self)
-        recent = self.menus.menu("File/Recent")
+        recent = self.menus.menu("file/open_recent")
         recent.aboutToShow.connect(self._fill_recent)
         self._place_recent()
 
@@ -144,10 +162,6 @@ class Window(QMainWindow):
         self._files.missing.connect(self._ask_for_media)
         self._files.overtaken.connect(self._ask_to_save_over)
         self.session.theme_changed.connect(self._apply_theme)
-        self.status.problems_asked.connect(self._next_problem)
-        self.status.streaming_asked.connect(self.show_streaming)
-        self.status.instruments_asked.connect(self.show_instruments)
-        self.status.devices_asked.connect(self.show_devices)
         generator.ready_changed.connect(self.status.set_ready)
         picture = self.viewport.findChild(QOpenGLWidget)
         if isinstance(picture, QOpenGLWidget):
@@ -187,7 +201,7 @@ class Window(QMainWindow):
         self.resizeDocks([self.docks["timeline"]], [height], Qt.Orientation.Vertical)
 
     def _restore(self) -> None:
-        settings = self.editor.settings
+        settings = self._settings
         if settings.geometry.isEmpty() or not self.restoreGeometry(settings.geometry):
             available = self.screen().availableSize()
             self.resize(SIZE.boundedTo(available))
@@ -197,7 +211,7 @@ class Window(QMainWindow):
 
     def remember(self) -> None:
         """Keep the layout for the next time."""
-        settings = self.editor.settings
+        settings = self._settings
         if self._full is None:
             settings.geometry = self.saveGeometry()
             settings.layout = self.saveState(LAYOUT_VERSION) if self._files.is_open else self._layout
@@ -291,79 +305,10 @@ class Window(QMainWindow):
         self.show_panel("players", True)
         self.players.dancers.rename_selected()
 
-    def show_preferences(self, page: str) -> None:
-        """Show a page of the preferences."""
-        from app.shell.preferences import show_preferences
-
-        show_preferences(self.editor, page)
-
-    def show_instruments(self) -> None:
-        """Show the instruments and their fingerings; once."""
-        from widgets.dialogs.instrument_map import InstrumentsDialog
-
-        dialog = self.findChild(InstrumentsDialog) or InstrumentsDialog(self.session, self)
-        dialog.show()
-        dialog.raise_()
-        dialog.activateWindow()
-
-    def show_characters(self) -> None:
-        """Show the user's own characters; once."""
-        from app.shell.characters import show_characters
-
-        show_characters(self.editor)
-
-    def add_character(self) -> None:
-        """Bring a character from a file."""
-        from app.shell.characters import ask_for_character
-
-        ask_for_character(self.editor)
-
-    def show_choreography(self) -> None:
-        """Show what the choreography of the selected dancer has learned; once."""
-        from widgets.dialogs.choreography import ChoreographyDialog
-
-        dialog = self.findChild(ChoreographyDialog) or ChoreographyDialog(self.session, self)
-        dialog.show()
-        dialog.raise_()
-        dialog.activateWindow()
-
-    def show_devices(self) -> None:
-        """Show the MIDI devices; once."""
-        from app.shell.recording_dialogs import show_devices
-
-        show_devices(self.editor)
-
-    def show_latency(self) -> None:
-        """Find out how late the MIDI device comes; once."""
-        from app.shell.recording_dialogs import show_latency
-
-        show_latency(self.editor)
-
-    def show_streaming(self) -> None:
-        """Show what is streamed to other programs; once."""
-        from widgets.dialogs.stream import StreamDialog
-
-        dialog = self.findChild(StreamDialog) or StreamDialog(self.session, self)
-        dialog.show()
-        dialog.raise_()
-        dialog.activateWindow()
-
-    def show_about(self) -> None:
-        """Say which program this is."""
-        from app.shell.about import AboutDialog
-
-        dialog = AboutDialog(self.session, self)
-        dialog.open()
-
-    def _next_problem(self) -> None:
-        action = self.session.actions.get("problems.next")
-        if action is not None:
-            action.trigger()
-
     def _fill_recent(self) -> None:
-        menu = self.menus.menu("File/Recent")
+        menu = self.menus.menu("file/open_recent")
         menu.clear()
-        for text in self.editor.settings.recent:
+        for text in self._settings.recent:
             path = Path(text)
             row = menu.addAction(verbatim(f"{shown(path.name)}    {shown(path.parent)}"))
             row.setEnabled(os.path.isfile(path))
@@ -376,7 +321,7 @@ class Window(QMainWindow):
 
     def _place_recent(self) -> None:
         """Below Open, where it is looked for."""
-        menu, recent = self.menus.menu("File"), self.menus.menu("File/Recent")
+        menu, recent = self.menus.menu("file"), self.menus.menu("file/open_recent")
         menu.removeAction(recent.menuAction())
         menu.insertMenu(self._table.actions["file.open_example"], recent)
 
@@ -418,7 +363,7 @@ class Window(QMainWindow):
         if is_text(path.name):
             kinds = f"{path.name} ({path.name});;{kinds}"
         title = self.tr("window.find").format(name=shown(path.name))
-        found = self.editor.questions.open_file(title, self._files.folder, kinds)
+        found = self._questions.open_file(title, self._files.folder, kinds)
         if found is not None:
             self._files.replace_audio(found)
 
@@ -446,8 +391,6 @@ class Window(QMainWindow):
 
     def retranslate(self) -> None:
         """Set all texts."""
-        self.menus.retranslate()
-        self._table.retranslate()
         self.docks["players"].setWindowTitle(self.tr("window.players"))
         self.docks["inspector"].setWindowTitle(self.tr("window.inspector"))
         self.docks["timeline"].setWindowTitle(self.tr("window.timeline"))
@@ -482,9 +425,7 @@ class Window(QMainWindow):
         if path is not None:
             event.acceptProposedAction()
             if path.suffix.lower() in CHARACTER_SUFFIXES:
-                from app.shell.characters import bring_character
-
-                bring_character(self.editor, path)
+                self.character_dropped.emit(path)
             else:
                 self._files.open(path)
 

@@ -192,7 +192,7 @@ class LongDay:
     def read_again(self) -> None:
         """What another MIDI file would change is shown, and not taken."""
         window = self.program.window
-        reimport_from(self.session, QUARTET)
+        reimport_from(self.program.editor, QUARTET)
         self.until(lambda: window.findChild(ReimportDialog) is not None)
         dialog = window.findChild(ReimportDialog)
         assert dialog is not None

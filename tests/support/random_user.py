@@ -247,7 +247,7 @@ class RandomUser(Restless):
         path = self.random.choice(sorted(self.folder.glob("*.mid")))
         self.deeds.append(f"import again {path.name}")
         if self.program.editor.files.is_open:
-            reimport_from(self.session, path)
+            reimport_from(self.program.editor, path)
 
     def look_away(self) -> None:
         """Dialogs that ask are agreed to or not."""

@@ -96,7 +96,9 @@ class Film:
             settings,
             autosave=Autosave(Presence(folder / "recovery")),
             playback=make(),
-            recorder=lambda session, files: Recorder(session, files, settings, make_playback=make),
+            recorder=lambda session, files, settings, sound: Recorder(
+                session, files, settings, sound, make_playback=make
+            ),
         )
         self.session, self.window = self.program.session, self.program.window
         self.session.noticed.connect(lambda message, severity: print(message.id, dict(message.arguments)))

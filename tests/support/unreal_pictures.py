@@ -50,7 +50,7 @@ class Artist:
         self.program.window.show()
         self.program.editor.files.open(PIECE, ask=False)
         self.live(lambda: self.program.editor.files.is_open)
-        export_files(self.program.session)
+        export_files(self.program.editor)
         found = self.program.window.findChild(ExportDialog)
         assert found is not None
         self.dialog = found

@@ -7,57 +7,33 @@ from functools import partial
 from app.editor.session import Session
 from app.editor.tokens import THEMES
 from app.shell.action import Action
-from app.shell.editor import editor_of
+from app.shell.editor import Editor, EditorAction
 
 
-def palette(session: Session) -> None:
-    """Search everything that can be done."""
-    editor_of(session).window.show_palette()
+def preferences(editor: Editor, page: str = "general") -> None:
+    """Show a page of the preferences."""
+    from app.shell.preferences import show_preferences
+
+    show_preferences(editor, page)
 
 
-def preferences(session: Session) -> None:
-    """Show the preferences."""
-    editor_of(session).window.show_preferences("general")
+def instruments(editor: Editor) -> None:
+    """Show the instruments and their fingerings; once."""
+    from widgets.dialogs.instrument_map import InstrumentsDialog
+
+    editor.show_once(InstrumentsDialog, lambda: InstrumentsDialog(editor.session, editor.window))
 
 
-def instruments(session: Session) -> None:
-    """Show the instruments and their fingerings."""
-    editor_of(session).window.show_instruments()
-
-
-def shortcuts(session: Session) -> None:
-    """Show the keyboard shortcuts."""
-    editor_of(session).window.show_preferences("shortcuts")
-
-
-def about(session: Session) -> None:
+def about(editor: Editor) -> None:
     """Say which program this is."""
-    editor_of(session).window.show_about()
+    from app.shell.about import AboutDialog
 
-
-def full_screen(session: Session, on: bool) -> None:
-    """The viewport alone on the whole screen, or not."""
-    editor_of(session).window.set_full_screen(on)
-
-
-def reset_layout(session: Session) -> None:
-    """Every panel back to its place."""
-    editor_of(session).window.reset_layout()
-
-
-def show_panel(name: str, session: Session, shown: bool) -> None:
-    """Show or hide a panel."""
-    editor_of(session).window.show_panel(name, shown)
+    AboutDialog(editor.settings.path, editor.window).open()
 
 
 def theme(name: str, session: Session, on: bool) -> None:
     """Dress the editor."""
     session.set_tokens(THEMES[name])
-
-
-def language(code: str, session: Session, on: bool) -> None:
-    """Speak a language."""
-    editor_of(session).speak(code)
 
 
 def written_pitch(written: bool, session: Session, on: bool) -> None:
@@ -75,136 +51,127 @@ def syllables(on_syllables: bool, session: Session, on: bool) -> None:
     session.pitch_display.set(syllables=on_syllables)
 
 
-def _is_full_screen(session: Session) -> bool:
-    return editor_of(session).window.is_full_screen
+def _is_open(editor: Editor) -> bool:
+    return editor.files.is_open
 
 
-def _is_open(session: Session) -> bool:
-    return editor_of(session).files.is_open
-
-
-def _panel_shown(name: str, session: Session) -> bool:
-    return editor_of(session).window.is_panel_shown(name)
-
-
-def _panel(name: str, key: str) -> Action:
-    return Action(
+def _panel(name: str, key: str) -> EditorAction:
+    return EditorAction(
         f"panel.{name}",
-        partial(show_panel, name),
-        "View/Panels",
+        lambda editor, shown: editor.window.show_panel(name, shown),
+        "view/panels",
         key,
         enabled=_is_open,
-        checked=partial(_panel_shown, name),
+        checked=lambda editor: editor.window.is_panel_shown(name),
     )
 
 
-ACTIONS: tuple[Action, ...] = (
-    Action(
+def _language(code: str) -> EditorAction:
+    return EditorAction(
+        f"language.{code}",
+        lambda editor, on: editor.speak(code),
+        "view/language",
+        checked=lambda editor: editor.language.code == code,
+    )
+
+
+ACTIONS: tuple[Action | EditorAction, ...] = (
+    EditorAction(
         "application.palette",
-        palette,
-        "Help",
+        lambda editor: editor.window.show_palette(),
+        "help",
         "Ctrl+Shift+P",
         icon="search",
     ),
-    Action(
+    EditorAction(
         "application.full_screen",
-        full_screen,
-        "View",
+        lambda editor, on: editor.window.set_full_screen(on),
+        "view",
         "F11",
         enabled=_is_open,
-        checked=_is_full_screen,
+        checked=lambda editor: editor.window.is_full_screen,
         icon="full_screen",
     ),
     _panel("players", "Ctrl+1"),
     _panel("inspector", "Ctrl+2"),
     _panel("timeline", "Ctrl+3"),
-    Action(
+    EditorAction(
         "application.reset_layout",
-        reset_layout,
-        "View/Panels",
+        lambda editor: editor.window.reset_layout(),
+        "view/panels",
         enabled=_is_open,
         icon="layout",
     ),
     Action(
         "pitch.concert",
         partial(written_pitch, False),
-        "View/Pitch",
+        "view/pitch",
         checked=lambda session: not session.pitch_display.written,
     ),
     Action(
         "pitch.written",
         partial(written_pitch, True),
-        "View/Pitch",
+        "view/pitch",
         checked=lambda session: session.pitch_display.written,
     ),
     Action(
         "pitch_octave.c4",
         partial(middle_c, 4),
-        "View/Pitch",
+        "view/pitch",
         checked=lambda session: session.pitch_display.middle_c_octave == 4,
     ),
     Action(
         "pitch_octave.c3",
         partial(middle_c, 3),
-        "View/Pitch",
+        "view/pitch",
         checked=lambda session: session.pitch_display.middle_c_octave == 3,
     ),
     Action(
         "pitch_names.letters",
         partial(syllables, False),
-        "View/Pitch",
+        "view/pitch",
         checked=lambda session: not session.pitch_display.syllables,
     ),
     Action(
         "pitch_names.syllables",
         partial(syllables, True),
-        "View/Pitch",
+        "view/pitch",
         checked=lambda session: session.pitch_display.syllables,
     ),
     Action(
         "theme.dark",
         partial(theme, "dark"),
-        "View/Theme",
+        "view/theme",
         checked=lambda session: session.tokens.name == "dark",
         icon="dark",
     ),
     Action(
         "theme.light",
         partial(theme, "light"),
-        "View/Theme",
+        "view/theme",
         checked=lambda session: session.tokens.name == "light",
         icon="light",
     ),
-    Action(
-        "language.en",
-        partial(language, "en"),
-        "View/Language",
-        checked=lambda session: editor_of(session).language.code == "en",
-    ),
-    Action(
-        "language.ja",
-        partial(language, "ja"),
-        "View/Language",
-        checked=lambda session: editor_of(session).language.code == "ja",
-    ),
-    Action(
+    _language("en"),
+    _language("ja"),
+    EditorAction(
         "application.instruments",
         instruments,
-        "Edit",
+        "edit",
         "Ctrl+Alt+I",
     ),
-    Action(
+    EditorAction(
         "application.preferences",
         preferences,
-        "Edit",
+        "edit",
         "Ctrl+,",
         icon="settings",
     ),
-    Action(
+    EditorAction(
         "application.shortcuts",
-        shortcuts,
-        "Help",
+        lambda editor: preferences(editor, "shortcuts"),
+        "help",
         icon="keyboard",
     ),
-    Action("application.about", about, "Help", icon="information"),
+    EditorAction("application.about", about, "help", icon="information"),
 )

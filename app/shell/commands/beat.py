@@ -15,7 +15,7 @@ def _felt(name: str, quarters: float | None) -> Action:
     return Action(
         f"beat.{name}",
         run,
-        "Edit/Beat",
+        "edit/felt_beat",
         checked=lambda session: session.project.felt_beat_quarters == quarters,
     )
 

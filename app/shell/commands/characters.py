@@ -2,22 +2,33 @@
 
 from __future__ import annotations
 
-from app.editor.session import Session
-from app.shell.action import Action
-from app.shell.editor import editor_of
+from pathlib import Path
+
+from app.shell.editor import Editor, EditorAction
 
 
-def add(session: Session) -> None:
+def add(editor: Editor) -> None:
     """Bring a character from a file."""
-    editor_of(session).window.add_character()
+    from app.shell.characters import ask_for_character
+
+    ask_for_character(editor)
 
 
-def show(session: Session) -> None:
+def bring(editor: Editor, path: Path) -> None:
+    """Bring this character."""
+    from app.shell.characters import bring_character
+
+    bring_character(editor, path)
+
+
+def show(editor: Editor) -> None:
     """See which there are, change and remove them."""
-    editor_of(session).window.show_characters()
+    from app.shell.characters import show_characters
+
+    show_characters(editor)
 
 
-ACTIONS: tuple[Action, ...] = (
-    Action("file.add_character", add, "File", icon="player"),
-    Action("application.characters", show, "Edit", icon="players"),
+ACTIONS: tuple[EditorAction, ...] = (
+    EditorAction("file.add_character", add, "file", icon="player"),
+    EditorAction("application.characters", show, "edit", icon="players"),
 )

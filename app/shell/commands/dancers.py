@@ -11,18 +11,13 @@ from app.editor.translated import tr
 from app.errors import Message
 from app.project.edit.dancers import set_choreography
 from app.shell.action import Action
-from app.shell.editor import editor_of
+from app.shell.editor import Editor, EditorAction
 from widgets.players import newcomers
 
 
 def add(session: Session) -> None:
     """Add a dancer of the first choreography that comes with the program."""
     newcomers.add_dancer(session, bundled_choreographies()[0], tr("action.dancer"))
-
-
-def rename(session: Session) -> None:
-    """Type another name for the selected dancer."""
-    editor_of(session).window.rename_dancer()
 
 
 def duplicate(session: Session) -> None:
@@ -35,23 +30,23 @@ def remove(session: Session) -> None:
     newcomers.remove_dancer(session)
 
 
-def show_choreography(session: Session) -> None:
-    """See what the choreography of the selected dancer has learned."""
-    editor_of(session).window.show_choreography()
+def show_choreography(editor: Editor) -> None:
+    """See what the choreography of the selected dancer has learned; once."""
+    from widgets.dialogs.choreography import ChoreographyDialog
+
+    editor.show_once(ChoreographyDialog, lambda: ChoreographyDialog(editor.session, editor.window))
 
 
-def learn_choreography(session: Session) -> None:
+def learn_choreography(editor: Editor) -> None:
     """Learn a choreography from motion and music, in a dialog; once."""
-    editor = editor_of(session)
     from widgets.dialogs.learn_choreography import LearnDialog  # it brings the readers of motion with it
 
-    dialog = editor.window.findChild(LearnDialog)
-    if dialog is None:
-        dialog = LearnDialog(session, Path(editor.files.folder), editor.window)
-        dialog.used.connect(lambda path: _dance(session, path))
-    dialog.show()
-    dialog.raise_()
-    dialog.activateWindow()
+    def make() -> LearnDialog:
+        dialog = LearnDialog(editor.session, Path(editor.files.folder), editor.window)
+        dialog.used.connect(lambda path: _dance(editor.session, path))
+        return dialog
+
+    editor.show_once(LearnDialog, make)
 
 
 def _dance(session: Session, path: Path) -> None:
@@ -74,27 +69,27 @@ def _has_dancer(session: Session) -> bool:
     return session.dancer is not None
 
 
-ACTIONS: tuple[Action, ...] = (
+ACTIONS: tuple[Action | EditorAction, ...] = (
     Action(
         "dancers.add",
         add,
-        "Edit/Players",
+        "edit/players",
         enabled=_has_choreographies,
         icon="add",
     ),
-    Action(
+    EditorAction(
         "dancers.rename",
-        rename,
-        "Edit/Players",
+        lambda editor: editor.window.rename_dancer(),
+        "edit/players",
         "F2",
         "dancers",
-        enabled=_has_dancer,
+        enabled=lambda editor: _has_dancer(editor.session),
         icon="pencil",
     ),
     Action(
         "dancers.duplicate",
         duplicate,
-        "Edit/Players",
+        "edit/players",
         "Ctrl+D",
         "dancers",
         enabled=_has_dancer,
@@ -103,22 +98,22 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "dancers.remove",
         remove,
-        "Edit/Players",
+        "edit/players",
         "Del",
         "dancers",
         enabled=_has_dancer,
         icon="delete",
     ),
-    Action(
+    EditorAction(
         "dancers.choreography",
         show_choreography,
-        "Edit/Players",
-        enabled=_has_dancer,
+        "edit/players",
+        enabled=lambda editor: _has_dancer(editor.session),
         icon="information",
     ),
-    Action(
+    EditorAction(
         "dancers.learn",
         learn_choreography,
-        "Edit/Players",
+        "edit/players",
     ),
 )

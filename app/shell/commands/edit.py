@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from app.editor.session import Session
+from app.errors import Message
 from app.shell.action import Action
 
 
@@ -16,22 +17,33 @@ def redo(session: Session) -> None:
     session.document.redo()
 
 
-def _can_undo(session: Session) -> bool:
-    return bool(session.document.done)
+def _last_done(session: Session) -> Message | None:
+    done = session.document.done
+    return done[-1].name if done else None
 
 
-def _can_redo(session: Session) -> bool:
-    return bool(session.document.undone)
+def _last_undone(session: Session) -> Message | None:
+    undone = session.document.undone
+    return undone[-1].name if undone else None
 
 
 ACTIONS: tuple[Action, ...] = (
-    Action("edit.undo", undo, "Edit", "Ctrl+Z", enabled=_can_undo, icon="undo"),
+    Action(
+        "edit.undo",
+        undo,
+        "edit",
+        "Ctrl+Z",
+        enabled=lambda session: bool(session.document.done),
+        icon="undo",
+        step=_last_done,
+    ),
     Action(
         "edit.redo",
         redo,
-        "Edit",
+        "edit",
         "Ctrl+Shift+Z;Ctrl+Y",
-        enabled=_can_redo,
+        enabled=lambda session: bool(session.document.undone),
         icon="redo",
+        step=_last_undone,
     ),
 )

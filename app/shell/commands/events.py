@@ -277,14 +277,19 @@ def prepare(session: Session) -> None:
 
 
 def _kind(kind: GestureKind) -> Action:
-    return Action(f"gesture.{kind}", lambda session: gesture(session, kind), "Edit/Events/Gesture", enabled=_has_player)
+    return Action(
+        f"gesture.{kind}",
+        lambda session: gesture(session, kind),
+        "edit/breaths_and_acting/add_gesture",
+        enabled=_has_player,
+    )
 
 
 ACTIONS: tuple[Action, ...] = (
     Action(
         "edit.delete",
         delete,
-        "Edit",
+        "edit",
         "Delete",
         "timeline",
         _has_selection,
@@ -293,7 +298,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "events.give_back",
         return_to_generated,
-        "Edit",
+        "edit",
         "Backspace",
         "timeline",
         _can_return,
@@ -302,13 +307,13 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "events.give_back_player",
         revert_player,
-        "Edit",
+        "edit",
         enabled=_player_corrected,
     ),
     Action(
         "events.breath",
         breathe,
-        "Edit/Events",
+        "edit/breaths_and_acting",
         "B",
         "timeline",
         _has_player,
@@ -317,7 +322,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "events.preparation",
         prepare,
-        "Edit/Events",
+        "edit/breaths_and_acting",
         "Shift+B",
         "timeline",
         _has_breaths,
@@ -325,7 +330,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "events.cue",
         cue,
-        "Edit/Events",
+        "edit/breaths_and_acting",
         "C",
         "timeline",
         _has_player,
@@ -334,7 +339,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "events.gesture",
         choose_gesture,
-        "Edit/Events",
+        "edit/breaths_and_acting",
         "G",
         "timeline",
         _has_player,
@@ -343,7 +348,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "events.expression",
         choose_expression,
-        "Edit/Events",
+        "edit/breaths_and_acting",
         "X",
         "timeline",
         _has_player,

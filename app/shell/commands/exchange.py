@@ -18,34 +18,33 @@ from app.project.midi_out import export_midi as write_piece
 from app.project.model import Player, Project, map_choices
 from app.project.reimport import Reimport, reimport
 from app.score.read import read_midi
-from app.shell.action import Action
-from app.shell.editor import editor_of
+from app.shell.editor import Editor, EditorAction
 from app.version import program_version
 from instrument_maps.library import all_maps
 from widgets.common.text import message_text, note_text
 from widgets.inspector.words import correction_title
 
 
-def read_again(session: Session) -> None:
+def read_again(editor: Editor) -> None:
     """Read the project's MIDI file once more; one that is not there any more is asked for."""
-    source = Path(session.project.source) if session.project.source else None
-    if source is not None and os.path.isfile(source):
-        reimport_from(session, source)
+    source = editor.session.project.source
+    if source and os.path.isfile(source):
+        reimport_from(editor, Path(source))
     else:
-        read_another(session)
+        read_another(editor)
 
 
-def read_another(session: Session) -> None:
+def read_another(editor: Editor) -> None:
     """Ask for a newer version of the piece's MIDI file and take it in."""
-    editor = editor_of(session)
     kinds = f"{tr('files.midi_files')} ({' '.join(f'*{suffix}' for suffix in MIDI_SUFFIXES)})"
     path = editor.questions.open_file(tr("files.re_import_midi"), editor.files.folder, kinds)
     if path is not None:
-        reimport_from(session, path)
+        reimport_from(editor, path)
 
 
-def reimport_from(session: Session, path: Path) -> None:
+def reimport_from(editor: Editor, path: Path) -> None:
     """Show what a MIDI file changes in the piece, and change it if the user agrees."""
+    session = editor.session
     project = session.project
 
     def work(progress: Progress, stop_requested: StopRequested) -> Reimport:
@@ -56,9 +55,8 @@ def reimport_from(session: Session, path: Path) -> None:
     def done(outcome: Reimport) -> None:
         if session.project is not project:
             # Edited meanwhile: what was worked out is of another piece.
-            reimport_from(session, path)
+            reimport_from(editor, path)
             return
-        window = editor_of(session).window
         from widgets.dialogs.reimport_midi import ReimportDialog
 
         dialog = ReimportDialog(
@@ -68,7 +66,7 @@ def reimport_from(session: Session, path: Path) -> None:
             correction_title,
             lambda part_id, note: note_text(session, note, _who_plays(project, part_id)),
             session.tokens,
-            window,
+            editor.window,
         )
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.accepted.connect(lambda: _take(session, project, outcome))
@@ -92,9 +90,9 @@ def _take(session: Session, before: Project, outcome: Reimport) -> None:
         )
 
 
-def export_midi(session: Session) -> None:
+def export_midi(editor: Editor) -> None:
     """Ask for a file, and write the piece to it as MIDI."""
-    editor = editor_of(session)
+    session = editor.session
     proposal = Path(editor.files.folder) / f"{editor.files.stem}.mid"
     kinds = f"{tr('files.midi_files')} (*.mid)"
     target = editor.questions.save_file(tr("files.export_midi"), str(proposal), kinds, MIDI_SUFFIXES)
@@ -119,15 +117,14 @@ def export_midi(session: Session) -> None:
     session.tasks.run(Message("work.export_midi"), work, done, failed, key="export_midi")
 
 
-def export_files(session: Session) -> None:
+def export_files(editor: Editor) -> None:
     """Ask what to export, and write it."""
-    editor = editor_of(session)
     folder = editor.settings.export_folder or str(Path(editor.files.folder) / "export")
     from widgets.dialogs.export_files import ExportDialog  # it brings all formats with it
 
     unreal = editor.settings.unreal_project
     dialog = ExportDialog(
-        session,
+        editor.session,
         Path(folder),
         editor.files.name,
         f"Suisou {program_version()}",
@@ -147,9 +144,9 @@ def export_files(session: Session) -> None:
     dialog.show()
 
 
-def playblast(session: Session) -> None:
+def playblast(editor: Editor) -> None:
     """Ask for a film of the viewport, and make it."""
-    editor = editor_of(session)
+    session = editor.session
     path = Path(editor.files.folder) / f"{editor.files.stem}.mp4"
     project = session.project
     from app.audio.mix import mixdown
@@ -165,50 +162,50 @@ def playblast(session: Session) -> None:
     dialog.show()
 
 
-def _can_export(session: Session) -> bool:
-    return bool(session.project.players) and editor_of(session).files.is_open
+def _can_export(editor: Editor) -> bool:
+    return bool(editor.session.project.players) and editor.files.is_open
 
 
-def _can_film(session: Session) -> bool:
-    return _can_export(session) and editor_of(session).window.viewport.has_gl
+def _can_film(editor: Editor) -> bool:
+    return _can_export(editor) and editor.window.viewport.has_gl
 
 
-def _is_open(session: Session) -> bool:
-    return editor_of(session).files.is_open
+def _is_open(editor: Editor) -> bool:
+    return editor.files.is_open
 
 
-ACTIONS: tuple[Action, ...] = (
-    Action(
+ACTIONS: tuple[EditorAction, ...] = (
+    EditorAction(
         "file.reimport",
         read_again,
-        "File",
+        "file",
         "Ctrl+Shift+I",
         enabled=_is_open,
     ),
-    Action(
+    EditorAction(
         "file.reimport_other",
         read_another,
-        "File",
+        "file",
         enabled=_is_open,
     ),
-    Action(
+    EditorAction(
         "file.export_midi",
         export_midi,
-        "File",
+        "file",
         enabled=_can_export,
     ),
-    Action(
+    EditorAction(
         "export.files",
         export_files,
-        "Export",
+        "export",
         "Ctrl+E",
         enabled=_can_export,
         icon="export",
     ),
-    Action(
+    EditorAction(
         "export.playblast",
         playblast,
-        "Export",
+        "export",
         "Ctrl+Shift+E",
         enabled=_can_film,
         icon="film",

@@ -3,21 +3,13 @@
 from __future__ import annotations
 
 from app.editor.files import AUDIO_SUFFIXES, MIDI_SUFFIXES
-from app.editor.session import Session
 from app.editor.translated import tr
 from app.project.storage import SUFFIX
-from app.shell.action import Action
-from app.shell.editor import editor_of
+from app.shell.editor import Editor, EditorAction
 
 
-def new_piece(session: Session) -> None:
-    """Begin an empty piece."""
-    editor_of(session).files.begin()
-
-
-def open_file(session: Session) -> None:
+def open_file(editor: Editor) -> None:
     """Ask for a project or MIDI file and open it."""
-    editor = editor_of(session)
     kinds = (
         (tr("files.projects_and_midi_files"), (SUFFIX, *MIDI_SUFFIXES)),
         (tr("files.all_files"), ("",)),
@@ -27,108 +19,52 @@ def open_file(session: Session) -> None:
         editor.files.open(path)
 
 
-def import_midi(session: Session) -> None:
+def import_midi(editor: Editor) -> None:
     """Ask for a MIDI file and who plays what in it."""
-    editor = editor_of(session)
     kinds = ((tr("files.midi_files"), MIDI_SUFFIXES), (tr("files.all_files"), ("",)))
     path = editor.questions.open_file(tr("files.import_midi"), editor.files.folder, _filters(kinds))
     if path is not None:
         editor.files.open(path)
 
 
-def add_audio(session: Session) -> None:
+def add_audio(editor: Editor) -> None:
     """Ask for the recording that the piece is heard with."""
-    editor = editor_of(session)
     kinds = ((tr("files.sound_files"), AUDIO_SUFFIXES), (tr("files.all_files"), ("",)))
     path = editor.questions.open_file(tr("files.add_recording"), editor.files.folder, _filters(kinds))
     if path is not None:
         editor.files.add_audio(path)
 
 
-def open_example(session: Session) -> None:
-    """Open the bundled quartet."""
-    editor_of(session).files.open_example()
-
-
-def open_danced_example(session: Session) -> None:
-    """Open the bundled piece with a dancer."""
-    editor_of(session).files.open_danced_example()
-
-
-def save(session: Session) -> None:
-    """Save the project."""
-    editor_of(session).files.save()
-
-
-def save_as(session: Session) -> None:
-    """Save the project to another file."""
-    editor_of(session).files.save_as()
-
-
-def piece_settings(session: Session) -> None:
+def piece_settings(editor: Editor) -> None:
     """Show title, frame rate, pre-roll, felt beat and seed of the piece."""
     from widgets.dialogs.piece_settings import PieceSettingsDialog
 
-    PieceSettingsDialog(session, editor_of(session).window).open()
+    PieceSettingsDialog(editor.session, editor.window).open()
 
 
-def close(session: Session) -> None:
-    """Close the project."""
-    editor_of(session).files.close()
+def _is_open(editor: Editor) -> bool:
+    return editor.files.is_open
 
 
-def leave(session: Session) -> None:
-    """End the editor."""
-    editor_of(session).window.close()
-
-
-def _is_open(session: Session) -> bool:
-    return editor_of(session).files.is_open
-
-
-def _can_save(session: Session) -> bool:
-    files = editor_of(session).files
-    return files.is_open and (files.path is None or not session.document.is_saved)
+def _can_save(editor: Editor) -> bool:
+    files = editor.files
+    return files.is_open and (files.path is None or not editor.session.document.is_saved)
 
 
 def _filters(kinds: tuple[tuple[str, tuple[str, ...]], ...]) -> str:
     return ";;".join(f"{name} ({' '.join(f'*{suffix}' for suffix in suffixes)})" for name, suffixes in kinds)
 
 
-ACTIONS: tuple[Action, ...] = (
-    Action("file.new", new_piece, "File", "Ctrl+N", icon="new"),
-    Action("file.open", open_file, "File", "Ctrl+O", icon="open"),
-    Action("file.open_example", open_example, "File"),
-    Action(
-        "file.open_danced_example",
-        open_danced_example,
-        "File",
-    ),
-    Action(
-        "file.save",
-        save,
-        "File",
-        "Ctrl+S",
-        enabled=_can_save,
-        icon="save",
-    ),
-    Action("file.save_as", save_as, "File", "Ctrl+Shift+S", enabled=_is_open),
-    Action("file.import_midi", import_midi, "File", icon="import"),
-    Action(
-        "file.add_audio",
-        add_audio,
-        "File",
-        enabled=_is_open,
-        icon="waveform",
-    ),
-    Action(
-        "file.piece_settings",
-        piece_settings,
-        "File",
-        "Alt+Return",
-        enabled=_is_open,
-        icon="piece",
-    ),
-    Action("file.close", close, "File", "Ctrl+W", enabled=_is_open),
-    Action("file.quit", leave, "File", "Ctrl+Q"),
+ACTIONS: tuple[EditorAction, ...] = (
+    EditorAction("file.new", lambda editor: editor.files.begin(), "file", "Ctrl+N", icon="new"),
+    EditorAction("file.open", open_file, "file", "Ctrl+O", icon="open"),
+    EditorAction("file.open_example", lambda editor: editor.files.open_example(), "file"),
+    EditorAction("file.open_danced_example", lambda editor: editor.files.open_danced_example(), "file"),
+    EditorAction("file.save", lambda editor: editor.files.save(), "file", "Ctrl+S", enabled=_can_save, icon="save"),
+    EditorAction("file.save_as", lambda editor: editor.files.save_as(), "file", "Ctrl+Shift+S", enabled=_is_open),
+    EditorAction("file.import_midi", import_midi, "file", icon="import"),
+    EditorAction("file.add_audio", add_audio, "file", enabled=_is_open, icon="waveform"),
+    EditorAction("file.piece_settings", piece_settings, "file", "Alt+Return", enabled=_is_open, icon="piece"),
+    EditorAction("file.close", lambda editor: editor.files.close(), "file", "Ctrl+W", enabled=_is_open),
+    EditorAction("file.quit", lambda editor: editor.window.close(), "file", "Ctrl+Q"),
 )

@@ -125,7 +125,7 @@ def _sign(sign: str) -> Action:
     return Action(
         f"fingering.type_{sign.lower()}",
         lambda session: type_fingering(session, sign),
-        "Edit/Fingering",
+        "edit/fingering",
         sign,
         "timeline",
         _has_notes,
@@ -136,7 +136,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "fingering.cycle",
         cycle_fingering,
-        "Edit/Fingering",
+        "edit/fingering",
         "F",
         "timeline",
         _has_notes,

@@ -107,28 +107,28 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "generate.everyone",
         vary_everyone,
-        "Generate",
+        "generate",
         "Ctrl+Alt+G",
         enabled=_has_everyone,
     ),
     Action(
         "generate.players",
         vary_players,
-        "Generate",
+        "generate",
         "Ctrl+Shift+G",
         enabled=_has_players,
     ),
     Action(
         "generate.bars",
         vary_bars,
-        "Generate",
+        "generate",
         "Ctrl+G",
         enabled=_has_bars,
     ),
     Action(
         "generate.bars_back",
         unvary_bars,
-        "Generate",
+        "generate",
         enabled=_has_varied_bars,
     ),
 )

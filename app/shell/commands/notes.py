@@ -316,7 +316,7 @@ def _tool(tool: Tool, key: str, icon: str) -> Action:
     return Action(
         f"notes.tool_{tool.value}",
         lambda session, on: set_tool(session, tool, on),
-        "Edit/Tool",
+        "edit/tool",
         key,
         "timeline",
         checked=lambda session: _has_tool(session, tool),
@@ -329,23 +329,23 @@ def _row(
     run: Callable[..., None],
     keys: str = "",
     icon: str = "",
-    menu: str = "Edit/Notes",
+    menu: str = "edit/notes",
     enabled: Callable[[Session], bool] = _has_notes,
 ) -> Action:
     return Action(id, run, menu, keys, "timeline", enabled=enabled, icon=icon)
 
 
 ACTIONS: tuple[Action, ...] = (
-    _row("notes.cut", cut, "Ctrl+X", "cut", "Edit"),
-    _row("notes.copy", copy, "Ctrl+C", "copy", "Edit"),
-    _row("notes.paste", paste, "Ctrl+V", "paste", "Edit", _has_player),
-    _row("notes.duplicate", duplicate, "Ctrl+D", "duplicate", "Edit"),
+    _row("notes.cut", cut, "Ctrl+X", "cut", "edit"),
+    _row("notes.copy", copy, "Ctrl+C", "copy", "edit"),
+    _row("notes.paste", paste, "Ctrl+V", "paste", "edit", _has_player),
+    _row("notes.duplicate", duplicate, "Ctrl+D", "duplicate", "edit"),
     _row(
         "notes.select_all",
         select_all,
         "Ctrl+A",
         "",
-        "Edit/Select",
+        "edit/select",
         _has_player,
     ),
     _row(
@@ -353,7 +353,7 @@ ACTIONS: tuple[Action, ...] = (
         select_none,
         "Alt+A",
         "",
-        "Edit/Select",
+        "edit/select",
         lambda session: bool(session.selection),
     ),
     _row(
@@ -361,14 +361,14 @@ ACTIONS: tuple[Action, ...] = (
         select_pitch,
         "Alt+S",
         "",
-        "Edit/Select",
+        "edit/select",
     ),
     _row(
         "notes.select_bar",
         select_bar,
         "Alt+B",
         "",
-        "Edit/Select",
+        "edit/select",
         _has_player,
     ),
     _row(
@@ -376,7 +376,7 @@ ACTIONS: tuple[Action, ...] = (
         select_span,
         "Alt+R",
         "",
-        "Edit/Select",
+        "edit/select",
         _has_span,
     ),
     _tool(Tool.SELECT, "V", "pointer"),

@@ -7,10 +7,10 @@ from math import ceil, floor
 from typing import TYPE_CHECKING
 
 from app.editor.session import Session
-from app.editor.sound import sound_of
 from app.errors import Message
 from app.project.edit.piece import set_audio
 from app.shell.action import Action
+from app.shell.editor import Editor, EditorAction
 
 if TYPE_CHECKING:
     from app.editor.listening import Source
@@ -123,20 +123,6 @@ def set_follow(session: Session, on: bool) -> None:
     session.set_follow(on)
 
 
-def estimate_offset(session: Session) -> None:
-    """Find where the recording stands."""
-    sound = sound_of(session)
-    if sound is not None:
-        sound.estimate()
-
-
-def fit_tempo(session: Session) -> None:
-    """Find where the recording stands, and how much faster it is; the score takes its tempo."""
-    sound = sound_of(session)
-    if sound is not None:
-        sound.estimate(with_tempo=True)
-
-
 def remove_recording(session: Session) -> None:
     """Let the synthesiser play instead of the recording."""
     session.attempt(Message("edit.remove_audio"), lambda project: set_audio(project, None))
@@ -149,7 +135,7 @@ def _speed(percent: int) -> Action:
     return Action(
         f"play.speed_{percent}",
         run,
-        "Play/Speed",
+        "play/speed",
         checked=lambda session: round(100 * session.listening.speed) == percent,
     )
 
@@ -161,7 +147,7 @@ def _source(source: Source) -> Action:
     return Action(
         f"play.source_{source}",
         run,
-        "Play/Sound",
+        "play/sound",
         enabled=_has_recording,
         checked=lambda session: _has_recording(session) and session.listening.source == source,
     )
@@ -180,7 +166,8 @@ def _has_notes(session: Session) -> bool:
     return player is not None and bool(session.project.part(player).notes)
 
 
-def _recording_ready(session: Session) -> bool:
+def _recording_ready(editor: Editor) -> bool:
+    session = editor.session
     return session.listening.waveform is not None and session.project.score.end_tick > 0
 
 
@@ -234,11 +221,11 @@ def _selected_s(session: Session) -> tuple[float, float] | None:
     )
 
 
-ACTIONS: tuple[Action, ...] = (
+ACTIONS: tuple[Action | EditorAction, ...] = (
     Action(
         "play.toggle",
         toggle,
-        "Play",
+        "play",
         "Space",
         enabled=_can_play,
         icon="play",
@@ -246,34 +233,34 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "play.bar",
         play_bar,
-        "Play",
+        "play",
         "Return;Enter",
         enabled=_can_play,
         icon="play",
     ),
-    Action("play.stop", stop, "Play", enabled=_can_play, icon="stop"),
+    Action("play.stop", stop, "play", enabled=_can_play, icon="stop"),
     Action(
         "play.loop",
         toggle_loop,
-        "Play",
+        "play",
         "L",
         checked=lambda session: session.loop_s is not None,
         icon="loop",
     ),
-    Action("play.to_start", to_start, "Play/Go", "Home", icon="to_start"),
-    Action("play.to_end", to_end, "Play/Go", "End", icon="to_end"),
+    Action("play.to_start", to_start, "play/go", "Home", icon="to_start"),
+    Action("play.to_end", to_end, "play/go", "End", icon="to_end"),
     Action(
         "play.frame_back",
         frame_back,
-        "Play/Go",
+        "play/go",
         ",",
         icon="previous_frame",
     ),
-    Action("play.frame_on", frame_on, "Play/Go", ".", icon="next_frame"),
+    Action("play.frame_on", frame_on, "play/go", ".", icon="next_frame"),
     Action(
         "play.note_back",
         note_back,
-        "Play/Go",
+        "play/go",
         "Alt+,",
         enabled=_has_notes,
         icon="previous_note",
@@ -281,13 +268,13 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "play.note_on",
         note_on,
-        "Play/Go",
+        "play/go",
         "Alt+.",
         enabled=_has_notes,
         icon="next_note",
     ),
-    Action("play.bar_back", bar_back, "Play/Go", "PgUp"),
-    Action("play.bar_on", bar_on, "Play/Go", "PgDown"),
+    Action("play.bar_back", bar_back, "play/go", "PgUp"),
+    Action("play.bar_on", bar_on, "play/go", "PgDown"),
     *(_speed(percent) for percent in (25, 50, 75, 100, 150, 200)),
     _source("recording"),
     _source("synthesiser"),
@@ -295,7 +282,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "play.click",
         set_click,
-        "Play",
+        "play",
         "Shift+C",
         checked=lambda session: session.listening.click,
         icon="metronome",
@@ -303,35 +290,35 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "play.scrub",
         set_scrub,
-        "Play",
+        "play",
         checked=lambda session: session.listening.scrub_sound,
         icon="sound",
     ),
     Action(
         "play.follow",
         set_follow,
-        "Play",
+        "play",
         checked=lambda session: session.follow,
         icon="follow",
     ),
-    Action(
+    EditorAction(
         "play.estimate_offset",
-        estimate_offset,
-        "Play/Recording",
+        lambda editor: editor.sound.estimate(),
+        "play/recording",
         enabled=_recording_ready,
         icon="offset",
     ),
-    Action(
+    EditorAction(
         "play.fit_tempo",
-        fit_tempo,
-        "Play/Recording",
+        lambda editor: editor.sound.estimate(with_tempo=True),
+        "play/recording",
         enabled=_recording_ready,
         icon="tempo",
     ),
     Action(
         "play.remove_recording",
         remove_recording,
-        "Play/Recording",
+        "play/recording",
         enabled=_has_recording,
         icon="remove",
     ),

@@ -7,7 +7,7 @@ from app.errors import Message
 from app.project.edit import players as edit
 from app.project.model import Player, Project
 from app.shell.action import Action
-from app.shell.editor import editor_of
+from app.shell.editor import EditorAction
 from instrument_maps.library import all_maps
 from widgets.players import newcomers
 
@@ -57,11 +57,6 @@ def separate(session: Session) -> None:
     chosen = session.players
     count = sum(bool(player.doubles) for player in _chosen(session))
     session.attempt(_count("edit.separate_players", count), lambda project: edit.separate(project, chosen))
-
-
-def rename(session: Session) -> None:
-    """Type another name for the player in front."""
-    editor_of(session).window.rename_player()
 
 
 def mute(session: Session, on: bool) -> None:
@@ -179,21 +174,21 @@ def _is_quiet(session: Session) -> bool:
     return any(player.muted or player.soloed for player in session.project.players)
 
 
-ACTIONS: tuple[Action, ...] = (
-    Action("players.add", add, "Edit/Players", icon="add"),
-    Action(
+ACTIONS: tuple[Action | EditorAction, ...] = (
+    Action("players.add", add, "edit/players", icon="add"),
+    EditorAction(
         "players.rename",
-        rename,
-        "Edit/Players",
+        lambda editor: editor.window.rename_player(),
+        "edit/players",
         "F2",
         "players",
-        enabled=_has_players,
+        enabled=lambda editor: _has_players(editor.session),
         icon="pencil",
     ),
     Action(
         "players.duplicate",
         duplicate,
-        "Edit/Players",
+        "edit/players",
         "Ctrl+D",
         "players",
         enabled=_has_players,
@@ -202,19 +197,19 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "players.join",
         join,
-        "Edit/Players",
+        "edit/players",
         enabled=_are_several,
     ),
     Action(
         "players.separate",
         separate,
-        "Edit/Players",
+        "edit/players",
         enabled=_double,
     ),
     Action(
         "players.remove",
         remove,
-        "Edit/Players",
+        "edit/players",
         "Del",
         "players",
         enabled=_has_players,
@@ -223,7 +218,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "players.mute",
         mute,
-        "Edit/Players",
+        "edit/players",
         "M",
         "players",
         enabled=_has_players,
@@ -233,7 +228,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "players.solo",
         solo,
-        "Edit/Players",
+        "edit/players",
         "S",
         "players",
         enabled=_has_players,
@@ -243,56 +238,56 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "players.hear_everyone",
         hear_everyone,
-        "Edit/Players",
+        "edit/players",
         enabled=_is_quiet,
         icon="sound",
     ),
     Action(
         "players.next",
         next_player,
-        "Edit/Players",
+        "edit/players",
         "Ctrl+PgDown",
         enabled=_has_several,
     ),
     Action(
         "players.previous",
         previous_player,
-        "Edit/Players",
+        "edit/players",
         "Ctrl+PgUp",
         enabled=_has_several,
     ),
     Action(
         "players.posture",
         toggle_posture,
-        "Edit/Players",
+        "edit/players",
         enabled=_may_sit_or_stand,
         icon="seated",
     ),
     Action(
         "players.randomise",
         randomise,
-        "Edit/Players",
+        "edit/players",
         enabled=_has_players,
         icon="dice",
     ),
     Action(
         "players.arrange",
         arrange,
-        "Edit/Players",
+        "edit/players",
         enabled=_has_players,
         icon="stage",
     ),
     Action(
         "players.select_all",
         select_all,
-        "Edit/Players",
+        "edit/players",
         "Ctrl+Shift+A",
         enabled=_has_several,
     ),
     Action(
         "players.reset",
         reset,
-        "Edit/Players",
+        "edit/players",
         enabled=_has_players,
         icon="reset",
     ),

@@ -54,7 +54,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "problems.next",
         lambda session: go_to_problem(session, 1),
-        "View",
+        "view",
         "F8",
         enabled=_has_problems,
         icon="problem",
@@ -62,7 +62,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "problems.previous",
         lambda session: go_to_problem(session, -1),
-        "View",
+        "view",
         "Shift+F8",
         enabled=_has_problems,
     ),

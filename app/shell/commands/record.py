@@ -4,27 +4,23 @@ from __future__ import annotations
 
 from math import ceil, floor
 
-from app.editor.recorder import recorder_of
 from app.editor.session import Session
 from app.shell.action import Action
-from app.shell.editor import editor_of
+from app.shell.editor import Editor, EditorAction
 
 
-def toggle(session: Session) -> None:
-    """Record, or end the take."""
-    recorder = recorder_of(session)
-    if recorder is not None:
-        recorder.toggle()
+def devices(editor: Editor) -> None:
+    """Choose what is recorded from, and see what comes in; once."""
+    from app.shell.recording_dialogs import show_devices
+
+    show_devices(editor)
 
 
-def devices(session: Session) -> None:
-    """Choose what is recorded from, and see what comes in."""
-    editor_of(session).window.show_devices()
+def latency(editor: Editor) -> None:
+    """Find out how late the device comes; once."""
+    from app.shell.recording_dialogs import show_latency
 
-
-def latency(session: Session) -> None:
-    """Find out how late the device comes."""
-    editor_of(session).window.show_latency()
+    show_latency(editor)
 
 
 def arm(session: Session, on: bool = True) -> None:
@@ -58,74 +54,64 @@ def _span(session: Session) -> tuple[int, int] | None:
     return session.recording.punch_ticks
 
 
-def _count_in(id: str, bars: int) -> Action:
-    def run(session: Session, on: bool = True) -> None:
-        recorder = recorder_of(session)
-        if recorder is not None:
-            recorder.set_count_in(bars)
-
-    return Action(
+def _count_in(id: str, bars: int) -> EditorAction:
+    return EditorAction(
         id,
-        run,
-        "Record/Counting",
-        enabled=_is_here,
-        checked=lambda session: session.recording.count_in_bars == bars,
+        lambda editor, on: editor.recorder.set_count_in(bars),
+        "record/count_in",
+        checked=lambda editor: editor.session.recording.count_in_bars == bars,
     )
 
 
-def _is_here(session: Session) -> bool:
-    return recorder_of(session) is not None
-
-
-def _has_device(session: Session) -> bool:
-    return _is_here(session) and bool(session.recording.port) and not session.recording.running
+def _has_device(editor: Editor) -> bool:
+    recording = editor.session.recording
+    return bool(recording.port) and not recording.running
 
 
 def _can_record(session: Session) -> bool:
-    return _is_here(session) and session.playback is not None and session.player is not None
+    return session.playback is not None and session.player is not None
 
 
 def _is_armed(session: Session) -> bool:
     return session.player is not None and session.recording.armed == session.player.id
 
 
-ACTIONS: tuple[Action, ...] = (
-    Action(
+ACTIONS: tuple[Action | EditorAction, ...] = (
+    EditorAction(
         "record.toggle",
-        toggle,
-        "Record",
+        lambda editor: editor.recorder.toggle(),
+        "record",
         "Ctrl+R",
-        enabled=_can_record,
+        enabled=lambda editor: _can_record(editor.session),
         icon="record",
     ),
     Action(
         "record.arm",
         arm,
-        "Record",
+        "record",
         enabled=_can_record,
         checked=_is_armed,
     ),
     Action(
         "record.punch",
         punch,
-        "Record",
+        "record",
         enabled=lambda session: _can_record(session) and _span(session) is not None,
         checked=lambda session: session.recording.punch,
     ),
     _count_in("record.count_in_0", 0),
     _count_in("record.count_in_1", 1),
     _count_in("record.count_in_2", 2),
-    Action(
+    EditorAction(
         "record.devices",
         devices,
-        "Record",
-        enabled=_is_here,
+        "record",
         icon="settings",
     ),
-    Action(
+    EditorAction(
         "record.latency",
         latency,
-        "Record",
+        "record",
         enabled=_has_device,
         icon="clock",
     ),

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from app.editor.session import Session
-from app.editor.streamer import streamer_of
 from app.shell.action import Action
-from app.shell.editor import editor_of
+from app.shell.editor import Editor, EditorAction
 
 
 def toggle(session: Session, on: bool = True) -> None:
@@ -13,30 +12,22 @@ def toggle(session: Session, on: bool = True) -> None:
     session.streaming.set(on=not session.streaming.on)
 
 
-def settings(session: Session) -> None:
-    """Choose what is streamed, and where."""
-    editor_of(session).window.show_streaming()
+def settings(editor: Editor) -> None:
+    """Choose what is streamed, and where; once."""
+    from widgets.dialogs.stream import StreamDialog
+
+    editor.show_once(StreamDialog, lambda: StreamDialog(editor.session, editor.window))
 
 
-def _can_stream(session: Session) -> bool:
-    return streamer_of(session) is not None and bool(session.project.performers)
-
-
-ACTIONS: tuple[Action, ...] = (
+ACTIONS: tuple[Action | EditorAction, ...] = (
     Action(
         "stream.toggle",
         toggle,
-        "Export",
+        "export",
         "Ctrl+Alt+L",
-        enabled=_can_stream,
+        enabled=lambda session: bool(session.project.performers),
         checked=lambda session: session.streaming.on,
         icon="stream",
     ),
-    Action(
-        "stream.settings",
-        settings,
-        "Export",
-        enabled=lambda session: streamer_of(session) is not None,
-        icon="settings",
-    ),
+    EditorAction("stream.settings", settings, "export", icon="settings"),
 )

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from app.editor.listening import RecordedTake
 from app.editor.selection import Selection
 from app.editor.session import Session, Severity
-from app.editor.sound import sound_of
 from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
 from app.project.edit import takes as edit
@@ -14,6 +15,7 @@ from app.project.limits import LAST_TICK
 from app.project.model import Player, Project
 from app.score.take import Cleaning, Floats, Take
 from app.shell.action import Action
+from app.shell.editor import Editor, EditorAction
 
 
 def _takes(session: Session) -> tuple[Take, ...]:
@@ -29,19 +31,11 @@ def _chosen(session: Session) -> tuple[Player, Take] | None:
     return (player, found[0]) if player is not None and found else None
 
 
-def listen(session: Session) -> None:
-    """Hear the selected take among the others, or no more."""
-    _listen(session, alone=False)
-
-
-def listen_alone(session: Session) -> None:
-    """Hear nothing but the selected take, or no more."""
-    _listen(session, alone=True)
-
-
-def _listen(session: Session, alone: bool) -> None:
-    sound, player, take_id = sound_of(session), session.player, session.selection.take
-    if sound is None or player is None or take_id is None:
+def listen(editor: Editor, alone: bool = False) -> None:
+    """Hear the selected take among the others, or alone, or no more."""
+    session, sound = editor.session, editor.sound
+    player, take_id = session.player, session.selection.take
+    if player is None or take_id is None:
         return
     requested = RecordedTake(player.id, take_id, alone)
     if session.listening.take == requested:
@@ -178,8 +172,8 @@ def _has_row(session: Session) -> bool:
     return _has_chosen(session) or (session.selection.take == BEFORE and bool(_takes(session)))
 
 
-def _can_listen(session: Session) -> bool:
-    return session.playback is not None and _has_row(session)
+def _can_listen(editor: Editor) -> bool:
+    return editor.session.playback is not None and _has_row(editor.session)
 
 
 def _has_takes(session: Session) -> bool:
@@ -205,19 +199,19 @@ def _may_sink(session: Session) -> bool:
     return chosen is not None and chosen[1] is not _takes(session)[-1]
 
 
-ACTIONS: tuple[Action, ...] = (
-    Action(
+ACTIONS: tuple[Action | EditorAction, ...] = (
+    EditorAction(
         "takes.listen",
         listen,
-        "Record/Takes",
+        "record/takes",
         "Ctrl+L",
         enabled=_can_listen,
         icon="play",
     ),
-    Action(
+    EditorAction(
         "takes.listen_alone",
-        listen_alone,
-        "Record/Takes",
+        partial(listen, alone=True),
+        "record/takes",
         "Ctrl+Shift+L",
         enabled=_can_listen,
         icon="solo",
@@ -225,14 +219,14 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "takes.whole",
         whole,
-        "Record/Takes",
+        "record/takes",
         enabled=_has_row,
         icon="check",
     ),
     Action(
         "takes.above",
         above,
-        "Record/Takes",
+        "record/takes",
         "Alt+Up",
         "timeline",
         enabled=_can_step,
@@ -241,7 +235,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "takes.below",
         below,
-        "Record/Takes",
+        "record/takes",
         "Alt+Down",
         "timeline",
         enabled=_can_step,
@@ -250,14 +244,14 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "takes.before",
         before,
-        "Record/Takes",
+        "record/takes",
         enabled=_has_takes,
         icon="history",
     ),
     Action(
         "takes.rename",
         rename,
-        "Record/Takes",
+        "record/takes",
         "F2",
         "timeline",
         enabled=_has_chosen,
@@ -266,33 +260,33 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "takes.earlier_lane",
         earlier_lane,
-        "Record/Takes",
+        "record/takes",
         enabled=_may_rise,
     ),
     Action(
         "takes.later_lane",
         later_lane,
-        "Record/Takes",
+        "record/takes",
         enabled=_may_sink,
     ),
     Action(
         "takes.usual_cleaning",
         usual_cleaning,
-        "Record/Takes",
+        "record/takes",
         enabled=_is_cleaned_otherwise,
         icon="reset",
     ),
     Action(
         "takes.find_beats",
         find_beats,
-        "Record/Takes",
+        "record/takes",
         enabled=_has_chosen,
         icon="tempo",
     ),
     Action(
         "takes.remove",
         remove,
-        "Record/Takes",
+        "record/takes",
         enabled=_has_chosen,
         icon="delete",
     ),

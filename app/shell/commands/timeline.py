@@ -33,7 +33,7 @@ def _shown(ghosts: Ghosts, icon: str) -> Action:
     def checked(session: Session) -> bool:
         return session.timeline_view is not None and session.timeline_view.ghosts is ghosts
 
-    return Action(f"timeline.{ghosts.value}", run, "View/Notes", checked=checked, icon=icon)
+    return Action(f"timeline.{ghosts.value}", run, "view/notes", checked=checked, icon=icon)
 
 
 def _counted(display: TimeDisplay) -> Action:
@@ -43,7 +43,7 @@ def _counted(display: TimeDisplay) -> Action:
     return Action(
         f"timeline.count_{display}",
         run,
-        "View/Time",
+        "view/time",
         checked=lambda session: session.time_display == display,
     )
 
@@ -52,7 +52,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "timeline.zoom_in",
         _asked(lambda view: view.zoom_in()),
-        "View",
+        "view",
         "Ctrl++;Ctrl+=",
         enabled=_has_view,
         icon="zoom_in",
@@ -60,7 +60,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "timeline.zoom_out",
         _asked(lambda view: view.zoom_out()),
-        "View",
+        "view",
         "Ctrl+-",
         enabled=_has_view,
         icon="zoom_out",
@@ -68,7 +68,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "timeline.fit",
         _asked(lambda view: view.fit()),
-        "View",
+        "view",
         "Ctrl+0",
         enabled=_has_view,
         icon="fit",
@@ -76,7 +76,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "timeline.zoom_selection",
         _asked(lambda view: view.zoom_to_selection()),
-        "View",
+        "view",
         "Z",
         "timeline",
         enabled=_can_zoom_to_selection,

@@ -50,7 +50,7 @@ def _view(view: View, key: str) -> Action:
     return Action(
         id=f"viewport.{view}",
         run=partial(show_view, view),
-        menu="View/Viewport",
+        menu="view/viewport",
         shortcut=key,
         context="viewport",
         enabled=_has_players,
@@ -61,7 +61,7 @@ def _toggle(what: Shown, icon: str, key: str = "") -> Action:
     return Action(
         id=f"viewport.{what}",
         run=partial(show, what),
-        menu="View/Viewport",
+        menu="view/viewport",
         shortcut=key,
         context="viewport",
         checked=partial(_shows, what),
@@ -80,7 +80,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         id="viewport.frame",
         run=frame_players,
-        menu="View/Viewport",
+        menu="view/viewport",
         shortcut="F",
         context="viewport",
         enabled=_has_players,
@@ -89,7 +89,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         id="viewport.frame_all",
         run=frame_ensemble,
-        menu="View/Viewport",
+        menu="view/viewport",
         shortcut="Home;A",
         context="viewport",
         enabled=_has_players,
@@ -102,7 +102,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         id="viewport.pose",
         run=pose,
-        menu="View/Viewport",
+        menu="view/viewport",
         shortcut="P",
         context="viewport",
         enabled=_has_players,

@@ -183,7 +183,7 @@ class WatchedWindow:
         return {"outcome": outcome, "place": place, "detail": detail, "cpu_s": self.meter.cpu_s, "peak_mb": 0.0}
 
     def _ways(self, kind: str, path: Path) -> tuple[Callable[[], None], ...]:
-        files, window = self.program.editor.files, self.program.window
+        files = self.program.editor.files
         # Saved elsewhere: nothing hostile is written over.
         self.answers.path = self.folder / "saved.suisou" if kind == "midi" else path
         if kind == "midi":
@@ -192,10 +192,10 @@ class WatchedWindow:
                 lambda: files.open(path, ask=True),
                 *(partial(self._trigger, action_id) for action_id in EDITS),
                 lambda: files.save(),
-                lambda: reimport_from(self.session, path),
+                lambda: reimport_from(self.program.editor, path),
             )
         if kind in ("gltf", "foreign_fbx"):
-            return (window.add_character,)
+            return (partial(self._trigger, "file.add_character"),)
         return (lambda: files.open(path, ask=False),)
 
 

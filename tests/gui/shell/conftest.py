@@ -15,7 +15,7 @@ from app.editor.questions import Answer
 from app.editor.recorder import Recorder
 from app.editor.session import Session
 from app.editor.settings import Settings
-from app.editor.sound import sound_of
+from app.editor.sound import Sound
 from app.editor.tasks import Tasks
 from app.editor.tokens import Tokens
 from app.project.autosave import Autosave
@@ -118,7 +118,7 @@ def start(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answe
         program.end()
         program.generator.deleteLater()
         program.editor.files.end()
-        program.language.set("en")
+        program.editor.language.set("en")
         program.window.deleteLater()
         program.session.deleteLater()
     delete_now()
@@ -157,8 +157,8 @@ def studio(
         made.append(SpokenFor(on_news, clock))
         return made[-1]
 
-    def recorder(session: Session, files: Files) -> Recorder:
-        return Recorder(session, files, settings, make_link, clock.now_ns, lambda: Playback(now=clock.now_s))
+    def recorder(session: Session, files: Files, settings: Settings, sound: Sound) -> Recorder:
+        return Recorder(session, files, settings, sound, make_link, clock.now_ns, lambda: Playback(now=clock.now_s))
 
     settings.midi_port = EWI
     settings.count_in_bars = 0
@@ -171,8 +171,7 @@ def studio(
         playback=Playback(now=clock.now_s),
         recorder=recorder,
     )
-    sound = sound_of(program.session)
-    assert sound is not None
+    sound = program.editor.sound
     program.session.playback = sound.playback
     answers.answer = "discard"
     program.window.show()

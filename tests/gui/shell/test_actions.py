@@ -11,8 +11,10 @@ from pytestqt.qtbot import QtBot
 from app.editor.settings import Settings
 from app.errors import Message
 from app.project.edit.piece import set_title
-from app.shell.actions import CONTEXTS, MENUS, ActionTable, menu_with_keys, rows, sequences
+from app.shell.actions import CONTEXTS, ActionTable, sequences
 from app.shell.app import Program
+from app.shell.menus import menu_with_keys
+from app.shell.rows import rows
 from app.shell.texts import TEXTS
 from app.shell.window import Window
 from tests.gui.shell.conftest import trigger
@@ -24,7 +26,7 @@ def test_the_table_is_sound() -> None:
     table = rows()
     ids = [row.id for row in table]
     assert len(set(ids)) == len(ids)
-    assert {key for row in table for key in row.menu.split("/") if key} <= set(MENUS)
+    assert {f"menu.{part}" for row in table for part in row.menu.split("/") if part} <= TEXTS.keys()
     assert {row.context for row in table} <= set(CONTEXTS)
     for row in table:
         assert TEXTS[f"action.{row.id}"][0]

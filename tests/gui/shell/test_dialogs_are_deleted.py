@@ -21,6 +21,7 @@ from app.shell.app import Program
 from app.shell.commands.exchange import reimport_from
 from app.shell.licences_dialog import LicencesDialog
 from app.shell.questions import DialogQuestions
+from app.shell.recording_dialogs import show_latency
 from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import Studio, trigger
 from tests.unit.cli.test_main import ROOT
@@ -62,10 +63,10 @@ OPENED: dict[str, Open] = {
     "PlayblastDialog": command("export.playblast"),
     "ChoreographyDialog": show_choreography,
     "LearnDialog": command("dancers.learn"),
-    "StreamDialog": lambda program: program.window.show_streaming(),
+    "StreamDialog": lambda program: program.session.actions["stream.settings"].trigger(),
     "MidiDevicesDialog": command("record.devices"),
-    "LatencyDialog": lambda program: program.window.show_latency(),
-    "ReimportDialog": lambda program: reimport_from(program.session, QUARTET),
+    "LatencyDialog": lambda program: show_latency(program.editor),
+    "ReimportDialog": lambda program: reimport_from(program.editor, QUARTET),
     "ImportDialog": lambda program: DialogQuestions().import_midi(
         read_contents(QUARTET), program.session.tokens, program.session.tasks
     ),

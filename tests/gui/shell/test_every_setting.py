@@ -11,7 +11,6 @@ from app.editor.session import Session
 from app.editor.settings import SETTINGS, Setting, Settings
 from app.editor.translated import tr
 from app.shell.app import Program
-from app.shell.editor import Editor
 from app.shell.preferences import show_preferences
 from app.shell.texts import TEXTS
 from tests.gui.conftest import quartet_project
@@ -37,7 +36,8 @@ def test_what_the_session_holds_is_remembered_and_restored(program: Program, set
         assert getattr(settings, setting.name) == value
     settings.sync()
     session = Session(quartet_project(), ImmediateTasks())
-    Editor(session, Settings(settings.path), program.editor.language, program.editor.questions)
+    again = Settings(settings.path)
+    again.hold(session)
     for setting, place in held:
         assert place.get(session) == other(setting) != setting.default, setting.name
     session.deleteLater()

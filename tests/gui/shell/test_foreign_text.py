@@ -86,8 +86,8 @@ def walked(
         answers,
         Autosave(Presence(tmp_path / "recovery")),
         heard=False,
-        recorder=lambda session, files: Recorder(
-            session, files, settings, lambda on_news: Spoken(on_news, settings.midi_port)
+        recorder=lambda session, files, settings, sound: Recorder(
+            session, files, settings, sound, lambda on_news: Spoken(on_news, settings.midi_port)
         ),
     )
     program.recorder.begin_where_remembered()

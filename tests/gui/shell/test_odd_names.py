@@ -70,7 +70,7 @@ def test_a_piece_is_dropped_heard_saved_and_opened_again(
     assert load(document) == session.project
     assert f"{NAME}.suisou" in empty.window.windowTitle()
     empty.window._fill_recent()
-    recent = [action.text() for action in empty.window.menus.menu("File/Recent").actions()]
+    recent = [action.text() for action in empty.window.menus.menu("file/open_recent").actions()]
     assert f"{NAME}.suisou    {folder.parent}/{NAME}" in recent
     answers.path = odd(folder, ".mid")
     trigger(empty, "file.reimport_other")

@@ -11,7 +11,6 @@ from PySide6.QtWidgets import QApplication, QLabel
 from app.capture.journal import Header, JournalWriter
 from app.capture.protocol import Back, Lost, Ports, Refused, Written
 from app.editor.live_player import REST_S
-from app.editor.recorder import recorder_of
 from app.errors import Message
 from tests.support.recorder import EWI
 from tests.support.studio import Studio
@@ -238,8 +237,7 @@ def test_a_take_stays_with_its_project_when_another_is_opened_meanwhile(studio: 
 
 
 def test_without_a_device_it_is_said(studio: Studio) -> None:
-    recorder = recorder_of(studio.session)
-    assert recorder is not None
+    recorder = studio.program.recorder
     recorder.choose("")
     said: list[str] = []
     studio.session.noticed.connect(lambda message, severity: said.append(message.id))

@@ -22,7 +22,6 @@ from PySide6.QtWidgets import (
 )
 
 from app.capture.protocol import Back, Lost, Opened, Ports, Refused
-from app.editor.recorder import recorder_of
 from app.errors import Message
 from app.messages.pitches import pitch_name
 from app.score.take import ControllerMapping
@@ -113,8 +112,7 @@ def test_another_device_is_chosen_by_a_click_and_by_enter_and_remembered(studio:
 
 
 def test_without_a_device_it_is_taught_what_to_do(studio: Studio) -> None:
-    recorder = recorder_of(studio.session)
-    assert recorder is not None
+    recorder = studio.program.recorder
     recorder.choose("")
     said: list[str] = []
     studio.session.noticed.connect(lambda message, severity: said.append(message.id))
@@ -190,8 +188,7 @@ def test_where_the_breath_is_is_learned_by_blowing(studio: Studio) -> None:
     assert studio.session.recording.wiring == ControllerMapping(3, "cc11", "cc1")
     assert part(dialog, QComboBox, "midi_breath_source").currentText() == "CC 11 (expression)"
     # It is remembered of this device.
-    recorder = recorder_of(studio.session)
-    assert recorder is not None
+    recorder = studio.program.recorder
     recorder.choose("")
     recorder.choose(EWI)
     assert studio.session.recording.wiring.breath == "cc11"

@@ -15,7 +15,6 @@ from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.editor.settings import Settings
-from app.editor.sound import sound_of
 from app.editor.streaming import StreamTarget
 from app.errors import Message
 from app.performance.bodies import character_of
@@ -97,8 +96,7 @@ def test_it_follows_the_playhead_and_rests_slowly(program: Program, qtbot: QtBot
 
 def test_while_it_plays_every_frame_is_another_and_no_more_than_the_rate(program: Program, qtbot: QtBot) -> None:
     ready(program, qtbot)
-    sound = sound_of(program.session)
-    assert sound is not None
+    sound = program.editor.sound
     program.session.playback = sound.playback
     with Receiver() as receiver:
         program.session.streaming.set(rate_hz=30)

@@ -21,7 +21,6 @@ from app.editor.listening import RecordedTake
 from app.editor.recorder import Recorder
 from app.editor.selection import EventKey, Selection
 from app.editor.settings import Settings
-from app.editor.sound import sound_of
 from app.editor.tokens import DARK
 from app.errors import Message
 from app.plan.corrections import AddGesture, PinFingering, RemoveEvent, SetBreath, SetCue, Vary
@@ -38,8 +37,8 @@ from app.project.presence import Presence
 from app.score.model import Note
 from app.score.read import read_midi
 from app.score.take import Cleaning
-from app.shell.actions import rows
 from app.shell.app import Program
+from app.shell.rows import rows
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import Answers
@@ -906,13 +905,12 @@ def desk(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answer
         answers,
         Autosave(Presence(tmp_path / "recovery")),
         heard=False,
-        recorder=lambda session, files: Recorder(
-            session, files, settings, lambda on_news: SpokenFor(on_news, RunningClock())
+        recorder=lambda session, files, settings, sound: Recorder(
+            session, files, settings, sound, lambda on_news: SpokenFor(on_news, RunningClock())
         ),
     )
     program.recorder.begin_where_remembered()
-    sound = sound_of(program.session)
-    assert sound is not None
+    sound = program.editor.sound
     # It plays in time, but no synthesiser works for it.
     program.session.playback = sound.playback
     show_in_front(program.window)
@@ -921,7 +919,7 @@ def desk(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answer
     program.end()
     program.generator.deleteLater()
     program.editor.files.end()
-    program.language.set("en")
+    program.editor.language.set("en")
     program.window.deleteLater()
     program.session.deleteLater()
     delete_now()

@@ -16,7 +16,7 @@ from app.audio.render_process import RenderProcess
 from app.audio.track import RATE_HZ
 from app.editor.listening import RecordedTake
 from app.editor.session import Session, Severity
-from app.editor.sound import Sound, sound_of
+from app.editor.sound import Sound
 from app.errors import Message
 from app.project.edit.piece import set_audio, set_offset
 from app.project.edit.takes import add_takes, remove_take
@@ -35,17 +35,12 @@ NAME = Message("edit.set_offset")
 def ready(sound: Sound, session: Session, qtbot: QtBot) -> Sound:
     """A short duet, rendered."""
     session.document.open(piece(melody((0, 960, 70), (960, 960, 72)), melody((1920, 960, 65))))
-    wait_ready(session, qtbot)
+    wait_ready(sound, qtbot)
     return sound
 
 
-def wait_ready(session: Session, qtbot: QtBot) -> None:
-    qtbot.waitUntil(lambda: session.listening.ready == 1.0 and not playing_task(session))
-
-
-def playing_task(session: Session) -> bool:
-    sound = sound_of(session)
-    return sound is None or sound.is_busy
+def wait_ready(sound: Sound, qtbot: QtBot) -> None:
+    qtbot.waitUntil(lambda: not sound.is_busy)
 
 
 def heard(sound: Sound, start_s: float, end_s: float) -> np.ndarray:
@@ -61,8 +56,7 @@ def edit(session: Session, project: Project) -> None:
     session.apply(NAME, project)
 
 
-def test_it_is_found_by_its_session(session: Session, sound: Sound) -> None:
-    assert sound_of(session) is sound
+def test_its_session_plays_by_it(session: Session, sound: Sound) -> None:
     assert session.playback is sound.playback
 
 
@@ -125,11 +119,11 @@ def test_after_an_edit_only_what_changed_is_rendered(
     parts = (score.parts[0], replace_notes(score.parts[1], other.notes))
     edit(session, replace(project, score=replace_parts(score, parts)))
     qtbot.waitUntil(lambda: len(rendered) == 1)
-    wait_ready(session, qtbot)
+    wait_ready(ready, qtbot)
     assert len(rendered) == 1
     assert (heard(ready, 0.0, 1.0) == before).all()
     session.document.undo()
-    wait_ready(session, qtbot)
+    wait_ready(ready, qtbot)
     assert len(rendered) == 1, "undo finds what was made before"
 
 
@@ -319,7 +313,7 @@ def test_for_a_picture_the_recording_is_only_seen(
 
 def test_an_empty_piece_is_silent(sound: Sound, session: Session, qtbot: QtBot) -> None:
     session.document.open(piece())
-    wait_ready(session, qtbot)
+    wait_ready(sound, qtbot)
     assert not heard(sound, -1.0, 2.0).any()
 
 
@@ -335,7 +329,7 @@ def recorded(ready: Sound, session: Session, qtbot: QtBot) -> Sound:
     """Two takes of the first player: one of the second second, one of nothing."""
     takes = [take_of([(1.0, 1.9, 74, 0.8)], tempo_map=session.project.score.tempo_map), take_of([])]
     edit(session, add_takes(session.project, first(session), takes)[0])
-    wait_ready(session, qtbot)
+    wait_ready(ready, qtbot)
     return ready
 
 
@@ -346,20 +340,20 @@ def test_a_take_is_heard_in_the_place_of_the_part_until_the_sound_stops(
     recorded.listen(RecordedTake(first(session), "take:1", alone=False), 0.5)
     qtbot.waitUntil(lambda: session.playing)
     assert session.playhead_s == pytest.approx(0.5, abs=0.02)
-    wait_ready(session, qtbot)
+    wait_ready(recorded, qtbot)
     assert np.abs(heard(recorded, 1.0, 1.9) - before[RATE_HZ : round(1.9 * RATE_HZ)]).max() > 0.01
     assert loudness(recorded, 2.2, 2.9) > 0.01, "the others play on"
     assert session.project is project, "nothing was taken"
     session.playback.stop()  # type: ignore[union-attr]
     assert session.listening.take is None
-    wait_ready(session, qtbot)
+    wait_ready(recorded, qtbot)
     assert heard(recorded, 0.0, 3.0) == pytest.approx(before, abs=1e-6)
 
 
 def test_a_take_alone_is_all_that_is_heard(recorded: Sound, session: Session, qtbot: QtBot) -> None:
     edit(session, with_players(session.project, p0={"muted": True}, p1={"soloed": True}))
     recorded.listen(RecordedTake(first(session), "take:1", alone=True), 1.0)
-    wait_ready(session, qtbot)
+    wait_ready(recorded, qtbot)
     assert loudness(recorded, 1.1, 1.8) > 0.01
     assert loudness(recorded, 2.7, 2.95) < 1e-3
     recorded.stop_listening()
@@ -368,9 +362,9 @@ def test_a_take_alone_is_all_that_is_heard(recorded: Sound, session: Session, qt
 
 def test_a_take_that_is_thrown_away_is_heard_no_more(recorded: Sound, session: Session, qtbot: QtBot) -> None:
     recorded.listen(RecordedTake(first(session), "take:1", alone=True), 1.0)
-    wait_ready(session, qtbot)
+    wait_ready(recorded, qtbot)
     edit(session, remove_take(session.project, first(session), "take:1"))
-    wait_ready(session, qtbot)
+    wait_ready(recorded, qtbot)
     assert loudness(recorded, 2.2, 2.9) > 0.01
 
 

@@ -1,0 +1,64 @@
+"""Which button the keyboard came to, and what Space does there."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtGui import QFocusEvent, QKeyEvent
+from PySide6.QtWidgets import QApplication, QWidget
+from shiboken6 import isValid
+
+
+class KeyboardButtons(QObject):
+    """Space plays; but who came to a button with the keyboard presses it with Space.
+
+    A button that was clicked keeps the keyboard too, and there Space goes on to play. Watched is only what has the
+    keyboard: a filter of the whole application would have Python asked a hundred times in every frame.
+
+    Parameters
+    ----------
+    application : QApplication
+    parent : QObject
+    """
+
+    def __init__(self, application: QApplication, parent: QObject) -> None:
+        super().__init__(parent)
+        self._watched: QWidget | None = None
+        self._reason: Qt.FocusReason | None = None
+        """Why the keyboard leaves what is watched."""
+        self._reached = False
+        application.focusChanged.connect(self._focus_moved)
+
+    def _focus_moved(self, before: QWidget | None, now: QWidget | None) -> None:
+        self._reached = now is not None and self._reason in _BY_KEYS
+        self._reason = None
+        if self._watched is not None and isValid(self._watched):
+            self._watched.removeEventFilter(self)
+        # Where nothing has the keyboard, its keys go to the window.
+        self._watched = now if now is not None else QApplication.activeWindow()
+        if self._watched is not None:
+            self._watched.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Watch how the keyboard moves."""
+        kind = event.type()
+        if kind == QEvent.Type.FocusOut and isinstance(event, QFocusEvent):
+            self._reason = event.reason()
+        elif kind == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
+            tab = event.key() in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab)
+            self._reason = Qt.FocusReason.TabFocusReason if tab else None
+        elif (
+            kind == QEvent.Type.ShortcutOverride
+            and self._reached
+            and isinstance(event, QKeyEvent)
+            and event.key() == Qt.Key.Key_Space
+            and _is_pressed_by_space(watched)
+        ):
+            event.accept()
+        return False
+
+
+_BY_KEYS = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason)
+
+
+def _is_pressed_by_space(watched: QObject) -> bool:
+    return watched.inherits("QAbstractButton") or watched.inherits("QComboBox")

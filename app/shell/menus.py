@@ -1,0 +1,86 @@
+"""The menus of the window, made from the table of actions."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from PySide6.QtCore import QEvent
+from PySide6.QtGui import QKeySequence
+from PySide6.QtWidgets import QMenu, QMenuBar, QWidget
+
+from app.editor.translated import tr
+from app.shell.action import without_key
+from app.shell.actions import ActionTable, sequences
+
+BAR: Final = ("file", "edit", "view", "play", "record", "generate", "export", "help")
+"""How the menus stand in the bar; within them everything stands as in the table."""
+BEFORE_LINE: Final = frozenset(
+    (
+        *("file.save", "file.import_midi", "file.piece_settings", "file.close", "file.quit"),
+        *("application.preferences", "application.about"),
+    )
+)
+"""Rows that a line goes before; another line stands wherever the subject of the rows changes."""
+
+
+def menu_with_keys(keys: str) -> str:
+    """Name of the menu that one of these shortcuts opens in the language of the editor; empty: none."""
+    requested = {sequence.toString() for sequence in sequences(keys)}
+    titles = [tr(f"menu.{name}") for name in BAR]
+    return next((without_key(title) for title in titles if QKeySequence.mnemonic(title).toString() in requested), "")
+
+
+class Menu(QMenu):
+    """A menu, called as the last part of its path says."""
+
+    def __init__(self, path: str, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._text_id = f"menu.{path.rpartition('/')[2]}"
+        self.setObjectName(f"menu_{path.replace('/', '_')}")
+        self.setToolTipsVisible(False)
+        self.setTitle(tr(self._text_id))
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Another language."""
+        if event.type() == QEvent.Type.LanguageChange:
+            self.setTitle(tr(self._text_id))
+        super().changeEvent(event)
+
+
+class Menus:
+    """The menus of a menu bar.
+
+    Parameters
+    ----------
+    bar : QMenuBar
+    table : ActionTable
+    """
+
+    def __init__(self, bar: QMenuBar, table: ActionTable) -> None:
+        self._bar = bar
+        self.menus: dict[str, Menu] = {}
+        used = {row.menu.split("/")[0] for row in table.rows.values()}
+        for name in BAR:
+            if name in used:
+                self.menu(name)
+        last: dict[str, str] = {}
+        for row in table.rows.values():
+            if not row.menu:
+                continue
+            menu = self.menu(row.menu)
+            subject = row.id.split(".")[0]
+            if menu.actions() and (row.id in BEFORE_LINE or last.get(row.menu, subject) != subject):
+                menu.addSeparator()
+            last[row.menu] = subject
+            menu.addAction(table.actions[row.id])
+        for menu in self.menus.values():
+            menu.aboutToShow.connect(table.refresh)
+
+    def menu(self, path: str) -> Menu:
+        """The menu at a path, made if it is not there."""
+        if path not in self.menus:
+            above = path.rpartition("/")[0]
+            parent = self.menu(above) if above else self._bar
+            self.menus[path] = Menu(path, parent)
+            parent.addMenu(self.menus[path])
+        return self.menus[path]

@@ -1,0 +1,59 @@
+"""Every row of the table of actions, in the order in which they stand in the menus."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+from app.shell.action import Row
+from app.shell.commands import (
+    application,
+    beat,
+    characters,
+    dancers,
+    edit,
+    events,
+    exchange,
+    file,
+    fingerings,
+    generate,
+    notes,
+    playback,
+    players,
+    problems,
+    record,
+    stream,
+    takes,
+    timeline,
+    viewport,
+)
+
+FILE_ORDER: Final = (
+    "file.new",
+    "file.open",
+    "file.open_example",
+    "file.open_danced_example",
+    "file.save",
+    "file.save_as",
+    "file.import_midi",
+    "file.reimport",
+    "file.reimport_other",
+    "file.add_audio",
+    "file.add_character",
+    "file.export_midi",
+    "file.piece_settings",
+    "file.close",
+    "file.quit",
+)
+"""How the rows of the first menu stand, whichever module they are from."""
+
+
+def rows() -> tuple[Row[Any], ...]:
+    """Every row of the table."""
+    place = {action_id: number for number, action_id in enumerate(FILE_ORDER)}
+    found = (
+        *(*file.ACTIONS, *exchange.ACTIONS, *stream.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *fingerings.ACTIONS),
+        *(*events.ACTIONS, *beat.ACTIONS, *players.ACTIONS, *dancers.ACTIONS, *timeline.ACTIONS, *viewport.ACTIONS),
+        *(*playback.ACTIONS, *record.ACTIONS, *takes.ACTIONS, *generate.ACTIONS, *problems.ACTIONS),
+        *(*characters.ACTIONS, *application.ACTIONS),
+    )
+    return tuple(sorted(found, key=lambda row: place.get(row.id, len(place))))
