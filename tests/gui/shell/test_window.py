@@ -229,9 +229,10 @@ def test_a_missing_recording_is_asked_for_and_its_offset_stays(
 
 @pytest.mark.parametrize(("width", "height"), [(1280, 800), (1600, 1000), (1920, 1080)])
 def test_a_new_window_gives_half_its_height_to_the_timeline(start: Start, width: int, height: int) -> None:
-    window = start().window
+    program = start()
+    window = program.window
     window.resize(width, height)
-    window.editor.files.open(QUARTET, ask=False)
+    program.editor.files.open(QUARTET, ask=False)
     QApplication.processEvents()
     assert 0.48 * height <= window.docks["timeline"].height() <= 0.55 * height
     assert window.viewport.height() >= 0.35 * height
