@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Final
 
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QImage, QKeyEvent, QKeySequence, QPixmap
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -32,7 +32,9 @@ from app.encoding import shown
 from app.errors import AppError, Message
 from app.rig.figure import Figure
 from widgets.common.character_picture import Crop, Seen, picture, seen
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
+from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label, verbatim, verbatim_title
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopRequested
@@ -56,7 +58,7 @@ _SOON_MS: Final = 60
 """A drag asks for many pictures: the next is drawn when it rests so long, or moves on slowly."""
 
 
-class CharacterDialog(QDialog):
+class CharacterDialog(Retranslated, QDialog):
     """A character of a file that was read.
 
     Parameters
@@ -99,24 +101,20 @@ class CharacterDialog(QDialog):
         """A character ready to be drawn, and what it was made from."""
         self._drawing = False
         self._wants_picture = False
-        self.title = QLineEdit(draft.title)
-        self.title.setObjectName("character_title")
+        self.title = named(QLineEdit(draft.title), "character_title")
         self._source, self._reported, self._picture = Label(), Label(), Label()
         self._legend = [(Label(sign), Label()) for sign in ("●", "◉", "○")]
         self._picture.setObjectName("character_picture")
         self._reported.setObjectName("character_told")
         self.body = BodyMap(session, self._joint_text)
-        self.rows = QTreeWidget()
-        self.rows.setObjectName("joint_list")
+        self.rows = named(QTreeWidget(), "joint_list")
         self._items = {joint: QTreeWidgetItem() for joint in joints()}
         self.bones = BoneTree(session, figure)
         self.faces = FaceMapPage(session, figure.morph_names)
-        self.tabs = QTabWidget()
-        self.tabs.setObjectName("character_tabs")
+        self.tabs = named(QTabWidget(), "character_tabs")
         self._none, self._automatic = QPushButton(), QPushButton()
         self._undo, self._redo, self._reset = QPushButton(), QPushButton(), QPushButton()
-        self.give = QCheckBox()
-        self.give.setObjectName("character_give")
+        self.give = named(QCheckBox(), "character_give")
         self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
         self._title_name = Label()
         self._soon = QTimer(self, singleShot=True, interval=_SOON_MS)
@@ -159,10 +157,6 @@ class CharacterDialog(QDialog):
         self._picture.setFixedSize(PICTURE_PX)
         self._picture.setAlignment(Qt.AlignmentFlag.AlignCenter)
         body_page = QWidget()
-        columns = QHBoxLayout(body_page)
-        columns.setContentsMargins(0, 8, 0, 0)
-        drawn = QVBoxLayout()
-        drawn.addWidget(self.body, 1)
         legend = QHBoxLayout()
         legend.addStretch(1)
         for sign, text in self._legend:
@@ -170,16 +164,10 @@ class CharacterDialog(QDialog):
             legend.addWidget(text)
             legend.addSpacing(8)
         legend.addStretch(1)
-        drawn.addLayout(legend)
-        columns.addLayout(drawn, 5)
-        columns.addWidget(self.rows, 4)
-        choice = QVBoxLayout()
-        choice.addWidget(self.bones, 1)
-        line = QHBoxLayout()
-        line.addWidget(self._none)
-        line.addWidget(self._automatic)
-        choice.addLayout(line)
-        columns.addLayout(choice, 5)
+        drawn = in_column((self.body, 1), legend)
+        line = in_row(self._none, self._automatic)
+        choice = in_column((self.bones, 1), line)
+        in_row((drawn, 5), (self.rows, 4), (choice, 5), of=body_page, margins=(0, 8, 0, 0))
         self.tabs.addTab(body_page, "")
         self.tabs.addTab(self.faces, "")
         side = QVBoxLayout()
@@ -200,19 +188,14 @@ class CharacterDialog(QDialog):
         side_box.setLayout(side)
         side_box.setFixedWidth(PICTURE_PX.width() + 24)
         side.setContentsMargins(12, 0, 0, 0)
-        middle = QHBoxLayout()
-        middle.addWidget(self.tabs, 1)
-        middle.addWidget(side_box)
+        middle = in_row((self.tabs, 1), side_box)
         bottom = QHBoxLayout()
         for button in (self._undo, self._redo, self._reset):
             bottom.addWidget(button)
         bottom.addStretch(1)
         bottom.addWidget(self.give)
         bottom.addWidget(self._buttons)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(12, 12, 12, 12)
-        page.addLayout(middle, 1)
-        page.addLayout(bottom)
+        in_column((middle, 1), bottom, of=self, margins=12)
 
     def _connect(self) -> None:
         self.body.chosen.connect(self.choose)
@@ -451,9 +434,3 @@ class CharacterDialog(QDialog):
             self.redo()
         else:
             super().keyPressEvent(event)
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

@@ -6,12 +6,14 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 import numpy as np
-from PySide6.QtCore import QEvent, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QPushButton, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QPushButton, QToolButton, QWidget
 
 from app.choreography.cuts_by_hand import Cuts
+from widgets.common.controls import Retranslated
 from widgets.common.icons import icon
+from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.dialogs.cut_figure import PoseFigure, pose_of
@@ -50,7 +52,7 @@ class CutHistory:
         return self.undone.pop()
 
 
-class CutPanel(QWidget):
+class CutPanel(Retranslated, QWidget):
     """The plot, the figure and the tools.
 
     Signals
@@ -90,14 +92,8 @@ class CutPanel(QWidget):
             tools.addWidget(button)
         tools.addWidget(self._snap)
         tools.addWidget(self._reset)
-        pictures = QHBoxLayout()
-        pictures.addWidget(self.plot, 1)
-        pictures.addWidget(self.figure)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(0, 0, 0, 0)
-        page.addLayout(tools)
-        page.addLayout(pictures, 1)
-        page.addWidget(self._hint)
+        pictures = in_row((self.plot, 1), self.figure)
+        in_column(tools, (pictures, 1), self._hint, of=self, margins=0)
         self.plot.edited.connect(self._edit)
         self.plot.pointed.connect(self._point)
         self._snap.toggled.connect(self._set_snaps)
@@ -193,10 +189,3 @@ class CutPanel(QWidget):
         self._reset.setText(self.tr("cut_panel.reset_to_automatic"))
         self._hint.setText(self.tr("cut_panel.angular_acceleration_rad_s_over"))
         self._show_tools()
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

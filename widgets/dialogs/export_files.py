@@ -7,20 +7,18 @@ from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
     QFormLayout,
-    QHBoxLayout,
     QListWidget,
     QListWidgetItem,
     QProgressBar,
     QPushButton,
     QScrollArea,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -32,6 +30,8 @@ from app.performance.span import bars_span, whole_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
 from app.project.model import Player
 from metadata.load import load_bone_names
+from widgets.common.controls import Retranslated, named
+from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session, Severity
@@ -56,7 +56,7 @@ def _some(names: tuple[str, ...]) -> str:
     return ", ".join(names[:_NAMES]) + (" …" if len(names) > _NAMES else "")
 
 
-class ExportDialog(QDialog):
+class ExportDialog(Retranslated, QDialog):
     """Writes the players' files; stays usable while it works, and says what was written.
 
     Parameters
@@ -95,8 +95,7 @@ class ExportDialog(QDialog):
         self._running = False
         self._stop = threading.Event()
 
-        self._players = QListWidget()
-        self._players.setObjectName("export_players")
+        self._players = named(QListWidget(), "export_players")
         performers = [(one.id, one.name) for one in self._project.bodies]
         performers += [(one.id, one.name) for one in self._project.dancers]
         for performer_id, name in performers:
@@ -106,36 +105,31 @@ class ExportDialog(QDialog):
             item.setCheckState(Qt.CheckState.Checked)
             item.setSizeHint(QSize(0, LEAST_TARGET_PX))
             self._players.addItem(item)
-        self._everybody = QPushButton()
-        self._everybody.setObjectName("export_everybody")
+        self._everybody = named(QPushButton(), "export_everybody")
         self._everybody.setAutoDefault(False)
         self._everybody.clicked.connect(self._toggle_everybody)
         self._place = PlaceChooser(folder, unreal, destination)
         self._shown_folder = folder
         self._formats = FormatChooser()
-        self._bvh_names = ComboBox()
-        self._bvh_names.setObjectName("export_bvh_names")
+        self._bvh_names = named(ComboBox(), "export_bvh_names")
         # As wide as there is room, not as the longest title.
         self._bvh_names.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self._bvh_names.addItem("", "")
         for profile, table in load_bone_names().items():
             self._bvh_names.addItem(table.title, profile)
         self._range = RangeChooser(session, self._project.score)
-        self._preroll = QDoubleSpinBox()
-        self._preroll.setObjectName("export_preroll")
+        self._preroll = named(QDoubleSpinBox(), "export_preroll")
         self._preroll.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
         self._preroll.setRange(0.0, 64.0)
         self._preroll.setSingleStep(1.0)
         self._preroll.setDecimals(2)
         self._preroll.setValue(self._project.preroll_beats)
-        self._rate = ComboBox()
-        self._rate.setObjectName("export_rate")
+        self._rate = named(ComboBox(), "export_rate")
         for rate in sorted({*USUAL_RATES, self._project.fps}):
             self._rate.addItem(frame_rate_text(rate), str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(self._project.fps)))
         self._skeleton = SkeletonChooser(session, self._chosen_players)
-        self._files = Label()
-        self._files.setObjectName("export_outcome")
+        self._files = named(Label(), "export_outcome")
         self._files.setWordWrap(True)
         self._files.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         # Whoever is left out of an orchestra may take more lines than there is room for.
@@ -148,14 +142,11 @@ class ExportDialog(QDialog):
         self._progress.setRange(0, 1000)
         self._progress.hide()
         self._buttons = QDialogButtonBox()
-        self._export = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole)
-        self._export.setObjectName("export_start")
+        self._export = named(self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole), "export_start")
         self._export.setDefault(True)
-        self._show = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole)
-        self._show.setObjectName("export_show_folder")
+        self._show = named(self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole), "export_show_folder")
         self._show.hide()
-        self._close = self._buttons.addButton("", QDialogButtonBox.ButtonRole.RejectRole)
-        self._close.setObjectName("export_close")
+        self._close = named(self._buttons.addButton("", QDialogButtonBox.ButtonRole.RejectRole), "export_close")
         self._export.clicked.connect(self.start)
         self._show.clicked.connect(self._show_folder)
         self._close.clicked.connect(self._close_or_cancel)
@@ -176,12 +167,8 @@ class ExportDialog(QDialog):
         self.retranslate()
 
     def _lay_out(self) -> None:
-        left = QVBoxLayout()
-        top = QHBoxLayout()
-        top.addWidget(self._labels["players"], 1)
-        top.addWidget(self._everybody)
-        left.addLayout(top)
-        left.addWidget(self._players, 1)
+        top = in_row((self._labels["players"], 1), self._everybody)
+        left = in_column(top, (self._players, 1))
         self._form = form = QFormLayout()
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         form.addRow(self._labels["into"], self._place)
@@ -192,14 +179,8 @@ class ExportDialog(QDialog):
         form.addRow(self._labels["preroll"], self._preroll)
         form.addRow(self._labels["rate"], self._rate)
         form.addRow(self._labels["outcome"], self._outcome)
-        columns = QHBoxLayout()
-        columns.setSpacing(18)
-        columns.addLayout(left, 1)
-        columns.addLayout(form, 2)
-        layout = QVBoxLayout(self)
-        layout.addLayout(columns, 1)
-        layout.addWidget(self._progress)
-        layout.addWidget(self._buttons)
+        columns = in_row((left, 1), (form, 2), spacing=18)
+        in_column((columns, 1), self._progress, self._buttons, of=self)
 
     # What is requested
 
@@ -405,11 +386,6 @@ class ExportDialog(QDialog):
 
     def sizeHint(self) -> QSize:
         return QSize(860, 440)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         if self._running:

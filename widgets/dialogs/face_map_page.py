@@ -8,7 +8,6 @@ from functools import partial
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QHeaderView,
     QPushButton,
     QToolButton,
@@ -20,7 +19,9 @@ from PySide6.QtWidgets import (
 
 from metadata.model import ARKIT_MORPHS
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import named
 from widgets.common.icons import icon
+from widgets.common.layouts import in_column, in_row
 from widgets.common.morph_names import morph_name
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
@@ -60,8 +61,7 @@ class FaceMapPage(QWidget):
         self._face = ARKIT_MORPHS[0]
         self._listed: tuple[object, ...] = ()
         self._rows = list[_Part]()
-        self.list = QTreeWidget()
-        self.list.setObjectName("face_list")
+        self.list = named(QTreeWidget(), "face_list")
         self.list.setColumnCount(2)
         self.list.setRootIsDecorated(False)
         self.list.setUniformRowHeights(True)
@@ -74,11 +74,9 @@ class FaceMapPage(QWidget):
         self.list.currentItemChanged.connect(self._chosen)
         self._title, self._none = Label(), Label()
         self._none.setWordWrap(True)
-        self._add = Combo()
-        self._add.setObjectName("face_add")
+        self._add = named(Combo(), "face_add")
         self._add.chosen.connect(self._add_part)
-        self._reset = QPushButton()
-        self._reset.setObjectName("face_reset")
+        self._reset = named(QPushButton(), "face_reset")
         self._reset.setAutoDefault(False)
         self._reset.clicked.connect(lambda: self.changed.emit(self._face, None, None))
         self._column = QVBoxLayout()
@@ -88,19 +86,9 @@ class FaceMapPage(QWidget):
         self.retranslate()
 
     def _build(self) -> None:
-        editor = QVBoxLayout()
-        editor.setSpacing(6)
-        editor.addWidget(self._title)
-        editor.addWidget(self._none)
-        editor.addLayout(self._column)
-        line = QHBoxLayout()
-        line.addWidget(self._add, 1)
-        line.addWidget(self._reset)
-        editor.addLayout(line)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(0, 8, 0, 0)
-        page.addWidget(self.list, 1)
-        page.addLayout(editor)
+        line = in_row((self._add, 1), self._reset)
+        editor = in_column(self._title, self._none, self._column, line, spacing=6)
+        in_column((self.list, 1), editor, of=self, margins=(0, 8, 0, 0))
 
     @property
     def face(self) -> str:
@@ -200,16 +188,11 @@ class _Part(QWidget):
     def __init__(self, session: Session, morph: str) -> None:
         super().__init__()
         self.morph = morph
-        self.slider = NumberSlider(session, 0.0, MOST_FACTOR, default=1.0, step=0.05)
-        self.slider.setObjectName(f"face_part_{morph}")
+        self.slider = named(NumberSlider(session, 0.0, MOST_FACTOR, default=1.0, step=0.05), f"face_part_{morph}")
         self.slider.set_texts(morph)
-        self.remove = QToolButton()
-        self.remove.setObjectName(f"face_remove_{morph}")
+        self.remove = named(QToolButton(), f"face_remove_{morph}")
         self.remove.setIcon(icon("close", session.tokens))
-        line = QHBoxLayout(self)
-        line.setContentsMargins(0, 0, 0, 0)
-        line.addWidget(self.slider, 1)
-        line.addWidget(self.remove)
+        in_row((self.slider, 1), self.remove, of=self, margins=0)
 
 
 def made_of(parts: Mapping[str, float]) -> str:

@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Final
 
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QDialog, QDoubleSpinBox, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QDoubleSpinBox, QPushButton, QWidget
 
 from app.audio.click import steady_clicks
 from app.audio.playback import Playback
 from app.audio.track import Mix
 from app.capture.latency import LATEST_S, LEAST_HITS, Measured, hits, measured, placed
 from app.capture.protocol import Events
+from widgets.common.controls import Retranslated, named
+from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.session import Session
 
@@ -30,7 +32,7 @@ _SHOWN_S: Final = (-0.1, 0.3)
 CLICKS_S: Final = tuple(PERIOD_S * (1 + index) for index in range(LEAD + COUNTED))
 
 
-class LatencyDialog(QDialog):
+class LatencyDialog(Retranslated, QDialog):
     """Not modal; what is found or typed is taken over with a button.
 
     Parameters
@@ -66,8 +68,7 @@ class LatencyDialog(QDialog):
         self._explained, self._reported, self._value_name = Label(), Label(), Label()
         self._reported.setObjectName("latency_told")
         self.chart = HitChart(session)
-        self.value = QDoubleSpinBox()
-        self.value.setObjectName("latency_value")
+        self.value = named(QDoubleSpinBox(), "latency_value")
         self.value.setRange(-500.0, 1000.0)
         self.value.setDecimals(0)
         self.value.setSingleStep(1.0)
@@ -99,18 +100,8 @@ class LatencyDialog(QDialog):
         for button in (self._take, self._close):
             button.setAutoDefault(False)
         self._start.setDefault(True)
-        bottom = QHBoxLayout()
-        bottom.addWidget(self._start)
-        bottom.addStretch(1)
-        bottom.addWidget(self._value_name)
-        bottom.addWidget(self.value)
-        bottom.addWidget(self._take)
-        bottom.addWidget(self._close)
-        page = QVBoxLayout(self)
-        page.addWidget(self._explained)
-        page.addWidget(self.chart, 1)
-        page.addWidget(self._reported)
-        page.addLayout(bottom)
+        bottom = in_row(self._start, STRETCH, self._value_name, self.value, self._take, self._close)
+        in_column(self._explained, (self.chart, 1), self._reported, bottom, of=self)
 
     # Measuring
 
@@ -268,11 +259,6 @@ class LatencyDialog(QDialog):
             self._stop()
             return
         super().keyPressEvent(event)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 class HitChart(QWidget):

@@ -9,19 +9,17 @@ from pathlib import Path
 from typing import Final
 
 import msgspec
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QColor, QDragEnterEvent, QDropEvent, QKeyEvent
 from PySide6.QtWidgets import (
     QDialog,
     QFormLayout,
-    QHBoxLayout,
     QHeaderView,
     QProgressBar,
     QPushButton,
     QSpinBox,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -33,6 +31,8 @@ from app.choreography.music_offset import CONFIDENT
 from app.choreography.read_pair import CREDITS_SUFFIX, read_pair
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
+from widgets.common.controls import Retranslated
+from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.paths import PathEdit, ask_for_files, ask_where_to_save, dropped_paths
 from widgets.common.plain import Label
 from widgets.common.session import Session
@@ -93,7 +93,7 @@ class _Learned:
     rows: tuple[_Row, ...]
 
 
-class LearnDialog(QDialog):
+class LearnDialog(Retranslated, QDialog):
     """Learns a choreography. Not modal.
 
     Signals
@@ -173,48 +173,23 @@ class LearnDialog(QDialog):
         self._progress.hide()
         self._use.hide()
 
-        tools = QHBoxLayout()
-        tools.addWidget(self._add)
-        tools.addWidget(self._remove)
-        tools.addStretch(1)
-        left = QVBoxLayout()
-        left.addWidget(self.list, 1)
-        left.addLayout(tools)
+        tools = in_row(self._add, self._remove, STRETCH)
+        left = in_column((self.list, 1), tools)
         self._top = QWidget()
-        top = QHBoxLayout(self._top)
-        top.setContentsMargins(0, 0, 0, 0)
-        top.setSpacing(14)
-        top.addLayout(left, 1)
-        top.addWidget(self.form)
+        in_row((left, 1), self.form, of=self._top, margins=0, spacing=14)
         self.form.setFixedWidth(_FORM_PX)
-        numbers = QHBoxLayout()
-        numbers.addWidget(self._states)
-        numbers.addSpacing(14)
-        numbers.addWidget(self._labels["seed"])
-        numbers.addWidget(self._seed)
-        numbers.addStretch(1)
-        file = QHBoxLayout()
-        file.addWidget(self._file, 1)
-        file.addWidget(self._choose)
+        numbers = in_row(self._states, 14, self._labels["seed"], self._seed, STRETCH)
+        file = in_row((self._file, 1), self._choose)
         whole = QFormLayout()
         whole.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         whole.addRow(self._labels["states"], numbers)
         whole.addRow(self._labels["file"], file)
         for name, widget in {"states": self._states, "seed": self._seed, "file": self._file}.items():
             self._labels[name].setBuddy(widget)
-        bottom = QHBoxLayout()
-        bottom.addWidget(self._progress, 20)
-        bottom.addStretch(1)
+        bottom = in_row((self._progress, 20), STRETCH)
         for button in (self._use, self._learn, self._close):
             bottom.addWidget(button)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(14, 14, 14, 14)
-        page.setSpacing(10)
-        page.addWidget(self._top, 2)
-        page.addWidget(self.cuts, 3)
-        page.addLayout(whole)
-        page.addWidget(self._state)
-        page.addLayout(bottom)
+        in_column((self._top, 2), (self.cuts, 3), whole, self._state, bottom, of=self, margins=14, spacing=10)
 
     def _connect(self) -> None:
         session = self._session
@@ -543,11 +518,6 @@ class LearnDialog(QDialog):
         self._show_all()
 
     # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Delete and self.list.hasFocus():

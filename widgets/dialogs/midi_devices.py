@@ -6,13 +6,12 @@ The dialog asks by its signals; what holds is what `session.recording` says.
 from __future__ import annotations
 
 import msgspec
-from PySide6.QtCore import QEvent, Qt, QTimer, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QKeyEvent
 from PySide6.QtWidgets import (
     QDialog,
     QFormLayout,
     QGroupBox,
-    QHBoxLayout,
     QHeaderView,
     QPushButton,
     QTreeWidget,
@@ -29,7 +28,9 @@ from app.capture.protocol import Events
 from metadata.load import load_controllers
 from metadata.model import BiteSource
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Retranslated, named
 from widgets.common.instrument_name import language
+from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.text import sentence
@@ -42,7 +43,7 @@ _CHANNELS = 16
 _SIDE_PX = 300
 
 
-class MidiDevicesDialog(QDialog):
+class MidiDevicesDialog(Retranslated, QDialog):
     """Devices, the kind of the chosen one, and a monitor. Not modal: one plays, and looks.
 
     Parameters
@@ -80,8 +81,7 @@ class MidiDevicesDialog(QDialog):
         """The breath that was found, and from what, while the bite is looked for."""
         self._left_s = 0
         self._listed: tuple[object, ...] = ()
-        self._list = QTreeWidget()
-        self._list.setObjectName("midi_device_list")
+        self._list = named(QTreeWidget(), "midi_device_list")
         self._hint, self._reported, self._heard, self._late = (Label() for _ in range(4))
         self._kind, self._channel, self._breath, self._bite = (Combo() for _ in range(4))
         self._rows = {widget: Label() for widget in (self._kind, self._channel, self._breath, self._bite)}
@@ -121,32 +121,20 @@ class MidiDevicesDialog(QDialog):
         for button in (self._learn, self._measure, self._beep, self._close):
             # Enter in the list is no answer.
             button.setAutoDefault(False)
-        late = QHBoxLayout()
-        late.addWidget(self._late, 1)
-        late.addWidget(self._measure)
+        late = in_row((self._late, 1), self._measure)
         form = QFormLayout(self._device)
         for widget, name in self._rows.items():
             form.addRow(name, widget)
         form.addRow(self._learn)
         form.addRow(self._reported)
         form.addRow(self._late_name, late)
-        left = QVBoxLayout()
-        left.addWidget(self._list, 1)
-        left.addWidget(self._hint)
-        left.addWidget(self._device)
+        left = in_column((self._list, 1), self._hint, self._device)
         QVBoxLayout(self._incoming).addWidget(self._monitor)
-        columns = QHBoxLayout()
-        columns.addLayout(left, 1)
-        columns.addWidget(self._incoming, 1)
+        columns = in_row((left, 1), (self._incoming, 1))
         self._device.setMinimumWidth(_SIDE_PX)
         self._incoming.setMinimumWidth(_SIDE_PX)
-        bottom = QHBoxLayout()
-        bottom.addWidget(self._beep)
-        bottom.addWidget(self._heard, 1)
-        bottom.addWidget(self._close)
-        page = QVBoxLayout(self)
-        page.addLayout(columns, 1)
-        page.addLayout(bottom)
+        bottom = in_row(self._beep, (self._heard, 1), self._close)
+        in_column((columns, 1), bottom, of=self)
 
     def _connect(self) -> None:
         session, recording = self._session, self._session.recording
@@ -390,8 +378,3 @@ class MidiDevicesDialog(QDialog):
             self._toggle_learning()
             return
         super().keyPressEvent(event)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

@@ -7,16 +7,14 @@ from fractions import Fraction
 from functools import partial
 from typing import Any, TypeVar, cast
 
-from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
     QFormLayout,
-    QHBoxLayout,
     QLineEdit,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -25,7 +23,9 @@ from app.project import limits
 from app.project.edit.generation import vary_everyone
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_seed, usual_settings
 from app.project.frame_rate import USUAL_RATES, frame_rate, frame_rate_text
+from widgets.common.controls import Retranslated
 from widgets.common.icons import icon
+from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX
@@ -37,7 +37,7 @@ PROBLEM_PX = 40
 Value = TypeVar("Value", str, float)
 
 
-class PieceSettingsDialog(QDialog):
+class PieceSettingsDialog(Retranslated, QDialog):
     """Changes the settings of the piece in one step, or none.
 
     Parameters
@@ -108,18 +108,12 @@ class PieceSettingsDialog(QDialog):
         self._title.setFocus()
 
     def _lay_out(self, fields: dict[str, QWidget]) -> None:
-        seed = QHBoxLayout()
-        seed.addWidget(self._seed, 1)
-        seed.addWidget(self._randomise)
+        seed = in_row((self._seed, 1), self._randomise)
         form = QFormLayout()
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         for name, field in fields.items():
             form.addRow(self._labels[name], seed if field is self._seed else field)
-        layout = QVBoxLayout(self)
-        layout.addLayout(form)
-        layout.addWidget(self._problem)
-        layout.addStretch(1)
-        layout.addWidget(self._buttons)
+        in_column(form, self._problem, STRETCH, self._buttons, of=self)
 
     # What is chosen
 
@@ -264,11 +258,6 @@ class PieceSettingsDialog(QDialog):
 
     def sizeHint(self) -> QSize:
         return QSize(580, 290)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 class _Beats(QDoubleSpinBox):

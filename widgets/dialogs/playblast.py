@@ -12,17 +12,15 @@ from typing import Final
 
 import numpy as np
 import numpy.typing as npt
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QDialog,
     QDialogButtonBox,
     QFormLayout,
-    QHBoxLayout,
     QProgressBar,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -31,6 +29,8 @@ from app.errors import AppError, Cancelled, Message
 from app.export.video import video_into
 from app.performance.span import FrameSpan, cut_span, whole_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
+from widgets.common.controls import Retranslated, named
+from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import PathEdit, ask_where_to_save, show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
@@ -51,7 +51,7 @@ _AHEAD = 8
 """Pictures drawn before the encoder has taken them."""
 
 
-class PlayblastDialog(QDialog):
+class PlayblastDialog(Retranslated, QDialog):
     """Makes a film of the viewport.
 
     Parameters
@@ -84,43 +84,33 @@ class PlayblastDialog(QDialog):
         self._span: FrameSpan | None = None
         self._drawn = 0
 
-        self._size = ComboBox()
-        self._size.setObjectName("playblast_size")
+        self._size = named(ComboBox(), "playblast_size")
         for width, height in SIZES:
             self._size.addItem(f"{width} × {height}", (width, height))
-        self._rate = ComboBox()
-        self._rate.setObjectName("playblast_rate")
+        self._rate = named(ComboBox(), "playblast_rate")
         for rate in sorted({*USUAL_RATES, session.project.fps}):
             self._rate.addItem(frame_rate_text(rate), str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(min(session.project.fps, Fraction(30)))))
-        self._range = ComboBox()
-        self._range.setObjectName("playblast_range")
-        self._view = ComboBox()
-        self._view.setObjectName("playblast_view")
-        self._with_sound = QCheckBox()
-        self._with_sound.setObjectName("playblast_sound")
+        self._range = named(ComboBox(), "playblast_range")
+        self._view = named(ComboBox(), "playblast_view")
+        self._with_sound = named(QCheckBox(), "playblast_sound")
         self._with_sound.setChecked(True)
-        self._file = PathEdit(path)
-        self._file.setObjectName("playblast_file")
+        self._file = named(PathEdit(path), "playblast_file")
         self._choose = QPushButton()
         self._choose.setAutoDefault(False)
         self._choose.clicked.connect(self._choose_file)
-        self._state = Label()
-        self._state.setObjectName("playblast_state")
+        self._state = named(Label(), "playblast_state")
         self._state.setWordWrap(True)
         self._state.setMinimumHeight(40)
         self._progress = QProgressBar()
         self._progress.setRange(0, 1000)
         self._progress.hide()
         self._buttons = QDialogButtonBox()
-        self._start = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole)
-        self._start.setObjectName("playblast_start")
+        self._start = named(self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole), "playblast_start")
         self._start.setDefault(True)
-        self._show = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole)
-        self._show.setObjectName("playblast_show_folder")
+        self._show = named(self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole), "playblast_show_folder")
         self._show.hide()
-        self._close = self._buttons.addButton("", QDialogButtonBox.ButtonRole.RejectRole)
-        self._close.setObjectName("playblast_close")
+        self._close = named(self._buttons.addButton("", QDialogButtonBox.ButtonRole.RejectRole), "playblast_close")
         self._start.clicked.connect(self.start)
         self._show.clicked.connect(self._show_folder)
         self._close.clicked.connect(self._close_or_cancel)
@@ -134,20 +124,14 @@ class PlayblastDialog(QDialog):
         self._labels = {name: Label() for name in ("size", "rate", "range", "view", "sound", "file")}
         form = QFormLayout()
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        file = QHBoxLayout()
-        file.addWidget(self._file, 1)
-        file.addWidget(self._choose)
+        file = in_row((self._file, 1), self._choose)
         form.addRow(self._labels["view"], self._view)
         form.addRow(self._labels["range"], self._range)
         form.addRow(self._labels["size"], self._size)
         form.addRow(self._labels["rate"], self._rate)
         form.addRow(self._labels["sound"], self._with_sound)
         form.addRow(self._labels["file"], file)
-        layout = QVBoxLayout(self)
-        layout.addLayout(form)
-        layout.addWidget(self._state, 1)
-        layout.addWidget(self._progress)
-        layout.addWidget(self._buttons)
+        in_column(form, (self._state, 1), self._progress, self._buttons, of=self)
         self.retranslate()
 
     def start(self) -> None:
@@ -306,11 +290,6 @@ class PlayblastDialog(QDialog):
 
     def sizeHint(self) -> QSize:
         return QSize(620, 360)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         if self._running:

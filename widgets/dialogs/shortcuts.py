@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHBoxLayout,
     QHeaderView,
     QKeySequenceEdit,
     QLineEdit,
     QPushButton,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
+from widgets.common.controls import Retranslated, named
+from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.session import Session
 
@@ -47,7 +47,7 @@ class ShortcutRow:
     default: str
 
 
-class ShortcutsPage(QWidget):
+class ShortcutsPage(Retranslated, QWidget):
     """The page of the shortcuts.
 
     Parameters
@@ -81,12 +81,10 @@ class ShortcutsPage(QWidget):
         self._session, self._rows_now, self._conflicts = session, rows, conflicts
         self._menu_of = menu_of
         self._rows: dict[str, ShortcutRow] = {}
-        self.search = QLineEdit()
-        self.search.setObjectName("shortcut_search")
+        self.search = named(QLineEdit(), "shortcut_search")
         self.search.setClearButtonEnabled(True)
         self.search.textChanged.connect(self._filter)
-        self.list = QTreeWidget()
-        self.list.setObjectName("shortcut_list")
+        self.list = named(QTreeWidget(), "shortcut_list")
         self.list.setColumnCount(4)
         self.list.setRootIsDecorated(False)
         self.list.setUniformRowHeights(True)
@@ -98,8 +96,7 @@ class ShortcutsPage(QWidget):
         for column in (_PLACE, _KEYS, _CONTEXT):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
         self._label = Label()
-        self.edit = QKeySequenceEdit()
-        self.edit.setObjectName("shortcut_edit")
+        self.edit = named(QKeySequenceEdit(), "shortcut_edit")
         self.edit.setClearButtonEnabled(True)
         self.edit.setMaximumSequenceLength(1)
         self.edit.keySequenceChanged.connect(self._changed)
@@ -115,23 +112,11 @@ class ShortcutsPage(QWidget):
         self.take.clicked.connect(self._take)
         self.back.clicked.connect(self._back)
         self.all_back.clicked.connect(self._all_back)
-        self.reported = Label()
-        self.reported.setObjectName("shortcut_told")
+        self.reported = named(Label(), "shortcut_told")
         self.reported.setWordWrap(True)
-        line = QHBoxLayout()
-        line.addWidget(self._label)
-        line.addWidget(self.edit, 1)
-        line.addWidget(self.give)
-        line.addWidget(self.take)
-        line.addWidget(self.back)
-        bottom = QHBoxLayout()
-        bottom.addWidget(self.reported, 1)
-        bottom.addWidget(self.all_back)
-        page = QVBoxLayout(self)
-        page.addWidget(self.search)
-        page.addWidget(self.list, 1)
-        page.addLayout(line)
-        page.addLayout(bottom)
+        line = in_row(self._label, (self.edit, 1), self.give, self.take, self.back)
+        bottom = in_row((self.reported, 1), self.all_back)
+        in_column(self.search, (self.list, 1), line, bottom, of=self)
         self.retranslate()
 
     def retranslate(self) -> None:
@@ -252,12 +237,6 @@ class ShortcutsPage(QWidget):
             if row.keys != row.default:
                 self.chosen.emit(row.id, None)
         self._fill()
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def native(keys: str) -> str:

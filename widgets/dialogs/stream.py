@@ -5,24 +5,24 @@ What is chosen holds at once, in `session.streaming`.
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QDialog,
     QFormLayout,
-    QHBoxLayout,
     QHeaderView,
     QLineEdit,
     QPushButton,
     QSpinBox,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
 from app.stream.sender import LEAST_PORT, LOOPBACK, MOST_PORT, TO_MANY, is_loopback
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Retranslated
+from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.streaming import RATES_HZ
@@ -32,7 +32,7 @@ _LIST_PX = 130
 """Four players are seen."""
 
 
-class StreamDialog(QDialog):
+class StreamDialog(Retranslated, QDialog):
     """The live stream. Not modal: one plays, and looks at the other program.
 
     Parameters
@@ -96,9 +96,7 @@ class StreamDialog(QDialog):
         header.setStretchLastSection(False)
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
-        host = QHBoxLayout()
-        host.addWidget(self._host, 1)
-        host.addWidget(self._here)
+        host = in_row((self._host, 1), self._here)
         form = QFormLayout()
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         for field, label in self._names.items():
@@ -107,22 +105,11 @@ class StreamDialog(QDialog):
                 form.addRow(label, host)
             else:
                 form.addRow(label, field)
-        bottom = QHBoxLayout()
-        bottom.addWidget(self._toggle)
-        bottom.addStretch(1)
-        bottom.addWidget(self._close)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(14, 14, 14, 14)
-        page.setSpacing(10)
-        page.addWidget(self._explained)
-        page.addLayout(form)
-        page.addWidget(self._warning)
-        page.addWidget(self._list, 1)
-        reported = QHBoxLayout()
-        reported.addWidget(self._reported, 1)
-        reported.addWidget(self._anyway)
-        page.addLayout(reported)
-        page.addLayout(bottom)
+        bottom = in_row(self._toggle, STRETCH, self._close)
+        reported = in_row((self._reported, 1), self._anyway)
+        in_column(
+            self._explained, form, self._warning, (self._list, 1), reported, bottom, of=self, margins=14, spacing=10
+        )
 
     def _choose_host(self) -> None:
         self._state.set(host=self._host.text().strip() or LOOPBACK)
@@ -212,12 +199,6 @@ class StreamDialog(QDialog):
         self._anyway.setText(self.tr("stream_dialog.send_anyway"))
         self._listed = ()
         self._show()
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def _state_text(self) -> tuple[str, str]:
         """How it goes, and the colour of that."""

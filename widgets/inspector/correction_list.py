@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QPushButton, QWidget
 
 from app.errors import Message
 from app.plan.corrections import Correction, PinFingering, SetEmbouchure, Vary
@@ -14,7 +14,9 @@ from app.project.edit import events as edit
 from app.project.edit.corrections import take_back
 from app.project.model import Player, Project
 from app.project.reimport import orphaned, reattached
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
+from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
@@ -37,14 +39,13 @@ class Place:
     orphan: bool
 
 
-class CorrectionList(QWidget):
+class CorrectionList(Retranslated, QWidget):
     """Corrections of the selected players, those that lost their place first."""
 
     def __init__(self, session: Session, generated: Generated, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session, self._generated = session, generated
-        self.list = LineList(session)
-        self.list.setObjectName("correction_list")
+        self.list = named(LineList(session), "correction_list")
         self._empty = Label()
         self._empty.setWordWrap(True)
         self._empty.setMargin(12)
@@ -53,22 +54,12 @@ class CorrectionList(QWidget):
         self._revert.setObjectName("revert_selected")
         self._revert_all.setObjectName("revert_player")
         self._attach.setObjectName("reattach")
-        buttons = QHBoxLayout()
-        buttons.setContentsMargins(6, 6, 6, 6)
-        buttons.setSpacing(4)
+        buttons = in_row(margins=6, spacing=4)
         for button in (self._revert, self._revert_all):
             button.setMinimumWidth(40)
             buttons.addWidget(button, 1)
-        attach = QHBoxLayout()
-        attach.setContentsMargins(6, 6, 6, 0)
-        attach.addWidget(self._attach)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.list, 1)
-        layout.addWidget(self._empty, 1)
-        layout.addLayout(attach)
-        layout.addLayout(buttons)
+        attach = in_row(self._attach, margins=(6, 6, 6, 0))
+        in_column((self.list, 1), (self._empty, 1), attach, buttons, of=self, margins=0, spacing=0)
         self.list.opened.connect(self._open)
         self.list.deleted.connect(self._revert_selected)
         self.list.selectionModel().selectionChanged.connect(self._show_buttons)
@@ -258,11 +249,6 @@ class CorrectionList(QWidget):
 
     def showEvent(self, event: QEvent) -> None:
         self.show_corrections()
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def _place(line: ListRow) -> Place:

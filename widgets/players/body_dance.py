@@ -6,8 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QHBoxLayout, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QToolButton, QVBoxLayout, QWidget
 
 from app.choreography.library import bundled_choreographies
 from app.choreography.model_file import SUFFIX
@@ -17,7 +16,9 @@ from app.project.edit import body_dance as edit
 from app.project.edit.players import parameter_edit, reset_parameters, set_parameters
 from app.project.model import Player, Project
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
+from widgets.common.layouts import in_row
 from widgets.common.paths import ask_for_file
 from widgets.common.plain import Label
 from widgets.common.session import Session
@@ -31,7 +32,7 @@ _DANCED = PARAMETERS["choreography"]
 _VARIATION = "dance_variation"
 
 
-class BodyDanceRows(QWidget):
+class BodyDanceRows(Retranslated, QWidget):
     """Generated or a choreography, how much of it, and which of its dances; the latter two while there is one.
 
     Parameters
@@ -46,8 +47,7 @@ class BodyDanceRows(QWidget):
         self._choreography.setObjectName("parameter_choreography")
         self._label.setBuddy(self._choreography)
         self._sliders = {one.name: ParameterSlider(session, one) for one in rows_of("dance")}
-        self._dice = QToolButton()
-        self._dice.setObjectName("dance_dice")
+        self._dice = named(QToolButton(), "dance_dice")
         self._build()
         self._choreography.chosen.connect(self._choose)
         self._dice.clicked.connect(self._vary)
@@ -60,14 +60,8 @@ class BodyDanceRows(QWidget):
         self.retranslate()
 
     def _build(self) -> None:
-        choice = QHBoxLayout()
-        choice.setSpacing(4)
-        choice.addWidget(self._label)
-        choice.addWidget(self._choreography, 1)
-        variation = QHBoxLayout()
-        variation.setSpacing(4)
-        variation.addWidget(self._sliders[_VARIATION], 1)
-        variation.addWidget(self._dice)
+        choice = in_row(self._label, (self._choreography, 1), spacing=4)
+        variation = in_row((self._sliders[_VARIATION], 1), self._dice, spacing=4)
         rows = QVBoxLayout(self)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.addLayout(choice)
@@ -143,10 +137,3 @@ class BodyDanceRows(QWidget):
         self._dice.setToolTip(self.tr("body_dance_rows.another_dance_for_each"))
         for slider in self._sliders.values():
             slider.retranslate()
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

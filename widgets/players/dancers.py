@@ -6,15 +6,13 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, Qt, QTimer
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QGridLayout,
-    QHBoxLayout,
     QMenu,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -28,8 +26,10 @@ from app.project.edit import dancers as edit
 from app.project.model import DANCER_PARAMETERS, Dancer, Project
 from app.rig.character_library import characters
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.instrument_name import character_name
+from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import ask_for_file
 from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
@@ -51,7 +51,7 @@ _MOST_ROWS = 5
 _SOURCE = DANCER_PARAMETERS["source"]
 
 
-class DancersSection(QWidget):
+class DancersSection(Retranslated, QWidget):
     """The list of dancers, and what the selected one dances, how and where.
 
     Parameters
@@ -65,13 +65,11 @@ class DancersSection(QWidget):
         self._session = session
         self._section = Section(session, "players_dancers", self)
         self._tools = {name: QToolButton() for name, _ in _TOOLS}
-        self.list = DancerList(session)
-        self.list.setObjectName("dancer_list")
+        self.list = named(DancerList(session), "dancer_list")
         self._form = QWidget()
         self._labels = {name: Label() for name in ("choreography", "character", "source")}
         self._choreography, self._character, self._source = Combo(), Combo(), Combo()
-        self._mirrored = QCheckBox()
-        self._mirrored.setObjectName("dancer_mirrored")
+        self._mirrored = named(QCheckBox(), "dancer_mirrored")
         self._look, self._dice = QToolButton(), QToolButton()
         self._look.setObjectName("dancer_look")
         self._dice.setObjectName("dancer_dice")
@@ -105,13 +103,9 @@ class DancersSection(QWidget):
             grid.addWidget(self._labels[name], row, 0)
             if combo is not self._choreography:
                 grid.addWidget(combo, row, 1)
-        choreography = QHBoxLayout()
-        choreography.setSpacing(4)
-        choreography.addWidget(self._choreography, 1)
-        choreography.addWidget(self._look)
+        choreography = in_row((self._choreography, 1), self._look, spacing=4)
         grid.addLayout(choreography, 0, 1)
-        seed = QHBoxLayout()
-        seed.setSpacing(4)
+        seed = in_row(spacing=4)
         for row, (name, slider) in enumerate(self._numbers.items(), len(combos)):
             if name == "seed":
                 seed.addWidget(slider, 1)
@@ -119,8 +113,7 @@ class DancersSection(QWidget):
                 grid.addLayout(seed, row, 0, 1, 2)
             else:
                 grid.addWidget(slider, row, 0, 1, 2)
-        place = QHBoxLayout()
-        place.setSpacing(4)
+        place = in_row(spacing=4)
         for name in ("x_m", "z_m"):
             place.addWidget(self._places[name], 1)
         grid.addWidget(self._mirrored, grid.rowCount(), 0, 1, 2)
@@ -128,9 +121,7 @@ class DancersSection(QWidget):
         grid.addWidget(self._places["turn_rad"], grid.rowCount(), 0, 1, 2)
         self._section.body.addWidget(self.list)
         self._section.body.addWidget(self._form)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._section)
+        in_column(self._section, of=self, margins=0)
 
     def _connect(self) -> None:
         session = self._session
@@ -229,8 +220,7 @@ class DancersSection(QWidget):
 
     def offer(self) -> None:
         """Ask which choreography another dancer is to dance."""
-        menu = QMenu(self)
-        menu.setObjectName("choreography_menu")
+        menu = named(QMenu(self), "choreography_menu")
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         for name in bundled_choreographies():
             menu.addAction(verbatim(name)).triggered.connect(lambda _=False, name=name: self.add(name))
@@ -362,8 +352,7 @@ class DancersSection(QWidget):
         if not actions or not self.list.rect().contains(self.list.mapFromGlobal(event.globalPos())):
             super().contextMenuEvent(event)
             return
-        menu = QMenu(self)
-        menu.setObjectName("dancers_menu")
+        menu = named(QMenu(self), "dancers_menu")
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         for id in MENU:
             if id in actions:
@@ -371,8 +360,3 @@ class DancersSection(QWidget):
             elif not id:
                 menu.addSeparator()
         menu.popup(event.globalPos())
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QPoint, Qt, QTimer
+from PySide6.QtCore import QPoint, Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent, QResizeEvent
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QMenu,
     QPushButton,
     QScrollArea,
@@ -20,8 +19,10 @@ from app.project.document import Change
 from app.project.edit import players as edit
 from app.project.edit.generation import vary_players
 from instrument_maps.library import all_maps
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
+from widgets.common.layouts import in_column, in_row
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
@@ -58,7 +59,7 @@ LIST_SHARE = 0.5
 """Of the panel: where there are many players the parameters still have room."""
 
 
-class PlayersPanel(QWidget):
+class PlayersPanel(Retranslated, QWidget):
     """The list of players, and below it the parameters of those selected.
 
     Parameters
@@ -71,8 +72,7 @@ class PlayersPanel(QWidget):
         self.setObjectName("players")
         self._session = session
         self._tools = {name: QToolButton() for name, _ in _TOOLS}
-        self.list = PlayerList(session)
-        self.list.setObjectName("player_list")
+        self.list = named(PlayerList(session), "player_list")
         self._empty = Label()
         self._empty.setWordWrap(True)
         self._empty.setContentsMargins(12, 4, 12, 4)
@@ -81,8 +81,7 @@ class PlayersPanel(QWidget):
         self._presets = PresetSection(session)
         self.dancers = DancersSection(session)
         self._variety = Section(session, "players_variety")
-        self._spread = NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05)
-        self._spread.setObjectName("spread")
+        self._spread = named(NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05), "spread")
         self._throw, self._reset = QPushButton(), QPushButton()
         self._throw.setObjectName("randomise")
         self._reset.setObjectName("reset_parameters")
@@ -94,28 +93,17 @@ class PlayersPanel(QWidget):
     # Building
 
     def _build(self) -> None:
-        bar = QHBoxLayout()
-        bar.setContentsMargins(6, 4, 4, 4)
-        bar.setSpacing(2)
         self._count = Label()
-        bar.addWidget(self._count, 1)
+        bar = in_row((self._count, 1), margins=(6, 4, 4, 4), spacing=2)
         for name, button in self._tools.items():
             button.setObjectName(f"players_{name}_button")
             bar.addWidget(button)
         upper = QWidget()
-        upper_layout = QVBoxLayout(upper)
-        upper_layout.setContentsMargins(0, 0, 0, 0)
-        upper_layout.setSpacing(0)
-        upper_layout.addLayout(bar)
-        upper_layout.addWidget(self.list, 1)
-        upper_layout.addWidget(self._empty, 1)
-        buttons = QHBoxLayout()
-        buttons.setSpacing(4)
+        in_column(bar, (self.list, 1), (self._empty, 1), of=upper, margins=0, spacing=0)
         for wide in (self._throw, self._reset):
             # The panel may be narrower than its longest word.
             wide.setMinimumWidth(40)
-        buttons.addWidget(self._throw, 1)
-        buttons.addWidget(self._reset, 1)
+        buttons = in_row((self._throw, 1), (self._reset, 1), spacing=4)
         self._variety.body.addWidget(self._spread)
         self._variety.body.addLayout(buttons)
         lower = QWidget()
@@ -138,9 +126,7 @@ class PlayersPanel(QWidget):
         self._splitter.setStretchFactor(1, 1)
         self._splitter.setChildrenCollapsible(False)
         self._splitter.splitterMoved.connect(self._splitter_moved)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._splitter)
+        in_column(self._splitter, of=self, margins=0)
 
     def _connect(self) -> None:
         session = self._session
@@ -286,8 +272,7 @@ class PlayersPanel(QWidget):
         )
 
     def _offer_instruments(self) -> None:
-        menu = QMenu(self)
-        menu.setObjectName("instrument_menu")
+        menu = named(QMenu(self), "instrument_menu")
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         for instrument in all_maps().values():
             action = menu.addAction(verbatim(instrument_name(instrument)))
@@ -370,8 +355,7 @@ class PlayersPanel(QWidget):
         self._popup(event.globalPos())
 
     def _popup(self, at: QPoint) -> None:
-        menu = QMenu(self)
-        menu.setObjectName("players_menu")
+        menu = named(QMenu(self), "players_menu")
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         for id in MENU:
             if id and id in self._session.actions:
@@ -379,8 +363,3 @@ class PlayersPanel(QWidget):
             elif not id:
                 menu.addSeparator()
         menu.popup(at)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

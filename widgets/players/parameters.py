@@ -6,9 +6,9 @@ from collections.abc import Callable
 from contextlib import suppress
 
 import shiboken6
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QIcon, QImage, QPixmap, QShowEvent
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QToolButton, QWidget
 
 from app.errors import AppError, Message
 from app.plan.parameters import Parameter, Value
@@ -18,8 +18,10 @@ from app.project.model import Player, Project
 from app.rig.character_library import bundled_characters, characters
 from instrument_maps.library import all_maps
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.instrument_name import character_name, instrument_name
+from widgets.common.layouts import in_column
 from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.session import Session
@@ -38,7 +40,7 @@ _SECTIONS = ("motion", "breath", "face", "player")
 _POSTURE = "posture"
 
 
-class ParameterSections(QWidget):
+class ParameterSections(Retranslated, QWidget):
     """Who the selected players are, and how they move, breathe and play.
 
     Signals
@@ -56,12 +58,9 @@ class ParameterSections(QWidget):
         self._sliders: dict[str, ParameterSlider] = {}
         self._choices: dict[str, ParameterChoice] = {}
         self._body_dance = BodyDanceRows(session)
-        self._dice = QToolButton()
-        self._dice.setObjectName("seed_dice")
+        self._dice = named(QToolButton(), "seed_dice")
         self._dice.clicked.connect(self.dice_thrown)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(0)
+        outer = in_column(of=self, margins=0, spacing=0)
         for section in self._sections.values():
             outer.addWidget(section)
         self._portraits: dict[str, QIcon] = {}
@@ -297,11 +296,6 @@ class ParameterSections(QWidget):
             self._asked = True
             # The players themselves come first.
             QTimer.singleShot(PORTRAITS_AFTER_MS, self, self._draw_portraits)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def _common(players: list[Player], value: Callable[[Player], str]) -> str | None:

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
 
 from app.errors import AppError, Message
 from app.project import presets
 from app.project.edit import players as edit
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
+from widgets.common.layouts import in_column
 from widgets.common.section import Section
 from widgets.common.session import Session, Severity
 
 _TOOLS = (("apply", "check"), ("save", "save"), ("delete", "delete"))
 
 
-class PresetSection(QWidget):
+class PresetSection(Retranslated, QWidget):
     """Apply a preset to the selected players, save theirs, delete one."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -24,10 +25,8 @@ class PresetSection(QWidget):
         self._session = session
         self._found: dict[str, presets.Preset] = {}
         self._section = Section(session, "players_presets", self, folded=True)
-        self._choice = Combo()
-        self._choice.setObjectName("preset_choice")
-        self._name = QLineEdit()
-        self._name.setObjectName("preset_name")
+        self._choice = named(Combo(), "preset_choice")
+        self._name = named(QLineEdit(), "preset_name")
         self._tools = {name: QToolButton() for name, _ in _TOOLS}
         for name, button in self._tools.items():
             button.setObjectName(f"preset_{name}")
@@ -38,9 +37,7 @@ class PresetSection(QWidget):
             for name in line[1]:
                 row.addWidget(self._tools[name])
             self._section.body.addLayout(row)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._section)
+        in_column(self._section, of=self, margins=0)
         self._section.header.toggled.connect(lambda is_open: self.show_presets() if is_open else None)
         self._choice.chosen.connect(lambda _: self._show_buttons())
         self._name.textChanged.connect(lambda _: self._show_buttons())
@@ -121,10 +118,3 @@ class PresetSection(QWidget):
         self._tools["save"].setToolTip(self.tr("preset_section.save_parameters_of_player_in"))
         self._tools["delete"].setToolTip(self.tr("preset_section.delete_this_preset_from_your"))
         self._show_buttons()
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

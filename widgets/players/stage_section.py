@@ -2,29 +2,29 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QGridLayout, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QToolButton, QWidget
 
 from app.errors import Message
 from app.project.casting import StagePosition
 from app.project.edit import players as edit
 from app.project.edit.dancers import place_dancers
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
+from widgets.common.layouts import in_column
 from widgets.common.section import Section
 from widgets.common.session import Session
 from widgets.players.place_numbers import name_places, place_sliders, shown_number, with_number
 from widgets.players.stage import StageView
 
 
-class StageSection(QWidget):
+class StageSection(Retranslated, QWidget):
     """The stage from above with its tools; edits the places of the selected players."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
         self._section = Section(session, "players_stage", self)
-        self.view = StageView(session)
-        self.view.setObjectName("stage")
+        self.view = named(StageView(session), "stage")
         self._snap, self._arc = QToolButton(), QToolButton()
         self._snap.setObjectName("stage_snap")
         self._arc.setObjectName("stage_arc")
@@ -42,9 +42,7 @@ class StageSection(QWidget):
             grid.addWidget(number, place // 2, place % 2, 1, 1 + place // 2)
         self._section.body.addWidget(self.view)
         self._section.body.addLayout(grid)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._section)
+        in_column(self._section, of=self, margins=0)
         self.view.placed.connect(self._place)
         self.view.released.connect(session.document.end_gesture)
         self.view.chosen.connect(session.set_players)
@@ -100,10 +98,3 @@ class StageSection(QWidget):
         self.view.setAccessibleName(self.tr("stage_section.stage_from_above"))
         name_places(self._numbers)
         self.view.update()
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

@@ -22,6 +22,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 
 from app.errors import Message
+from widgets.common.controls import Retranslated
 from widgets.common.selection import Selection
 from widgets.common.session import Session, Severity, TimeDisplay
 from widgets.common.tokens import LEAST_TEXT_PT
@@ -48,7 +49,7 @@ GRIP_PX = 5.0
 """So near to an edge of the loop, or to the playhead, a press takes hold of it."""
 
 
-class Ruler(Pictured):
+class Ruler(Retranslated, Pictured):
     """The ruler over the lanes.
 
     Signals
@@ -387,11 +388,6 @@ class Ruler(Pictured):
     def resizeEvent(self, event: QResizeEvent) -> None:
         self.unit_button.setGeometry(2, self.height() - 28, GUTTER_PX - 6, 26)
         super().resizeEvent(event)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         if event.button() == Qt.MouseButton.MiddleButton:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from math import ceil, floor
 
-from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
 from app.project.document import Change
 from app.project.grid import Grid
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Retranslated, named
 from widgets.common.grids import GRIDS
 from widgets.common.icons import icon, pixmap
 from widgets.common.listening import LEAST_SPEED, MOST_SPEED, SOURCES
@@ -42,7 +43,7 @@ _ROOMY_PX = 1250
 """With less room the hint is a picture alone."""
 
 
-class TransportBar(QWidget):
+class TransportBar(Retranslated, QWidget):
     """The bar under the menu.
 
     Parameters
@@ -66,8 +67,7 @@ class TransportBar(QWidget):
         self.source, self.snap = Combo(), Combo()
         self.silent_sign, self.silent_text = Label(), Label()
         self.beat = BeatLight(session)
-        self.take_text = Label()
-        self.take_text.setObjectName("take_text")
+        self.take_text = named(Label(), "take_text")
         self.take_text.hide()
         self._name()
         self._build()
@@ -85,8 +85,7 @@ class TransportBar(QWidget):
         return button
 
     def _tool(self, name: str) -> QToolButton:
-        button = QToolButton(self)
-        button.setObjectName(name)
+        button = named(QToolButton(self), name)
         button.setAutoRaise(True)
         button.setMinimumSize(QSize(28, 28))
         button.setIconSize(QSize(18, 18))
@@ -98,8 +97,7 @@ class TransportBar(QWidget):
         names |= {self.snap: "snap", self.silent_sign: "silent_sign", self.silent_text: "silent_text"}
         for widget, name in names.items():
             widget.setObjectName(name)
-        menu = QMenu(self)
-        menu.setObjectName("record_menu")
+        menu = named(QMenu(self), "record_menu")
         menu.aboutToShow.connect(lambda: self._fill_record_menu(menu))
         self.buttons["record.toggle"].setMenu(menu)
         self.buttons["record.toggle"].setPopupMode(QToolButton.ToolButtonPopupMode.MenuButtonPopup)
@@ -325,11 +323,6 @@ class TransportBar(QWidget):
         button.setAccessibleName(text)
 
     # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def showEvent(self, event: QShowEvent) -> None:
         # The table of actions may be filled after the bar is made.

@@ -13,6 +13,7 @@ from app.errors import Message
 from app.plan.model import EmbouchureEvent, PlayerPlan
 from app.project.document import Change
 from app.score.model import Part
+from widgets.common.controls import named
 from widgets.common.plain import ComboBox, verbatim
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
@@ -121,8 +122,7 @@ class CurvesLane(Lane):
         self._plan: PlayerPlan | None = None
         self._part: Part | None = None
         self._drag: DragCurve | None = None
-        self.choice = ComboBox(self.header)
-        self.choice.setObjectName("curve_choice")
+        self.choice = named(ComboBox(self.header), "curve_choice")
         self.choice.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.choice.activated.connect(self._chosen)
         self.controls.addWidget(self.choice)

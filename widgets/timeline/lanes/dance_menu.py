@@ -11,6 +11,7 @@ from PySide6.QtGui import QAction, QColor, QIcon
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.project.dance_corrections import DanceCorrection
+from widgets.common.controls import named
 from widgets.common.dance_figures import ICON_PX, Floats, figure_icon
 from widgets.common.plain import verbatim
 from widgets.common.session import Session
@@ -119,8 +120,7 @@ class DanceMenu(QMenu):
         menu.setEnabled(bool(len(others)))
 
     def _submenu(self, title: str, name: str) -> QMenu:
-        menu = self.addMenu(title)
-        menu.setObjectName(name)
+        menu = named(self.addMenu(title), name)
         # Figures are to be recognised.
         menu.setStyleSheet(f"QMenu {{ icon-size: {ICON_PX}px; }}")
         return menu

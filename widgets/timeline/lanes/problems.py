@@ -8,6 +8,7 @@ from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.plan.model import Problem
+from widgets.common.controls import named
 from widgets.common.plain import Label
 from widgets.common.selection import Selection
 from widgets.common.session import Session, Severity
@@ -114,8 +115,7 @@ class ProblemsLane(Lane):
         self._note_ids: frozenset[str] = frozenset()
         self._player_id: str | None = None
         session.problems_changed.connect(self.refresh)
-        self.count = Label(parent=self.header)
-        self.count.setObjectName("problem_count")
+        self.count = named(Label(parent=self.header), "problem_count")
         self.count.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.count.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
         self.title_row.addWidget(self.count)

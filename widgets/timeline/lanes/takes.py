@@ -11,6 +11,7 @@ from app.project.edit.takes import BEFORE
 from app.project.model import CompSpan
 from app.score.clean import Fault
 from instrument_maps.library import all_maps
+from widgets.common.controls import named
 from widgets.common.pitch import pitch_text
 from widgets.common.selection import Selection
 from widgets.common.session import Session
@@ -322,8 +323,7 @@ class TakesLane(Lane):
 
     def menu(self) -> QMenu:
         """What can be done with the selected take."""
-        menu = QMenu(self)
-        menu.setObjectName("takes_menu")
+        menu = named(QMenu(self), "takes_menu")
         for group in (
             ("takes.listen", "takes.listen_alone"),
             ("takes.whole", "takes.above", "takes.below", "takes.before"),
