@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QPushButton, QWidget
+from PySide6.QtWidgets import QCheckBox, QPushButton, QWidget
 
 from widgets.common.plain import Label
 
@@ -74,3 +74,15 @@ class Button(Retranslated, QPushButton):
     def retranslate(self) -> None:
         self.setText(self.tr(self._text_id))
         self.setToolTip(self._tip_id and self.tr(self._tip_id))
+
+
+class Check(Retranslated, QCheckBox):
+    """A box to tick with the text of an id."""
+
+    def __init__(self, text_id: str) -> None:
+        super().__init__()
+        self._text_id = text_id
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        self.setText(self.tr(self._text_id))

@@ -32,7 +32,7 @@ from app.encoding import shown
 from app.errors import AppError, Message
 from app.rig.figure import Figure
 from widgets.common.character_picture import Crop, Seen, picture, seen
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label, verbatim, verbatim_title
@@ -116,7 +116,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._undo, self._redo, self._reset = QPushButton(), QPushButton(), QPushButton()
         self.give = named(QCheckBox(), "character_give")
         self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
-        self._title_name = Label()
+        self._title_name = Caption("character_dialog.name")
         self._soon = QTimer(self, singleShot=True, interval=_SOON_MS)
         self._soon.timeout.connect(self._draw)
         self._name()
@@ -400,7 +400,6 @@ class CharacterDialog(Retranslated, QDialog):
     def retranslate(self) -> None:
         """Set all texts."""
         self.setWindowTitle(verbatim_title(self.tr("character_dialog.character").format(file=shown(self._path.name))))
-        self._title_name.setText(self.tr("character_dialog.name"))
         self._source.setText(
             self.tr("character_dialog.bones_morphs").format(
                 file=shown(self._path.name), bones=len(self._figure.bone_names), morphs=len(self._figure.morph_names)

@@ -13,7 +13,6 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
     QDialog,
     QPlainTextEdit,
-    QPushButton,
     QTabWidget,
     QVBoxLayout,
     QWidget,
@@ -23,7 +22,7 @@ from app.errors import AppError, Message
 from app.performance.ensemble import Performance
 from app.project.document import Change
 from app.project.model import Dancer
-from widgets.common.controls import Retranslated
+from widgets.common.controls import Button, Retranslated
 from widgets.common.dance_figures import Floats
 from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.percussion_names import percussion_names
@@ -105,13 +104,12 @@ class ChoreographyDialog(Retranslated, QDialog):
         self.graph = TransitionGraph(session)
         self.percussion = ProbabilityTable(session, _SOUND_ROW_PX)
         self.credits = QPlainTextEdit()
-        self._close = QPushButton()
+        self._close = Button("choreography_dialog.close", self.close)
         self._build()
         self.gallery.selected.connect(lambda state: self._details["motions"].setText(self._about(state)))
         self.graph.pointed.connect(lambda state: self._details["graph"].setText(self._about(state)))
         self.transitions.pointed.connect(self._details["transitions"].setText)
         self.percussion.pointed.connect(self._details["percussion"].setText)
-        self._close.clicked.connect(self.close)
         session.dancer_changed.connect(self._ask)
         session.performance_changed.connect(self._ask)
         session.changed.connect(self._changed)
@@ -160,7 +158,6 @@ class ChoreographyDialog(Retranslated, QDialog):
         self.tabs.addTab(page, "")
         self._heading.setWordWrap(True)
         self._use.setWordWrap(True)
-        self._close.setAutoDefault(False)
         bottom = in_row(STRETCH, self._close)
         in_column(self._heading, self._use, (self.tabs, 1), bottom, of=self, margins=14, spacing=8)
 
@@ -323,7 +320,6 @@ class ChoreographyDialog(Retranslated, QDialog):
         self._hints["transitions"].setText(self.tr("choreography_dialog.what_follows_what_in_percent"))
         self._hints["graph"].setText(self.tr("choreography_dialog.arrow_for_each_transition_that"))
         self._hints["percussion"].setText(self._percussion_hint(self._shown is not None and self._shown.derived))
-        self._close.setText(self.tr("choreography_dialog.close"))
         self._show()
 
     def _percussion_hint(self, derived: bool) -> str:

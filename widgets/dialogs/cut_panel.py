@@ -8,10 +8,10 @@ from fractions import Fraction
 import numpy as np
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QPushButton, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
 
 from app.choreography.cuts_by_hand import Cuts
-from widgets.common.controls import Retranslated
+from widgets.common.controls import Button, Caption, Check, Retranslated
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
@@ -72,16 +72,15 @@ class CutPanel(Retranslated, QWidget):
         self._session = session
         self._draft, self._found, self._history = PairDraft(), Found(), CutHistory()
         self.plot, self.figure = CutPlot(session), PoseFigure(session)
-        self._title, self._place, self._hint = Label(), Label(), Label()
+        self._title, self._place, self._hint = Label(), Label(), Caption("cut_panel.angular_acceleration_rad_s_over")
         self._place.setObjectName("cut_place")
         self._hint.setObjectName("cut_hint")
         self._hint.setWordWrap(True)
         self._buttons = {name: QToolButton() for name in _TOOLS}
-        self._snap, self._reset = QCheckBox(), QPushButton()
+        self._snap = Check("cut_panel.snap")
+        self._reset = Button("cut_panel.reset_to_automatic", lambda: self._edit(None, None), "cut_reset")
         self._snap.setObjectName("cut_snap")
         self._snap.setChecked(True)
-        self._reset.setObjectName("cut_reset")
-        self._reset.setAutoDefault(False)
         tools = QHBoxLayout()
         tools.addWidget(self._title)
         tools.addStretch(1)
@@ -97,7 +96,6 @@ class CutPanel(Retranslated, QWidget):
         self.plot.edited.connect(self._edit)
         self.plot.pointed.connect(self._point)
         self._snap.toggled.connect(self._set_snaps)
-        self._reset.clicked.connect(lambda: self._edit(None, None))
         self._buttons["undo"].clicked.connect(self.undo)
         self._buttons["redo"].clicked.connect(self.redo)
         self._buttons["fit"].clicked.connect(self.plot.fit)
@@ -184,8 +182,5 @@ class CutPanel(Retranslated, QWidget):
         self._buttons["undo"].setToolTip(self.tr("cut_panel.undo_ctrl_z"))
         self._buttons["redo"].setToolTip(self.tr("cut_panel.redo_ctrl_shift_z"))
         self._buttons["fit"].setToolTip(self.tr("cut_panel.whole_motion_f"))
-        self._snap.setText(self.tr("cut_panel.snap"))
         self._snap.setToolTip(self.tr("cut_panel.cuts_stop_at_minima_accents"))
-        self._reset.setText(self.tr("cut_panel.reset_to_automatic"))
-        self._hint.setText(self.tr("cut_panel.angular_acceleration_rad_s_over"))
         self._show_tools()

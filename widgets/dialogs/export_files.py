@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
     QListWidget,
     QListWidgetItem,
     QProgressBar,
-    QPushButton,
     QScrollArea,
     QWidget,
 )
@@ -30,7 +29,7 @@ from app.performance.span import bars_span, whole_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
 from app.project.model import Player
 from metadata.load import load_bone_names
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Button, Retranslated, named
 from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
@@ -105,9 +104,7 @@ class ExportDialog(Retranslated, QDialog):
             item.setCheckState(Qt.CheckState.Checked)
             item.setSizeHint(QSize(0, LEAST_TARGET_PX))
             self._players.addItem(item)
-        self._everybody = named(QPushButton(), "export_everybody")
-        self._everybody.setAutoDefault(False)
-        self._everybody.clicked.connect(self._toggle_everybody)
+        self._everybody = Button("export_dialog.all_or_none", self._toggle_everybody, "export_everybody")
         self._place = PlaceChooser(folder, unreal, destination)
         self._shown_folder = folder
         self._formats = FormatChooser()
@@ -374,7 +371,6 @@ class ExportDialog(Retranslated, QDialog):
         }
         for name, text in texts.items():
             self._labels[name].setText(text)
-        self._everybody.setText(self.tr("export_dialog.all_or_none"))
         self._bvh_names.setItemText(0, self.tr("export_dialog.those_of_skeleton"))
         self._preroll.setSuffix(self.tr("export_dialog.beats"))
         self._range.retranslate()

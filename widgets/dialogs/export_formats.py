@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QCheckBox, QGridLayout, QWidget
 
 from app.errors import AppError, Message
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Check, Retranslated, named
 from widgets.common.text import message_text
 
 _COLUMNS = 2
@@ -37,7 +37,7 @@ class FormatChooser(Retranslated, QWidget):
             box.setObjectName(f"export_{name}")
             box.setChecked(name in USUAL_FORMATS)
             box.setEnabled(name not in self._missing)
-        self._sound = named(QCheckBox(), "export_sound")
+        self._sound = named(Check("format_chooser.sound_wav"), "export_sound")
         layout = QGridLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setHorizontalSpacing(18)
@@ -67,6 +67,5 @@ class FormatChooser(Retranslated, QWidget):
             if "usd" in self._missing
             else self.tr("format_chooser.usd_characters_and_instruments")
         )
-        self._sound.setText(self.tr("format_chooser.sound_wav"))
         for name, message in self._missing.items():
             self._boxes[name].setToolTip(message_text(message))

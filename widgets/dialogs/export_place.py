@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QPushButton, QWidget
+from PySide6.QtWidgets import QWidget
 
 from app.encoding import stored
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Button, Retranslated, named
 from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import PathEdit, ask_for_file, ask_for_folder
 from widgets.common.plain import ComboBox
@@ -42,9 +42,7 @@ class PlaceChooser(Retranslated, QWidget):
             self._box.addItem("", choice)
         self._box.setCurrentIndex(_DESTINATIONS.index(destination))
         self._path = named(PathEdit(folder if destination == "folder" else unreal), "export_folder")
-        self._choose = QPushButton()
-        self._choose.setAutoDefault(False)
-        self._choose.clicked.connect(self._choose_path)
+        self._choose = Button("place_chooser.choose", self._choose_path)
         path = in_row((self._path, 1), self._choose)
         in_column(self._box, path, of=self, margins=0)
         self._path.textChanged.connect(self._remember)
@@ -99,4 +97,3 @@ class PlaceChooser(Retranslated, QWidget):
         self._path.setPlaceholderText(
             self.tr("place_chooser.uproject_file") if unreal else self.tr("place_chooser.folder")
         )
-        self._choose.setText(self.tr("place_chooser.choose"))

@@ -10,7 +10,6 @@ from typing import TypeAlias
 from PySide6.QtCore import QSize, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
-    QPushButton,
     QWidget,
 )
 
@@ -22,7 +21,7 @@ from app.performance.bodies import character_of
 from app.performance.cast import attempt
 from app.project.model import Player
 from app.rig.read_figure import SUFFIXES, read_figure
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Button, Retranslated, named
 from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import ComboBox, Label
@@ -66,9 +65,7 @@ class SkeletonChooser(Retranslated, QWidget):
             self._box.addItem("", choice)
         self._asset = named(PathEdit(), "export_asset")
         self._asset.setClearButtonEnabled(True)
-        self._choose = QPushButton()
-        self._choose.setAutoDefault(False)
-        self._choose.clicked.connect(self._choose_asset)
+        self._choose = Button("skeleton_chooser.choose", self._choose_asset)
         self._reported = named(Label(), "export_differences")
         self._reported.setWordWrap(True)
         asset = in_row((self._asset, 1), self._choose)
@@ -176,7 +173,6 @@ class SkeletonChooser(Retranslated, QWidget):
         for index, choice in enumerate(CHOICES):
             self._box.setItemText(index, texts[choice])
         self._asset.setPlaceholderText(self.tr("skeleton_chooser.fbx_of_asset_to_compare"))
-        self._choose.setText(self.tr("skeleton_chooser.choose"))
         self._show()
 
     def sizeHint(self) -> QSize:

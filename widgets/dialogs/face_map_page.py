@@ -9,7 +9,6 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QHeaderView,
-    QPushButton,
     QToolButton,
     QTreeWidget,
     QTreeWidgetItem,
@@ -19,7 +18,7 @@ from PySide6.QtWidgets import (
 
 from metadata.model import ARKIT_MORPHS
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import named
+from widgets.common.controls import Button, named
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
 from widgets.common.morph_names import morph_name
@@ -76,9 +75,7 @@ class FaceMapPage(QWidget):
         self._none.setWordWrap(True)
         self._add = named(Combo(), "face_add")
         self._add.chosen.connect(self._add_part)
-        self._reset = named(QPushButton(), "face_reset")
-        self._reset.setAutoDefault(False)
-        self._reset.clicked.connect(lambda: self.changed.emit(self._face, None, None))
+        self._reset = Button("face_map_page.automatic", lambda: self.changed.emit(self._face, None, None), "face_reset")
         self._column = QVBoxLayout()
         self._column.setSpacing(4)
         self._build()
@@ -176,7 +173,6 @@ class FaceMapPage(QWidget):
         )
         self._add.setPlaceholderText(self.tr("face_map_page.add_morph_of_file"))
         self._add.setAccessibleName(self.tr("face_map_page.add_morph_of_file"))
-        self._reset.setText(self.tr("face_map_page.automatic"))
         for row in self._rows:
             row.remove.setToolTip(self.tr("face_map_page.take_this_morph_out"))
         self._show()

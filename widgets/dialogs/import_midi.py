@@ -22,7 +22,6 @@ from PySide6.QtWidgets import (
     QHeaderView,
     QLineEdit,
     QListWidget,
-    QPushButton,
     QTableWidget,
     QWidget,
 )
@@ -46,7 +45,7 @@ from app.score.model import UnplayedPart
 from app.score.parts import PartAssignment, stream_name
 from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Button, Check, Retranslated, named
 from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import ComboBox, Label
@@ -117,15 +116,15 @@ class ImportDialog(Retranslated, QDialog):
         header.setSectionResizeMode(_PREVIEW, QHeaderView.ResizeMode.Stretch)
         header.setMinimumSectionSize(40)
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-        self._merge = named(QPushButton(), "merge")
-        self._merge.setAutoDefault(False)
-        self._merge.clicked.connect(self.merge_selected)
-        self._separate = named(QPushButton(), "separate")
-        self._separate.setAutoDefault(False)
-        self._separate.clicked.connect(self.separate_selected)
+        self._merge = Button(
+            "import_dialog.merge_into_one_part", self.merge_selected, "merge", "import_dialog.make_one_part_of_selected"
+        )
+        self._separate = Button(
+            "import_dialog.take_apart", self.separate_selected, "separate", "import_dialog.make_part_of_each_merged"
+        )
         self._percussion = frozenset(place for place, stream in enumerate(contents.streams) if is_drum_kit(stream))
         """Streams that dancers dance to."""
-        self._dancer = named(QCheckBox(), "import_dancer")
+        self._dancer = named(Check("import_dialog.add_dancer"), "import_dancer")
         self._dancer.setVisible(bool(self._percussion and bundled_choreographies()))
         self._summary = named(Label(), "import_summary")
         self._warning_title = Label()
@@ -207,11 +206,6 @@ class ImportDialog(Retranslated, QDialog):
                 self.tr("import_dialog.character"),
             ]
         )
-        self._merge.setText(self.tr("import_dialog.merge_into_one_part"))
-        self._merge.setToolTip(self.tr("import_dialog.make_one_part_of_selected"))
-        self._separate.setText(self.tr("import_dialog.take_apart"))
-        self._separate.setToolTip(self.tr("import_dialog.make_part_of_each_merged"))
-        self._dancer.setText(self.tr("import_dialog.add_dancer"))
         self._dancer.setToolTip(self.tr("import_dialog.dancer_who_moves_to_percussion"))
         self._buttons.button(QDialogButtonBox.StandardButton.Ok).setText(self.tr("import_dialog.import"))
         self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("import_dialog.cancel"))

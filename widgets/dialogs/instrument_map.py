@@ -34,7 +34,7 @@ from app.messages.pitches import LETTERS, pitch_name
 from instrument_maps import fingering_table as edit
 from instrument_maps.library import library
 from instrument_maps.model import Fingering, InstrumentMap
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
 from widgets.common.icons import icon
@@ -76,7 +76,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._table = named(QTableWidget(0, 6), "instruments_fingerings")
         self._diagram = named(FingeringDiagram(session), "instruments_diagram")
         self._diagram.set_editable(True)
-        self._hint = Label()
+        self._hint = Caption("instruments_dialog.click_keys_to_change_fingering")
         names = ("up", "down", "add", "remove", "revert", "revert_all", "undo", "redo", "folder", "save", "close")
         self._buttons = {name: QPushButton() for name in names}
         self._build()
@@ -510,7 +510,6 @@ class InstrumentsDialog(Retranslated, QDialog):
                 self.tr("instruments_dialog.for"),
             ]
         )
-        self._hint.setText(self.tr("instruments_dialog.click_keys_to_change_fingering"))
         if self._list.count():
             self._show()
 

@@ -28,7 +28,7 @@ from app.capture.protocol import Events
 from metadata.load import load_controllers
 from metadata.model import BiteSource
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Button, Caption, Retranslated, named
 from widgets.common.instrument_name import language
 from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
@@ -85,8 +85,13 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._hint, self._reported, self._heard, self._late = (Label() for _ in range(4))
         self._kind, self._channel, self._breath, self._bite = (Combo() for _ in range(4))
         self._rows = {widget: Label() for widget in (self._kind, self._channel, self._breath, self._bite)}
-        self._late_name = Label()
-        self._learn, self._measure, self._beep, self._close = (QPushButton() for _ in range(4))
+        self._late_name = Caption("midi_devices_dialog.latency")
+        self._learn = QPushButton()
+        self._close = Button("midi_devices_dialog.close", self.close)
+        self._beep = Button(
+            "midi_devices_dialog.test_beep", self.beep, "", "midi_devices_dialog.short_tone_on_audio_device"
+        )
+        self._measure = Button("midi_devices_dialog.measure", self.latency_asked.emit)
         self._device, self._incoming = QGroupBox(), QGroupBox()
         self._monitor = MidiMonitor(session)
         self._second = QTimer(self, interval=1000)
@@ -118,7 +123,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
         for label in (self._hint, self._reported, self._heard):
             label.setWordWrap(True)
-        for button in (self._learn, self._measure, self._beep, self._close):
+        for button in (self._learn,):
             # Enter in the list is no answer.
             button.setAutoDefault(False)
         late = in_row((self._late, 1), self._measure)
@@ -145,9 +150,6 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._breath.chosen.connect(lambda id: self._wire(breath=id))
         self._bite.chosen.connect(lambda id: self._wire(bite=id))
         self._learn.clicked.connect(self._toggle_learning)
-        self._measure.clicked.connect(self.latency_asked)
-        self._beep.clicked.connect(self.beep)
-        self._close.clicked.connect(self.close)
         # However it is closed.
         self.finished.connect(self._playback.stop)
         recording.changed.connect(self._show)
@@ -363,12 +365,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         for widget, text in names.items():
             self._rows[widget].setText(text)
             widget.setAccessibleName(text)
-        self._late_name.setText(self.tr("midi_devices_dialog.latency"))
-        self._measure.setText(self.tr("midi_devices_dialog.measure"))
         self._learn.setToolTip(self.tr("midi_devices_dialog.finds_with_what_breath_and").format(count=LEARN_S))
-        self._beep.setText(self.tr("midi_devices_dialog.test_beep"))
-        self._beep.setToolTip(self.tr("midi_devices_dialog.short_tone_on_audio_device"))
-        self._close.setText(self.tr("midi_devices_dialog.close"))
         self._show()
 
     # Qt's own names

@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QDoubleSpinBox,
     QFormLayout,
     QLineEdit,
-    QPushButton,
     QWidget,
 )
 
@@ -23,7 +22,7 @@ from app.project import limits
 from app.project.edit.generation import vary_everyone
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_seed, usual_settings
 from app.project.frame_rate import USUAL_RATES, frame_rate, frame_rate_text
-from widgets.common.controls import Retranslated
+from widgets.common.controls import Button, Retranslated
 from widgets.common.icons import icon
 from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import ComboBox, Label
@@ -68,7 +67,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._preroll.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
         self._felt = ComboBox()
         self._seed = QLineEdit()
-        self._randomise = QPushButton()
+        self._randomise = Button("piece_settings_dialog.randomise", self._another_seed)
         self._problem = Label()
         self._problem.setWordWrap(True)
         self._problem.setMinimumHeight(PROBLEM_PX)
@@ -79,7 +78,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._ok.setDefault(True)
         self._cancel = self._buttons.addButton("", QDialogButtonBox.ButtonRole.RejectRole)
         self._reset = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ResetRole)
-        for button in (self._randomise, self._cancel, self._reset):
+        for button in (self._cancel, self._reset):
             button.setAutoDefault(False)
         fields: dict[str, QWidget] = {
             "title": self._title,
@@ -101,7 +100,6 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._ok.clicked.connect(self._apply)
         self._cancel.clicked.connect(self.reject)
         self._reset.clicked.connect(self._reset_all)
-        self._randomise.clicked.connect(self._another_seed)
         for signal in (self._rate.editTextChanged, self._seed.textChanged):
             signal.connect(self._judge)
         self.retranslate()
@@ -248,7 +246,6 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._preroll.setSuffix(self.tr("piece_settings_dialog.beats"))
         for index, text in enumerate(self._beat_names().values()):
             self._felt.setItemText(index, text)
-        self._randomise.setText(self.tr("piece_settings_dialog.randomise"))
         self._randomise.setIcon(icon("dice", self._session.tokens))
         self._ok.setText(self.tr("piece_settings_dialog.ok"))
         self._cancel.setText(self.tr("piece_settings_dialog.cancel"))

@@ -15,12 +15,10 @@ import numpy.typing as npt
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
-    QCheckBox,
     QDialog,
     QDialogButtonBox,
     QFormLayout,
     QProgressBar,
-    QPushButton,
     QWidget,
 )
 
@@ -29,7 +27,7 @@ from app.errors import AppError, Cancelled, Message
 from app.export.video import video_into
 from app.performance.span import FrameSpan, cut_span, whole_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Button, Check, Retranslated, named
 from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import PathEdit, ask_where_to_save, show_folder
 from widgets.common.plain import ComboBox, Label
@@ -93,12 +91,10 @@ class PlayblastDialog(Retranslated, QDialog):
         self._rate.setCurrentIndex(self._rate.findData(str(min(session.project.fps, Fraction(30)))))
         self._range = named(ComboBox(), "playblast_range")
         self._view = named(ComboBox(), "playblast_view")
-        self._with_sound = named(QCheckBox(), "playblast_sound")
+        self._with_sound = named(Check("playblast_dialog.with_what_is_heard"), "playblast_sound")
         self._with_sound.setChecked(True)
         self._file = named(PathEdit(path), "playblast_file")
-        self._choose = QPushButton()
-        self._choose.setAutoDefault(False)
-        self._choose.clicked.connect(self._choose_file)
+        self._choose = Button("playblast_dialog.choose", self._choose_file)
         self._state = named(Label(), "playblast_state")
         self._state.setWordWrap(True)
         self._state.setMinimumHeight(40)
@@ -263,8 +259,6 @@ class PlayblastDialog(Retranslated, QDialog):
             "file": self.tr("playblast_dialog.file"),
         }.items():
             self._labels[name].setText(text)
-        self._with_sound.setText(self.tr("playblast_dialog.with_what_is_heard"))
-        self._choose.setText(self.tr("playblast_dialog.choose"))
         self._start.setText(self.tr("playblast_dialog.make_film"))
         self._show.setText(self.tr("playblast_dialog.show_in_folder"))
         self._close.setText(self.tr("playblast_dialog.cancel") if self._running else self.tr("playblast_dialog.close"))

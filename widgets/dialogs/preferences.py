@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 
 from app.encoding import shown
 from instrument_maps.library import library, own_folder
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
@@ -147,7 +147,7 @@ class PreferencesDialog(Retranslated, QDialog):
     def _instruments_page(self) -> QWidget:
         """Where the user's own maps are, and what is wrong with them."""
         page = QWidget()
-        self._own, self._found = Label(), Label()
+        self._own, self._found = Caption("preferences_dialog.your_own_instruments_map_toml"), Label()
         self._folder = named(QLineEdit(shown(own_folder())), "preferences_instruments")
         self._folder.setReadOnly(True)
         self._open = named(QPushButton(), "preferences_instruments_open")
@@ -195,7 +195,6 @@ class PreferencesDialog(Retranslated, QDialog):
         self.tabs.setTabText(1, self.tr("preferences_dialog.keyboard_shortcuts"))
         self.tabs.setTabText(2, self.tr("preferences_dialog.instruments"))
         self._open.setText(self.tr("preferences_dialog.show_folder"))
-        self._own.setText(self.tr("preferences_dialog.your_own_instruments_map_toml"))
         for choice in self._choices:
             self._labels[choice.name].setText(tr(choice.label))
             for index, (_, word) in enumerate(choice.options):

@@ -21,7 +21,7 @@ from app.plan.corrections import Correction
 from app.project.model import Project
 from app.project.reimport import Conflict, Reimport
 from app.score.model import Note
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.layouts import in_column
 from widgets.common.plain import Label
 from widgets.common.tokens import Tokens
@@ -76,7 +76,7 @@ class ReimportDialog(Retranslated, QDialog):
         self._conflicts = named(QListWidget(), "reimport_conflicts")
         self._conflicts.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
         self._conflicts.setMaximumHeight(140)
-        self._orphan_title = Label()
+        self._orphan_title = Caption("reimport_dialog.these_corrections_have_lost_their")
         self._orphan_title.setWordWrap(True)
         self._orphans = named(QListWidget(), "reimport_orphans")
         self._orphans.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
@@ -150,7 +150,6 @@ class ReimportDialog(Retranslated, QDialog):
             self._conflicts.addItem(f"{names[conflict.part_id]}: {self._about_note(conflict)}")
         for widget in (self._conflict_title, self._conflicts):
             widget.setVisible(bool(outcome.conflicts))
-        self._orphan_title.setText(self.tr("reimport_dialog.these_corrections_have_lost_their"))
         self._orphans.clear()
         for orphan in outcome.orphans:
             player = outcome.project.player(orphan.player_id)

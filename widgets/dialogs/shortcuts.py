@@ -12,13 +12,12 @@ from PySide6.QtWidgets import (
     QHeaderView,
     QKeySequenceEdit,
     QLineEdit,
-    QPushButton,
     QTreeWidget,
     QTreeWidgetItem,
     QWidget,
 )
 
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Button, Caption, Retranslated, named
 from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.session import Session
@@ -95,23 +94,15 @@ class ShortcutsPage(Retranslated, QWidget):
         header.setSectionResizeMode(_TEXT, QHeaderView.ResizeMode.Stretch)
         for column in (_PLACE, _KEYS, _CONTEXT):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
-        self._label = Label()
+        self._label = Caption("shortcuts_page.new_keys")
         self.edit = named(QKeySequenceEdit(), "shortcut_edit")
         self.edit.setClearButtonEnabled(True)
         self.edit.setMaximumSequenceLength(1)
         self.edit.keySequenceChanged.connect(self._changed)
-        self.give, self.take, self.back, self.all_back = (QPushButton() for _ in range(4))
-        self.give.setObjectName("shortcut_give")
-        self.take.setObjectName("shortcut_take")
-        self.back.setObjectName("shortcut_back")
-        self.all_back.setObjectName("shortcuts_all_back")
-        for button in (self.give, self.take, self.back, self.all_back):
-            # Enter in the list or the search is no answer.
-            button.setAutoDefault(False)
-        self.give.clicked.connect(self._give)
-        self.take.clicked.connect(self._take)
-        self.back.clicked.connect(self._back)
-        self.all_back.clicked.connect(self._all_back)
+        self.all_back = Button("shortcuts_page.all_back_to_default", self._all_back, "shortcuts_all_back")
+        self.back = Button("shortcuts_page.default", self._back, "shortcut_back")
+        self.take = Button("shortcuts_page.remove_keys", self._take, "shortcut_take")
+        self.give = Button("shortcuts_page.assign", self._give, "shortcut_give")
         self.reported = named(Label(), "shortcut_told")
         self.reported.setWordWrap(True)
         line = in_row(self._label, (self.edit, 1), self.give, self.take, self.back)
@@ -130,12 +121,7 @@ class ShortcutsPage(Retranslated, QWidget):
                 self.tr("shortcuts_page.works"),
             ]
         )
-        self._label.setText(self.tr("shortcuts_page.new_keys"))
         self.edit.setAccessibleName(self.tr("shortcuts_page.new_keys"))
-        self.give.setText(self.tr("shortcuts_page.assign"))
-        self.take.setText(self.tr("shortcuts_page.remove_keys"))
-        self.back.setText(self.tr("shortcuts_page.default"))
-        self.all_back.setText(self.tr("shortcuts_page.all_back_to_default"))
         self._fill()
 
     def _fill(self) -> None:

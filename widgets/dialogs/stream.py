@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 
 from app.stream.sender import LEAST_PORT, LOOPBACK, MOST_PORT, TO_MANY, is_loopback
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Retranslated
+from widgets.common.controls import Button, Caption, Retranslated
 from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.session import Session
@@ -46,23 +46,27 @@ class StreamDialog(Retranslated, QDialog):
         self.setObjectName("stream")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._state = session, session.streaming
-        self._explained, self._warning, self._reported = Label(), Label(), Label()
+        self._explained, self._warning, self._reported = (
+            Caption("stream_dialog.sends_performers_poses_faces_and"),
+            Caption("stream_dialog.what_is_sent_leaves_this"),
+            Label(),
+        )
         self._host, self._port = QLineEdit(), QSpinBox()
         self._who, self._faces, self._rate = Combo(), Combo(), Combo()
         self._list = QTreeWidget()
-        self._toggle, self._here, self._close, self._anyway = (QPushButton() for _ in range(4))
+        self._toggle = QPushButton()
+        self._anyway = Button("stream_dialog.send_anyway", lambda: self._state.set(broadcast=self._state.host))
+        self._close = Button("stream_dialog.close", self.close)
+        self._here = Button("stream_dialog.this_computer", lambda: self._state.set(host=LOOPBACK))
         self._names = {field: Label() for field in (self._host, self._port, self._who, self._faces, self._rate)}
         self._listed: tuple[object, ...] = ()
         self._build()
         self._host.editingFinished.connect(self._choose_host)
         self._port.valueChanged.connect(lambda port: self._state.set(port=port))
-        self._here.clicked.connect(lambda: self._state.set(host=LOOPBACK))
         self._who.chosen.connect(lambda who: self._state.set(everyone=who == "everyone"))
         self._faces.chosen.connect(lambda faces: self._state.set(faces=faces))
         self._rate.chosen.connect(lambda rate: self._state.set(rate_hz=int(rate)))
         self._toggle.clicked.connect(lambda: self._state.set(on=not self._state.on))
-        self._close.clicked.connect(self.close)
-        self._anyway.clicked.connect(lambda: self._state.set(broadcast=self._state.host))
         self._state.changed.connect(self._show)
         session.changed.connect(self._show)
         session.players_changed.connect(self._show)
@@ -84,8 +88,6 @@ class StreamDialog(Retranslated, QDialog):
             label.setWordWrap(True)
         self._port.setRange(LEAST_PORT, MOST_PORT)
         self._port.setKeyboardTracking(False)
-        for button in (self._here, self._close, self._anyway):
-            button.setAutoDefault(False)
         self._list.setColumnCount(2)
         self._list.setRootIsDecorated(False)
         self._list.setUniformRowHeights(True)
@@ -168,7 +170,6 @@ class StreamDialog(Retranslated, QDialog):
     def retranslate(self) -> None:
         """Set all texts."""
         self.setWindowTitle(self.tr("stream_dialog.live_stream"))
-        self._explained.setText(self.tr("stream_dialog.sends_performers_poses_faces_and"))
         for field, text in (
             (self._host, self.tr("stream_dialog.computer")),
             (self._port, self.tr("stream_dialog.port")),
@@ -178,8 +179,6 @@ class StreamDialog(Retranslated, QDialog):
         ):
             self._names[field].setText(text)
             field.setAccessibleName(text)
-        self._here.setText(self.tr("stream_dialog.this_computer"))
-        self._warning.setText(self.tr("stream_dialog.what_is_sent_leaves_this"))
         self._who.set_options(
             [
                 Option("front", self.tr("stream_dialog.selected_player_in_middle")),
@@ -195,8 +194,6 @@ class StreamDialog(Retranslated, QDialog):
         )
         self._rate.set_options([Option(str(rate), str(rate)) for rate in RATES_HZ])
         self._list.setHeaderLabels([self.tr("stream_dialog.performer"), self.tr("stream_dialog.port")])
-        self._close.setText(self.tr("stream_dialog.close"))
-        self._anyway.setText(self.tr("stream_dialog.send_anyway"))
         self._listed = ()
         self._show()
 

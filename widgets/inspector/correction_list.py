@@ -14,10 +14,9 @@ from app.project.edit import events as edit
 from app.project.edit.corrections import take_back
 from app.project.model import Player, Project
 from app.project.reimport import orphaned, reattached
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
-from widgets.common.plain import Label
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.common.text import message_text
@@ -46,7 +45,7 @@ class CorrectionList(Retranslated, QWidget):
         super().__init__(parent)
         self._session, self._generated = session, generated
         self.list = named(LineList(session), "correction_list")
-        self._empty = Label()
+        self._empty = Caption("correction_list.nothing_was_changed_by_hand")
         self._empty.setWordWrap(True)
         self._empty.setMargin(12)
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
@@ -240,7 +239,6 @@ class CorrectionList(Retranslated, QWidget):
         self._revert_all.setToolTip(self.tr("correction_list.back_to_generators_everything_of"))
         self._attach.setText(self.tr("correction_list.re_attach_to_selected_note"))
         self._attach.setToolTip(self.tr("correction_list.let_selected_line_be_about"))
-        self._empty.setText(self.tr("correction_list.nothing_was_changed_by_hand"))
         for button in (self._revert, self._revert_all):
             button.setIcon(icon("reset", self._session.tokens))
         self.show_corrections()

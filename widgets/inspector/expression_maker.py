@@ -7,7 +7,7 @@ from collections.abc import Callable
 import msgspec
 import shiboken6
 from PySide6.QtCore import QCoreApplication, QEvent, Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
 from app.errors import AppError, Message
 from app.project import presets
@@ -18,7 +18,7 @@ from app.project.model import Project
 from metadata.load import load_expressions
 from metadata.model import ARKIT_MORPHS, Expression
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Check, Retranslated, named
 from widgets.common.event_names import expression_name
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
@@ -69,7 +69,7 @@ class ExpressionMaker(Retranslated, QWidget):
         self._choice = named(Combo(), "expression_choice")
         self._tools = {name: QToolButton() for name, _ in _TOOLS}
         self._title = named(QLineEdit(), "expression_name")
-        self._playing = named(QCheckBox(), "expression_while_playing")
+        self._playing = named(Check("expression_maker.may_show_while_playing"), "expression_while_playing")
         self._hint = Label()
         self._fades = {
             name: NumberSlider(session, 0.01, 60, step=0.05, fills=(0.0, 3.0), resets=False)
@@ -360,7 +360,6 @@ class ExpressionMaker(Retranslated, QWidget):
         for name, tip in tips.items():
             self._tools[name].setToolTip(tip)
         self._title.setPlaceholderText(self.tr("expression_maker.name"))
-        self._playing.setText(self.tr("expression_maker.may_show_while_playing"))
         self._playing.setToolTip(self.tr("expression_maker.what_moves_lips_must_not"))
         self._fades["fade_in_s"].set_texts(self.tr("expression_maker.fade_in"), self.tr("expression_maker.seconds"))
         self._fades["fade_out_s"].set_texts(self.tr("expression_maker.fade_out"), self.tr("expression_maker.seconds"))

@@ -14,7 +14,7 @@ from app.project.model import Player, Project
 from instrument_maps.library import find_map
 from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.chip import Chip
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import words_of_tags
 from widgets.common.fingering_text import short_label
@@ -55,7 +55,7 @@ class NoteSection(Retranslated, QWidget):
         self._chips = FlowLayout()
         self._chip_labels: tuple[tuple[str, str], ...] = ()
         self._chip_of: dict[str, Chip] = {}
-        self._fingering_title, self._lips_title = Label(), Label()
+        self._fingering_title, self._lips_title = Caption("note_section.fingering"), Caption("note_section.embouchure")
         self._why, self._problems = Label(), Label()
         self._fingering_by_hand, self._lips_by_hand = ByHandLine(session), ByHandLine(session)
         self._fingering_by_hand.setObjectName("fingering_by_hand")
@@ -400,8 +400,6 @@ class NoteSection(Retranslated, QWidget):
         }
         for name, (label, tip) in lips.items():
             self._lips[name].set_texts(label, "", tip)
-        self._fingering_title.setText(self.tr("note_section.fingering"))
-        self._lips_title.setText(self.tr("note_section.embouchure"))
         self._diagram.setAccessibleName(self.tr("note_section.fingering_diagram"))
         self.show_notes()
 

@@ -9,7 +9,6 @@ from pathlib import Path
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent
 from PySide6.QtWidgets import (
-    QCheckBox,
     QGridLayout,
     QMenu,
     QToolButton,
@@ -26,7 +25,7 @@ from app.project.edit import dancers as edit
 from app.project.model import DANCER_PARAMETERS, Dancer, Project
 from app.rig.character_library import characters
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Check, Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.instrument_name import character_name
 from widgets.common.layouts import in_column, in_row
@@ -69,7 +68,7 @@ class DancersSection(Retranslated, QWidget):
         self._form = QWidget()
         self._labels = {name: Label() for name in ("choreography", "character", "source")}
         self._choreography, self._character, self._source = Combo(), Combo(), Combo()
-        self._mirrored = named(QCheckBox(), "dancer_mirrored")
+        self._mirrored = named(Check("dancers_section.mirrored"), "dancer_mirrored")
         self._look, self._dice = QToolButton(), QToolButton()
         self._look.setObjectName("dancer_look")
         self._dice.setObjectName("dancer_dice")
@@ -336,7 +335,6 @@ class DancersSection(Retranslated, QWidget):
         for name, text in texts.items():
             self._labels[name].setText(text)
         self._source.setToolTip(parameter_text(_SOURCE.tip))
-        self._mirrored.setText(self.tr("dancers_section.mirrored"))
         self._mirrored.setToolTip(self.tr("dancers_section.left_and_right_exchanged"))
         self._look.setToolTip(self.tr("dancers_section.show_what_choreography_has_learned"))
         self._dice.setToolTip(self.tr("dancers_section.another_dance_to_same_music"))

@@ -19,7 +19,7 @@ from app.project.document import Change
 from app.project.edit import players as edit
 from app.project.edit.generation import vary_players
 from instrument_maps.library import all_maps
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
 from widgets.common.layouts import in_column, in_row
@@ -73,7 +73,7 @@ class PlayersPanel(Retranslated, QWidget):
         self._session = session
         self._tools = {name: QToolButton() for name, _ in _TOOLS}
         self.list = named(PlayerList(session), "player_list")
-        self._empty = Label()
+        self._empty = Caption("players_panel.nobody_plays_yet_add_player")
         self._empty.setWordWrap(True)
         self._empty.setContentsMargins(12, 4, 12, 4)
         self._parameters = ParameterSections(session)
@@ -329,7 +329,6 @@ class PlayersPanel(Retranslated, QWidget):
         self._tools["add"].setToolTip(self.tr("players_panel.add_player"))
         self._tools["duplicate"].setToolTip(self.tr("players_panel.duplicate_somebody_else_plays_same"))
         self._tools["remove"].setToolTip(self.tr("players_panel.remove_selected_players"))
-        self._empty.setText(self.tr("players_panel.nobody_plays_yet_add_player"))
         self._spread.set_texts(
             self.tr("players_panel.spread"),
             "",

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWid
 from app.project.document import Change
 from app.project.grid import Grid
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.grids import GRIDS
 from widgets.common.icons import icon, pixmap
 from widgets.common.listening import LEAST_SPEED, MOST_SPEED, SOURCES
@@ -65,7 +65,7 @@ class TransportBar(Retranslated, QWidget):
         )
         self.volume = NumberSlider(session, 0.0, 100.0, default=80.0, step=5.0, decimals=0, parent=self)
         self.source, self.snap = Combo(), Combo()
-        self.silent_sign, self.silent_text = Label(), Label()
+        self.silent_sign, self.silent_text = Label(), Caption("transport_bar.no_audio_device_silent")
         self.beat = BeatLight(session)
         self.take_text = named(Label(), "take_text")
         self.take_text.hide()
@@ -310,7 +310,6 @@ class TransportBar(Retranslated, QWidget):
         self.snap.setAccessibleName(self.tr("transport_bar.step_of_grid"))
         self.snap.set_options([Option(name, name) for name in GRIDS])
         hint = self.tr("transport_bar.there_is_no_audio_device")
-        self.silent_text.setText(self.tr("transport_bar.no_audio_device_silent"))
         for label in (self.silent_sign, self.silent_text):
             label.setToolTip(hint)
             label.setAccessibleName(hint)
