@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QCheckBox, QPushButton, QWidget
+from PySide6.QtWidgets import QCheckBox, QHeaderView, QPushButton, QTreeWidget, QWidget
 
 from widgets.common.plain import Label
 
@@ -16,12 +16,19 @@ else:
     _Mixin = object
 
 AnyWidget = TypeVar("AnyWidget", bound=QWidget)
+AnyLabel = TypeVar("AnyLabel", bound=Label)
 
 
 def named(widget: AnyWidget, name: str) -> AnyWidget:
     """The widget, with this object name."""
     widget.setObjectName(name)
     return widget
+
+
+def wrapped(label: AnyLabel) -> AnyLabel:
+    """The label, of as many lines as its text needs."""
+    label.setWordWrap(True)
+    return label
 
 
 class Retranslated(_Mixin):
@@ -38,15 +45,20 @@ class Retranslated(_Mixin):
 
 
 class Caption(Retranslated, Label):
-    """A label with the text of an id."""
+    """A label with the text of an id, perhaps of a field, which is named by it too."""
 
-    def __init__(self, text_id: str) -> None:
+    def __init__(self, text_id: str, field: QWidget | None = None) -> None:
         super().__init__()
         self._text_id = text_id
+        if field is not None:
+            self.setBuddy(field)
         self.retranslate()
 
     def retranslate(self) -> None:
         self.setText(self.tr(self._text_id))
+        field = self.buddy()
+        if field is not None:
+            field.setAccessibleName(self.text())
 
 
 class Button(Retranslated, QPushButton):
@@ -73,7 +85,8 @@ class Button(Retranslated, QPushButton):
 
     def retranslate(self) -> None:
         self.setText(self.tr(self._text_id))
-        self.setToolTip(self._tip_id and self.tr(self._tip_id))
+        if self._tip_id:
+            self.setToolTip(self.tr(self._tip_id))
 
 
 class Check(Retranslated, QCheckBox):
@@ -86,3 +99,34 @@ class Check(Retranslated, QCheckBox):
 
     def retranslate(self) -> None:
         self.setText(self.tr(self._text_id))
+
+
+class ColumnList(Retranslated, QTreeWidget):
+    """Rows of some columns, all of the same height, without the handles of a tree.
+
+    Parameters
+    ----------
+    name : str
+        Object name.
+    *text_ids : str
+        Ids of the columns' headings.
+    stretches : tuple of int
+        Columns that share the room that the others leave.
+    """
+
+    def __init__(self, name: str, *text_ids: str, stretches: tuple[int, ...] = (0,)) -> None:
+        super().__init__()
+        self._text_ids = text_ids
+        self.setObjectName(name)
+        self.setColumnCount(len(text_ids))
+        self.setRootIsDecorated(False)
+        self.setUniformRowHeights(True)
+        header = self.header()
+        header.setStretchLastSection(False)
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        for column in stretches:
+            header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        self.setHeaderLabels([self.tr(text_id) for text_id in self._text_ids])

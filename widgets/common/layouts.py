@@ -45,11 +45,11 @@ def in_column(
 
 
 def in_form(rows: Mapping[str, Part], of: QWidget | None = None) -> QFormLayout:
-    """Fields below one another, each with a caption that has the text of its id."""
+    """Fields below one another, each with a caption that has the text of its id; a layout's is of its first field."""
     layout = QFormLayout()
     layout.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-    for text_id, field in rows.items():
-        layout.addRow(Caption(text_id), field)
+    for text_id, part in rows.items():
+        layout.addRow(Caption(text_id, _field(part)), part)
     if of is not None:
         of.setLayout(layout)
     return layout
@@ -60,6 +60,13 @@ def panel(layout: QLayout) -> QWidget:
     widget = QWidget()
     widget.setLayout(layout)
     return widget
+
+
+def _field(part: Part) -> QWidget | None:
+    if isinstance(part, QWidget):
+        return part
+    first = part.itemAt(0)
+    return None if first is None else first.widget()
 
 
 Box = TypeVar("Box", bound=QBoxLayout)

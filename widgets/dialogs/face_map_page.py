@@ -8,9 +8,7 @@ from functools import partial
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
-    QHeaderView,
     QToolButton,
-    QTreeWidget,
     QTreeWidgetItem,
     QVBoxLayout,
     QWidget,
@@ -18,7 +16,7 @@ from PySide6.QtWidgets import (
 
 from metadata.model import ARKIT_MORPHS
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Button, named
+from widgets.common.controls import Button, ColumnList, named, wrapped
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
 from widgets.common.morph_names import morph_name
@@ -60,19 +58,14 @@ class FaceMapPage(QWidget):
         self._face = ARKIT_MORPHS[0]
         self._listed: tuple[object, ...] = ()
         self._rows = list[_Part]()
-        self.list = named(QTreeWidget(), "face_list")
-        self.list.setColumnCount(2)
-        self.list.setRootIsDecorated(False)
-        self.list.setUniformRowHeights(True)
-        self.list.header().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        self.list = ColumnList("face_list", "face_map_page.face", "face_map_page.made_of", stretches=(1,))
         self._items = {face: QTreeWidgetItem() for face in ARKIT_MORPHS}
         for face, item in self._items.items():
             item.setData(0, Qt.ItemDataRole.UserRole, face)
             self.list.addTopLevelItem(item)
         self.list.setCurrentItem(self._items[self._face])
         self.list.currentItemChanged.connect(self._chosen)
-        self._title, self._none = Label(), Label()
-        self._none.setWordWrap(True)
+        self._title, self._none = Label(), wrapped(Label())
         self._add = named(Combo(), "face_add")
         self._add.chosen.connect(self._add_part)
         self._reset = Button("face_map_page.automatic", lambda: self.changed.emit(self._face, None, None), "face_reset")
@@ -165,7 +158,6 @@ class FaceMapPage(QWidget):
 
     def retranslate(self) -> None:
         """Set all texts."""
-        self.list.setHeaderLabels([self.tr("face_map_page.face"), self.tr("face_map_page.made_of")])
         self._none.setText(
             self.tr("face_map_page.nothing_character_does_not_do")
             if self._morphs

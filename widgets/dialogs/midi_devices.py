@@ -10,13 +10,9 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QKeyEvent
 from PySide6.QtWidgets import (
     QDialog,
-    QFormLayout,
     QGroupBox,
-    QHeaderView,
     QPushButton,
-    QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -28,9 +24,9 @@ from app.capture.protocol import Events
 from metadata.load import load_controllers
 from metadata.model import BiteSource
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Button, Caption, Retranslated, named
+from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named, wrapped
 from widgets.common.instrument_name import language
-from widgets.common.layouts import in_column, in_row
+from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.text import sentence
@@ -81,22 +77,24 @@ class MidiDevicesDialog(Retranslated, QDialog):
         """The breath that was found, and from what, while the bite is looked for."""
         self._left_s = 0
         self._listed: tuple[object, ...] = ()
-        self._list = named(QTreeWidget(), "midi_device_list")
-        self._hint, self._reported, self._heard, self._late = (Label() for _ in range(4))
-        self._kind, self._channel, self._breath, self._bite = (Combo() for _ in range(4))
-        self._rows = {widget: Label() for widget in (self._kind, self._channel, self._breath, self._bite)}
-        self._late_name = Caption("midi_devices_dialog.latency")
-        self._learn = QPushButton()
-        self._close = Button("midi_devices_dialog.close", self.close)
-        self._beep = Button(
-            "midi_devices_dialog.test_beep", self.beep, "", "midi_devices_dialog.short_tone_on_audio_device"
-        )
-        self._measure = Button("midi_devices_dialog.measure", self.latency_asked.emit)
+        self._list = ColumnList("midi_device_list", "midi_devices_dialog.device", "midi_devices_dialog.state")
+        self._hint = named(wrapped(Label()), "midi_hint")
+        self._reported = named(wrapped(Label()), "midi_learned")
+        self._heard = named(wrapped(Label()), "midi_beep_told")
+        self._late = named(Label(), "midi_latency")
+        self._kind, self._channel = named(Combo(), "midi_kind"), named(Combo(), "midi_wired_channel")
+        self._breath, self._bite = named(Combo(), "midi_breath_source"), named(Combo(), "midi_bite_source")
+        self._learn = named(QPushButton(), "midi_learn")
+        # Enter in the list is no answer.
+        self._learn.setAutoDefault(False)
+        self._close = Button("midi_devices_dialog.close", self.close, "midi_close")
+        beep_tip = "midi_devices_dialog.short_tone_on_audio_device"
+        self._beep = Button("midi_devices_dialog.test_beep", self.beep, "midi_beep", beep_tip)
+        self._measure = Button("midi_devices_dialog.measure", self.latency_asked.emit, "midi_measure")
         self._device, self._incoming = QGroupBox(), QGroupBox()
         self._monitor = MidiMonitor(session)
         self._second = QTimer(self, interval=1000)
         self._second.timeout.connect(self._count_down)
-        self._name()
         self._build()
         self._connect()
         self.retranslate()
@@ -104,37 +102,21 @@ class MidiDevicesDialog(Retranslated, QDialog):
 
     # Building
 
-    def _name(self) -> None:
-        named: dict[QWidget, str] = {self._kind: "midi_kind", self._channel: "midi_wired_channel"}
-        named |= {self._breath: "midi_breath_source", self._bite: "midi_bite_source", self._learn: "midi_learn"}
-        named |= {self._measure: "midi_measure", self._beep: "midi_beep", self._close: "midi_close"}
-        named |= {self._hint: "midi_hint", self._reported: "midi_learned", self._heard: "midi_beep_told"}
-        named[self._late] = "midi_latency"
-        for widget, name in named.items():
-            widget.setObjectName(name)
-
     def _build(self) -> None:
-        self._list.setColumnCount(2)
-        self._list.setRootIsDecorated(False)
-        self._list.setUniformRowHeights(True)
-        header = self._list.header()
-        header.setStretchLastSection(False)
-        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
-        for label in (self._hint, self._reported, self._heard):
-            label.setWordWrap(True)
-        for button in (self._learn,):
-            # Enter in the list is no answer.
-            button.setAutoDefault(False)
-        late = in_row((self._late, 1), self._measure)
-        form = QFormLayout(self._device)
-        for widget, name in self._rows.items():
-            form.addRow(name, widget)
+        form = in_form(
+            {
+                "midi_devices_dialog.kind": self._kind,
+                "midi_devices_dialog.channel": self._channel,
+                "midi_devices_dialog.breath": self._breath,
+                "midi_devices_dialog.bite": self._bite,
+            },
+            of=self._device,
+        )
         form.addRow(self._learn)
         form.addRow(self._reported)
-        form.addRow(self._late_name, late)
+        form.addRow(Caption("midi_devices_dialog.latency"), in_row((self._late, 1), self._measure))
         left = in_column((self._list, 1), self._hint, self._device)
-        QVBoxLayout(self._incoming).addWidget(self._monitor)
+        in_column(self._monitor, of=self._incoming)
         columns = in_row((left, 1), (self._incoming, 1))
         self._device.setMinimumWidth(_SIDE_PX)
         self._incoming.setMinimumWidth(_SIDE_PX)
@@ -352,19 +334,9 @@ class MidiDevicesDialog(Retranslated, QDialog):
     def retranslate(self) -> None:
         """Set every text anew."""
         self.setWindowTitle(self.tr("midi_devices_dialog.midi_devices"))
-        self._list.setHeaderLabels([self.tr("midi_devices_dialog.device"), self.tr("midi_devices_dialog.state")])
         self._list.setAccessibleName(self.tr("midi_devices_dialog.devices"))
         self._device.setTitle(self.tr("midi_devices_dialog.chosen_device"))
         self._incoming.setTitle(self.tr("midi_devices_dialog.what_comes_in"))
-        names = {
-            self._kind: self.tr("midi_devices_dialog.kind"),
-            self._channel: self.tr("midi_devices_dialog.channel"),
-            self._breath: self.tr("midi_devices_dialog.breath"),
-        }
-        names |= {self._bite: self.tr("midi_devices_dialog.bite")}
-        for widget, text in names.items():
-            self._rows[widget].setText(text)
-            widget.setAccessibleName(text)
         self._learn.setToolTip(self.tr("midi_devices_dialog.finds_with_what_breath_and").format(count=LEARN_S))
         self._show()
 

@@ -9,15 +9,13 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHeaderView,
     QKeySequenceEdit,
     QLineEdit,
-    QTreeWidget,
     QTreeWidgetItem,
     QWidget,
 )
 
-from widgets.common.controls import Button, Caption, Retranslated, named
+from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named
 from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.session import Session
@@ -83,17 +81,10 @@ class ShortcutsPage(Retranslated, QWidget):
         self.search = named(QLineEdit(), "shortcut_search")
         self.search.setClearButtonEnabled(True)
         self.search.textChanged.connect(self._filter)
-        self.list = named(QTreeWidget(), "shortcut_list")
-        self.list.setColumnCount(4)
-        self.list.setRootIsDecorated(False)
-        self.list.setUniformRowHeights(True)
+        columns = ("shortcuts_page.action", "shortcuts_page.menu", "shortcuts_page.keys", "shortcuts_page.works")
+        self.list = ColumnList("shortcut_list", *columns, stretches=(_TEXT,))
         self.list.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.list.currentItemChanged.connect(self._choose)
-        header = self.list.header()
-        header.setStretchLastSection(False)
-        header.setSectionResizeMode(_TEXT, QHeaderView.ResizeMode.Stretch)
-        for column in (_PLACE, _KEYS, _CONTEXT):
-            header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
         self._label = Caption("shortcuts_page.new_keys")
         self.edit = named(QKeySequenceEdit(), "shortcut_edit")
         self.edit.setClearButtonEnabled(True)
@@ -113,14 +104,6 @@ class ShortcutsPage(Retranslated, QWidget):
     def retranslate(self) -> None:
         """Set the texts and the rows anew."""
         self.search.setPlaceholderText(self.tr("shortcuts_page.search_actions_or_keys"))
-        self.list.setHeaderLabels(
-            [
-                self.tr("shortcuts_page.action"),
-                self.tr("shortcuts_page.menu"),
-                self.tr("shortcuts_page.keys"),
-                self.tr("shortcuts_page.works"),
-            ]
-        )
         self.edit.setAccessibleName(self.tr("shortcuts_page.new_keys"))
         self._fill()
 

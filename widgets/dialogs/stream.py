@@ -9,8 +9,6 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QDialog,
-    QFormLayout,
-    QHeaderView,
     QLineEdit,
     QPushButton,
     QSpinBox,
@@ -21,8 +19,8 @@ from PySide6.QtWidgets import (
 
 from app.stream.sender import LEAST_PORT, LOOPBACK, MOST_PORT, TO_MANY, is_loopback
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Button, Caption, Retranslated
-from widgets.common.layouts import STRETCH, in_column, in_row
+from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named, wrapped
+from widgets.common.layouts import STRETCH, in_column, in_form, in_row
 from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.streaming import RATES_HZ
@@ -46,19 +44,17 @@ class StreamDialog(Retranslated, QDialog):
         self.setObjectName("stream")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._state = session, session.streaming
-        self._explained, self._warning, self._reported = (
-            Caption("stream_dialog.sends_performers_poses_faces_and"),
-            Caption("stream_dialog.what_is_sent_leaves_this"),
-            Label(),
-        )
-        self._host, self._port = QLineEdit(), QSpinBox()
-        self._who, self._faces, self._rate = Combo(), Combo(), Combo()
-        self._list = QTreeWidget()
-        self._toggle = QPushButton()
-        self._anyway = Button("stream_dialog.send_anyway", lambda: self._state.set(broadcast=self._state.host))
-        self._close = Button("stream_dialog.close", self.close)
-        self._here = Button("stream_dialog.this_computer", lambda: self._state.set(host=LOOPBACK))
-        self._names = {field: Label() for field in (self._host, self._port, self._who, self._faces, self._rate)}
+        self._explained = wrapped(Caption("stream_dialog.sends_performers_poses_faces_and"))
+        self._warning = named(wrapped(Caption("stream_dialog.what_is_sent_leaves_this")), "stream_warning")
+        self._reported = named(wrapped(Label()), "stream_told")
+        self._host, self._port = named(QLineEdit(), "stream_host"), named(QSpinBox(), "stream_port")
+        self._who, self._faces = named(Combo(), "stream_who"), named(Combo(), "stream_faces")
+        self._rate = named(Combo(), "stream_rate")
+        self._list = ColumnList("stream_list", "stream_dialog.performer", "stream_dialog.port")
+        self._toggle = named(QPushButton(), "stream_toggle")
+        self._anyway = Button("stream_dialog.send_anyway", self._send_anyway, "stream_anyway")
+        self._close = Button("stream_dialog.close", self.close, "stream_close")
+        self._here = Button("stream_dialog.this_computer", lambda: self._state.set(host=LOOPBACK), "stream_here")
         self._listed: tuple[object, ...] = ()
         self._build()
         self._host.editingFinished.connect(self._choose_host)
@@ -77,36 +73,21 @@ class StreamDialog(Retranslated, QDialog):
         self.resize(620, 560)
 
     def _build(self) -> None:
-        named: dict[QWidget, str] = {self._host: "stream_host", self._port: "stream_port", self._who: "stream_who"}
-        named |= {self._faces: "stream_faces", self._rate: "stream_rate", self._list: "stream_list"}
-        named |= {self._toggle: "stream_toggle", self._here: "stream_here", self._close: "stream_close"}
-        named |= {self._anyway: "stream_anyway"}
-        named |= {self._warning: "stream_warning", self._reported: "stream_told"}
-        for widget, name in named.items():
-            widget.setObjectName(name)
-        for label in (self._explained, self._warning, self._reported):
-            label.setWordWrap(True)
         self._port.setRange(LEAST_PORT, MOST_PORT)
         self._port.setKeyboardTracking(False)
-        self._list.setColumnCount(2)
-        self._list.setRootIsDecorated(False)
-        self._list.setUniformRowHeights(True)
         self._list.setSelectionMode(QTreeWidget.SelectionMode.NoSelection)
         self._list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._list.setMinimumHeight(_LIST_PX)
-        header = self._list.header()
-        header.setStretchLastSection(False)
-        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
         host = in_row((self._host, 1), self._here)
-        form = QFormLayout()
-        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        for field, label in self._names.items():
-            label.setBuddy(field)
-            if field is self._host:
-                form.addRow(label, host)
-            else:
-                form.addRow(label, field)
+        form = in_form(
+            {
+                "stream_dialog.computer": host,
+                "stream_dialog.port": self._port,
+                "stream_dialog.performers": self._who,
+                "stream_dialog.names_of_face": self._faces,
+                "stream_dialog.frames_per_second": self._rate,
+            }
+        )
         bottom = in_row(self._toggle, STRETCH, self._close)
         reported = in_row((self._reported, 1), self._anyway)
         in_column(
@@ -115,6 +96,9 @@ class StreamDialog(Retranslated, QDialog):
 
     def _choose_host(self) -> None:
         self._state.set(host=self._host.text().strip() or LOOPBACK)
+
+    def _send_anyway(self) -> None:
+        self._state.set(broadcast=self._state.host)
 
     # What is shown
 
@@ -170,15 +154,6 @@ class StreamDialog(Retranslated, QDialog):
     def retranslate(self) -> None:
         """Set all texts."""
         self.setWindowTitle(self.tr("stream_dialog.live_stream"))
-        for field, text in (
-            (self._host, self.tr("stream_dialog.computer")),
-            (self._port, self.tr("stream_dialog.port")),
-            (self._who, self.tr("stream_dialog.performers")),
-            (self._faces, self.tr("stream_dialog.names_of_face")),
-            (self._rate, self.tr("stream_dialog.frames_per_second")),
-        ):
-            self._names[field].setText(text)
-            field.setAccessibleName(text)
         self._who.set_options(
             [
                 Option("front", self.tr("stream_dialog.selected_player_in_middle")),
@@ -193,7 +168,6 @@ class StreamDialog(Retranslated, QDialog):
             ]
         )
         self._rate.set_options([Option(str(rate), str(rate)) for rate in RATES_HZ])
-        self._list.setHeaderLabels([self.tr("stream_dialog.performer"), self.tr("stream_dialog.port")])
         self._listed = ()
         self._show()
 
