@@ -6,9 +6,11 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QCheckBox, QHeaderView, QPushButton, QTreeWidget, QWidget
+from PySide6.QtWidgets import QCheckBox, QHeaderView, QPushButton, QToolButton, QTreeWidget, QWidget
 
+from widgets.common.icons import icon
 from widgets.common.plain import Label
+from widgets.common.session import Session
 
 if TYPE_CHECKING:
     _Mixin = QWidget
@@ -87,6 +89,64 @@ class Button(Retranslated, QPushButton):
         self.setText(self.tr(self._text_id))
         if self._tip_id:
             self.setToolTip(self.tr(self._tip_id))
+
+
+class PictureButton(Button):
+    """A button with a text and a picture, which may be narrower than its text.
+
+    Parameters
+    ----------
+    session : Session
+    picture : str
+        See `icon`.
+    text_id, run, name, tip_id
+        As of `Button`.
+    """
+
+    def __init__(
+        self, session: Session, picture: str, text_id: str, run: Callable[[], object], name: str, tip_id: str
+    ) -> None:
+        super().__init__(text_id, run, name, tip_id)
+        self._session, self._picture = session, picture
+        self.setMinimumWidth(40)
+        session.theme_changed.connect(self._draw)
+        self._draw()
+
+    def _draw(self) -> None:
+        self.setIcon(icon(self._picture, self._session.tokens))
+
+
+class IconButton(Retranslated, QToolButton):
+    """A small button with a picture alone, which its tip explains.
+
+    Parameters
+    ----------
+    session : Session
+    picture : str
+        See `icon`.
+    tip_id : str
+        Id of its tool tip.
+    run : callable
+        Called without arguments when it is clicked.
+    name : str
+        Object name.
+    """
+
+    def __init__(self, session: Session, picture: str, tip_id: str, run: Callable[[], object], name: str) -> None:
+        super().__init__()
+        self._session, self._picture, self._tip_id = session, picture, tip_id
+        self.setObjectName(name)
+        self.clicked.connect(lambda _checked: run())
+        session.theme_changed.connect(self._draw)
+        self._draw()
+        self.retranslate()
+
+    def _draw(self) -> None:
+        self.setIcon(icon(self._picture, self._session.tokens))
+
+    def retranslate(self) -> None:
+        self.setToolTip(self.tr(self._tip_id))
+        self.setAccessibleName(self.toolTip())
 
 
 class Check(Retranslated, QCheckBox):

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
-    QToolButton,
     QTreeWidgetItem,
     QVBoxLayout,
     QWidget,
@@ -16,8 +15,7 @@ from PySide6.QtWidgets import (
 
 from metadata.model import ARKIT_MORPHS
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Button, ColumnList, named, wrapped
-from widgets.common.icons import icon
+from widgets.common.controls import Button, ColumnList, IconButton, named, wrapped
 from widgets.common.layouts import in_column, in_row
 from widgets.common.morph_names import morph_name
 from widgets.common.number_slider import NumberSlider
@@ -145,16 +143,11 @@ class FaceMapPage(QWidget):
             self._column.removeWidget(row)
             row.hide()
             row.deleteLater()
-        self._rows = [_Part(self._session, morph) for morph in morphs]
+        self._rows = [_Part(self._session, morph, partial(self._remove_part, morph)) for morph in morphs]
         for row in self._rows:
             row.slider.changed.connect(partial(self._set_part, row.morph))
             row.slider.released.connect(self.released)
-            row.remove.clicked.connect(partial(self._remove_clicked, row.morph))
-            row.remove.setToolTip(self.tr("face_map_page.take_this_morph_out"))
             self._column.addWidget(row)
-
-    def _remove_clicked(self, morph: str, *_: object) -> None:
-        self._remove_part(morph)
 
     def retranslate(self) -> None:
         """Set all texts."""
@@ -165,22 +158,19 @@ class FaceMapPage(QWidget):
         )
         self._add.setPlaceholderText(self.tr("face_map_page.add_morph_of_file"))
         self._add.setAccessibleName(self.tr("face_map_page.add_morph_of_file"))
-        for row in self._rows:
-            row.remove.setToolTip(self.tr("face_map_page.take_this_morph_out"))
         self._show()
 
 
 class _Part(QWidget):
     """A morph and how much of it."""
 
-    def __init__(self, session: Session, morph: str) -> None:
+    def __init__(self, session: Session, morph: str, remove: Callable[[], object]) -> None:
         super().__init__()
         self.morph = morph
         self.slider = named(NumberSlider(session, 0.0, MOST_FACTOR, default=1.0, step=0.05), f"face_part_{morph}")
         self.slider.set_texts(morph)
-        self.remove = named(QToolButton(), f"face_remove_{morph}")
-        self.remove.setIcon(icon("close", session.tokens))
-        in_row((self.slider, 1), self.remove, of=self, margins=0)
+        button = IconButton(session, "close", "face_map_page.take_this_morph_out", remove, f"face_remove_{morph}")
+        in_row((self.slider, 1), button, of=self, margins=0)
 
 
 def made_of(parts: Mapping[str, float]) -> str:

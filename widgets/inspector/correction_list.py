@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtWidgets import QPushButton, QWidget
+from PySide6.QtWidgets import QWidget
 
 from app.errors import Message
 from app.plan.corrections import Correction, PinFingering, SetEmbouchure, Vary
@@ -14,8 +14,7 @@ from app.project.edit import events as edit
 from app.project.edit.corrections import take_back
 from app.project.model import Player, Project
 from app.project.reimport import orphaned, reattached
-from widgets.common.controls import Caption, Retranslated, named
-from widgets.common.icons import icon
+from widgets.common.controls import Button, Caption, PictureButton, Retranslated, named
 from widgets.common.layouts import in_column, in_row
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
@@ -49,22 +48,24 @@ class CorrectionList(Retranslated, QWidget):
         self._empty.setWordWrap(True)
         self._empty.setMargin(12)
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
-        self._revert, self._revert_all, self._attach = QPushButton(), QPushButton(), QPushButton()
-        self._revert.setObjectName("revert_selected")
-        self._revert_all.setObjectName("revert_player")
-        self._attach.setObjectName("reattach")
-        buttons = in_row(margins=6, spacing=4)
-        for button in (self._revert, self._revert_all):
-            button.setMinimumWidth(40)
-            buttons.addWidget(button, 1)
+        revert = ("correction_list.revert", self._revert_selected, "revert_selected")
+        self._revert = PictureButton(session, "reset", *revert, "correction_list.back_to_generators_selected_lines")
+        everything = ("correction_list.revert_all", self._revert_players, "revert_player")
+        self._revert_all = PictureButton(
+            session, "reset", *everything, "correction_list.back_to_generators_everything_of"
+        )
+        self._attach = Button(
+            "correction_list.re_attach_to_selected_note",
+            self._reattach,
+            "reattach",
+            "correction_list.let_selected_line_be_about",
+        )
+        buttons = in_row((self._revert, 1), (self._revert_all, 1), margins=6, spacing=4)
         attach = in_row(self._attach, margins=(6, 6, 6, 0))
         in_column((self.list, 1), (self._empty, 1), attach, buttons, of=self, margins=0, spacing=0)
         self.list.opened.connect(self._open)
         self.list.deleted.connect(self._revert_selected)
         self.list.selectionModel().selectionChanged.connect(self._show_buttons)
-        self._revert.clicked.connect(self._revert_selected)
-        self._revert_all.clicked.connect(self._revert_players)
-        self._attach.clicked.connect(self._reattach)
         generated.changed.connect(self.show_corrections)
         session.performance_changed.connect(self.show_corrections)
         session.players_changed.connect(self.show_corrections)
@@ -233,14 +234,6 @@ class CorrectionList(Retranslated, QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._revert.setText(self.tr("correction_list.revert"))
-        self._revert.setToolTip(self.tr("correction_list.back_to_generators_selected_lines"))
-        self._revert_all.setText(self.tr("correction_list.revert_all"))
-        self._revert_all.setToolTip(self.tr("correction_list.back_to_generators_everything_of"))
-        self._attach.setText(self.tr("correction_list.re_attach_to_selected_note"))
-        self._attach.setToolTip(self.tr("correction_list.let_selected_line_be_about"))
-        for button in (self._revert, self._revert_all):
-            button.setIcon(icon("reset", self._session.tokens))
         self.show_corrections()
 
     # Qt's own names

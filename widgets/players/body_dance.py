@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from PySide6.QtWidgets import QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.choreography.library import bundled_choreographies
 from app.choreography.model_file import SUFFIX
@@ -16,8 +16,7 @@ from app.project.edit import body_dance as edit
 from app.project.edit.players import parameter_edit, reset_parameters, set_parameters
 from app.project.model import Player, Project
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Retranslated, named
-from widgets.common.icons import icon
+from widgets.common.controls import IconButton, Retranslated
 from widgets.common.layouts import in_row
 from widgets.common.paths import ask_for_file
 from widgets.common.plain import Label
@@ -47,16 +46,13 @@ class BodyDanceRows(Retranslated, QWidget):
         self._choreography.setObjectName("parameter_choreography")
         self._label.setBuddy(self._choreography)
         self._sliders = {one.name: ParameterSlider(session, one) for one in rows_of("dance")}
-        self._dice = named(QToolButton(), "dance_dice")
+        self._dice = IconButton(session, "dice", "body_dance_rows.another_dance_for_each", self._vary, "dance_dice")
         self._build()
         self._choreography.chosen.connect(self._choose)
-        self._dice.clicked.connect(self._vary)
         for name, slider in self._sliders.items():
             slider.changed.connect(lambda value, token, name=name: self._set(name, value, token))
             slider.reset.connect(lambda _, name=name: self._reset(name))
             slider.released.connect(session.document.end_gesture)
-        session.theme_changed.connect(self._apply_theme)
-        self._apply_theme()
         self.retranslate()
 
     def _build(self) -> None:
@@ -126,14 +122,10 @@ class BodyDanceRows(Retranslated, QWidget):
     def _edit(self, name: str, change: Callable[[Project], Project], token: object | None = None) -> None:
         self._session.attempt(parameter_edit(name, len(self._session.players)), change, token, self)
 
-    # Words and pictures
-
-    def _apply_theme(self) -> None:
-        self._dice.setIcon(icon("dice", self._session.tokens))
+    # Words
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor; what is shown of players follows with `show_players`."""
         self._label.setText(parameter_text(_DANCED.label))
-        self._dice.setToolTip(self.tr("body_dance_rows.another_dance_for_each"))
         for slider in self._sliders.values():
             slider.retranslate()

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPoint, Qt, QTimer
+from collections.abc import Callable
+
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent, QResizeEvent
 from PySide6.QtWidgets import (
-    QMenu,
-    QPushButton,
     QScrollArea,
     QSplitter,
-    QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -19,10 +17,10 @@ from app.project.document import Change
 from app.project.edit import players as edit
 from app.project.edit.generation import vary_players
 from instrument_maps.library import all_maps
-from widgets.common.controls import Caption, Retranslated, named
-from widgets.common.icons import icon
+from widgets.common.controls import Caption, IconButton, PictureButton, Retranslated, named
 from widgets.common.instrument_name import instrument_name
-from widgets.common.layouts import in_column, in_row
+from widgets.common.layouts import STRETCH, in_column, in_row, panel
+from widgets.common.menus import offer_actions, passing_menu
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
@@ -53,7 +51,6 @@ MENU = (
     "players.arrange",
 )
 """The context menu: actions by id, an empty one is a line."""
-_TOOLS = (("add", "add"), ("duplicate", "duplicate"), ("remove", "delete"))
 LEAST_LIST_PX = 130
 LIST_SHARE = 0.5
 """Of the panel: where there are many players the parameters still have room."""
@@ -71,7 +68,11 @@ class PlayersPanel(Retranslated, QWidget):
         super().__init__(parent)
         self.setObjectName("players")
         self._session = session
-        self._tools = {name: QToolButton() for name, _ in _TOOLS}
+        self._tools = {
+            "add": self._tool("add", "players_panel.add_player", self._offer_instruments),
+            "duplicate": self._tool("duplicate", "players_panel.duplicate_somebody_else_plays_same", self._duplicate),
+            "remove": self._tool("delete", "players_panel.remove_selected_players", self._remove),
+        }
         self.list = named(PlayerList(session), "player_list")
         self._empty = Caption("players_panel.nobody_plays_yet_add_player")
         self._empty.setWordWrap(True)
@@ -82,37 +83,34 @@ class PlayersPanel(Retranslated, QWidget):
         self.dancers = DancersSection(session)
         self._variety = Section(session, "players_variety")
         self._spread = named(NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05), "spread")
-        self._throw, self._reset = QPushButton(), QPushButton()
-        self._throw.setObjectName("randomise")
-        self._reset.setObjectName("reset_parameters")
+        throw = (
+            "players_panel.randomise",
+            self._randomise,
+            "randomise",
+            "players_panel.amplitude_sway_weight_shift_bell",
+        )
+        self._throw = PictureButton(session, "dice", *throw)
+        reset = ("players_panel.reset", self._reset_all, "reset_parameters")
+        self._reset = PictureButton(session, "reset", *reset, "players_panel.return_all_parameters_of_selected")
         self._build()
         self._connect()
-        self._apply_theme()
         self.retranslate()
 
     # Building
 
+    def _tool(self, picture: str, tip_id: str, run: Callable[[], object]) -> IconButton:
+        name = "remove" if picture == "delete" else picture
+        return IconButton(self._session, picture, tip_id, run, f"players_{name}_button")
+
     def _build(self) -> None:
         self._count = Label()
-        bar = in_row((self._count, 1), margins=(6, 4, 4, 4), spacing=2)
-        for name, button in self._tools.items():
-            button.setObjectName(f"players_{name}_button")
-            bar.addWidget(button)
-        upper = QWidget()
-        in_column(bar, (self.list, 1), (self._empty, 1), of=upper, margins=0, spacing=0)
-        for wide in (self._throw, self._reset):
-            # The panel may be narrower than its longest word.
-            wide.setMinimumWidth(40)
+        bar = in_row((self._count, 1), *self._tools.values(), margins=(6, 4, 4, 4), spacing=2)
+        upper = panel(in_column(bar, (self.list, 1), (self._empty, 1), margins=0, spacing=0))
         buttons = in_row((self._throw, 1), (self._reset, 1), spacing=4)
         self._variety.body.addWidget(self._spread)
         self._variety.body.addLayout(buttons)
-        lower = QWidget()
-        lower_layout = QVBoxLayout(lower)
-        lower_layout.setContentsMargins(0, 0, 0, 0)
-        lower_layout.setSpacing(0)
-        for part in (self._parameters, self._stage, self._variety, self._presets, self.dancers):
-            lower_layout.addWidget(part)
-        lower_layout.addStretch(1)
+        parts = (self._parameters, self._stage, self._variety, self._presets, self.dancers)
+        lower = panel(in_column(*parts, STRETCH, margins=0, spacing=0))
         scroll = QScrollArea()
         scroll.setWidgetResizable(True)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -134,7 +132,7 @@ class PlayersPanel(Retranslated, QWidget):
         session.performance_changed.connect(self._show_list)
         session.problems_changed.connect(self._show_list)
         session.players_changed.connect(self._players_changed)
-        session.theme_changed.connect(self._apply_theme)
+        session.theme_changed.connect(self._show_list)
         session.dancer_changed.connect(self._show_dancers)
         self.list.chosen.connect(session.set_players)
         self.list.mute_clicked.connect(self._mute)
@@ -142,13 +140,8 @@ class PlayersPanel(Retranslated, QWidget):
         self.list.solo_clicked.connect(self._solo)
         self.list.moved.connect(self._move)
         self.list.rows.renamed.connect(self._rename)
-        self._tools["add"].clicked.connect(self._offer_instruments)
-        self._tools["duplicate"].clicked.connect(self._duplicate)
-        self._tools["remove"].clicked.connect(self._remove)
         self._parameters.dice_thrown.connect(self._reseed)
         self._spread.changed.connect(self._set_spread)
-        self._throw.clicked.connect(self._randomise)
-        self._reset.clicked.connect(self._reset_all)
 
     # Showing
 
@@ -272,8 +265,7 @@ class PlayersPanel(Retranslated, QWidget):
         )
 
     def _offer_instruments(self) -> None:
-        menu = named(QMenu(self), "instrument_menu")
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu = passing_menu(self, "instrument_menu")
         for instrument in all_maps().values():
             action = menu.addAction(verbatim(instrument_name(instrument)))
             action.triggered.connect(lambda _=False, id=instrument.id: self.add(id))
@@ -314,30 +306,15 @@ class PlayersPanel(Retranslated, QWidget):
             self._name("edit.reset_parameters"), lambda project: edit.reset_parameters(project, chosen)
         )
 
-    # Words and pictures
-
-    def _apply_theme(self) -> None:
-        tokens = self._session.tokens
-        for name, drawing in _TOOLS:
-            self._tools[name].setIcon(icon(drawing, tokens))
-        self._throw.setIcon(icon("dice", tokens))
-        self._reset.setIcon(icon("reset", tokens))
-        self._show_list()
+    # Words
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._tools["add"].setToolTip(self.tr("players_panel.add_player"))
-        self._tools["duplicate"].setToolTip(self.tr("players_panel.duplicate_somebody_else_plays_same"))
-        self._tools["remove"].setToolTip(self.tr("players_panel.remove_selected_players"))
         self._spread.set_texts(
             self.tr("players_panel.spread"),
             "",
             self.tr("players_panel.how_far_apart_players_become"),
         )
-        self._throw.setText(self.tr("players_panel.randomise"))
-        self._throw.setToolTip(self.tr("players_panel.amplitude_sway_weight_shift_bell"))
-        self._reset.setText(self.tr("players_panel.reset"))
-        self._reset.setToolTip(self.tr("players_panel.return_all_parameters_of_selected"))
         self._spread.show_value(self._session.variety)
         self._show_all()
 
@@ -349,16 +326,5 @@ class PlayersPanel(Retranslated, QWidget):
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         inside = self.list.rect().contains(self.list.mapFromGlobal(event.globalPos()))
-        if not inside or not self._session.actions:
-            return
-        self._popup(event.globalPos())
-
-    def _popup(self, at: QPoint) -> None:
-        menu = named(QMenu(self), "players_menu")
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        for id in MENU:
-            if id and id in self._session.actions:
-                menu.addAction(self._session.actions[id])
-            elif not id:
-                menu.addSeparator()
-        menu.popup(at)
+        if inside and self._session.actions:
+            offer_actions(self._session, MENU, self, "players_menu", event.globalPos())

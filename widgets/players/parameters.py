@@ -8,7 +8,7 @@ from contextlib import suppress
 import shiboken6
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QIcon, QImage, QPixmap, QShowEvent
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QToolButton, QWidget
+from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.errors import AppError, Message
 from app.plan.parameters import Parameter, Value
@@ -18,10 +18,9 @@ from app.project.model import Player, Project
 from app.rig.character_library import bundled_characters, characters
 from instrument_maps.library import all_maps
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Retranslated, named
-from widgets.common.icons import icon
+from widgets.common.controls import IconButton, Retranslated
 from widgets.common.instrument_name import character_name, instrument_name
-from widgets.common.layouts import in_column
+from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.session import Session
@@ -58,8 +57,8 @@ class ParameterSections(Retranslated, QWidget):
         self._sliders: dict[str, ParameterSlider] = {}
         self._choices: dict[str, ParameterChoice] = {}
         self._body_dance = BodyDanceRows(session)
-        self._dice = named(QToolButton(), "seed_dice")
-        self._dice.clicked.connect(self.dice_thrown)
+        dice_tip = "parameter_sections.another_seed_for_each"
+        self._dice = IconButton(session, "dice", dice_tip, self.dice_thrown.emit, "seed_dice")
         outer = in_column(of=self, margins=0, spacing=0)
         for section in self._sections.values():
             outer.addWidget(section)
@@ -70,10 +69,8 @@ class ParameterSections(Retranslated, QWidget):
             for parameter in rows_of(name):
                 self._make_row(parameter)
         self.retranslate()
-        session.theme_changed.connect(self._apply_theme)
         session.instruments_changed.connect(self._instruments_changed)
         session.characters_changed.connect(self._characters_changed)
-        self._apply_theme()
 
     # Building
 
@@ -115,11 +112,7 @@ class ParameterSections(Retranslated, QWidget):
         elif parameter.name == "choreography":
             body.addWidget(self._body_dance)
         elif parameter.name == "seed":
-            line = QHBoxLayout()
-            line.setSpacing(4)
-            line.addWidget(self._make_slider(parameter), 1)
-            line.addWidget(self._dice)
-            body.addLayout(line)
+            body.addLayout(in_row((self._make_slider(parameter), 1), self._dice, spacing=4))
         else:
             body.addWidget(self._make_slider(parameter))
 
@@ -134,9 +127,6 @@ class ParameterSections(Retranslated, QWidget):
         slider.reset.connect(lambda _: self._reset(parameter))
         slider.released.connect(self._session.document.end_gesture)
         return slider
-
-    def _apply_theme(self) -> None:
-        self._dice.setIcon(icon("dice", self._session.tokens))
 
     # Showing
 
@@ -275,7 +265,6 @@ class ParameterSections(Retranslated, QWidget):
         self._show_instruments()
         self._show_characters()
         self._colour.setToolTip(self.tr("parameter_sections.colour_of_player_in_timeline"))
-        self._dice.setToolTip(self.tr("parameter_sections.another_seed_for_each"))
         for slider in self._sliders.values():
             slider.retranslate()
         for choice in self._choices.values():

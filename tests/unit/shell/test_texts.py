@@ -15,7 +15,7 @@ from app.shell.language import LANGUAGES, ROOMS
 
 ROOT = Path(__file__).parents[3]
 TEXTS = {id: wording for room in ROOMS for id, wording in room.items()}
-FUNCTIONS = frozenset({"tr", "Caption", "Button", "Check", "in_form"})
+FUNCTIONS = frozenset({"tr", "Caption", "Button", "Check", "ColumnList", "IconButton", "PictureButton", "in_form"})
 """What is given ids."""
 ID = re.compile(r"[a-z_]+\.\w+")
 """Names of objects have no dot."""
