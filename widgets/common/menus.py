@@ -18,12 +18,17 @@ def passing_menu(parent: QWidget, name: str = "") -> QMenu:
     return menu
 
 
-def offer_actions(session: Session, ids: Iterable[str], parent: QWidget, name: str, at: QPoint) -> None:
-    """Open a menu of these actions at a place of the screen; an empty id is a line."""
-    menu = passing_menu(parent, name)
+def add_actions(menu: QMenu, session: Session, ids: Iterable[str]) -> None:
+    """Add these actions, as far as there are any; an empty id is a line."""
     for id in ids:
         if id in session.actions:
             menu.addAction(session.actions[id])
         elif not id:
             menu.addSeparator()
+
+
+def offer_actions(session: Session, ids: Iterable[str], parent: QWidget, name: str, at: QPoint) -> None:
+    """Open a menu of these actions at a place of the screen; see `add_actions`."""
+    menu = passing_menu(parent, name)
+    add_actions(menu, session, ids)
     menu.popup(at)

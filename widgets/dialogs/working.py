@@ -49,10 +49,11 @@ class WorkingDialog(Retranslated, QDialog):
         self._start = Button(start_id, start, f"{self._prefix}_start")
         self._start.setDefault(True)
         self._show = Button("working_dialog.show_in_folder", show_folder, f"{self._prefix}_show_folder")
-        self._show.hide()
         for button in (self._start, self._show):
             button.setAutoDefault(True)
             box.addButton(button, QDialogButtonBox.ButtonRole.ActionRole)
+        self._show.hide()
+        self.fields += (self._start,)
         box.addButton(self._close, QDialogButtonBox.ButtonRole.RejectRole)
         return box
 

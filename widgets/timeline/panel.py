@@ -19,6 +19,7 @@ from app.project.document import Change
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
+from widgets.common.menus import passing_menu
 from widgets.common.session import Session
 from widgets.common.timeline_view import Ghosts, Tool
 from widgets.timeline.axis import TimeAxis
@@ -282,8 +283,7 @@ class TimelinePanel(Retranslated, QWidget):
         lane = header.parentWidget()
         assert isinstance(lane, Lane)
         at, last = self.stack.lanes.index(lane), len(self.stack.lanes) - 1
-        menu = QMenu(self)
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu = passing_menu(self)
         up = menu.addAction(self.tr("timeline_panel.move_up"))
         up.setEnabled(at > 0)
         up.triggered.connect(lambda: self.stack.shift(lane, -1))

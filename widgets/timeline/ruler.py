@@ -23,6 +23,7 @@ from PySide6.QtWidgets import QApplication, QMenu, QWidget
 
 from app.errors import Message
 from widgets.common.controls import Retranslated
+from widgets.common.menus import add_actions
 from widgets.common.selection import Selection
 from widgets.common.session import Session, Severity, TimeDisplay
 from widgets.common.tokens import LEAST_TEXT_PT
@@ -276,10 +277,7 @@ class Ruler(Retranslated, Pictured):
             menu.addMenu(self.tr("ruler.felt_beat")).addActions(felt)
         menu.addSeparator()
         menu.addAction(self.tr("ruler.select_this_bar")).triggered.connect(lambda: self._select_bar(tick))
-        for id in ("play.loop", "notes.select_span", "timeline.zoom_selection", "timeline.fit"):
-            action = self.session.actions.get(id)
-            if action is not None:
-                menu.addAction(action)
+        add_actions(menu, self.session, ("play.loop", "notes.select_span", "timeline.zoom_selection", "timeline.fit"))
         return menu
 
     def _remove(self, kind: str, tick: int) -> None:

@@ -10,12 +10,13 @@ import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QColor, QImage, QPainter
-from PySide6.QtWidgets import QMenu, QStackedWidget, QWidget
+from PySide6.QtWidgets import QStackedWidget, QWidget
 
 from app.errors import AppError
 from app.project.document import Change
 from widgets.common.controls import Retranslated, named
 from widgets.common.layouts import in_column
+from widgets.common.menus import passing_menu
 from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.viewport_state import SHOWN, VIEWS, View
@@ -457,8 +458,7 @@ class ViewportPanel(Retranslated, QWidget):
 
     def _show_menu(self, at: QPoint) -> None:
         """What can be done here, from the table of actions."""
-        menu = named(QMenu(self), "viewport_menu")
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu = passing_menu(self, "viewport_menu")
         for group in MENU:
             rows = [self._session.actions[name] for name in group if name in self._session.actions]
             if rows:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from operator import is_
 
 import numpy as np
-from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
+from PySide6.QtCore import QPoint, QPointF, QRectF
 from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
@@ -26,6 +26,7 @@ from app.project.edit.generation import variations
 from app.project.model import Project
 from app.score.tempo import TempoMap
 from widgets.common.event_names import expression_name, kind_name, pose_name
+from widgets.common.menus import passing_menu
 from widgets.common.plain import verbatim
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
@@ -302,8 +303,7 @@ class ActingLane(RegionLane):
         if kind == "cue":
             self._add_cue(mouse)
         elif kind == "expression":
-            menu = QMenu(self)
-            menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+            menu = passing_menu(self)
             self._expression_entries(menu, lambda name: self._add_expression(name, mouse))
             menu.popup(QPoint(*mouse.screen_px))
         else:

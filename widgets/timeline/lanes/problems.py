@@ -155,12 +155,6 @@ class ProblemsLane(Lane):
             default=None,
         )
 
-    def performance_changed(self) -> None:
-        self.refresh()
-
-    def players_changed(self) -> None:
-        self.refresh()
-
     def selection_changed(self, before: Selection) -> None:
         if not self._note_ids.isdisjoint(before.notes ^ self.session.selection.notes):
             self.update_items()
