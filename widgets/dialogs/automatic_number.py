@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QHBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QWidget
+
+from widgets.common.layouts import in_row
 
 TEXT_MARGIN_PX = 6
 """As far from the edge as in other fields; the style sheet does not reach the text of a spin box."""
@@ -41,10 +43,7 @@ class AutomaticNumber(QWidget):
         self.number.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
         self.number.lineEdit().setAcceptDrops(False)
         self.setFocusProxy(self.check)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.check)
-        row.addWidget(self.number, 1)
+        in_row(self.check, (self.number, 1), of=self, margins=0)
         self.check.clicked.connect(self._toggled)
         self.number.valueChanged.connect(lambda _: self.changed.emit())
         self.show_value(None, None)

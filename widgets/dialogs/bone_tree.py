@@ -6,10 +6,12 @@ from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent
-from PySide6.QtWidgets import QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QWidget
 
 from app.editor.session import Session
 from app.rig.figure import Figure
+from widgets.common.controls import named
+from widgets.common.layouts import in_column
 
 
 class BoneTree(QWidget):
@@ -31,13 +33,11 @@ class BoneTree(QWidget):
     def __init__(self, session: Session, figure: Figure, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self.search = QLineEdit()
-        self.search.setObjectName("bone_search")
+        self.search = named(QLineEdit(), "bone_search")
         self.search.setClearButtonEnabled(True)
         self.search.textChanged.connect(self._filter)
         self.search.installEventFilter(self)
-        self.tree = _Tree()
-        self.tree.setObjectName("bone_tree")
+        self.tree = named(_Tree(), "bone_tree")
         self.tree.setColumnCount(2)
         self.tree.setUniformRowHeights(True)
         self.tree.setIndentation(10)
@@ -52,11 +52,7 @@ class BoneTree(QWidget):
                 self._items[parent_bone].addChild(item)
             self._items.append(item)
         self.tree.expandAll()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
-        column.addWidget(self.search)
-        column.addWidget(self.tree, 1)
+        in_column(self.search, (self.tree, 1), of=self, margins=0, spacing=4)
 
     def show_used(self, used: Mapping[int, str]) -> None:
         """Write beside each bone which joint it is."""

@@ -9,22 +9,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Final
 
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QImage, QKeyEvent, QKeySequence, QPixmap
 from PySide6.QtWidgets import (
     QCheckBox,
     QDialog,
     QDialogButtonBox,
-    QFormLayout,
-    QHBoxLayout,
-    QHeaderView,
     QLineEdit,
-    QPushButton,
     QScrollArea,
     QTabWidget,
-    QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -34,7 +28,9 @@ from app.encoding import shown
 from app.errors import AppError, Message
 from app.rig.figure import Figure
 from widgets.common.character_picture import Crop, Seen, picture, seen
+from widgets.common.controls import Button, ColumnList, Retranslated, named, wrapped
 from widgets.common.icons import icon
+from widgets.common.layouts import STRETCH, in_column, in_form, in_row, panel
 from widgets.common.plain import Label, verbatim, verbatim_title
 from widgets.common.text import message_text
 from widgets.dialogs.body_map import BodyMap, joints
@@ -56,7 +52,7 @@ _SOON_MS: Final = 60
 """A drag asks for many pictures: the next is drawn when it rests so long, or moves on slowly."""
 
 
-class CharacterDialog(QDialog):
+class CharacterDialog(Retranslated, QDialog):
     """A character of a file that was read.
 
     Parameters
@@ -99,29 +95,25 @@ class CharacterDialog(QDialog):
         """A character ready to be drawn, and what it was made from."""
         self._drawing = False
         self._wants_picture = False
-        self.title = QLineEdit(draft.title)
-        self.title.setObjectName("character_title")
-        self._source, self._reported, self._picture = Label(), Label(), Label()
+        self.title = named(QLineEdit(draft.title), "character_title")
+        self._source, self._picture = wrapped(Label()), named(Label(), "character_picture")
+        self._reported = named(wrapped(Label()), "character_told")
         self._legend = [(Label(sign), Label()) for sign in ("●", "◉", "○")]
-        self._picture.setObjectName("character_picture")
-        self._reported.setObjectName("character_told")
         self.body = BodyMap(session, self._joint_text)
-        self.rows = QTreeWidget()
-        self.rows.setObjectName("joint_list")
+        self.rows = ColumnList("joint_list", "character_dialog.joint", "character_dialog.bone", stretches=(1,))
         self._items = {joint: QTreeWidgetItem() for joint in joints()}
         self.bones = BoneTree(session, figure)
         self.faces = FaceMapPage(session, figure.morph_names)
-        self.tabs = QTabWidget()
-        self.tabs.setObjectName("character_tabs")
-        self._none, self._automatic = QPushButton(), QPushButton()
-        self._undo, self._redo, self._reset = QPushButton(), QPushButton(), QPushButton()
-        self.give = QCheckBox()
-        self.give.setObjectName("character_give")
+        self.tabs = named(QTabWidget(), "character_tabs")
+        self._none = Button("character_dialog.no_bone", lambda: self._give_bone(""), "joint_none")
+        self._automatic = Button("character_dialog.automatic", lambda: self._give_bone(None), "joint_automatic")
+        self._undo = Button("character_dialog.undo", self.undo, "character_undo")
+        self._redo = Button("character_dialog.redo", self.redo, "character_redo")
+        self._reset = Button("character_dialog.reset_all", self._start_anew, "character_reset")
+        self.give = named(QCheckBox(), "character_give")
         self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
-        self._title_name = Label()
         self._soon = QTimer(self, singleShot=True, interval=_SOON_MS)
         self._soon.timeout.connect(self._draw)
-        self._name()
         self._build()
         self._connect()
         self.retranslate()
@@ -130,89 +122,39 @@ class CharacterDialog(QDialog):
 
     # Building
 
-    def _name(self) -> None:
-        for button, name in (
-            (self._none, "joint_none"),
-            (self._automatic, "joint_automatic"),
-            (self._undo, "character_undo"),
-            (self._redo, "character_redo"),
-            (self._reset, "character_reset"),
-        ):
-            button.setObjectName(name)
-            button.setAutoDefault(False)
-
     def _build(self) -> None:
-        self.rows.setColumnCount(2)
         self.rows.setMinimumWidth(_LEAST_LIST_PX)
         self.bones.setMinimumWidth(_LEAST_LIST_PX)
-        self.rows.setRootIsDecorated(False)
-        self.rows.setUniformRowHeights(True)
-        self.rows.header().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
-        self.rows.header().setSectionResizeMode(1, QHeaderView.ResizeMode.Stretch)
         for joint, item in self._items.items():
             item.setData(0, Qt.ItemDataRole.UserRole, joint)
             self.rows.addTopLevelItem(item)
-        for label in (self._source, self._reported):
-            label.setWordWrap(True)
         self._reported.setAlignment(Qt.AlignmentFlag.AlignTop)
         self._reported.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._picture.setFixedSize(PICTURE_PX)
         self._picture.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        body_page = QWidget()
-        columns = QHBoxLayout(body_page)
-        columns.setContentsMargins(0, 8, 0, 0)
-        drawn = QVBoxLayout()
-        drawn.addWidget(self.body, 1)
-        legend = QHBoxLayout()
-        legend.addStretch(1)
+        legend = in_row(STRETCH)
         for sign, text in self._legend:
             legend.addWidget(sign)
             legend.addWidget(text)
             legend.addSpacing(8)
         legend.addStretch(1)
-        drawn.addLayout(legend)
-        columns.addLayout(drawn, 5)
-        columns.addWidget(self.rows, 4)
-        choice = QVBoxLayout()
-        choice.addWidget(self.bones, 1)
-        line = QHBoxLayout()
-        line.addWidget(self._none)
-        line.addWidget(self._automatic)
-        choice.addLayout(line)
-        columns.addLayout(choice, 5)
+        drawn = in_column((self.body, 1), legend)
+        choice = in_column((self.bones, 1), in_row(self._none, self._automatic))
+        body_page = panel(in_row((drawn, 5), (self.rows, 4), (choice, 5), margins=(0, 8, 0, 0)))
         self.tabs.addTab(body_page, "")
         self.tabs.addTab(self.faces, "")
-        side = QVBoxLayout()
-        side.setSpacing(8)
-        form = QFormLayout()
-        self._title_name.setBuddy(self.title)
-        form.addRow(self._title_name, self.title)
-        side.addLayout(form)
-        side.addWidget(self._source)
-        side.addWidget(self._picture, 0, Qt.AlignmentFlag.AlignHCenter)
         words = QScrollArea()
         words.setWidget(self._reported)
         words.setWidgetResizable(True)
         words.setFrameShape(QScrollArea.Shape.NoFrame)
         words.setMinimumHeight(_LEAST_WORDS_PX)
-        side.addWidget(words, 1)
-        side_box = QWidget()
-        side_box.setLayout(side)
-        side_box.setFixedWidth(PICTURE_PX.width() + 24)
-        side.setContentsMargins(12, 0, 0, 0)
-        middle = QHBoxLayout()
-        middle.addWidget(self.tabs, 1)
-        middle.addWidget(side_box)
-        bottom = QHBoxLayout()
-        for button in (self._undo, self._redo, self._reset):
-            bottom.addWidget(button)
-        bottom.addStretch(1)
-        bottom.addWidget(self.give)
-        bottom.addWidget(self._buttons)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(12, 12, 12, 12)
-        page.addLayout(middle, 1)
-        page.addLayout(bottom)
+        title = in_form({"character_dialog.name": self.title})
+        shown = (self._picture, 0, Qt.AlignmentFlag.AlignHCenter)
+        side = panel(in_column(title, self._source, shown, (words, 1), margins=(12, 0, 0, 0), spacing=8))
+        side.setFixedWidth(PICTURE_PX.width() + 24)
+        middle = in_row((self.tabs, 1), side)
+        bottom = in_row(self._undo, self._redo, self._reset, STRETCH, self.give, self._buttons)
+        in_column((middle, 1), bottom, of=self, margins=12)
 
     def _connect(self) -> None:
         self.body.chosen.connect(self.choose)
@@ -220,15 +162,10 @@ class CharacterDialog(QDialog):
         self.rows.currentItemChanged.connect(self._row_chosen)
         self.rows.itemActivated.connect(lambda item, column: self._open(item.data(0, Qt.ItemDataRole.UserRole)))
         self.bones.chosen.connect(lambda bone: self._give_bone(bone))
-        self._none.clicked.connect(lambda: self._give_bone(""))
-        self._automatic.clicked.connect(lambda: self._give_bone(None))
         self.faces.chosen.connect(self._ask_picture)
         self.faces.changed.connect(self._give_face)
         self.tabs.currentChanged.connect(self._ask_picture)
         self.title.textEdited.connect(self._rename)
-        self._undo.clicked.connect(self.undo)
-        self._redo.clicked.connect(self.redo)
-        self._reset.clicked.connect(lambda: self.change(Draft(self._steps.now.title)))
         self._buttons.accepted.connect(self._agree)
         self._buttons.rejected.connect(self.reject)
         self._session.theme_changed.connect(self._show)
@@ -296,6 +233,9 @@ class CharacterDialog(QDialog):
         """Make it again."""
         self._steps.redo()
         self._changed()
+
+    def _start_anew(self) -> None:
+        self.change(Draft(self.draft.title))
 
     def _changed(self) -> None:
         self._made = mapped(self._figure, self.draft, self._made)
@@ -417,7 +357,6 @@ class CharacterDialog(QDialog):
     def retranslate(self) -> None:
         """Set all texts."""
         self.setWindowTitle(verbatim_title(self.tr("character_dialog.character").format(file=shown(self._path.name))))
-        self._title_name.setText(self.tr("character_dialog.name"))
         self._source.setText(
             self.tr("character_dialog.bones_morphs").format(
                 file=shown(self._path.name), bones=len(self._figure.bone_names), morphs=len(self._figure.morph_names)
@@ -425,15 +364,9 @@ class CharacterDialog(QDialog):
         )
         self.tabs.setTabText(0, self.tr("character_dialog.body"))
         self.tabs.setTabText(1, self.tr("character_dialog.face"))
-        self.rows.setHeaderLabels([self.tr("character_dialog.joint"), self.tr("character_dialog.bone")])
         self.bones.set_headers([self.tr("character_dialog.bone_of_file"), self.tr("character_dialog.joint")])
         self.bones.search.setPlaceholderText(self.tr("character_dialog.search_bones"))
         self.body.setAccessibleName(self.tr("character_dialog.joints_of_body"))
-        self._none.setText(self.tr("character_dialog.no_bone"))
-        self._automatic.setText(self.tr("character_dialog.automatic"))
-        self._undo.setText(self.tr("character_dialog.undo"))
-        self._redo.setText(self.tr("character_dialog.redo"))
-        self._reset.setText(self.tr("character_dialog.reset_all"))
         self.give.setText(verbatim(self.tr("character_dialog.give_it_to").format(players=self._offered)))
         self.give.setVisible(bool(self._offered))
         self._buttons.button(QDialogButtonBox.StandardButton.Ok).setText(self.tr("character_dialog.keep_character"))
@@ -451,9 +384,3 @@ class CharacterDialog(QDialog):
             self.redo()
         else:
             super().keyPressEvent(event)
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

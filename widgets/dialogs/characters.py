@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QSize, Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QDragEnterEvent, QDropEvent, QIcon, QImage, QPixmap
 from PySide6.QtWidgets import (
     QDialog,
-    QHBoxLayout,
     QListWidget,
     QListWidgetItem,
-    QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -22,7 +19,9 @@ from app.errors import Message
 from app.rig.character_library import character_library, character_named, character_problems
 from app.rig.read_figure import SUFFIXES
 from widgets.common.character_picture import picture, seen
+from widgets.common.controls import Button, Caption, Retranslated, named
 from widgets.common.instrument_name import character_name
+from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.paths import dropped_paths
 from widgets.common.plain import Label
 from widgets.common.text import message_text
@@ -30,7 +29,7 @@ from widgets.common.text import message_text
 _PICTURE_PX = QSize(72, 96)
 
 
-class CharactersDialog(QDialog):
+class CharactersDialog(Retranslated, QDialog):
     """The user's own characters.
 
     Signals
@@ -54,36 +53,21 @@ class CharactersDialog(QDialog):
         self.setAcceptDrops(True)
         self._session = session
         self._pictures: dict[str, QIcon] = {}
-        self._explained, self._wrong = Label(), Label()
-        self.list = QListWidget()
-        self.list.setObjectName("character_list")
+        self._explained, self._wrong = Caption("characters_dialog.your_own_characters_from_vrm"), Label()
+        self.list = named(QListWidget(), "character_list")
         self.list.setIconSize(_PICTURE_PX)
-        self._add, self._edit, self._remove, self._close = (QPushButton() for _ in range(4))
-        named = {"add": self._add, "edit": self._edit, "remove": self._remove, "close": self._close}
-        for name, button in named.items():
-            button.setObjectName(f"characters_{name}")
-            button.setAutoDefault(False)
+        self._add = Button("characters_dialog.add", self.add_asked.emit, "characters_add")
+        self._edit = Button("characters_dialog.edit", lambda: self.edit_asked.emit(self.chosen), "characters_edit")
+        self._remove = Button(
+            "characters_dialog.remove", lambda: self.remove_asked.emit(self.chosen), "characters_remove"
+        )
+        self._close = Button("characters_dialog.close", self.close, "characters_close")
         self._wrong.setObjectName("characters_wrong")
         for label in (self._explained, self._wrong):
             label.setWordWrap(True)
-        side = QVBoxLayout()
-        for button in (self._add, self._edit, self._remove):
-            side.addWidget(button)
-        side.addStretch(1)
-        side.addWidget(self._close)
-        middle = QHBoxLayout()
-        middle.addWidget(self.list, 1)
-        middle.addLayout(side)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(14, 14, 14, 14)
-        page.setSpacing(10)
-        page.addWidget(self._explained)
-        page.addLayout(middle, 1)
-        page.addWidget(self._wrong)
-        self._add.clicked.connect(self.add_asked)
-        self._edit.clicked.connect(lambda: self.edit_asked.emit(self.chosen))
-        self._remove.clicked.connect(lambda: self.remove_asked.emit(self.chosen))
-        self._close.clicked.connect(self.close)
+        side = in_column(self._add, self._edit, self._remove, STRETCH, self._close)
+        middle = in_row((self.list, 1), side)
+        in_column(self._explained, (middle, 1), self._wrong, of=self, margins=14, spacing=10)
         self.list.itemActivated.connect(lambda item: self.edit_asked.emit(self.chosen))
         self.list.currentItemChanged.connect(self._enable)
         session.characters_changed.connect(self.refresh)
@@ -153,11 +137,6 @@ class CharactersDialog(QDialog):
     def retranslate(self) -> None:
         """Set all texts."""
         self.setWindowTitle(self.tr("characters_dialog.characters"))
-        self._explained.setText(self.tr("characters_dialog.your_own_characters_from_vrm"))
-        self._add.setText(self.tr("characters_dialog.add"))
-        self._edit.setText(self.tr("characters_dialog.edit"))
-        self._remove.setText(self.tr("characters_dialog.remove"))
-        self._close.setText(self.tr("characters_dialog.close"))
         self.refresh()
 
     # Qt's own names
@@ -171,11 +150,6 @@ class CharactersDialog(QDialog):
         if path is not None:
             event.acceptProposedAction()
             self.dropped.emit(path)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def dropped_character(event: QDropEvent) -> Path | None:

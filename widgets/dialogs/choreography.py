@@ -9,12 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
-from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
     QDialog,
-    QHBoxLayout,
     QPlainTextEdit,
-    QPushButton,
     QTabWidget,
     QVBoxLayout,
     QWidget,
@@ -26,7 +24,9 @@ from app.errors import AppError, Message
 from app.performance.ensemble import Performance
 from app.project.document import Change
 from app.project.model import Dancer
+from widgets.common.controls import Button, Retranslated
 from widgets.common.dance_figures import Floats
+from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.percussion_names import percussion_names
 from widgets.common.plain import Label, verbatim_title
 from widgets.common.text import sentence
@@ -77,7 +77,7 @@ class Shown:
     error: Message | None
 
 
-class ChoreographyDialog(QDialog):
+class ChoreographyDialog(Retranslated, QDialog):
     """What the selected dancer's choreography has learned. Nothing is changed here. Not modal: it goes with the
     selection.
 
@@ -104,13 +104,12 @@ class ChoreographyDialog(QDialog):
         self.graph = TransitionGraph(session)
         self.percussion = ProbabilityTable(session, _SOUND_ROW_PX)
         self.credits = QPlainTextEdit()
-        self._close = QPushButton()
+        self._close = Button("choreography_dialog.close", self.close)
         self._build()
         self.gallery.selected.connect(lambda state: self._details["motions"].setText(self._about(state)))
         self.graph.pointed.connect(lambda state: self._details["graph"].setText(self._about(state)))
         self.transitions.pointed.connect(self._details["transitions"].setText)
         self.percussion.pointed.connect(self._details["percussion"].setText)
-        self._close.clicked.connect(self.close)
         session.dancer_changed.connect(self._ask)
         session.performance_changed.connect(self._ask)
         session.changed.connect(self._changed)
@@ -153,25 +152,14 @@ class ChoreographyDialog(QDialog):
             self._details[name].setMinimumHeight(2 * self._details[name].fontMetrics().lineSpacing() + 2)
             self._details[name].setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         page = QWidget()
-        column = QVBoxLayout(page)
-        column.setContentsMargins(0, 10, 0, 0)
         self.credits.setReadOnly(True)
         self.credits.setTabChangesFocus(True)
-        column.addWidget(self.credits)
+        in_column(self.credits, of=page, margins=(0, 10, 0, 0))
         self.tabs.addTab(page, "")
         self._heading.setWordWrap(True)
         self._use.setWordWrap(True)
-        self._close.setAutoDefault(False)
-        bottom = QHBoxLayout()
-        bottom.addStretch(1)
-        bottom.addWidget(self._close)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(14, 14, 14, 14)
-        outer.setSpacing(8)
-        outer.addWidget(self._heading)
-        outer.addWidget(self._use)
-        outer.addWidget(self.tabs, 1)
-        outer.addLayout(bottom)
+        bottom = in_row(STRETCH, self._close)
+        in_column(self._heading, self._use, (self.tabs, 1), bottom, of=self, margins=14, spacing=8)
 
     # What is shown
 
@@ -332,20 +320,12 @@ class ChoreographyDialog(QDialog):
         self._hints["transitions"].setText(self.tr("choreography_dialog.what_follows_what_in_percent"))
         self._hints["graph"].setText(self.tr("choreography_dialog.arrow_for_each_transition_that"))
         self._hints["percussion"].setText(self._percussion_hint(self._shown is not None and self._shown.derived))
-        self._close.setText(self.tr("choreography_dialog.close"))
         self._show()
 
     def _percussion_hint(self, derived: bool) -> str:
         if derived:
             return self.tr("choreography_dialog.what_is_struck_during_each")
         return self.tr("choreography_dialog.what_is_struck_during_each_basic_motion_in")
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def _finder(performance: Performance, dancer: Dancer) -> Callable[[Progress, StopRequested], Shown]:

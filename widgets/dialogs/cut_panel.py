@@ -6,19 +6,19 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 import numpy as np
-from PySide6.QtCore import QEvent, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QPushButton, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from app.choreography.cuts_by_hand import Cuts
 from app.editor.session import Session
-from widgets.common.icons import icon
+from widgets.common.controls import Button, Caption, Check, IconButton, Retranslated
+from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import Label
 from widgets.dialogs.cut_figure import PoseFigure, pose_of
 from widgets.dialogs.cut_plot import CutPlot
 from widgets.dialogs.learn_draft import Found, PairDraft
 
-_TOOLS = ("undo", "redo", "fit")
 _EMPTY = np.zeros(0), Fraction(60), 0.0, np.zeros(0)
 
 
@@ -50,7 +50,7 @@ class CutHistory:
         return self.undone.pop()
 
 
-class CutPanel(QWidget):
+class CutPanel(Retranslated, QWidget):
     """The plot, the figure and the tools.
 
     Signals
@@ -70,45 +70,27 @@ class CutPanel(QWidget):
         self._session = session
         self._draft, self._found, self._history = PairDraft(), Found(), CutHistory()
         self.plot, self.figure = CutPlot(session), PoseFigure(session)
-        self._title, self._place, self._hint = Label(), Label(), Label()
+        self._title, self._place, self._hint = Label(), Label(), Caption("cut_panel.angular_acceleration_rad_s_over")
         self._place.setObjectName("cut_place")
         self._hint.setObjectName("cut_hint")
         self._hint.setWordWrap(True)
-        self._buttons = {name: QToolButton() for name in _TOOLS}
-        self._snap, self._reset = QCheckBox(), QPushButton()
+        self._buttons = {
+            "undo": IconButton(session, "undo", "cut_panel.undo_ctrl_z", self.undo, "cut_undo"),
+            "redo": IconButton(session, "redo", "cut_panel.redo_ctrl_shift_z", self.redo, "cut_redo"),
+            "fit": IconButton(session, "fit", "cut_panel.whole_motion_f", self.plot.fit, "cut_fit"),
+        }
+        self._snap = Check("cut_panel.snap")
+        self._reset = Button("cut_panel.reset_to_automatic", lambda: self._edit(None, None), "cut_reset")
         self._snap.setObjectName("cut_snap")
         self._snap.setChecked(True)
-        self._reset.setObjectName("cut_reset")
-        self._reset.setAutoDefault(False)
-        tools = QHBoxLayout()
-        tools.addWidget(self._title)
-        tools.addStretch(1)
-        tools.addWidget(self._place)
-        tools.addSpacing(14)
-        for name, button in self._buttons.items():
-            button.setObjectName(f"cut_{name}")
-            tools.addWidget(button)
-        tools.addWidget(self._snap)
-        tools.addWidget(self._reset)
-        pictures = QHBoxLayout()
-        pictures.addWidget(self.plot, 1)
-        pictures.addWidget(self.figure)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(0, 0, 0, 0)
-        page.addLayout(tools)
-        page.addLayout(pictures, 1)
-        page.addWidget(self._hint)
+        tools = in_row(self._title, STRETCH, self._place, 14, *self._buttons.values(), self._snap, self._reset)
+        pictures = in_row((self.plot, 1), self.figure)
+        in_column(tools, (pictures, 1), self._hint, of=self, margins=0)
         self.plot.edited.connect(self._edit)
         self.plot.pointed.connect(self._point)
         self._snap.toggled.connect(self._set_snaps)
-        self._reset.clicked.connect(lambda: self._edit(None, None))
-        self._buttons["undo"].clicked.connect(self.undo)
-        self._buttons["redo"].clicked.connect(self.redo)
-        self._buttons["fit"].clicked.connect(self.plot.fit)
         for key, step in ((QKeySequence.StandardKey.Undo, self.undo), (QKeySequence.StandardKey.Redo, self.redo)):
             QShortcut(QKeySequence(key), self).activated.connect(step)
-        session.theme_changed.connect(self._apply_theme)
-        self._apply_theme()
         self.retranslate()
 
     def show_pair(self, draft: PairDraft, found: Found, history: CutHistory) -> None:
@@ -178,25 +160,8 @@ class CutPanel(QWidget):
             else self.tr("cut_panel.segments_set_by_hand").format(n=count)
         )
 
-    def _apply_theme(self) -> None:
-        for name, button in self._buttons.items():
-            button.setIcon(icon(name, self._session.tokens))
-
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
         self.plot.plot.setAccessibleName(self.tr("cut_panel.cuts_of_motion"))
-        self._buttons["undo"].setToolTip(self.tr("cut_panel.undo_ctrl_z"))
-        self._buttons["redo"].setToolTip(self.tr("cut_panel.redo_ctrl_shift_z"))
-        self._buttons["fit"].setToolTip(self.tr("cut_panel.whole_motion_f"))
-        self._snap.setText(self.tr("cut_panel.snap"))
         self._snap.setToolTip(self.tr("cut_panel.cuts_stop_at_minima_accents"))
-        self._reset.setText(self.tr("cut_panel.reset_to_automatic"))
-        self._hint.setText(self.tr("cut_panel.angular_acceleration_rad_s_over"))
         self._show_tools()
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

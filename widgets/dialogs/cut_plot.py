@@ -15,7 +15,7 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QWheelEvent
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from app.choreography.cuts_by_hand import (
     Cuts,
@@ -29,6 +29,7 @@ from app.choreography.cuts_by_hand import (
     removed_bound,
 )
 from app.editor.session import Session
+from widgets.common.layouts import in_column
 
 NEAR_PX: Final = 6.0
 SNAP_PX: Final = 12.0
@@ -106,9 +107,7 @@ class CutPlot(QWidget):
             for name in ("hits", "curve", "bound", "accent", "selected")
         }
         self._dots: Any = pg.ScatterPlotItem(size=7, pen=None)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.plot)
+        in_column(self.plot, of=self, margins=0)
         self._build()
         self._apply_theme()
         self.show_motion(np.zeros(0), Fraction(60), 0.0, np.zeros(0))

@@ -2,25 +2,16 @@
 
 from __future__ import annotations
 
-import threading
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtWidgets import (
-    QDialog,
-    QDialogButtonBox,
     QDoubleSpinBox,
-    QFormLayout,
-    QHBoxLayout,
     QListWidget,
     QListWidgetItem,
-    QProgressBar,
-    QPushButton,
     QScrollArea,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -35,6 +26,8 @@ from app.performance.span import bars_span, whole_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
 from app.project.model import Player
 from metadata.load import load_bone_names
+from widgets.common.controls import Button, Caption, named
+from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text, sentence
@@ -43,6 +36,7 @@ from widgets.dialogs.export_formats import FormatChooser
 from widgets.dialogs.export_place import PlaceChooser
 from widgets.dialogs.export_range import TEXT_MARGIN_PX, RangeChooser
 from widgets.dialogs.export_skeleton import SkeletonChooser
+from widgets.dialogs.working import WorkingDialog
 
 SHOW_MS = 50
 """Progress is shown this often."""
@@ -56,7 +50,7 @@ def _some(names: tuple[str, ...]) -> str:
     return ", ".join(names[:_NAMES]) + (" …" if len(names) > _NAMES else "")
 
 
-class ExportDialog(QDialog):
+class ExportDialog(WorkingDialog):
     """Writes the players' files; stays usable while it works, and says what was written.
 
     Parameters
@@ -86,56 +80,35 @@ class ExportDialog(QDialog):
         unreal: Path | None = None,
         destination: Destination = "folder",
     ) -> None:
-        super().__init__(parent)
-        self.setObjectName("export_files")
-        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        super().__init__("export_files", "export", parent)
         self._session, self._source, self._creator = session, source, creator
         # What is exported is the piece as it is now, whatever is edited meanwhile.
         self._project = session.project
-        self._running = False
-        self._stop = threading.Event()
-
-        self._players = QListWidget()
-        self._players.setObjectName("export_players")
-        performers = [(one.id, one.name) for one in self._project.bodies]
-        performers += [(one.id, one.name) for one in self._project.dancers]
-        for performer_id, name in performers:
-            item = QListWidgetItem(name)
-            item.setData(Qt.ItemDataRole.UserRole, performer_id)
-            item.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsUserCheckable | Qt.ItemFlag.ItemIsSelectable)
-            item.setCheckState(Qt.CheckState.Checked)
-            item.setSizeHint(QSize(0, LEAST_TARGET_PX))
-            self._players.addItem(item)
-        self._everybody = QPushButton()
-        self._everybody.setObjectName("export_everybody")
-        self._everybody.setAutoDefault(False)
-        self._everybody.clicked.connect(self._toggle_everybody)
+        self._players = named(QListWidget(), "export_players")
+        self._list_players()
+        self._everybody = Button("export_dialog.all_or_none", self._toggle_everybody, "export_everybody")
         self._place = PlaceChooser(folder, unreal, destination)
         self._shown_folder = folder
         self._formats = FormatChooser()
-        self._bvh_names = ComboBox()
-        self._bvh_names.setObjectName("export_bvh_names")
+        self._bvh_names = named(ComboBox(), "export_bvh_names")
         # As wide as there is room, not as the longest title.
         self._bvh_names.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self._bvh_names.addItem("", "")
         for profile, table in load_bone_names().items():
             self._bvh_names.addItem(table.title, profile)
         self._range = RangeChooser(session, self._project.score)
-        self._preroll = QDoubleSpinBox()
-        self._preroll.setObjectName("export_preroll")
+        self._preroll = named(QDoubleSpinBox(), "export_preroll")
         self._preroll.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
         self._preroll.setRange(0.0, 64.0)
         self._preroll.setSingleStep(1.0)
         self._preroll.setDecimals(2)
         self._preroll.setValue(self._project.preroll_beats)
-        self._rate = ComboBox()
-        self._rate.setObjectName("export_rate")
+        self._rate = named(ComboBox(), "export_rate")
         for rate in sorted({*USUAL_RATES, self._project.fps}):
             self._rate.addItem(frame_rate_text(rate), str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(self._project.fps)))
         self._skeleton = SkeletonChooser(session, self._chosen_players)
-        self._files = Label()
-        self._files.setObjectName("export_outcome")
+        self._files = named(Label(), "export_outcome")
         self._files.setWordWrap(True)
         self._files.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         # Whoever is left out of an orchestra may take more lines than there is room for.
@@ -144,62 +117,49 @@ class ExportDialog(QDialog):
         self._outcome.setWidgetResizable(True)
         self._outcome.setWidget(self._files)
         self._outcome.setMinimumHeight(OUTCOME_PX)
-        self._progress = QProgressBar()
-        self._progress.setRange(0, 1000)
-        self._progress.hide()
-        self._buttons = QDialogButtonBox()
-        self._export = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole)
-        self._export.setObjectName("export_start")
-        self._export.setDefault(True)
-        self._show = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole)
-        self._show.setObjectName("export_show_folder")
-        self._show.hide()
-        self._close = self._buttons.addButton("", QDialogButtonBox.ButtonRole.RejectRole)
-        self._close.setObjectName("export_close")
-        self._export.clicked.connect(self.start)
-        self._show.clicked.connect(self._show_folder)
-        self._close.clicked.connect(self._close_or_cancel)
         self._share = [0.0]
         """What is written of the whole, set by the thread."""
         self._timer = QTimer(self)
         self._timer.setInterval(SHOW_MS)
-        self._timer.timeout.connect(self._show_share)
-
-        self._labels = {
-            name: Label()
-            for name in ("players", "into", "files", "bvh_names", "skeleton", "range", "preroll", "rate", "outcome")
-        }
+        self._timer.timeout.connect(lambda: self._show_share(self._share[0]))
         self._lay_out()
         for chooser in (self._skeleton, self._place, self._range, self._formats):
             chooser.changed.connect(self._show_outcome)
         self._players.itemChanged.connect(self._show_players)
         self.retranslate()
 
+    def _list_players(self) -> None:
+        project = self._project
+        performers = [(one.id, one.name) for one in project.bodies]
+        performers += [(one.id, one.name) for one in project.dancers]
+        for performer_id, name in performers:
+            item = QListWidgetItem(name)
+            item.setData(Qt.ItemDataRole.UserRole, performer_id)
+            item.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsUserCheckable | Qt.ItemFlag.ItemIsSelectable)
+            item.setCheckState(Qt.CheckState.Checked)
+            item.setSizeHint(QSize(0, LEAST_TARGET_PX))
+            self._players.addItem(item)
+
     def _lay_out(self) -> None:
-        left = QVBoxLayout()
-        top = QHBoxLayout()
-        top.addWidget(self._labels["players"], 1)
-        top.addWidget(self._everybody)
-        left.addLayout(top)
-        left.addWidget(self._players, 1)
-        self._form = form = QFormLayout()
-        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        form.addRow(self._labels["into"], self._place)
-        form.addRow(self._labels["files"], self._formats)
-        form.addRow(self._labels["bvh_names"], self._bvh_names)
-        form.addRow(self._labels["skeleton"], self._skeleton)
-        form.addRow(self._labels["range"], self._range)
-        form.addRow(self._labels["preroll"], self._preroll)
-        form.addRow(self._labels["rate"], self._rate)
-        form.addRow(self._labels["outcome"], self._outcome)
-        columns = QHBoxLayout()
-        columns.setSpacing(18)
-        columns.addLayout(left, 1)
-        columns.addLayout(form, 2)
-        layout = QVBoxLayout(self)
-        layout.addLayout(columns, 1)
-        layout.addWidget(self._progress)
-        layout.addWidget(self._buttons)
+        title = Caption("export_dialog.performers" if self._project.dancers else "export_dialog.players")
+        left = in_column(in_row((title, 1), self._everybody), (self._players, 1))
+        self._form = in_form(
+            {
+                "export_dialog.into": self._place,
+                "export_dialog.files": self._formats,
+                "export_dialog.bone_names_in_bvh": self._bvh_names,
+                "export_dialog.skeleton": self._skeleton,
+                "export_dialog.range": self._range,
+                "export_dialog.pre_roll": self._preroll,
+                "export_dialog.frames_per_second": self._rate,
+            }
+        )
+        self._form.addRow(Label(), self._outcome)
+        self.fields = (self._players, self._everybody, self._place, self._formats, self._bvh_names, self._skeleton)
+        self.fields += (self._range, self._preroll, self._rate)
+        columns = in_row((left, 1), (self._form, 2), spacing=18)
+        buttons = self._box("export_dialog.export", self.start, self._show_folder)
+        in_column((columns, 1), self._progress, buttons, of=self)
 
     # What is requested
 
@@ -244,16 +204,12 @@ class ExportDialog(QDialog):
 
     def start(self) -> None:
         """Write the files, beside the window."""
-        if self._running or not self._export.isEnabled():
+        if self._running or not self._start.isEnabled():
             return
-        self._running = True
-        # The thread gets what it needs, not the dialog.
-        self._stop, self._share = stop, written = threading.Event(), [0.0]
-        self._progress.setValue(0)
-        self._progress.show()
         self._show.hide()
-        self._enable(False)
-        self.retranslate()
+        self._set_running(True)
+        self._share = written = [0.0]
+        stop = self._stop
         request, destination = self._request(), self._place.destination
 
         def work(progress: Progress, stop_requested: StopRequested) -> Done:
@@ -267,9 +223,6 @@ class ExportDialog(QDialog):
         self._session.tasks.run(
             Message("work.export"), work, self._done, self._failed, key="export", ended=self._finish
         )
-
-    def _show_share(self) -> None:
-        self._progress.setValue(round(1000 * self._share[0]))
 
     def _done(self, done: Done) -> None:
         if done.project is None:
@@ -296,24 +249,8 @@ class ExportDialog(QDialog):
         self._files.setText(message_text(error.message))
 
     def _finish(self) -> None:
-        self._running = False
         self._timer.stop()
-        self._progress.hide()
-        self._enable(True)
-        self.retranslate()
-
-    def _close_or_cancel(self) -> None:
-        if self._running:
-            self._stop.set()
-        else:
-            self.reject()
-
-    def _enable(self, enabled: bool) -> None:
-        for widget in (
-            *(self._players, self._everybody, self._place, self._formats, self._bvh_names, self._skeleton),
-            *(self._range, self._preroll, self._rate, self._export),
-        ):
-            widget.setEnabled(enabled)
+        self._set_running(False)
 
     def _toggle_everybody(self) -> None:
         state = Qt.CheckState.Unchecked if len(self.player_ids) == self._players.count() else Qt.CheckState.Checked
@@ -331,8 +268,8 @@ class ExportDialog(QDialog):
 
     def _show_outcome(self) -> None:
         into_folder = self._place.destination == "folder"
-        self._form.setRowVisible(self._labels["files"], into_folder)
-        self._form.setRowVisible(self._labels["bvh_names"], into_folder and "bvh" in self._formats.formats)
+        self._form.setRowVisible(self._formats, into_folder)
+        self._form.setRowVisible(self._bvh_names, into_folder and "bvh" in self._formats.formats)
         problem = ""
         if not self.player_ids:
             problem = self.tr("export_dialog.tick_at_least_one_player")
@@ -346,7 +283,7 @@ class ExportDialog(QDialog):
                 text = self._foreseen()
             except AppError as error:
                 problem = text = message_text(error.message)
-        self._export.setEnabled(not problem and not self._running)
+        self._start.setEnabled(not problem and not self._running)
         self._files.setText(text)
 
     def _foreseen(self) -> str:
@@ -378,42 +315,12 @@ class ExportDialog(QDialog):
     def retranslate(self) -> None:
         """Set every text anew."""
         self.setWindowTitle(self.tr("export_dialog.export"))
-        texts = {
-            "players": self.tr("export_dialog.performers")
-            if self._project.dancers
-            else self.tr("export_dialog.players"),
-            "into": self.tr("export_dialog.into"),
-            "files": self.tr("export_dialog.files"),
-            "bvh_names": self.tr("export_dialog.bone_names_in_bvh"),
-            "skeleton": self.tr("export_dialog.skeleton"),
-            "range": self.tr("export_dialog.range"),
-            "preroll": self.tr("export_dialog.pre_roll"),
-            "rate": self.tr("export_dialog.frames_per_second"),
-            "outcome": "",
-        }
-        for name, text in texts.items():
-            self._labels[name].setText(text)
-        self._everybody.setText(self.tr("export_dialog.all_or_none"))
         self._bvh_names.setItemText(0, self.tr("export_dialog.those_of_skeleton"))
         self._preroll.setSuffix(self.tr("export_dialog.beats"))
         self._range.retranslate()
-        self._export.setText(self.tr("export_dialog.export"))
-        self._show.setText(self.tr("export_dialog.show_in_folder"))
-        self._close.setText(self.tr("export_dialog.cancel") if self._running else self.tr("export_dialog.close"))
+        super().retranslate()
         if not self._running and not self._show.isVisible():
             self._show_outcome()
 
     def sizeHint(self) -> QSize:
         return QSize(860, 440)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
-
-    def closeEvent(self, event: QCloseEvent) -> None:
-        if self._running:
-            self._stop.set()
-            event.ignore()
-            return
-        super().closeEvent(event)

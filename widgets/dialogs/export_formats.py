@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QWidget
 
 from app.errors import AppError, Message
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
+from widgets.common.controls import Check, Retranslated, named
 from widgets.common.text import message_text
 
 _COLUMNS = 2
@@ -23,7 +24,7 @@ def _missing() -> dict[Format, Message]:
     return missing
 
 
-class FormatChooser(QWidget):
+class FormatChooser(Retranslated, QWidget):
     """A box for every kind of file; those that cannot be written say why."""
 
     changed = Signal()
@@ -36,8 +37,7 @@ class FormatChooser(QWidget):
             box.setObjectName(f"export_{name}")
             box.setChecked(name in USUAL_FORMATS)
             box.setEnabled(name not in self._missing)
-        self._sound = QCheckBox()
-        self._sound.setObjectName("export_sound")
+        self._sound = named(Check("format_chooser.sound_wav"), "export_sound")
         layout = QGridLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setHorizontalSpacing(18)
@@ -67,11 +67,5 @@ class FormatChooser(QWidget):
             if "usd" in self._missing
             else self.tr("format_chooser.usd_characters_and_instruments")
         )
-        self._sound.setText(self.tr("format_chooser.sound_wav"))
         for name, message in self._missing.items():
             self._boxes[name].setToolTip(message_text(message))
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

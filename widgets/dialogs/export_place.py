@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, Signal
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QWidget
 
 from app.encoding import stored
+from widgets.common.controls import Button, Retranslated, named
+from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import PathEdit, ask_for_file, ask_for_folder
 from widgets.common.plain import ComboBox
 from widgets.dialogs.export_destination import Destination
@@ -15,7 +17,7 @@ from widgets.dialogs.export_destination import Destination
 _DESTINATIONS: tuple[Destination, ...] = ("folder", "unreal")
 
 
-class PlaceChooser(QWidget):
+class PlaceChooser(Retranslated, QWidget):
     """A choice of destination, and the path of the folder or of the project's file.
 
     Parameters
@@ -35,23 +37,14 @@ class PlaceChooser(QWidget):
     ) -> None:
         super().__init__(parent)
         self._paths = {"folder": stored(folder), "unreal": "" if unreal is None else stored(unreal)}
-        self._box = ComboBox()
-        self._box.setObjectName("export_destination")
+        self._box = named(ComboBox(), "export_destination")
         for choice in _DESTINATIONS:
             self._box.addItem("", choice)
         self._box.setCurrentIndex(_DESTINATIONS.index(destination))
-        self._path = PathEdit(folder if destination == "folder" else unreal)
-        self._path.setObjectName("export_folder")
-        self._choose = QPushButton()
-        self._choose.setAutoDefault(False)
-        self._choose.clicked.connect(self._choose_path)
-        path = QHBoxLayout()
-        path.addWidget(self._path, 1)
-        path.addWidget(self._choose)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self._box)
-        layout.addLayout(path)
+        self._path = named(PathEdit(folder if destination == "folder" else unreal), "export_folder")
+        self._choose = Button("place_chooser.choose", self._choose_path)
+        path = in_row((self._path, 1), self._choose)
+        in_column(self._box, path, of=self, margins=0)
         self._path.textChanged.connect(self._remember)
         self._box.currentIndexChanged.connect(self._change)
         self.retranslate()
@@ -104,9 +97,3 @@ class PlaceChooser(QWidget):
         self._path.setPlaceholderText(
             self.tr("place_chooser.uproject_file") if unreal else self.tr("place_chooser.folder")
         )
-        self._choose.setText(self.tr("place_chooser.choose"))
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

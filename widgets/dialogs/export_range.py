@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, Signal
-from PySide6.QtWidgets import QHBoxLayout, QSpinBox, QWidget
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QSpinBox, QWidget
 
 from app.editor.session import Session
 from app.score.model import Score
+from widgets.common.controls import Retranslated, named
+from widgets.common.layouts import in_row
 from widgets.common.plain import ComboBox, Label
 
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
@@ -14,7 +16,7 @@ TEXT_MARGIN_PX = 6
 """As far from the edge as in other fields; the style sheet does not reach the text of a spin box."""
 
 
-class RangeChooser(QWidget):
+class RangeChooser(Retranslated, QWidget):
     """A choice, and the first and the last bar.
 
     Parameters
@@ -31,8 +33,7 @@ class RangeChooser(QWidget):
     def __init__(self, session: Session, score: Score, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session, self._score = session, score
-        self._choice = ComboBox()
-        self._choice.setObjectName("export_range")
+        self._choice = named(ComboBox(), "export_range")
         self._first_bar, self._last_bar = QSpinBox(), QSpinBox()
         self._first_bar.setObjectName("export_first_bar")
         self._last_bar.setObjectName("export_last_bar")
@@ -43,9 +44,7 @@ class RangeChooser(QWidget):
             spin.setValue(value)
             spin.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
         self._dash = Label("–")
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self._choice, 1)
+        layout = in_row((self._choice, 1), of=self, margins=0)
         for widget in (self._first_bar, self._dash, self._last_bar):
             layout.addWidget(widget)
         for signal in (self._choice.currentIndexChanged, self._first_bar.valueChanged, self._last_bar.valueChanged):
@@ -89,8 +88,3 @@ class RangeChooser(QWidget):
         self._choice.setCurrentIndex(max(self._choice.findData(choice), 0))
         self._choice.blockSignals(False)
         self._show_bars()
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

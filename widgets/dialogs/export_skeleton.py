@@ -7,12 +7,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
 
-from PySide6.QtCore import QEvent, QSize, Signal
+from PySide6.QtCore import QSize, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -26,6 +23,8 @@ from app.performance.bodies import character_of
 from app.performance.cast import attempt
 from app.project.model import Player
 from app.rig.read_figure import SUFFIXES, read_figure
+from widgets.common.controls import Button, Retranslated, named
+from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import sentence
@@ -38,7 +37,7 @@ MOST_LINES = 5
 _KEY = "compare_skeleton"
 
 
-class SkeletonChooser(QWidget):
+class SkeletonChooser(Retranslated, QWidget):
     """A choice of skeleton and an optional file of the asset; says beside the window's work what differs.
 
     Parameters
@@ -61,27 +60,16 @@ class SkeletonChooser(QWidget):
         self._checked: dict[str, CheckedTarget] = {}
         self._error: AppError | None = None
         self._comparing = False
-        self._box = ComboBox()
-        self._box.setObjectName("export_skeleton")
+        self._box = named(ComboBox(), "export_skeleton")
         for choice in CHOICES:
             self._box.addItem("", choice)
-        self._asset = PathEdit()
-        self._asset.setObjectName("export_asset")
+        self._asset = named(PathEdit(), "export_asset")
         self._asset.setClearButtonEnabled(True)
-        self._choose = QPushButton()
-        self._choose.setAutoDefault(False)
-        self._choose.clicked.connect(self._choose_asset)
-        self._reported = Label()
-        self._reported.setObjectName("export_differences")
+        self._choose = Button("skeleton_chooser.choose", self._choose_asset)
+        self._reported = named(Label(), "export_differences")
         self._reported.setWordWrap(True)
-        asset = QHBoxLayout()
-        asset.addWidget(self._asset, 1)
-        asset.addWidget(self._choose)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self._box)
-        layout.addLayout(asset)
-        layout.addWidget(self._reported)
+        asset = in_row((self._asset, 1), self._choose)
+        in_column(self._box, asset, self._reported, of=self, margins=0)
         self._box.currentIndexChanged.connect(self.compare)
         self._asset.textChanged.connect(self.compare)
         self.retranslate()
@@ -185,16 +173,10 @@ class SkeletonChooser(QWidget):
         for index, choice in enumerate(CHOICES):
             self._box.setItemText(index, texts[choice])
         self._asset.setPlaceholderText(self.tr("skeleton_chooser.fbx_of_asset_to_compare"))
-        self._choose.setText(self.tr("skeleton_chooser.choose"))
         self._show()
 
     def sizeHint(self) -> QSize:
         return QSize(360, super().sizeHint().height())
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def _fits(checked: CheckedTarget) -> bool:

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QHeaderView,
-    QPushButton,
-    QToolButton,
-    QTreeWidget,
     QTreeWidgetItem,
     QVBoxLayout,
     QWidget,
@@ -21,7 +16,8 @@ from PySide6.QtWidgets import (
 from app.editor.session import Session
 from metadata.model import ARKIT_MORPHS
 from widgets.common.combo import Combo, Option
-from widgets.common.icons import icon
+from widgets.common.controls import Button, ColumnList, IconButton, named, wrapped
+from widgets.common.layouts import in_column, in_row
 from widgets.common.morph_names import morph_name
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
@@ -60,27 +56,17 @@ class FaceMapPage(QWidget):
         self._face = ARKIT_MORPHS[0]
         self._listed: tuple[object, ...] = ()
         self._rows = list[_Part]()
-        self.list = QTreeWidget()
-        self.list.setObjectName("face_list")
-        self.list.setColumnCount(2)
-        self.list.setRootIsDecorated(False)
-        self.list.setUniformRowHeights(True)
-        self.list.header().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        self.list = ColumnList("face_list", "face_map_page.face", "face_map_page.made_of", stretches=(1,))
         self._items = {face: QTreeWidgetItem() for face in ARKIT_MORPHS}
         for face, item in self._items.items():
             item.setData(0, Qt.ItemDataRole.UserRole, face)
             self.list.addTopLevelItem(item)
         self.list.setCurrentItem(self._items[self._face])
         self.list.currentItemChanged.connect(self._chosen)
-        self._title, self._none = Label(), Label()
-        self._none.setWordWrap(True)
-        self._add = Combo()
-        self._add.setObjectName("face_add")
+        self._title, self._none = Label(), wrapped(Label())
+        self._add = named(Combo(), "face_add")
         self._add.chosen.connect(self._add_part)
-        self._reset = QPushButton()
-        self._reset.setObjectName("face_reset")
-        self._reset.setAutoDefault(False)
-        self._reset.clicked.connect(lambda: self.changed.emit(self._face, None, None))
+        self._reset = Button("face_map_page.automatic", lambda: self.changed.emit(self._face, None, None), "face_reset")
         self._column = QVBoxLayout()
         self._column.setSpacing(4)
         self._build()
@@ -88,19 +74,9 @@ class FaceMapPage(QWidget):
         self.retranslate()
 
     def _build(self) -> None:
-        editor = QVBoxLayout()
-        editor.setSpacing(6)
-        editor.addWidget(self._title)
-        editor.addWidget(self._none)
-        editor.addLayout(self._column)
-        line = QHBoxLayout()
-        line.addWidget(self._add, 1)
-        line.addWidget(self._reset)
-        editor.addLayout(line)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(0, 8, 0, 0)
-        page.addWidget(self.list, 1)
-        page.addLayout(editor)
+        line = in_row((self._add, 1), self._reset)
+        editor = in_column(self._title, self._none, self._column, line, spacing=6)
+        in_column((self.list, 1), editor, of=self, margins=(0, 8, 0, 0))
 
     @property
     def face(self) -> str:
@@ -167,20 +143,14 @@ class FaceMapPage(QWidget):
             self._column.removeWidget(row)
             row.hide()
             row.deleteLater()
-        self._rows = [_Part(self._session, morph) for morph in morphs]
+        self._rows = [_Part(self._session, morph, partial(self._remove_part, morph)) for morph in morphs]
         for row in self._rows:
             row.slider.changed.connect(partial(self._set_part, row.morph))
             row.slider.released.connect(self.released)
-            row.remove.clicked.connect(partial(self._remove_clicked, row.morph))
-            row.remove.setToolTip(self.tr("face_map_page.take_this_morph_out"))
             self._column.addWidget(row)
-
-    def _remove_clicked(self, morph: str, *_: object) -> None:
-        self._remove_part(morph)
 
     def retranslate(self) -> None:
         """Set all texts."""
-        self.list.setHeaderLabels([self.tr("face_map_page.face"), self.tr("face_map_page.made_of")])
         self._none.setText(
             self.tr("face_map_page.nothing_character_does_not_do")
             if self._morphs
@@ -188,28 +158,19 @@ class FaceMapPage(QWidget):
         )
         self._add.setPlaceholderText(self.tr("face_map_page.add_morph_of_file"))
         self._add.setAccessibleName(self.tr("face_map_page.add_morph_of_file"))
-        self._reset.setText(self.tr("face_map_page.automatic"))
-        for row in self._rows:
-            row.remove.setToolTip(self.tr("face_map_page.take_this_morph_out"))
         self._show()
 
 
 class _Part(QWidget):
     """A morph and how much of it."""
 
-    def __init__(self, session: Session, morph: str) -> None:
+    def __init__(self, session: Session, morph: str, remove: Callable[[], object]) -> None:
         super().__init__()
         self.morph = morph
-        self.slider = NumberSlider(session, 0.0, MOST_FACTOR, default=1.0, step=0.05)
-        self.slider.setObjectName(f"face_part_{morph}")
+        self.slider = named(NumberSlider(session, 0.0, MOST_FACTOR, default=1.0, step=0.05), f"face_part_{morph}")
         self.slider.set_texts(morph)
-        self.remove = QToolButton()
-        self.remove.setObjectName(f"face_remove_{morph}")
-        self.remove.setIcon(icon("close", session.tokens))
-        line = QHBoxLayout(self)
-        line.setContentsMargins(0, 0, 0, 0)
-        line.addWidget(self.slider, 1)
-        line.addWidget(self.remove)
+        button = IconButton(session, "close", "face_map_page.take_this_morph_out", remove, f"face_remove_{morph}")
+        in_row((self.slider, 1), button, of=self, margins=0)
 
 
 def made_of(parts: Mapping[str, float]) -> str:

@@ -11,7 +11,7 @@ from threading import Event
 import msgspec
 import numpy as np
 import numpy.typing as npt
-from PySide6.QtCore import QEvent, QPoint, QRectF, QSize, Qt, QTimer
+from PySide6.QtCore import QPoint, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QColor, QIcon, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -22,9 +22,7 @@ from PySide6.QtWidgets import (
     QHeaderView,
     QLineEdit,
     QListWidget,
-    QPushButton,
     QTableWidget,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -49,7 +47,9 @@ from app.score.model import UnplayedPart
 from app.score.parts import PartAssignment, stream_name
 from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
+from widgets.common.controls import Button, Check, Retranslated, named
 from widgets.common.instrument_name import character_name, instrument_name
+from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
 
@@ -65,7 +65,7 @@ _SLOW_MS = 300
 """After this long the dialog says that it is working."""
 
 
-class ImportDialog(QDialog):
+class ImportDialog(Retranslated, QDialog):
     """Asks how a MIDI file becomes players; sensible without touching it.
 
     Parameters
@@ -105,10 +105,8 @@ class ImportDialog(QDialog):
         self._filling.timeout.connect(lambda: self._fill_more(_ROWS_LATER))
         self._end_tick = max((max(stream.end_ticks) for stream in contents.streams), default=1)
 
-        self._heading = Label()
-        self._heading.setObjectName("heading")
-        self._table = QTableWidget(0, 8)
-        self._table.setObjectName("import_tracks")
+        self._heading = named(Label(), "heading")
+        self._table = named(QTableWidget(0, 8), "import_tracks")
         self._table.verticalHeader().hide()
         self._table.verticalHeader().setDefaultSectionSize(_ROW_PX)
         self._table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
@@ -118,24 +116,19 @@ class ImportDialog(QDialog):
         header.setSectionResizeMode(_PREVIEW, QHeaderView.ResizeMode.Stretch)
         header.setMinimumSectionSize(40)
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-        self._merge = QPushButton()
-        self._merge.setObjectName("merge")
-        self._merge.setAutoDefault(False)
-        self._merge.clicked.connect(self.merge_selected)
-        self._separate = QPushButton()
-        self._separate.setObjectName("separate")
-        self._separate.setAutoDefault(False)
-        self._separate.clicked.connect(self.separate_selected)
+        self._merge = Button(
+            "import_dialog.merge_into_one_part", self.merge_selected, "merge", "import_dialog.make_one_part_of_selected"
+        )
+        self._separate = Button(
+            "import_dialog.take_apart", self.separate_selected, "separate", "import_dialog.make_part_of_each_merged"
+        )
         self._percussion = frozenset(place for place, stream in enumerate(contents.streams) if is_drum_kit(stream))
         """Streams that dancers dance to."""
-        self._dancer = QCheckBox()
-        self._dancer.setObjectName("import_dancer")
+        self._dancer = named(Check("import_dialog.add_dancer"), "import_dancer")
         self._dancer.setVisible(bool(self._percussion and bundled_choreographies()))
-        self._summary = Label()
-        self._summary.setObjectName("import_summary")
+        self._summary = named(Label(), "import_summary")
         self._warning_title = Label()
-        self._warnings = QListWidget()
-        self._warnings.setObjectName("import_warnings")
+        self._warnings = named(QListWidget(), "import_warnings")
         self._warnings.setWordWrap(True)
         self._warnings.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
         self._warnings.setMaximumHeight(110)
@@ -154,13 +147,7 @@ class ImportDialog(QDialog):
         tools.addWidget(self._dancer)
         tools.addStretch()
         tools.addWidget(self._summary)
-        layout = QVBoxLayout(self)
-        layout.addWidget(self._heading)
-        layout.addWidget(self._table, 1)
-        layout.addLayout(tools)
-        layout.addWidget(self._warning_title)
-        layout.addWidget(self._warnings)
-        layout.addWidget(self._buttons)
+        in_column(self._heading, (self._table, 1), tools, self._warning_title, self._warnings, self._buttons, of=self)
         self._table.itemSelectionChanged.connect(self._show_tools)
         self.retranslate()
         self.resize(_SIZE.boundedTo(self.screen().availableSize()))
@@ -219,11 +206,6 @@ class ImportDialog(QDialog):
                 self.tr("import_dialog.character"),
             ]
         )
-        self._merge.setText(self.tr("import_dialog.merge_into_one_part"))
-        self._merge.setToolTip(self.tr("import_dialog.make_one_part_of_selected"))
-        self._separate.setText(self.tr("import_dialog.take_apart"))
-        self._separate.setToolTip(self.tr("import_dialog.make_part_of_each_merged"))
-        self._dancer.setText(self.tr("import_dialog.add_dancer"))
         self._dancer.setToolTip(self.tr("import_dialog.dancer_who_moves_to_percussion"))
         self._buttons.button(QDialogButtonBox.StandardButton.Ok).setText(self.tr("import_dialog.import"))
         self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("import_dialog.cancel"))
@@ -286,14 +268,12 @@ class ImportDialog(QDialog):
         self._summary.setText(self.tr("import_dialog.finding_out_who_plays_what"))
 
     def _fill_row(self, place: int, row: ImportRow) -> None:
-        use = _Tick()
-        use.setObjectName(f"play_{place}")
+        use = named(_Tick(), f"play_{place}")
         use.setChecked(row.requested)
         use.toggled.connect(lambda requested: self._set(place, requested=requested))
         self._table.setCellWidget(place, _USE, _centred(use))
 
-        name = QLineEdit(row.assignment.name or self._name(row))
-        name.setObjectName(f"name_{place}")
+        name = named(QLineEdit(row.assignment.name or self._name(row)), f"name_{place}")
         name.setMinimumWidth(130)
         name.textEdited.connect(lambda text: self._assignment(place, name=text.strip()))
         self._table.setCellWidget(place, _NAME, name)
@@ -310,8 +290,7 @@ class ImportDialog(QDialog):
         count.setContentsMargins(6, 0, 6, 0)
         self._table.setCellWidget(place, _NOTES, count)
 
-        split = ComboBox()
-        split.setObjectName(f"split_{place}")
+        split = named(ComboBox(), f"split_{place}")
         split.addItem(self.tr("import_dialog.automatic"), "sustained")
         split.addItem(self.tr("import_dialog.share_among_players"), "every")
         split.addItem(self.tr("import_dialog.one_player"), "never")
@@ -320,8 +299,7 @@ class ImportDialog(QDialog):
         split.currentIndexChanged.connect(lambda _, box=split: self._assignment(place, split=box.currentData()))
         self._table.setCellWidget(place, _SPLIT, split)
 
-        instrument = ComboBox()
-        instrument.setObjectName(f"instrument_{place}")
+        instrument = named(ComboBox(), f"instrument_{place}")
         instrument.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         instrument.setMinimumContentsLength(_INSTRUMENT_LETTERS)
         instrument.addItem(self.tr("import_dialog.automatic"), None)
@@ -332,8 +310,7 @@ class ImportDialog(QDialog):
         instrument.currentTextChanged.connect(lambda text: instrument.setToolTip(self._tip(place) or text))
         self._table.setCellWidget(place, _INSTRUMENT, instrument)
 
-        pitches = ComboBox()
-        pitches.setObjectName(f"pitches_{place}")
+        pitches = named(ComboBox(), f"pitches_{place}")
         pitches.addItem(self.tr("import_dialog.sounding"), False)
         pitches.addItem(self.tr("import_dialog.written"), True)
         pitches.setCurrentIndex(1 if row.assignment.written else 0)
@@ -343,8 +320,7 @@ class ImportDialog(QDialog):
         pitches.setToolTip(self.tr("import_dialog.which_pitches_file_has_of"))
         self._table.setCellWidget(place, _PITCHES, pitches)
 
-        character = ComboBox()
-        character.setObjectName(f"character_{place}")
+        character = named(ComboBox(), f"character_{place}")
         character.addItem(self.tr("import_dialog.automatic"), None)
         for text, id_ in self._characters:
             character.addItem(text, id_)
@@ -463,11 +439,6 @@ class ImportDialog(QDialog):
         self._closing.set()
         super().done(result)
 
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
-
 
 class NotesPreview(QWidget):
     """A track's notes over the whole piece, as a small piano roll."""
@@ -520,7 +491,5 @@ class _Tick(QCheckBox):
 
 def _centred(widget: QWidget) -> QWidget:
     holder = QWidget()
-    layout = QHBoxLayout(holder)
-    layout.setContentsMargins(8, 0, 8, 0)
-    layout.addWidget(widget, 0, Qt.AlignmentFlag.AlignCenter)
+    in_row((widget, 0, Qt.AlignmentFlag.AlignCenter), of=holder, margins=(8, 0, 8, 0))
     return holder

@@ -9,14 +9,13 @@ from collections.abc import Callable
 from functools import partial
 
 import msgspec
-from PySide6.QtCore import QEvent, QModelIndex, QPersistentModelIndex, QSize, Qt, Signal
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSize, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QColor, QIcon, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCompleter,
     QDialog,
     QGridLayout,
-    QHBoxLayout,
     QHeaderView,
     QLineEdit,
     QListWidget,
@@ -27,7 +26,6 @@ from PySide6.QtWidgets import (
     QStyleOptionViewItem,
     QTableWidget,
     QTableWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -37,10 +35,12 @@ from app.messages.pitches import LETTERS, pitch_name
 from instrument_maps import fingering_table as edit
 from instrument_maps.library import library
 from instrument_maps.model import Fingering, InstrumentMap
+from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
 from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
+from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.paths import show_folder
 from widgets.common.pitch import syllables
 from widgets.common.plain import Label, MessageBox
@@ -53,7 +53,7 @@ MOST_WRONG = 6
 _PLACE = Qt.ItemDataRole.UserRole
 
 
-class InstrumentsDialog(QDialog):
+class InstrumentsDialog(Retranslated, QDialog):
     """Shows every instrument's facts and fingerings, and edits the fingerings."""
 
     saved = Signal(str)
@@ -65,8 +65,7 @@ class InstrumentsDialog(QDialog):
         self._session = session
         self._drafts: dict[str, Draft] = {}
         self._filling = False
-        self._list = QListWidget()
-        self._list.setObjectName("instruments_list")
+        self._list = named(QListWidget(), "instruments_list")
         self._wrong, self._facts, self._file, self._problem = Label(), Label(), Label(), Label()
         self._wrong.setObjectName("instruments_wrong")
         self._title, self._id = Label(), Label()
@@ -74,12 +73,10 @@ class InstrumentsDialog(QDialog):
         self._title.setStyleSheet("font-weight: bold;")
         self._facts.setObjectName("instruments_facts")
         self._problem.setObjectName("instruments_problem")
-        self._table = QTableWidget(0, 6)
-        self._table.setObjectName("instruments_fingerings")
-        self._diagram = FingeringDiagram(session)
-        self._diagram.setObjectName("instruments_diagram")
+        self._table = named(QTableWidget(0, 6), "instruments_fingerings")
+        self._diagram = named(FingeringDiagram(session), "instruments_diagram")
         self._diagram.set_editable(True)
-        self._hint = Label()
+        self._hint = Caption("instruments_dialog.click_keys_to_change_fingering")
         names = ("up", "down", "add", "remove", "revert", "revert_all", "undo", "redo", "folder", "save", "close")
         self._buttons = {name: QPushButton() for name in names}
         self._build()
@@ -114,13 +111,7 @@ class InstrumentsDialog(QDialog):
         for place, name in enumerate(("up", "down", "add", "remove", "revert", "revert_all", "undo", "redo")):
             edits.addWidget(self._buttons[name], place // 2, place % 2)
         side = QWidget()
-        column = QVBoxLayout(side)
-        column.setContentsMargins(8, 0, 0, 0)
-        column.addWidget(self._diagram)
-        column.addWidget(self._hint)
-        column.addLayout(edits)
-        column.addWidget(self._problem)
-        column.addStretch(1)
+        in_column(self._diagram, self._hint, edits, self._problem, STRETCH, of=side, margins=(8, 0, 0, 0))
         work = QSplitter()
         work.addWidget(table)
         work.addWidget(side)
@@ -128,31 +119,16 @@ class InstrumentsDialog(QDialog):
         work.setSizes([560, 320])
         work.setChildrenCollapsible(False)
         right = QWidget()
-        lines = QVBoxLayout(right)
-        lines.setContentsMargins(8, 0, 0, 0)
-        lines.addWidget(self._wrong)
-        heading = QHBoxLayout()
-        heading.setSpacing(12)
-        heading.addWidget(self._title)
-        heading.addWidget(self._id, 1)
-        lines.addLayout(heading)
-        lines.addWidget(self._facts)
-        lines.addWidget(self._file)
-        lines.addWidget(work, 1)
+        heading = in_row(self._title, (self._id, 1), spacing=12)
+        in_column(self._wrong, heading, self._facts, self._file, (work, 1), of=right, margins=(8, 0, 0, 0))
         everything = QSplitter()
         everything.addWidget(self._list)
         everything.addWidget(right)
         everything.setStretchFactor(1, 1)
         everything.setSizes([230, 900])
         everything.setChildrenCollapsible(False)
-        foot = QHBoxLayout()
-        foot.addWidget(self._buttons["folder"])
-        foot.addStretch(1)
-        foot.addWidget(self._buttons["save"])
-        foot.addWidget(self._buttons["close"])
-        whole = QVBoxLayout(self)
-        whole.addWidget(everything, 1)
-        whole.addLayout(foot)
+        foot = in_row(self._buttons["folder"], STRETCH, self._buttons["save"], self._buttons["close"])
+        in_column((everything, 1), foot, of=self)
 
     def _connect(self) -> None:
         does: dict[str, Callable[[], object]] = {
@@ -534,7 +510,6 @@ class InstrumentsDialog(QDialog):
                 self.tr("instruments_dialog.for"),
             ]
         )
-        self._hint.setText(self.tr("instruments_dialog.click_keys_to_change_fingering"))
         if self._list.count():
             self._show()
 
@@ -542,11 +517,6 @@ class InstrumentsDialog(QDialog):
 
     def sizeHint(self) -> QSize:
         return QSize(1180, 740)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def reject(self) -> None:
         """Escape asks as closing does."""

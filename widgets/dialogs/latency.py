@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Final
 
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QDialog, QDoubleSpinBox, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QDoubleSpinBox, QPushButton, QWidget
 
 from app.audio.click import steady_clicks
 from app.audio.playback import Playback
@@ -15,6 +15,8 @@ from app.audio.track import Mix
 from app.capture.latency import LATEST_S, LEAST_HITS, Measured, hits, measured, placed
 from app.capture.protocol import Events
 from app.editor.session import Session
+from widgets.common.controls import Button, Caption, Retranslated, named
+from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import Label
 
 LEAD: Final = 4
@@ -30,7 +32,7 @@ _SHOWN_S: Final = (-0.1, 0.3)
 CLICKS_S: Final = tuple(PERIOD_S * (1 + index) for index in range(LEAD + COUNTED))
 
 
-class LatencyDialog(QDialog):
+class LatencyDialog(Retranslated, QDialog):
     """Not modal; what is found or typed is taken over with a button.
 
     Parameters
@@ -63,24 +65,25 @@ class LatencyDialog(QDialog):
         self._heard: list[tuple[int, float]] = []
         self._found: Measured | None = None
         self._stopped_why = ""
-        self._explained, self._reported, self._value_name = Label(), Label(), Label()
+        self._explained, self._reported, self._value_name = (
+            Caption("latency_dialog.blow_short_note_on_every_click_what_is"),
+            Label(),
+            Caption("latency_dialog.latency"),
+        )
         self._reported.setObjectName("latency_told")
         self.chart = HitChart(session)
-        self.value = QDoubleSpinBox()
-        self.value.setObjectName("latency_value")
+        self.value = named(QDoubleSpinBox(), "latency_value")
         self.value.setRange(-500.0, 1000.0)
         self.value.setDecimals(0)
         self.value.setSingleStep(1.0)
-        self._start, self._take, self._close = QPushButton(), QPushButton(), QPushButton()
+        self._start = QPushButton()
+        self._close = Button("latency_dialog.close", self.close, "latency_close")
+        self._take = Button("latency_dialog.use", self._choose, "latency_take")
         self._start.setObjectName("latency_start")
-        self._take.setObjectName("latency_take")
-        self._close.setObjectName("latency_close")
         self._timer = QTimer(self, interval=_LOOK_MS, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self._look)
         self._build()
         self._start.clicked.connect(self.toggle)
-        self._take.clicked.connect(self._choose)
-        self._close.clicked.connect(self.close)
         self.value.valueChanged.connect(self._show)
         self.finished.connect(self._stop)
         session.recording.heard.connect(self._hear)
@@ -96,21 +99,9 @@ class LatencyDialog(QDialog):
             label.setWordWrap(True)
         self._reported.setMinimumHeight(3 * self._reported.fontMetrics().lineSpacing())
         self._reported.setAlignment(Qt.AlignmentFlag.AlignTop)
-        for button in (self._take, self._close):
-            button.setAutoDefault(False)
         self._start.setDefault(True)
-        bottom = QHBoxLayout()
-        bottom.addWidget(self._start)
-        bottom.addStretch(1)
-        bottom.addWidget(self._value_name)
-        bottom.addWidget(self.value)
-        bottom.addWidget(self._take)
-        bottom.addWidget(self._close)
-        page = QVBoxLayout(self)
-        page.addWidget(self._explained)
-        page.addWidget(self.chart, 1)
-        page.addWidget(self._reported)
-        page.addLayout(bottom)
+        bottom = in_row(self._start, STRETCH, self._value_name, self.value, self._take, self._close)
+        in_column(self._explained, (self.chart, 1), self._reported, bottom, of=self)
 
     # Measuring
 
@@ -251,13 +242,9 @@ class LatencyDialog(QDialog):
     def retranslate(self) -> None:
         """Set every text anew."""
         self.setWindowTitle(self.tr("latency_dialog.latency"))
-        self._explained.setText(self.tr("latency_dialog.blow_short_note_on_every_click_what_is"))
-        self._value_name.setText(self.tr("latency_dialog.latency"))
         self.value.setAccessibleName(self.tr("latency_dialog.latency"))
         self.value.setSuffix(" " + self.tr("latency_dialog.ms"))
         self.value.setToolTip(self.tr("latency_dialog.taken_off_time_of_everything"))
-        self._take.setText(self.tr("latency_dialog.use"))
-        self._close.setText(self.tr("latency_dialog.close"))
         self.chart.retranslate()
         self._show()
 
@@ -268,11 +255,6 @@ class LatencyDialog(QDialog):
             self._stop()
             return
         super().keyPressEvent(event)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 class HitChart(QWidget):

@@ -3,25 +3,17 @@
 from __future__ import annotations
 
 import os
-import threading
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Final
 
 import msgspec
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QColor, QDragEnterEvent, QDropEvent, QKeyEvent
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QDragEnterEvent, QDropEvent, QKeyEvent
 from PySide6.QtWidgets import (
-    QDialog,
-    QFormLayout,
-    QHBoxLayout,
-    QHeaderView,
-    QProgressBar,
     QPushButton,
     QSpinBox,
-    QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -35,6 +27,8 @@ from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
+from widgets.common.controls import Button, Caption, ColumnList, named
+from widgets.common.layouts import STRETCH, in_column, in_form, in_row, panel
 from widgets.common.paths import PathEdit, ask_for_files, ask_where_to_save, dropped_paths
 from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
@@ -42,10 +36,20 @@ from widgets.dialogs.automatic_number import TEXT_MARGIN_PX, AutomaticNumber
 from widgets.dialogs.cut_panel import CutHistory, CutPanel
 from widgets.dialogs.learn_draft import MIDI_SUFFIXES, MOTION_SUFFIXES, Found, PairDraft, with_files
 from widgets.dialogs.learn_pair import PairForm, file_name
+from widgets.dialogs.working import WorkingDialog
 
 MOST_STATES: Final = 1000
 MOST_SEED: Final = 2**31 - 1
-_COLUMNS: Final = ("motion", "music", "length", "segments", "states", "offset", "confidence")
+_COLUMNS: Final = {
+    "motion": "learn_dialog.motion",
+    "music": "learn_dialog.music",
+    "length": "learn_dialog.seconds",
+    "segments": "learn_dialog.segments",
+    "states": "learn_dialog.states",
+    "offset": "learn_dialog.offset_s",
+    "confidence": "learn_dialog.confidence",
+}
+"""The list's columns, and the ids of their headings."""
 _POLL_MS: Final = 100
 _FORM_PX: Final = 420
 _SIZE: Final = QSize(1180, 840)
@@ -93,7 +97,7 @@ class _Learned:
     rows: tuple[_Row, ...]
 
 
-class LearnDialog(QDialog):
+class LearnDialog(WorkingDialog):
     """Learns a choreography. Not modal.
 
     Signals
@@ -112,30 +116,29 @@ class LearnDialog(QDialog):
     used = Signal(object)
 
     def __init__(self, session: Session, folder: Path, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.setObjectName("learn_choreography")
-        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        super().__init__("learn_choreography", "learn", parent)
         self.setAcceptDrops(True)
         self._session, self._folder = session, folder
         self._rows: list[_Row] = []
         self._readings = 0
-        self._stop = threading.Event()
-        self._shares: list[float] = [0.0]
+        self._share: list[float] = [0.0]
         """How far the learning is; its thread writes it."""
-        self._running = False
         self._result: _Learned | None = None
         self._failure: Message | None = None
         self._unknown: tuple[Path, ...] = ()
 
-        self.list = QTreeWidget()
+        self.list = ColumnList("learn_pairs", *_COLUMNS.values(), stretches=(0, 1))
         self.form, self.cuts = PairForm(), CutPanel(session)
-        self._add, self._remove = QPushButton(), QPushButton()
+        self._add = Button("learn_dialog.add", self._ask_for_files, "learn_add")
+        self._remove = Button("learn_dialog.remove", self._remove_pair, "learn_remove")
         self._states = AutomaticNumber("learn_states", 1, MOST_STATES, step=1, decimals=0)
-        self._seed = QSpinBox()
-        self._file, self._choose = PathEdit(folder / f"choreography{SUFFIX}"), QPushButton()
-        self._state, self._progress = Label(), QProgressBar()
-        self._use, self._learn, self._close = QPushButton(), QPushButton(), QPushButton()
-        self._labels = {name: Label() for name in ("states", "seed", "file")}
+        self._seed = named(QSpinBox(), "learn_seed")
+        self._file = named(PathEdit(folder / f"choreography{SUFFIX}"), "learn_file")
+        self._choose = Button("learn_dialog.choose", self._ask_where, "learn_file_choose")
+        self._state = named(Label(), "learn_state")
+        self._use = named(QPushButton(), "learn_use")
+        self._learn = Button("learn_dialog.learn", self.start, "learn_start")
+        self.fields = (self.list, self._add, self._states, self._seed, self._file, self._choose)
         self._timer = QTimer(self, interval=_POLL_MS)
         self._build()
         self._connect()
@@ -144,24 +147,10 @@ class LearnDialog(QDialog):
         self.resize(_SIZE.boundedTo(self.screen().availableSize() - _FRAME))
 
     def _build(self) -> None:
-        named: dict[QWidget, str] = {self.list: "pairs", self._add: "add", self._remove: "remove", self._seed: "seed"}
-        named |= {self._file: "file", self._choose: "file_choose", self._state: "state", self._use: "use"}
-        named |= {self._learn: "start", self._close: "close", self._progress: "progress"}
-        for widget, name in named.items():
-            widget.setObjectName(f"learn_{name}")
-            if isinstance(widget, QPushButton):
-                widget.setAutoDefault(False)
-        self.list.setColumnCount(len(_COLUMNS))
-        self.list.setRootIsDecorated(False)
-        self.list.setUniformRowHeights(True)
-        header = self.list.header()
-        header.setStretchLastSection(False)
+        for button in (self._use, self._close):
+            button.setAutoDefault(False)
         for column in range(2, len(_COLUMNS)):
             self.list.headerItem().setTextAlignment(column, _RIGHT)
-        for column in range(len(_COLUMNS)):
-            stretches = column < 2
-            mode = QHeaderView.ResizeMode.Stretch if stretches else QHeaderView.ResizeMode.ResizeToContents
-            header.setSectionResizeMode(column, mode)
         self._seed.setRange(0, MOST_SEED)
         self._seed.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
         # Files that are dropped are the dialog's, not text of a field.
@@ -169,68 +158,28 @@ class LearnDialog(QDialog):
             edit.setAcceptDrops(False)
         self._state.setWordWrap(True)
         self._state.setMinimumHeight(40)
-        self._progress.setRange(0, 1000)
-        self._progress.hide()
         self._use.hide()
 
-        tools = QHBoxLayout()
-        tools.addWidget(self._add)
-        tools.addWidget(self._remove)
-        tools.addStretch(1)
-        left = QVBoxLayout()
-        left.addWidget(self.list, 1)
-        left.addLayout(tools)
-        self._top = QWidget()
-        top = QHBoxLayout(self._top)
-        top.setContentsMargins(0, 0, 0, 0)
-        top.setSpacing(14)
-        top.addLayout(left, 1)
-        top.addWidget(self.form)
+        tools = in_row(self._add, self._remove, STRETCH)
+        left = in_column((self.list, 1), tools)
+        self._top = panel(in_row((left, 1), self.form, margins=0, spacing=14))
         self.form.setFixedWidth(_FORM_PX)
-        numbers = QHBoxLayout()
-        numbers.addWidget(self._states)
-        numbers.addSpacing(14)
-        numbers.addWidget(self._labels["seed"])
-        numbers.addWidget(self._seed)
-        numbers.addStretch(1)
-        file = QHBoxLayout()
-        file.addWidget(self._file, 1)
-        file.addWidget(self._choose)
-        whole = QFormLayout()
-        whole.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        whole.addRow(self._labels["states"], numbers)
-        whole.addRow(self._labels["file"], file)
-        for name, widget in {"states": self._states, "seed": self._seed, "file": self._file}.items():
-            self._labels[name].setBuddy(widget)
-        bottom = QHBoxLayout()
-        bottom.addWidget(self._progress, 20)
-        bottom.addStretch(1)
-        for button in (self._use, self._learn, self._close):
-            bottom.addWidget(button)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(14, 14, 14, 14)
-        page.setSpacing(10)
-        page.addWidget(self._top, 2)
-        page.addWidget(self.cuts, 3)
-        page.addLayout(whole)
-        page.addWidget(self._state)
-        page.addLayout(bottom)
+        numbers = in_row(self._states, 14, Caption("learn_dialog.seed", self._seed), self._seed, STRETCH)
+        file = in_row((self._file, 1), self._choose)
+        form = in_form({"learn_dialog.states": numbers, "learn_dialog.save_to": file})
+        bottom = in_row((self._progress, 20), STRETCH, self._use, self._learn, self._close)
+        in_column((self._top, 2), (self.cuts, 3), form, self._state, bottom, of=self, margins=14, spacing=10)
 
     def _connect(self) -> None:
         session = self._session
-        self._add.clicked.connect(self._ask_for_files)
-        self._remove.clicked.connect(self._remove_pair)
         self.list.currentItemChanged.connect(lambda *_: self._show_pair())
         self.form.changed.connect(self._change_pair)
         self.cuts.changed.connect(self._set_cuts)
         self._states.changed.connect(self._edited)
         self._seed.valueChanged.connect(lambda _: self._edited())
         self._file.textChanged.connect(lambda _: self._edited())
-        self._choose.clicked.connect(self._ask_where)
-        self._learn.clicked.connect(self.start)
-        self._close.clicked.connect(self._close_or_cancel)
         self._use.clicked.connect(self._use_it)
-        self._timer.timeout.connect(self._show_progress)
+        self._timer.timeout.connect(lambda: self._show_share(self._share[0]))
         # A method: a function would outlive the dialog.
         session.changed.connect(self._show_use)
         session.dancer_changed.connect(self._show_use)
@@ -343,16 +292,17 @@ class LearnDialog(QDialog):
         pairs = [pair for row in self._rows if (pair := _pair(row)) is not None]
         rows = tuple(self._rows)
         states, seed = self._states.value, self._seed.value()
-        self._stop, self._shares = threading.Event(), [0.0]
-        self._running, self._result, self._failure = True, None, None
+        self._result, self._failure = None, None
+        self._set_running(True)
         # The thread gets what it needs, not the dialog.
-        stop, shares = self._stop, self._shares
+        self._share = written = [0.0]
+        stop = self._stop
 
         def work(progress: Progress, stop_requested: StopRequested) -> _Learned:
             def went(share: float, label: str) -> None:
                 if stop.is_set() or stop_requested():
                     raise Cancelled("work.stopped")
-                shares[0] = share
+                written[0] = share
                 progress(share)
 
             whole = None if states is None else round(states)
@@ -362,17 +312,15 @@ class LearnDialog(QDialog):
             return _Learned(path, model, rows)
 
         self._timer.start()
-        self._show_all()
         self._session.tasks.run(
             Message("work.learn", {"file": path.name}), work, self._done, self._failed, ended=self._ended
         )
 
     def _ended(self) -> None:
-        self._running = False
         self._timer.stop()
         if self._stop.is_set():
             self._failure = Message("work.stopped")
-        self._show_all()
+        self._set_running(False)
 
     def _done(self, result: _Learned) -> None:
         self._result = result
@@ -418,12 +366,6 @@ class LearnDialog(QDialog):
         if path is not None:
             self._file.set_path(_with_suffix(path))
 
-    def _close_or_cancel(self) -> None:
-        if self._running:
-            self._stop.set()
-        else:
-            self.close()
-
     # Showing
 
     def _edited(self, unknown: tuple[Path, ...] = ()) -> None:
@@ -434,14 +376,9 @@ class LearnDialog(QDialog):
         self._show_all()
 
     def _show_all(self) -> None:
-        for widget in (self.list, self._add, self._states, self._seed, self._file, self._choose):
-            widget.setEnabled(not self._running)
-        self._progress.setVisible(self._running)
-        self._close.setText(self.tr("learn_dialog.cancel") if self._running else self.tr("learn_dialog.close"))
         self._show_list()
         self._show_pair()
         self._show_state()
-        self._show_progress()
 
     def _show_list(self) -> None:
         tokens = self._session.tokens
@@ -513,56 +450,23 @@ class LearnDialog(QDialog):
             else self.tr("learn_dialog.use_for").format(dancer=dancer.name.replace("&", "&&"))
         )
 
-    def _show_progress(self) -> None:
-        self._progress.setValue(round(1000 * self._shares[0]))
-
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
         self.setWindowTitle(self.tr("learn_dialog.learn_choreography"))
-        texts = {
-            "motion": self.tr("learn_dialog.motion"),
-            "music": self.tr("learn_dialog.music"),
-            "length": self.tr("learn_dialog.seconds"),
-            "segments": self.tr("learn_dialog.segments"),
-            "states": self.tr("learn_dialog.states"),
-            "offset": self.tr("learn_dialog.offset_s"),
-            "confidence": self.tr("learn_dialog.confidence"),
-        }
-        self.list.setHeaderLabels([texts[name] for name in _COLUMNS])
         self.list.setAccessibleName(self.tr("learn_dialog.pairs_of_motion_and_music"))
-        self._add.setText(self.tr("learn_dialog.add"))
-        self._remove.setText(self.tr("learn_dialog.remove"))
-        self._labels["states"].setText(self.tr("learn_dialog.states"))
-        self._labels["seed"].setText(self.tr("learn_dialog.seed"))
-        self._labels["file"].setText(self.tr("learn_dialog.save_to"))
+        super().retranslate()
         self._states.check.setText(self.tr("learn_dialog.automatic"))
         self._states.setToolTip(self.tr("learn_dialog.number_of_basic_motions_automatic"))
         self._seed.setToolTip(self.tr("learn_dialog.of_classification_same_pairs_and"))
-        self._choose.setText(self.tr("learn_dialog.choose"))
-        self._learn.setText(self.tr("learn_dialog.learn"))
         self._show_all()
 
     # Qt's own names
 
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
-
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Delete and self.list.hasFocus():
             self._remove_pair()
-        elif event.key() == Qt.Key.Key_Escape:
-            self._close_or_cancel()
         else:
             super().keyPressEvent(event)
-
-    def closeEvent(self, event: QCloseEvent) -> None:
-        if self._running:
-            self._stop.set()
-            event.ignore()
-            return
-        super().closeEvent(event)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         if not self._running and dropped_paths(event):
@@ -599,7 +503,7 @@ def _cells(row: _Row) -> tuple[str, ...]:
     read, analysis, draft = row.found.read, row.found.analysis, row.draft
     names = file_name(draft.motion), file_name(draft.music)
     if read is None or analysis is None:
-        return *names, *("…" if row.reading else "–" for _ in _COLUMNS[2:])
+        return *names, *("…" if row.reading else "–" for _ in range(2, len(_COLUMNS)))
     found_s = analysis.offset.offset_s + read.motion.start_s
     return (
         *names,

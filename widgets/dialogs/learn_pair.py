@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import msgspec
-from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QPushButton, QScrollArea, QWidget
 
 from app.choreography.music_offset import CONFIDENT
@@ -13,6 +13,7 @@ from app.choreography.read_motion import guesses
 from app.choreography.read_pair import CREDITS_SUFFIX
 from app.encoding import shown
 from app.formats.rates import exact_rate
+from widgets.common.controls import Retranslated, named
 from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
@@ -25,7 +26,7 @@ _NOTES_PX = 54
 """Room for three lines; of more the rest is scrolled to."""
 
 
-class PairForm(QWidget):
+class PairForm(Retranslated, QWidget):
     """The fields of a pair.
 
     Signals
@@ -44,8 +45,7 @@ class PairForm(QWidget):
         self._choose = {name: QPushButton() for name in _FILES}
         self._offset = AutomaticNumber("learn_offset", -_LONGEST_S, _LONGEST_S, step=0.01, decimals=3)
         self._fps = AutomaticNumber("learn_fps", 1.0, 1000.0, step=1.0, decimals=3)
-        self._notes = Label()
-        self._notes.setObjectName("learn_pair_notes")
+        self._notes = named(Label(), "learn_pair_notes")
         self._notes.setWordWrap(True)
         self._notes.setAlignment(Qt.AlignmentFlag.AlignTop)
         room = QScrollArea()
@@ -176,13 +176,6 @@ class PairForm(QWidget):
         self._fps.setToolTip(self.tr("pair_form.true_frame_rate_of_motion"))
         self._fps.number.setSuffix(self.tr("pair_form.frames_s"))
         self._show_notes()
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def file_name(path: Path | None) -> str:

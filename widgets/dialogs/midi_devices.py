@@ -6,18 +6,13 @@ The dialog asks by its signals; what holds is what `session.recording` says.
 from __future__ import annotations
 
 import msgspec
-from PySide6.QtCore import QEvent, Qt, QTimer, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QKeyEvent
 from PySide6.QtWidgets import (
     QDialog,
-    QFormLayout,
     QGroupBox,
-    QHBoxLayout,
-    QHeaderView,
     QPushButton,
-    QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -30,7 +25,9 @@ from app.editor.session import Session
 from metadata.load import load_controllers
 from metadata.model import BiteSource
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named, wrapped
 from widgets.common.instrument_name import language
+from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.plain import Label
 from widgets.common.text import sentence
 from widgets.dialogs.midi_monitor import MidiMonitor, source_name
@@ -42,7 +39,7 @@ _CHANNELS = 16
 _SIDE_PX = 300
 
 
-class MidiDevicesDialog(QDialog):
+class MidiDevicesDialog(Retranslated, QDialog):
     """Devices, the kind of the chosen one, and a monitor. Not modal: one plays, and looks.
 
     Parameters
@@ -80,18 +77,24 @@ class MidiDevicesDialog(QDialog):
         """The breath that was found, and from what, while the bite is looked for."""
         self._left_s = 0
         self._listed: tuple[object, ...] = ()
-        self._list = QTreeWidget()
-        self._list.setObjectName("midi_device_list")
-        self._hint, self._reported, self._heard, self._late = (Label() for _ in range(4))
-        self._kind, self._channel, self._breath, self._bite = (Combo() for _ in range(4))
-        self._rows = {widget: Label() for widget in (self._kind, self._channel, self._breath, self._bite)}
-        self._late_name = Label()
-        self._learn, self._measure, self._beep, self._close = (QPushButton() for _ in range(4))
+        self._list = ColumnList("midi_device_list", "midi_devices_dialog.device", "midi_devices_dialog.state")
+        self._hint = named(wrapped(Label()), "midi_hint")
+        self._reported = named(wrapped(Label()), "midi_learned")
+        self._heard = named(wrapped(Label()), "midi_beep_told")
+        self._late = named(Label(), "midi_latency")
+        self._kind, self._channel = named(Combo(), "midi_kind"), named(Combo(), "midi_wired_channel")
+        self._breath, self._bite = named(Combo(), "midi_breath_source"), named(Combo(), "midi_bite_source")
+        self._learn = named(QPushButton(), "midi_learn")
+        # Enter in the list is no answer.
+        self._learn.setAutoDefault(False)
+        self._close = Button("midi_devices_dialog.close", self.close, "midi_close")
+        beep_tip = "midi_devices_dialog.short_tone_on_audio_device"
+        self._beep = Button("midi_devices_dialog.test_beep", self.beep, "midi_beep", beep_tip)
+        self._measure = Button("midi_devices_dialog.measure", self.latency_asked.emit, "midi_measure")
         self._device, self._incoming = QGroupBox(), QGroupBox()
         self._monitor = MidiMonitor(session)
         self._second = QTimer(self, interval=1000)
         self._second.timeout.connect(self._count_down)
-        self._name()
         self._build()
         self._connect()
         self.retranslate()
@@ -99,54 +102,26 @@ class MidiDevicesDialog(QDialog):
 
     # Building
 
-    def _name(self) -> None:
-        named: dict[QWidget, str] = {self._kind: "midi_kind", self._channel: "midi_wired_channel"}
-        named |= {self._breath: "midi_breath_source", self._bite: "midi_bite_source", self._learn: "midi_learn"}
-        named |= {self._measure: "midi_measure", self._beep: "midi_beep", self._close: "midi_close"}
-        named |= {self._hint: "midi_hint", self._reported: "midi_learned", self._heard: "midi_beep_told"}
-        named[self._late] = "midi_latency"
-        for widget, name in named.items():
-            widget.setObjectName(name)
-
     def _build(self) -> None:
-        self._list.setColumnCount(2)
-        self._list.setRootIsDecorated(False)
-        self._list.setUniformRowHeights(True)
-        header = self._list.header()
-        header.setStretchLastSection(False)
-        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
-        for label in (self._hint, self._reported, self._heard):
-            label.setWordWrap(True)
-        for button in (self._learn, self._measure, self._beep, self._close):
-            # Enter in the list is no answer.
-            button.setAutoDefault(False)
-        late = QHBoxLayout()
-        late.addWidget(self._late, 1)
-        late.addWidget(self._measure)
-        form = QFormLayout(self._device)
-        for widget, name in self._rows.items():
-            form.addRow(name, widget)
+        form = in_form(
+            {
+                "midi_devices_dialog.kind": self._kind,
+                "midi_devices_dialog.channel": self._channel,
+                "midi_devices_dialog.breath": self._breath,
+                "midi_devices_dialog.bite": self._bite,
+            },
+            of=self._device,
+        )
         form.addRow(self._learn)
         form.addRow(self._reported)
-        form.addRow(self._late_name, late)
-        left = QVBoxLayout()
-        left.addWidget(self._list, 1)
-        left.addWidget(self._hint)
-        left.addWidget(self._device)
-        QVBoxLayout(self._incoming).addWidget(self._monitor)
-        columns = QHBoxLayout()
-        columns.addLayout(left, 1)
-        columns.addWidget(self._incoming, 1)
+        form.addRow(Caption("midi_devices_dialog.latency"), in_row((self._late, 1), self._measure))
+        left = in_column((self._list, 1), self._hint, self._device)
+        in_column(self._monitor, of=self._incoming)
+        columns = in_row((left, 1), (self._incoming, 1))
         self._device.setMinimumWidth(_SIDE_PX)
         self._incoming.setMinimumWidth(_SIDE_PX)
-        bottom = QHBoxLayout()
-        bottom.addWidget(self._beep)
-        bottom.addWidget(self._heard, 1)
-        bottom.addWidget(self._close)
-        page = QVBoxLayout(self)
-        page.addLayout(columns, 1)
-        page.addLayout(bottom)
+        bottom = in_row(self._beep, (self._heard, 1), self._close)
+        in_column((columns, 1), bottom, of=self)
 
     def _connect(self) -> None:
         session, recording = self._session, self._session.recording
@@ -157,9 +132,6 @@ class MidiDevicesDialog(QDialog):
         self._breath.chosen.connect(lambda id: self._wire(breath=id))
         self._bite.chosen.connect(lambda id: self._wire(bite=id))
         self._learn.clicked.connect(self._toggle_learning)
-        self._measure.clicked.connect(self.latency_asked)
-        self._beep.clicked.connect(self.beep)
-        self._close.clicked.connect(self.close)
         # However it is closed.
         self.finished.connect(self._playback.stop)
         recording.changed.connect(self._show)
@@ -362,25 +334,10 @@ class MidiDevicesDialog(QDialog):
     def retranslate(self) -> None:
         """Set every text anew."""
         self.setWindowTitle(self.tr("midi_devices_dialog.midi_devices"))
-        self._list.setHeaderLabels([self.tr("midi_devices_dialog.device"), self.tr("midi_devices_dialog.state")])
         self._list.setAccessibleName(self.tr("midi_devices_dialog.devices"))
         self._device.setTitle(self.tr("midi_devices_dialog.chosen_device"))
         self._incoming.setTitle(self.tr("midi_devices_dialog.what_comes_in"))
-        names = {
-            self._kind: self.tr("midi_devices_dialog.kind"),
-            self._channel: self.tr("midi_devices_dialog.channel"),
-            self._breath: self.tr("midi_devices_dialog.breath"),
-        }
-        names |= {self._bite: self.tr("midi_devices_dialog.bite")}
-        for widget, text in names.items():
-            self._rows[widget].setText(text)
-            widget.setAccessibleName(text)
-        self._late_name.setText(self.tr("midi_devices_dialog.latency"))
-        self._measure.setText(self.tr("midi_devices_dialog.measure"))
         self._learn.setToolTip(self.tr("midi_devices_dialog.finds_with_what_breath_and").format(count=LEARN_S))
-        self._beep.setText(self.tr("midi_devices_dialog.test_beep"))
-        self._beep.setToolTip(self.tr("midi_devices_dialog.short_tone_on_audio_device"))
-        self._close.setText(self.tr("midi_devices_dialog.close"))
         self._show()
 
     # Qt's own names
@@ -390,8 +347,3 @@ class MidiDevicesDialog(QDialog):
             self._toggle_learning()
             return
         super().keyPressEvent(event)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

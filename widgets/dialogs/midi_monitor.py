@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, Qt, QTimer
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QFont
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QListWidget, QProgressBar, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QListWidget, QProgressBar, QWidget
 
 from app.capture.message_log import MessageLog, MessageRow
 from app.capture.protocol import Events
@@ -12,6 +12,8 @@ from app.editor.session import Session
 from app.editor.translated import tr
 from app.score.take import decoded, is_wired, said
 from instrument_maps.library import all_maps
+from widgets.common.controls import Retranslated, named
+from widgets.common.layouts import in_column, in_row
 from widgets.common.pitch import pitch_text
 from widgets.common.plain import Label
 
@@ -20,7 +22,7 @@ SHOW_MS = 40
 _FULL = 1000
 
 
-class MidiMonitor(QWidget):
+class MidiMonitor(Retranslated, QWidget):
     """Shows what `session.recording` hears."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -41,8 +43,7 @@ class MidiMonitor(QWidget):
         self._note.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._breath, self._bite = _meter("midi_breath"), _meter("midi_bite")
         self._names = {meter: Label() for meter in (self._breath, self._bite)}
-        self._list = QListWidget()
-        self._list.setObjectName("midi_messages")
+        self._list = named(QListWidget(), "midi_messages")
         self._list.setUniformItemSizes(True)
         self._list.setSelectionMode(QListWidget.SelectionMode.NoSelection)
         meters = QGridLayout()
@@ -51,13 +52,8 @@ class MidiMonitor(QWidget):
             meters.addWidget(name, row, 0)
             meters.addWidget(meter, row, 1, Qt.AlignmentFlag.AlignVCenter)
         meters.addWidget(self._from, 2, 0, 1, 2)
-        line = QHBoxLayout()
-        line.addWidget(self._note)
-        line.addLayout(meters, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addLayout(line)
-        column.addWidget(self._list, 1)
+        line = in_row(self._note, (meters, 1))
+        in_column(line, (self._list, 1), of=self, margins=0)
         self._soon = QTimer(self, singleShot=True, interval=SHOW_MS)
         self._soon.timeout.connect(self._show)
         recording = session.recording
@@ -158,12 +154,6 @@ class MidiMonitor(QWidget):
         self._list.setAccessibleName(self.tr("midi_monitor.last_messages"))
         self._show()
 
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
-
 
 def source_name(source: str) -> str:
     """With what a device sends something, in words."""
@@ -180,8 +170,7 @@ def source_name(source: str) -> str:
 
 
 def _meter(name: str) -> QProgressBar:
-    meter = QProgressBar()
-    meter.setObjectName(name)
+    meter = named(QProgressBar(), name)
     meter.setRange(0, _FULL)
     meter.setTextVisible(False)
     meter.setStyleSheet("min-height: 10px; max-height: 10px;")

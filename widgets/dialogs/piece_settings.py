@@ -7,16 +7,12 @@ from fractions import Fraction
 from functools import partial
 from typing import Any, TypeVar, cast
 
-from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
-    QFormLayout,
-    QHBoxLayout,
     QLineEdit,
-    QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -26,7 +22,9 @@ from app.project import limits
 from app.project.edit.generation import vary_everyone
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_seed, usual_settings
 from app.project.frame_rate import USUAL_RATES, frame_rate, frame_rate_text
+from widgets.common.controls import Button, Caption, Retranslated, named, wrapped
 from widgets.common.icons import icon
+from widgets.common.layouts import STRETCH, in_column, in_form, in_row
 from widgets.common.plain import ComboBox, Label
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX
 
@@ -37,7 +35,7 @@ PROBLEM_PX = 40
 Value = TypeVar("Value", str, float)
 
 
-class PieceSettingsDialog(QDialog):
+class PieceSettingsDialog(Retranslated, QDialog):
     """Changes the settings of the piece in one step, or none.
 
     Parameters
@@ -54,72 +52,53 @@ class PieceSettingsDialog(QDialog):
         self._before = piece_settings(session.project)
         self._shown: dict[str, tuple[Any, Any]] = {}
         """Of each field what it shows of a value, and the value: a field may show less than there is."""
-        self._title = QLineEdit()
+        self._title = named(QLineEdit(), "piece_title")
         self._title.setMaxLength(limits.MOST_NAME)
-        self._rate = ComboBox()
+        self._rate = named(ComboBox(), "piece_rate")
         self._rate.setEditable(True)
         self._rate.setInsertPolicy(ComboBox.InsertPolicy.NoInsert)
         # It would make 120 of 12.
         self._rate.setCompleter(None)  # type: ignore[arg-type]
         self._rate.addItems([frame_rate_text(rate) for rate in USUAL_RATES])
-        self._preroll = _Beats()
+        self._preroll = named(_Beats(), "piece_preroll")
         self._preroll.setRange(*limits.PREROLL_BEATS)
         self._preroll.setDecimals(3)
         self._preroll.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
-        self._felt = ComboBox()
-        self._seed = QLineEdit()
-        self._randomise = QPushButton()
-        self._problem = Label()
-        self._problem.setWordWrap(True)
+        self._felt = named(ComboBox(), "piece_felt_beat")
+        self._seed = named(QLineEdit(), "piece_seed")
+        self._randomise = Button("piece_settings_dialog.randomise", self._another_seed, "piece_randomise")
+        self._problem = named(wrapped(Label()), "piece_problem")
         self._problem.setMinimumHeight(PROBLEM_PX)
         self._problem.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         self._problem.setStyleSheet(f"color: {session.tokens.error};")
-        self._buttons = QDialogButtonBox()
-        self._ok = self._buttons.addButton("", QDialogButtonBox.ButtonRole.AcceptRole)
+        self._ok = Button("piece_settings_dialog.ok", self._apply, "piece_ok")
         self._ok.setDefault(True)
-        self._cancel = self._buttons.addButton("", QDialogButtonBox.ButtonRole.RejectRole)
-        self._reset = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ResetRole)
-        for button in (self._randomise, self._cancel, self._reset):
-            button.setAutoDefault(False)
-        fields: dict[str, QWidget] = {
-            "title": self._title,
-            "rate": self._rate,
-            "preroll": self._preroll,
-            "felt_beat": self._felt,
-            "seed": self._seed,
-        }
-        others = {"randomise": self._randomise, "problem": self._problem}
-        others |= {"ok": self._ok, "cancel": self._cancel, "reset": self._reset}
-        for name, widget in {**fields, **others}.items():
-            widget.setObjectName(f"piece_{name}")
-        self._labels = {name: Label() for name in fields}
-        for name, field in fields.items():
-            self._labels[name].setBuddy(field)
-        self._lay_out(fields)
+        self._cancel = Button("piece_settings_dialog.cancel", self.reject, "piece_cancel")
+        reset_tip = "piece_settings_dialog.all_but_title_as_in"
+        self._reset = Button("piece_settings_dialog.reset_to_defaults", self._reset_all, "piece_reset", reset_tip)
+        self._lay_out()
         self._fill_beats()
         self._show(self._before)
-        self._ok.clicked.connect(self._apply)
-        self._cancel.clicked.connect(self.reject)
-        self._reset.clicked.connect(self._reset_all)
-        self._randomise.clicked.connect(self._another_seed)
         for signal in (self._rate.editTextChanged, self._seed.textChanged):
             signal.connect(self._judge)
         self.retranslate()
         self._title.setFocus()
 
-    def _lay_out(self, fields: dict[str, QWidget]) -> None:
-        seed = QHBoxLayout()
-        seed.addWidget(self._seed, 1)
-        seed.addWidget(self._randomise)
-        form = QFormLayout()
-        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        for name, field in fields.items():
-            form.addRow(self._labels[name], seed if field is self._seed else field)
-        layout = QVBoxLayout(self)
-        layout.addLayout(form)
-        layout.addWidget(self._problem)
-        layout.addStretch(1)
-        layout.addWidget(self._buttons)
+    def _lay_out(self) -> None:
+        form = in_form(
+            {
+                "piece_settings_dialog.title": self._title,
+                "piece_settings_dialog.frame_rate": self._rate,
+                "piece_settings_dialog.pre_roll": self._preroll,
+                "piece_settings_dialog.felt_beat": self._felt,
+                "piece_settings_dialog.seed": in_row((self._seed, 1), self._randomise),
+            }
+        )
+        buttons = QDialogButtonBox()
+        buttons.addButton(self._ok, QDialogButtonBox.ButtonRole.AcceptRole)
+        buttons.addButton(self._cancel, QDialogButtonBox.ButtonRole.RejectRole)
+        buttons.addButton(self._reset, QDialogButtonBox.ButtonRole.ResetRole)
+        in_column(form, self._problem, STRETCH, buttons, of=self)
 
     # What is chosen
 
@@ -225,50 +204,25 @@ class PieceSettingsDialog(QDialog):
     def retranslate(self) -> None:
         """Set every text anew."""
         self.setWindowTitle(self.tr("piece_settings_dialog.piece_settings"))
-        rows = {
-            "title": (
-                self.tr("piece_settings_dialog.title"),
-                self.tr("piece_settings_dialog.names_piece_in_midi_file"),
-            ),
-            "rate": (
-                self.tr("piece_settings_dialog.frame_rate"),
-                self.tr("piece_settings_dialog.of_ruler_and_of_steps"),
-            ),
-            "preroll": (
-                self.tr("piece_settings_dialog.pre_roll"),
-                self.tr("piece_settings_dialog.felt_beats_before_first_note"),
-            ),
-            "felt_beat": (
-                self.tr("piece_settings_dialog.felt_beat"),
-                self.tr("piece_settings_dialog.breaths_cues_sway_and_pre"),
-            ),
-            "seed": (
-                self.tr("piece_settings_dialog.seed"),
-                self.tr("piece_settings_dialog.another_seed_is_another_performance"),
-            ),
+        tips: dict[QWidget, str] = {
+            self._title: self.tr("piece_settings_dialog.names_piece_in_midi_file"),
+            self._rate: self.tr("piece_settings_dialog.of_ruler_and_of_steps"),
+            self._preroll: self.tr("piece_settings_dialog.felt_beats_before_first_note"),
+            self._felt: self.tr("piece_settings_dialog.breaths_cues_sway_and_pre"),
+            self._seed: self.tr("piece_settings_dialog.another_seed_is_another_performance"),
         }
-        for name, (text, tip) in rows.items():
-            self._labels[name].setText(text)
-            for widget in (self._labels[name], self._labels[name].buddy()):
-                widget.setToolTip(tip)
+        for field, tip in tips.items():
+            field.setToolTip(tip)
+        for caption in self.findChildren(Caption):
+            caption.setToolTip(caption.buddy().toolTip())
         self._preroll.setSuffix(self.tr("piece_settings_dialog.beats"))
         for index, text in enumerate(self._beat_names().values()):
             self._felt.setItemText(index, text)
-        self._randomise.setText(self.tr("piece_settings_dialog.randomise"))
         self._randomise.setIcon(icon("dice", self._session.tokens))
-        self._ok.setText(self.tr("piece_settings_dialog.ok"))
-        self._cancel.setText(self.tr("piece_settings_dialog.cancel"))
-        self._reset.setText(self.tr("piece_settings_dialog.reset_to_defaults"))
-        self._reset.setToolTip(self.tr("piece_settings_dialog.all_but_title_as_in"))
         self._judge()
 
     def sizeHint(self) -> QSize:
         return QSize(580, 290)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 class _Beats(QDoubleSpinBox):

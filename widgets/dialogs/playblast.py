@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import queue
-import threading
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
@@ -12,17 +11,8 @@ from typing import Final
 
 import numpy as np
 import numpy.typing as npt
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent
+from PySide6.QtCore import QSize, QTimer, Signal
 from PySide6.QtWidgets import (
-    QCheckBox,
-    QDialog,
-    QDialogButtonBox,
-    QFormLayout,
-    QHBoxLayout,
-    QProgressBar,
-    QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -34,9 +24,12 @@ from app.errors import AppError, Cancelled, Message
 from app.export.video import video_into
 from app.performance.span import FrameSpan, cut_span, whole_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
+from widgets.common.controls import Button, Check, named
+from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import PathEdit, ask_where_to_save, show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
+from widgets.dialogs.working import WorkingDialog
 
 Pictures = npt.NDArray[np.uint8]
 Render = Callable[[int, int, float, View | None], Pictures]
@@ -51,7 +44,7 @@ _AHEAD = 8
 """Pictures drawn before the encoder has taken them."""
 
 
-class PlayblastDialog(QDialog):
+class PlayblastDialog(WorkingDialog):
     """Makes a film of the viewport.
 
     Parameters
@@ -71,59 +64,31 @@ class PlayblastDialog(QDialog):
     def __init__(
         self, session: Session, render: Render, sound: Sound, path: Path, parent: QWidget | None = None
     ) -> None:
-        super().__init__(parent)
-        self.setObjectName("playblast")
-        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        super().__init__("playblast", "playblast", parent)
         self._session, self._render, self._sound = session, render, sound
         self._performance = session.performance
         self._pictures: queue.Queue[Pictures] = queue.Queue(_AHEAD)
-        self._running = False
-        self._stop = threading.Event()
         self._trouble: AppError | None = None
         """Why a picture could not be drawn."""
         self._span: FrameSpan | None = None
         self._drawn = 0
 
-        self._size = ComboBox()
-        self._size.setObjectName("playblast_size")
+        self._size = named(ComboBox(), "playblast_size")
         for width, height in SIZES:
             self._size.addItem(f"{width} × {height}", (width, height))
-        self._rate = ComboBox()
-        self._rate.setObjectName("playblast_rate")
+        self._rate = named(ComboBox(), "playblast_rate")
         for rate in sorted({*USUAL_RATES, session.project.fps}):
             self._rate.addItem(frame_rate_text(rate), str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(min(session.project.fps, Fraction(30)))))
-        self._range = ComboBox()
-        self._range.setObjectName("playblast_range")
-        self._view = ComboBox()
-        self._view.setObjectName("playblast_view")
-        self._with_sound = QCheckBox()
-        self._with_sound.setObjectName("playblast_sound")
+        self._range = named(ComboBox(), "playblast_range")
+        self._view = named(ComboBox(), "playblast_view")
+        self._with_sound = named(Check("playblast_dialog.with_what_is_heard"), "playblast_sound")
         self._with_sound.setChecked(True)
-        self._file = PathEdit(path)
-        self._file.setObjectName("playblast_file")
-        self._choose = QPushButton()
-        self._choose.setAutoDefault(False)
-        self._choose.clicked.connect(self._choose_file)
-        self._state = Label()
-        self._state.setObjectName("playblast_state")
+        self._file = named(PathEdit(path), "playblast_file")
+        self._choose = Button("playblast_dialog.choose", self._choose_file)
+        self._state = named(Label(), "playblast_state")
         self._state.setWordWrap(True)
         self._state.setMinimumHeight(40)
-        self._progress = QProgressBar()
-        self._progress.setRange(0, 1000)
-        self._progress.hide()
-        self._buttons = QDialogButtonBox()
-        self._start = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole)
-        self._start.setObjectName("playblast_start")
-        self._start.setDefault(True)
-        self._show = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole)
-        self._show.setObjectName("playblast_show_folder")
-        self._show.hide()
-        self._close = self._buttons.addButton("", QDialogButtonBox.ButtonRole.RejectRole)
-        self._close.setObjectName("playblast_close")
-        self._start.clicked.connect(self.start)
-        self._show.clicked.connect(self._show_folder)
-        self._close.clicked.connect(self._close_or_cancel)
         self._file.textChanged.connect(self._show_state)
 
         # One picture in each turn of the event loop: the window stays alive.
@@ -131,23 +96,20 @@ class PlayblastDialog(QDialog):
         self._timer.setInterval(0)
         self._timer.timeout.connect(self._draw)
 
-        self._labels = {name: Label() for name in ("size", "rate", "range", "view", "sound", "file")}
-        form = QFormLayout()
-        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        file = QHBoxLayout()
-        file.addWidget(self._file, 1)
-        file.addWidget(self._choose)
-        form.addRow(self._labels["view"], self._view)
-        form.addRow(self._labels["range"], self._range)
-        form.addRow(self._labels["size"], self._size)
-        form.addRow(self._labels["rate"], self._rate)
-        form.addRow(self._labels["sound"], self._with_sound)
-        form.addRow(self._labels["file"], file)
-        layout = QVBoxLayout(self)
-        layout.addLayout(form)
-        layout.addWidget(self._state, 1)
-        layout.addWidget(self._progress)
-        layout.addWidget(self._buttons)
+        file = in_row((self._file, 1), self._choose)
+        form = in_form(
+            {
+                "playblast_dialog.view": self._view,
+                "playblast_dialog.range": self._range,
+                "playblast_dialog.size": self._size,
+                "playblast_dialog.frames_per_second": self._rate,
+                "playblast_dialog.sound": self._with_sound,
+                "playblast_dialog.file": file,
+            }
+        )
+        self.fields = (self._size, self._rate, self._range, self._view, self._with_sound, self._file, self._choose)
+        buttons = self._box("playblast_dialog.make_film", self.start, self._show_folder)
+        in_column(form, (self._state, 1), self._progress, buttons, of=self)
         self.retranslate()
 
     def start(self) -> None:
@@ -156,15 +118,13 @@ class PlayblastDialog(QDialog):
             return
         self._performance = self._session.performance
         self._span = span = self._requested_span()
-        self._running, self._drawn, self._trouble = True, 0, None
+        self._drawn, self._trouble = 0, None
         # The thread gets what it needs, not the dialog.
         self._pictures = pictures = queue.Queue[Pictures](_AHEAD)
-        self._stop = stop = threading.Event()
-        self._enable(False)
         self._show.hide()
-        self._progress.setValue(0)
-        self._progress.show()
+        self._set_running(True)
         self._state.setText("")
+        stop = self._stop
         path, size = self._file.path, self._size.currentData()
         assert path is not None, "the button is disabled without one"
         with_sound, sound = self._with_sound.isChecked(), self._sound
@@ -177,7 +137,6 @@ class PlayblastDialog(QDialog):
                     progress((index + 1) / span.count)
             return path
 
-        self.retranslate()
         self._timer.start()
         self._session.tasks.run(
             Message("work.playblast"), work, self._done, self._failed, key="playblast", ended=self._finish
@@ -207,7 +166,7 @@ class PlayblastDialog(QDialog):
             return
         self._pictures.put(picture)
         self._drawn += 1
-        self._progress.setValue(round(1000 * self._drawn / span.count))
+        self._show_share(self._drawn / span.count)
 
     def _done(self, path: Path) -> None:
         self._state.setText(self.tr("playblast_dialog.film_is_written").format(file=shown(path)))
@@ -219,11 +178,8 @@ class PlayblastDialog(QDialog):
         self._state.setText(message_text(error.message))
 
     def _finish(self) -> None:
-        self._running = False
         self._timer.stop()
-        self._progress.hide()
-        self._enable(True)
-        self.retranslate()
+        self._set_running(False)
         if self._trouble is not None:
             self._failed(self._trouble)
 
@@ -235,19 +191,6 @@ class PlayblastDialog(QDialog):
         if self._range.currentData() == _SELECTION and span is not None:
             return cut_span(frame, fps, clock.seconds(float(span[0])), clock.seconds(float(span[1])))
         return whole_span(frame, fps)
-
-    def _enable(self, enabled: bool) -> None:
-        for widget in (
-            *(self._size, self._rate, self._range, self._view, self._with_sound, self._file, self._choose),
-            self._start,
-        ):
-            widget.setEnabled(enabled)
-
-    def _close_or_cancel(self) -> None:
-        if self._running:
-            self._stop.set()
-        else:
-            self.reject()
 
     def _choose_file(self) -> None:
         proposal = self._file.path or Path("film.mp4")
@@ -270,20 +213,7 @@ class PlayblastDialog(QDialog):
     def retranslate(self) -> None:
         """Set every text anew."""
         self.setWindowTitle(self.tr("playblast_dialog.playblast"))
-        for name, text in {
-            "size": self.tr("playblast_dialog.size"),
-            "rate": self.tr("playblast_dialog.frames_per_second"),
-            "range": self.tr("playblast_dialog.range"),
-            "view": self.tr("playblast_dialog.view"),
-            "sound": self.tr("playblast_dialog.sound"),
-            "file": self.tr("playblast_dialog.file"),
-        }.items():
-            self._labels[name].setText(text)
-        self._with_sound.setText(self.tr("playblast_dialog.with_what_is_heard"))
-        self._choose.setText(self.tr("playblast_dialog.choose"))
-        self._start.setText(self.tr("playblast_dialog.make_film"))
-        self._show.setText(self.tr("playblast_dialog.show_in_folder"))
-        self._close.setText(self.tr("playblast_dialog.cancel") if self._running else self.tr("playblast_dialog.close"))
+        super().retranslate()
         ranges = [(self.tr("playblast_dialog.whole_piece"), _WHOLE)]
         if self._session.loop_s is not None:
             ranges.append((self.tr("playblast_dialog.loop"), _LOOP))
@@ -306,18 +236,6 @@ class PlayblastDialog(QDialog):
 
     def sizeHint(self) -> QSize:
         return QSize(620, 360)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
-
-    def closeEvent(self, event: QCloseEvent) -> None:
-        if self._running:
-            self._stop.set()
-            event.ignore()
-            return
-        super().closeEvent(event)
 
 
 def _next(pictures: queue.Queue[Pictures], stop_requested: Callable[[], bool]) -> Pictures:

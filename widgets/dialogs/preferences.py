@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from PySide6.QtCore import QEvent, QSize, Qt, Signal, SignalInstance
+from PySide6.QtCore import QSize, Qt, Signal, SignalInstance
 from PySide6.QtWidgets import (
     QButtonGroup,
     QDialog,
@@ -18,7 +18,6 @@ from PySide6.QtWidgets import (
     QPushButton,
     QRadioButton,
     QTabWidget,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -26,6 +25,8 @@ from app.editor.session import Session
 from app.editor.translated import tr
 from app.encoding import shown
 from instrument_maps.library import library, own_folder
+from widgets.common.controls import Caption, Retranslated, named
+from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
@@ -60,7 +61,7 @@ class Choice:
     is_list: bool = False
 
 
-class PreferencesDialog(QDialog):
+class PreferencesDialog(Retranslated, QDialog):
     """The preferences.
 
     Parameters
@@ -95,8 +96,7 @@ class PreferencesDialog(QDialog):
         self._labels: dict[str, Label] = {}
         self._lists: dict[str, ComboBox] = {}
         self._radios: dict[str, list[QRadioButton]] = {}
-        self.tabs = QTabWidget()
-        self.tabs.setObjectName("preferences_tabs")
+        self.tabs = named(QTabWidget(), "preferences_tabs")
         general = QWidget()
         self._form = QFormLayout(general)
         self._form.setContentsMargins(16, 16, 16, 16)
@@ -116,10 +116,7 @@ class PreferencesDialog(QDialog):
         self.tabs.addTab(self._instruments_page(), "")
         self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         self._buttons.rejected.connect(self.reject)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(10, 8, 10, 10)
-        column.addWidget(self.tabs, 1)
-        column.addWidget(self._buttons)
+        in_column((self.tabs, 1), self._buttons, of=self, margins=(10, 8, 10, 10))
         session.instruments_changed.connect(self.refresh)
         self.retranslate()
         self.refresh()
@@ -139,8 +136,7 @@ class PreferencesDialog(QDialog):
         line.setSpacing(16)
         radios = self._radios[choice.name] = []
         for value, _ in choice.options:
-            radio = QRadioButton()
-            radio.setObjectName(f"preferences_{choice.name}_{value}")
+            radio = named(QRadioButton(), f"preferences_{choice.name}_{value}")
             radio.clicked.connect(partial(_call, choice.choose, value))
             group.addButton(radio)
             line.addWidget(radio)
@@ -151,27 +147,17 @@ class PreferencesDialog(QDialog):
     def _instruments_page(self) -> QWidget:
         """Where the user's own maps are, and what is wrong with them."""
         page = QWidget()
-        column = QVBoxLayout(page)
-        column.setContentsMargins(16, 16, 16, 16)
-        column.setSpacing(12)
-        self._own, self._found = Label(), Label()
-        self._folder = QLineEdit(shown(own_folder()))
-        self._folder.setObjectName("preferences_instruments")
+        self._own, self._found = Caption("preferences_dialog.your_own_instruments_map_toml"), Label()
+        self._folder = named(QLineEdit(shown(own_folder())), "preferences_instruments")
         self._folder.setReadOnly(True)
-        self._open = QPushButton()
-        self._open.setObjectName("preferences_instruments_open")
+        self._open = named(QPushButton(), "preferences_instruments_open")
         self._open.clicked.connect(self._open_folder)
         for label in (self._own, self._found):
             label.setWordWrap(True)
         self._found.setObjectName("preferences_instruments_found")
         self._found.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        line = QHBoxLayout()
-        line.addWidget(self._folder, 1)
-        line.addWidget(self._open)
-        column.addWidget(self._own)
-        column.addLayout(line)
-        column.addWidget(self._found)
-        column.addStretch(1)
+        line = in_row((self._folder, 1), self._open)
+        in_column(self._own, line, self._found, STRETCH, of=page, margins=16, spacing=12)
         return page
 
     def _open_folder(self) -> None:
@@ -209,7 +195,6 @@ class PreferencesDialog(QDialog):
         self.tabs.setTabText(1, self.tr("preferences_dialog.keyboard_shortcuts"))
         self.tabs.setTabText(2, self.tr("preferences_dialog.instruments"))
         self._open.setText(self.tr("preferences_dialog.show_folder"))
-        self._own.setText(self.tr("preferences_dialog.your_own_instruments_map_toml"))
         for choice in self._choices:
             self._labels[choice.name].setText(tr(choice.label))
             for index, (_, word) in enumerate(choice.options):
@@ -221,12 +206,6 @@ class PreferencesDialog(QDialog):
     def sizeHint(self) -> QSize:
         """Room for the list of shortcuts."""
         return QSize(760, 560)
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def _call(choose: Callable[[Any], object], value: object, *_: object) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QIcon
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QListWidget,
     QTableWidget,
     QTableWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -23,10 +22,12 @@ from app.plan.corrections import Correction
 from app.project.model import Project
 from app.project.reimport import Conflict, Reimport
 from app.score.model import Note
+from widgets.common.controls import Caption, Retranslated, named
+from widgets.common.layouts import in_column
 from widgets.common.plain import Label
 
 
-class ReimportDialog(QDialog):
+class ReimportDialog(Retranslated, QDialog):
     """Shows what a re-import would do and asks whether to do it.
 
     Parameters
@@ -60,8 +61,7 @@ class ReimportDialog(QDialog):
         self._title, self._note_title, self._tokens = title, note_title, tokens
         self._heading = Label()
         self._heading.setWordWrap(True)
-        self._table = QTableWidget(0, 5)
-        self._table.setObjectName("reimport_parts")
+        self._table = named(QTableWidget(0, 5), "reimport_parts")
         self._table.verticalHeader().hide()
         self._table.setShowGrid(False)
         self._table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
@@ -69,19 +69,16 @@ class ReimportDialog(QDialog):
         self._table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         self._table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self._table.horizontalHeader().setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-        self._players = Label()
-        self._players.setObjectName("reimport_players")
+        self._players = named(Label(), "reimport_players")
         self._players.setWordWrap(True)
         self._conflict_title = Label()
         self._conflict_title.setWordWrap(True)
-        self._conflicts = QListWidget()
-        self._conflicts.setObjectName("reimport_conflicts")
+        self._conflicts = named(QListWidget(), "reimport_conflicts")
         self._conflicts.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
         self._conflicts.setMaximumHeight(140)
-        self._orphan_title = Label()
+        self._orphan_title = Caption("reimport_dialog.these_corrections_have_lost_their")
         self._orphan_title.setWordWrap(True)
-        self._orphans = QListWidget()
-        self._orphans.setObjectName("reimport_orphans")
+        self._orphans = named(QListWidget(), "reimport_orphans")
         self._orphans.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
         self._orphans.setMaximumHeight(140)
         self._buttons = QDialogButtonBox(
@@ -91,15 +88,17 @@ class ReimportDialog(QDialog):
             button.setIcon(QIcon())
         self._buttons.accepted.connect(self.accept)
         self._buttons.rejected.connect(self.reject)
-        layout = QVBoxLayout(self)
-        layout.addWidget(self._heading)
-        layout.addWidget(self._table, 1)
-        layout.addWidget(self._players)
-        layout.addWidget(self._conflict_title)
-        layout.addWidget(self._conflicts)
-        layout.addWidget(self._orphan_title)
-        layout.addWidget(self._orphans)
-        layout.addWidget(self._buttons)
+        in_column(
+            self._heading,
+            (self._table, 1),
+            self._players,
+            self._conflict_title,
+            self._conflicts,
+            self._orphan_title,
+            self._orphans,
+            self._buttons,
+            of=self,
+        )
         self.retranslate()
 
     def retranslate(self) -> None:
@@ -151,7 +150,6 @@ class ReimportDialog(QDialog):
             self._conflicts.addItem(f"{names[conflict.part_id]}: {self._about_note(conflict)}")
         for widget in (self._conflict_title, self._conflicts):
             widget.setVisible(bool(outcome.conflicts))
-        self._orphan_title.setText(self.tr("reimport_dialog.these_corrections_have_lost_their"))
         self._orphans.clear()
         for orphan in outcome.orphans:
             player = outcome.project.player(orphan.player_id)
@@ -191,8 +189,3 @@ class ReimportDialog(QDialog):
 
     def sizeHint(self) -> QSize:
         return QSize(620, 460)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

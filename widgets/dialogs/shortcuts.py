@@ -5,22 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHBoxLayout,
-    QHeaderView,
     QKeySequenceEdit,
     QLineEdit,
-    QPushButton,
-    QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
 from app.editor.session import Session
+from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named
+from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
 
 _TEXT, _PLACE, _KEYS, _CONTEXT = range(4)
@@ -47,7 +44,7 @@ class ShortcutRow:
     default: str
 
 
-class ShortcutsPage(QWidget):
+class ShortcutsPage(Retranslated, QWidget):
     """The page of the shortcuts.
 
     Parameters
@@ -81,76 +78,33 @@ class ShortcutsPage(QWidget):
         self._session, self._rows_now, self._conflicts = session, rows, conflicts
         self._menu_of = menu_of
         self._rows: dict[str, ShortcutRow] = {}
-        self.search = QLineEdit()
-        self.search.setObjectName("shortcut_search")
+        self.search = named(QLineEdit(), "shortcut_search")
         self.search.setClearButtonEnabled(True)
         self.search.textChanged.connect(self._filter)
-        self.list = QTreeWidget()
-        self.list.setObjectName("shortcut_list")
-        self.list.setColumnCount(4)
-        self.list.setRootIsDecorated(False)
-        self.list.setUniformRowHeights(True)
+        columns = ("shortcuts_page.action", "shortcuts_page.menu", "shortcuts_page.keys", "shortcuts_page.works")
+        self.list = ColumnList("shortcut_list", *columns, stretches=(_TEXT,))
         self.list.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.list.currentItemChanged.connect(self._choose)
-        header = self.list.header()
-        header.setStretchLastSection(False)
-        header.setSectionResizeMode(_TEXT, QHeaderView.ResizeMode.Stretch)
-        for column in (_PLACE, _KEYS, _CONTEXT):
-            header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
-        self._label = Label()
-        self.edit = QKeySequenceEdit()
-        self.edit.setObjectName("shortcut_edit")
+        self._label = Caption("shortcuts_page.new_keys")
+        self.edit = named(QKeySequenceEdit(), "shortcut_edit")
         self.edit.setClearButtonEnabled(True)
         self.edit.setMaximumSequenceLength(1)
         self.edit.keySequenceChanged.connect(self._changed)
-        self.give, self.take, self.back, self.all_back = (QPushButton() for _ in range(4))
-        self.give.setObjectName("shortcut_give")
-        self.take.setObjectName("shortcut_take")
-        self.back.setObjectName("shortcut_back")
-        self.all_back.setObjectName("shortcuts_all_back")
-        for button in (self.give, self.take, self.back, self.all_back):
-            # Enter in the list or the search is no answer.
-            button.setAutoDefault(False)
-        self.give.clicked.connect(self._give)
-        self.take.clicked.connect(self._take)
-        self.back.clicked.connect(self._back)
-        self.all_back.clicked.connect(self._all_back)
-        self.reported = Label()
-        self.reported.setObjectName("shortcut_told")
+        self.all_back = Button("shortcuts_page.all_back_to_default", self._all_back, "shortcuts_all_back")
+        self.back = Button("shortcuts_page.default", self._back, "shortcut_back")
+        self.take = Button("shortcuts_page.remove_keys", self._take, "shortcut_take")
+        self.give = Button("shortcuts_page.assign", self._give, "shortcut_give")
+        self.reported = named(Label(), "shortcut_told")
         self.reported.setWordWrap(True)
-        line = QHBoxLayout()
-        line.addWidget(self._label)
-        line.addWidget(self.edit, 1)
-        line.addWidget(self.give)
-        line.addWidget(self.take)
-        line.addWidget(self.back)
-        bottom = QHBoxLayout()
-        bottom.addWidget(self.reported, 1)
-        bottom.addWidget(self.all_back)
-        page = QVBoxLayout(self)
-        page.addWidget(self.search)
-        page.addWidget(self.list, 1)
-        page.addLayout(line)
-        page.addLayout(bottom)
+        line = in_row(self._label, (self.edit, 1), self.give, self.take, self.back)
+        bottom = in_row((self.reported, 1), self.all_back)
+        in_column(self.search, (self.list, 1), line, bottom, of=self)
         self.retranslate()
 
     def retranslate(self) -> None:
         """Set the texts and the rows anew."""
         self.search.setPlaceholderText(self.tr("shortcuts_page.search_actions_or_keys"))
-        self.list.setHeaderLabels(
-            [
-                self.tr("shortcuts_page.action"),
-                self.tr("shortcuts_page.menu"),
-                self.tr("shortcuts_page.keys"),
-                self.tr("shortcuts_page.works"),
-            ]
-        )
-        self._label.setText(self.tr("shortcuts_page.new_keys"))
         self.edit.setAccessibleName(self.tr("shortcuts_page.new_keys"))
-        self.give.setText(self.tr("shortcuts_page.assign"))
-        self.take.setText(self.tr("shortcuts_page.remove_keys"))
-        self.back.setText(self.tr("shortcuts_page.default"))
-        self.all_back.setText(self.tr("shortcuts_page.all_back_to_default"))
         self._fill()
 
     def _fill(self) -> None:
@@ -252,12 +206,6 @@ class ShortcutsPage(QWidget):
             if row.keys != row.default:
                 self.chosen.emit(row.id, None)
         self._fill()
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def native(keys: str) -> str:

@@ -5,19 +5,15 @@ What is chosen holds at once, in `session.streaming`.
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QDialog,
-    QFormLayout,
-    QHBoxLayout,
-    QHeaderView,
     QLineEdit,
     QPushButton,
     QSpinBox,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -25,6 +21,8 @@ from app.editor.session import Session
 from app.editor.streaming import RATES_HZ
 from app.stream.sender import LEAST_PORT, LOOPBACK, MOST_PORT, TO_MANY, is_loopback
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named, wrapped
+from widgets.common.layouts import STRETCH, in_column, in_form, in_row
 from widgets.common.plain import Label
 from widgets.common.text import sentence
 
@@ -32,7 +30,7 @@ _LIST_PX = 130
 """Four players are seen."""
 
 
-class StreamDialog(QDialog):
+class StreamDialog(Retranslated, QDialog):
     """The live stream. Not modal: one plays, and looks at the other program.
 
     Parameters
@@ -46,23 +44,25 @@ class StreamDialog(QDialog):
         self.setObjectName("stream")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._state = session, session.streaming
-        self._explained, self._warning, self._reported = Label(), Label(), Label()
-        self._host, self._port = QLineEdit(), QSpinBox()
-        self._who, self._faces, self._rate = Combo(), Combo(), Combo()
-        self._list = QTreeWidget()
-        self._toggle, self._here, self._close, self._anyway = (QPushButton() for _ in range(4))
-        self._names = {field: Label() for field in (self._host, self._port, self._who, self._faces, self._rate)}
+        self._explained = wrapped(Caption("stream_dialog.sends_performers_poses_faces_and"))
+        self._warning = named(wrapped(Caption("stream_dialog.what_is_sent_leaves_this")), "stream_warning")
+        self._reported = named(wrapped(Label()), "stream_told")
+        self._host, self._port = named(QLineEdit(), "stream_host"), named(QSpinBox(), "stream_port")
+        self._who, self._faces = named(Combo(), "stream_who"), named(Combo(), "stream_faces")
+        self._rate = named(Combo(), "stream_rate")
+        self._list = ColumnList("stream_list", "stream_dialog.performer", "stream_dialog.port")
+        self._toggle = named(QPushButton(), "stream_toggle")
+        self._anyway = Button("stream_dialog.send_anyway", self._send_anyway, "stream_anyway")
+        self._close = Button("stream_dialog.close", self.close, "stream_close")
+        self._here = Button("stream_dialog.this_computer", lambda: self._state.set(host=LOOPBACK), "stream_here")
         self._listed: tuple[object, ...] = ()
         self._build()
         self._host.editingFinished.connect(self._choose_host)
         self._port.valueChanged.connect(lambda port: self._state.set(port=port))
-        self._here.clicked.connect(lambda: self._state.set(host=LOOPBACK))
         self._who.chosen.connect(lambda who: self._state.set(everyone=who == "everyone"))
         self._faces.chosen.connect(lambda faces: self._state.set(faces=faces))
         self._rate.chosen.connect(lambda rate: self._state.set(rate_hz=int(rate)))
         self._toggle.clicked.connect(lambda: self._state.set(on=not self._state.on))
-        self._close.clicked.connect(self.close)
-        self._anyway.clicked.connect(lambda: self._state.set(broadcast=self._state.host))
         self._state.changed.connect(self._show)
         session.changed.connect(self._show)
         session.players_changed.connect(self._show)
@@ -73,59 +73,32 @@ class StreamDialog(QDialog):
         self.resize(620, 560)
 
     def _build(self) -> None:
-        named: dict[QWidget, str] = {self._host: "stream_host", self._port: "stream_port", self._who: "stream_who"}
-        named |= {self._faces: "stream_faces", self._rate: "stream_rate", self._list: "stream_list"}
-        named |= {self._toggle: "stream_toggle", self._here: "stream_here", self._close: "stream_close"}
-        named |= {self._anyway: "stream_anyway"}
-        named |= {self._warning: "stream_warning", self._reported: "stream_told"}
-        for widget, name in named.items():
-            widget.setObjectName(name)
-        for label in (self._explained, self._warning, self._reported):
-            label.setWordWrap(True)
         self._port.setRange(LEAST_PORT, MOST_PORT)
         self._port.setKeyboardTracking(False)
-        for button in (self._here, self._close, self._anyway):
-            button.setAutoDefault(False)
-        self._list.setColumnCount(2)
-        self._list.setRootIsDecorated(False)
-        self._list.setUniformRowHeights(True)
         self._list.setSelectionMode(QTreeWidget.SelectionMode.NoSelection)
         self._list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._list.setMinimumHeight(_LIST_PX)
-        header = self._list.header()
-        header.setStretchLastSection(False)
-        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
-        host = QHBoxLayout()
-        host.addWidget(self._host, 1)
-        host.addWidget(self._here)
-        form = QFormLayout()
-        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        for field, label in self._names.items():
-            label.setBuddy(field)
-            if field is self._host:
-                form.addRow(label, host)
-            else:
-                form.addRow(label, field)
-        bottom = QHBoxLayout()
-        bottom.addWidget(self._toggle)
-        bottom.addStretch(1)
-        bottom.addWidget(self._close)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(14, 14, 14, 14)
-        page.setSpacing(10)
-        page.addWidget(self._explained)
-        page.addLayout(form)
-        page.addWidget(self._warning)
-        page.addWidget(self._list, 1)
-        reported = QHBoxLayout()
-        reported.addWidget(self._reported, 1)
-        reported.addWidget(self._anyway)
-        page.addLayout(reported)
-        page.addLayout(bottom)
+        host = in_row((self._host, 1), self._here)
+        form = in_form(
+            {
+                "stream_dialog.computer": host,
+                "stream_dialog.port": self._port,
+                "stream_dialog.performers": self._who,
+                "stream_dialog.names_of_face": self._faces,
+                "stream_dialog.frames_per_second": self._rate,
+            }
+        )
+        bottom = in_row(self._toggle, STRETCH, self._close)
+        reported = in_row((self._reported, 1), self._anyway)
+        in_column(
+            self._explained, form, self._warning, (self._list, 1), reported, bottom, of=self, margins=14, spacing=10
+        )
 
     def _choose_host(self) -> None:
         self._state.set(host=self._host.text().strip() or LOOPBACK)
+
+    def _send_anyway(self) -> None:
+        self._state.set(broadcast=self._state.host)
 
     # What is shown
 
@@ -181,18 +154,6 @@ class StreamDialog(QDialog):
     def retranslate(self) -> None:
         """Set all texts."""
         self.setWindowTitle(self.tr("stream_dialog.live_stream"))
-        self._explained.setText(self.tr("stream_dialog.sends_performers_poses_faces_and"))
-        for field, text in (
-            (self._host, self.tr("stream_dialog.computer")),
-            (self._port, self.tr("stream_dialog.port")),
-            (self._who, self.tr("stream_dialog.performers")),
-            (self._faces, self.tr("stream_dialog.names_of_face")),
-            (self._rate, self.tr("stream_dialog.frames_per_second")),
-        ):
-            self._names[field].setText(text)
-            field.setAccessibleName(text)
-        self._here.setText(self.tr("stream_dialog.this_computer"))
-        self._warning.setText(self.tr("stream_dialog.what_is_sent_leaves_this"))
         self._who.set_options(
             [
                 Option("front", self.tr("stream_dialog.selected_player_in_middle")),
@@ -207,17 +168,8 @@ class StreamDialog(QDialog):
             ]
         )
         self._rate.set_options([Option(str(rate), str(rate)) for rate in RATES_HZ])
-        self._list.setHeaderLabels([self.tr("stream_dialog.performer"), self.tr("stream_dialog.port")])
-        self._close.setText(self.tr("stream_dialog.close"))
-        self._anyway.setText(self.tr("stream_dialog.send_anyway"))
         self._listed = ()
         self._show()
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def _state_text(self) -> tuple[str, str]:
         """How it goes, and the colour of that."""

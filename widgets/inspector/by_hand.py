@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
-from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
+from PySide6.QtWidgets import QToolButton, QWidget
 
 from app.editor.session import Session
+from widgets.common.controls import named
 from widgets.common.icons import icon
+from widgets.common.layouts import in_row
 from widgets.common.plain import Label
 
 
@@ -29,14 +31,9 @@ class ByHandLine(QWidget):
         self._yours = ""
         self._text = Label()
         self._text.setWordWrap(True)
-        self._button = QToolButton()
-        self._button.setObjectName("revert")
+        self._button = named(QToolButton(), "revert")
         self._button.clicked.connect(self.reverted)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(10, 2, 0, 2)
-        row.setSpacing(4)
-        row.addWidget(self._text, 1)
-        row.addWidget(self._button, 0, Qt.AlignmentFlag.AlignTop)
+        in_row((self._text, 1), (self._button, 0, Qt.AlignmentFlag.AlignTop), of=self, margins=(10, 2, 0, 2), spacing=4)
         session.theme_changed.connect(self._apply_theme)
         self._apply_theme()
         self._retranslate()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
@@ -16,8 +16,8 @@ from app.project.edit import events as edit
 from app.project.edit.corrections import take_back
 from app.project.model import Player, Project
 from app.project.reimport import orphaned, reattached
-from widgets.common.icons import icon
-from widgets.common.plain import Label
+from widgets.common.controls import Button, Caption, PictureButton, Retranslated, named
+from widgets.common.layouts import in_column, in_row
 from widgets.common.text import message_text
 from widgets.inspector.generated import Generated
 from widgets.inspector.rows import LineList, ListRow
@@ -37,44 +37,35 @@ class Place:
     orphan: bool
 
 
-class CorrectionList(QWidget):
+class CorrectionList(Retranslated, QWidget):
     """Corrections of the selected players, those that lost their place first."""
 
     def __init__(self, session: Session, generated: Generated, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session, self._generated = session, generated
-        self.list = LineList(session)
-        self.list.setObjectName("correction_list")
-        self._empty = Label()
+        self.list = named(LineList(session), "correction_list")
+        self._empty = Caption("correction_list.nothing_was_changed_by_hand")
         self._empty.setWordWrap(True)
         self._empty.setMargin(12)
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
-        self._revert, self._revert_all, self._attach = QPushButton(), QPushButton(), QPushButton()
-        self._revert.setObjectName("revert_selected")
-        self._revert_all.setObjectName("revert_player")
-        self._attach.setObjectName("reattach")
-        buttons = QHBoxLayout()
-        buttons.setContentsMargins(6, 6, 6, 6)
-        buttons.setSpacing(4)
-        for button in (self._revert, self._revert_all):
-            button.setMinimumWidth(40)
-            buttons.addWidget(button, 1)
-        attach = QHBoxLayout()
-        attach.setContentsMargins(6, 6, 6, 0)
-        attach.addWidget(self._attach)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.list, 1)
-        layout.addWidget(self._empty, 1)
-        layout.addLayout(attach)
-        layout.addLayout(buttons)
+        revert = ("correction_list.revert", self._revert_selected, "revert_selected")
+        self._revert = PictureButton(session, "reset", *revert, "correction_list.back_to_generators_selected_lines")
+        everything = ("correction_list.revert_all", self._revert_players, "revert_player")
+        self._revert_all = PictureButton(
+            session, "reset", *everything, "correction_list.back_to_generators_everything_of"
+        )
+        self._attach = Button(
+            "correction_list.re_attach_to_selected_note",
+            self._reattach,
+            "reattach",
+            "correction_list.let_selected_line_be_about",
+        )
+        buttons = in_row((self._revert, 1), (self._revert_all, 1), margins=6, spacing=4)
+        attach = in_row(self._attach, margins=(6, 6, 6, 0))
+        in_column((self.list, 1), (self._empty, 1), attach, buttons, of=self, margins=0, spacing=0)
         self.list.opened.connect(self._open)
         self.list.deleted.connect(self._revert_selected)
         self.list.selectionModel().selectionChanged.connect(self._show_buttons)
-        self._revert.clicked.connect(self._revert_selected)
-        self._revert_all.clicked.connect(self._revert_players)
-        self._attach.clicked.connect(self._reattach)
         generated.changed.connect(self.show_corrections)
         session.performance_changed.connect(self.show_corrections)
         session.players_changed.connect(self.show_corrections)
@@ -243,26 +234,12 @@ class CorrectionList(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._revert.setText(self.tr("correction_list.revert"))
-        self._revert.setToolTip(self.tr("correction_list.back_to_generators_selected_lines"))
-        self._revert_all.setText(self.tr("correction_list.revert_all"))
-        self._revert_all.setToolTip(self.tr("correction_list.back_to_generators_everything_of"))
-        self._attach.setText(self.tr("correction_list.re_attach_to_selected_note"))
-        self._attach.setToolTip(self.tr("correction_list.let_selected_line_be_about"))
-        self._empty.setText(self.tr("correction_list.nothing_was_changed_by_hand"))
-        for button in (self._revert, self._revert_all):
-            button.setIcon(icon("reset", self._session.tokens))
         self.show_corrections()
 
     # Qt's own names
 
     def showEvent(self, event: QEvent) -> None:
         self.show_corrections()
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def _place(line: ListRow) -> Place:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import msgspec
-from PySide6.QtCore import QEvent, Qt
-from PySide6.QtWidgets import QGridLayout, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.editor.session import Session
 from app.errors import Message
@@ -18,7 +18,9 @@ from app.project.edit.corrections import put
 from app.project.edit.events import Placed
 from app.project.model import Project
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Retranslated, named
 from widgets.common.event_names import expression_name, kind_name
+from widgets.common.layouts import in_column
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.common.section import Section
@@ -32,7 +34,7 @@ EARLIEST, LATEST = -(2.0**31), 2.0**31
 ANGLES = ("up_deg", "left_deg", "roll_deg")
 
 
-class EventSection(QWidget):
+class EventSection(Retranslated, QWidget):
     """Shows and edits the selected events of one kind."""
 
     def __init__(self, session: Session, generated: Generated, parent: QWidget | None = None) -> None:
@@ -42,18 +44,17 @@ class EventSection(QWidget):
         self._events: tuple[Placed, ...] = ()
         self._section = Section(session, "inspector_event", self)
         self._numbers: dict[str, NumberSlider] = {}
-        self._expression = Combo()
-        self._expression.setObjectName("event_expression")
+        self._expression = named(Combo(), "event_expression")
         self._length, self._why = Label(), Label()
-        self._by_hand = ByHandLine(session)
-        self._by_hand.setObjectName("event_by_hand")
+        self._by_hand = named(ByHandLine(session), "event_by_hand")
         self._build()
         self._connect()
         self.retranslate()
 
     def _number(self, name: str, low: float, high: float, step: float, decimals: int, slides: bool) -> NumberSlider:
-        slider = NumberSlider(self._session, low, high, step=step, decimals=decimals, slides=slides)
-        slider.setObjectName(f"event_{name}")
+        slider = named(
+            NumberSlider(self._session, low, high, step=step, decimals=decimals, slides=slides), f"event_{name}"
+        )
         slider.released.connect(self._session.document.end_gesture)
         self._numbers[name] = slider
         return slider
@@ -75,8 +76,7 @@ class EventSection(QWidget):
         fades = QGridLayout()
         fades.setSpacing(4)
         for column, name in enumerate(("fade_in_s", "fade_out_s")):
-            slider = NumberSlider(self._session, 0, 60, step=0.05, decimals=2, fills=(0.0, 3.0))
-            slider.setObjectName(f"event_{name}")
+            slider = named(NumberSlider(self._session, 0, 60, step=0.05, decimals=2, fills=(0.0, 3.0)), f"event_{name}")
             slider.released.connect(self._session.document.end_gesture)
             self._numbers[name] = slider
             fades.addWidget(slider, 0, column)
@@ -85,9 +85,7 @@ class EventSection(QWidget):
         body.addWidget(self._why)
         self._why.setWordWrap(True)
         self._why.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._section)
+        in_column(self._section, of=self, margins=0)
 
     def _connect(self) -> None:
         for side in ("start", "end"):
@@ -348,13 +346,6 @@ class EventSection(QWidget):
             self._numbers[name].set_texts(label, unit, tip)
         self._expression.setToolTip(self.tr("event_section.face_that_is_shown"))
         self.show_events()
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def _cue_beats(event: CueEvent, project: Project) -> float:

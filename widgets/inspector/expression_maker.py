@@ -7,7 +7,7 @@ from collections.abc import Callable
 import msgspec
 import shiboken6
 from PySide6.QtCore import QCoreApplication, QEvent, Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
 from app.editor.session import Session, Severity
 from app.errors import AppError, Message
@@ -19,8 +19,10 @@ from app.project.model import Project
 from metadata.load import load_expressions
 from metadata.model import ARKIT_MORPHS, Expression
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Check, Retranslated, named
 from widgets.common.event_names import expression_name
 from widgets.common.icons import icon
+from widgets.common.layouts import in_column, in_row
 from widgets.common.morph_names import morph_name
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
@@ -47,7 +49,7 @@ def mirrored(morph: str) -> str:
     return morph.removesuffix("Right") + "Left" if morph.endswith("Right") else morph
 
 
-class ExpressionMaker(QWidget):
+class ExpressionMaker(Retranslated, QWidget):
     """Shows an expression as sliders, and its face on the player in front.
 
     Signals
@@ -64,13 +66,10 @@ class ExpressionMaker(QWidget):
         self._name: str | None = None
         self._kept: dict[str, Expression] = {}
         self._section = Section(session, "inspector_expressions", self, folded=True, remembers=False)
-        self._choice = Combo()
-        self._choice.setObjectName("expression_choice")
+        self._choice = named(Combo(), "expression_choice")
         self._tools = {name: QToolButton() for name, _ in _TOOLS}
-        self._title = QLineEdit()
-        self._title.setObjectName("expression_name")
-        self._playing = QCheckBox()
-        self._playing.setObjectName("expression_while_playing")
+        self._title = named(QLineEdit(), "expression_name")
+        self._playing = named(Check("expression_maker.may_show_while_playing"), "expression_while_playing")
         self._hint = Label()
         self._fades = {
             name: NumberSlider(session, 0.01, 60, step=0.05, fills=(0.0, 3.0), resets=False)
@@ -85,9 +84,7 @@ class ExpressionMaker(QWidget):
 
     def _build(self) -> None:
         body = self._section.body
-        line = QHBoxLayout()
-        line.setSpacing(2)
-        line.addWidget(self._choice, 1)
+        line = in_row((self._choice, 1), spacing=2)
         for name, button in self._tools.items():
             button.setObjectName(f"expression_{name}")
             if name in ("both", "preview"):
@@ -110,9 +107,7 @@ class ExpressionMaker(QWidget):
         self._faces_layout.setContentsMargins(0, 4, 0, 0)
         self._faces_layout.setSpacing(0)
         body.addWidget(self._faces)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._section)
+        in_column(self._section, of=self, margins=0)
 
     def _make_sliders(self) -> None:
         """52 sliders, made when they are first seen."""
@@ -122,8 +117,7 @@ class ExpressionMaker(QWidget):
             for morph in sorted(ARKIT_MORPHS, key=ARKIT_MORPHS.index):
                 if not morph.startswith(beginnings):
                     continue
-                slider = NumberSlider(self._session, 0, 1, step=0.05)
-                slider.setObjectName(f"morph_{morph}")
+                slider = named(NumberSlider(self._session, 0, 1, step=0.05), f"morph_{morph}")
                 slider.changed.connect(lambda value, token, morph=morph: self._set_morph(morph, value, token))
                 slider.released.connect(self._session.document.end_gesture)
                 self._sliders[morph] = slider
@@ -366,7 +360,6 @@ class ExpressionMaker(QWidget):
         for name, tip in tips.items():
             self._tools[name].setToolTip(tip)
         self._title.setPlaceholderText(self.tr("expression_maker.name"))
-        self._playing.setText(self.tr("expression_maker.may_show_while_playing"))
         self._playing.setToolTip(self.tr("expression_maker.what_moves_lips_must_not"))
         self._fades["fade_in_s"].set_texts(self.tr("expression_maker.fade_in"), self.tr("expression_maker.seconds"))
         self._fades["fade_out_s"].set_texts(self.tr("expression_maker.fade_out"), self.tr("expression_maker.seconds"))
@@ -382,8 +375,3 @@ class ExpressionMaker(QWidget):
         # A window that the program's end takes down hides what is in it after everything else is gone.
         if not QCoreApplication.closingDown() and shiboken6.isValid(self._session):
             self._session.set_preview_morphs(None)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

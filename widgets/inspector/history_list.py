@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from app.editor.session import Session
+from widgets.common.controls import named
+from widgets.common.layouts import in_column
 from widgets.common.text import message_text
 from widgets.inspector.rows import LineList, ListRow
 
@@ -16,12 +18,9 @@ class HistoryList(QWidget):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self.list = LineList(session, has_details=False)
-        self.list.setObjectName("history_list")
+        self.list = named(LineList(session, has_details=False), "history_list")
         self.list.setSelectionMode(LineList.SelectionMode.SingleSelection)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.list)
+        in_column(self.list, of=self, margins=0)
         self.list.opened.connect(self._go_to)
         session.changed.connect(self.show_steps)
 

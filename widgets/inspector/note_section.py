@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QVBoxLayout, QWidget
 
 from app.editor.session import Session
@@ -15,10 +15,12 @@ from app.project.model import Player, Project
 from instrument_maps.library import find_map
 from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.chip import Chip
+from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import words_of_tags
 from widgets.common.fingering_text import short_label
 from widgets.common.flow import FlowLayout
+from widgets.common.layouts import in_column
 from widgets.common.number_slider import NumberSlider
 from widgets.common.pitch import pitch_text
 from widgets.common.plain import Label
@@ -33,7 +35,7 @@ LATEST_TICK = float(2**31 - 1)
 EMBOUCHURE = ("tension", "effort", "air")
 
 
-class NoteSection(QWidget):
+class NoteSection(Retranslated, QWidget):
     """Shows and edits the selected notes."""
 
     def __init__(self, session: Session, generated: Generated, parent: QWidget | None = None) -> None:
@@ -49,12 +51,11 @@ class NoteSection(QWidget):
             "velocity": NumberSlider(session, 1, 127, decimals=0, step=1, resets=False),
         }
         self._lips = {name: NumberSlider(session, 0, 1, step=0.05) for name in EMBOUCHURE}
-        self._diagram = FingeringDiagram(session)
-        self._diagram.setObjectName("fingering_diagram")
+        self._diagram = named(FingeringDiagram(session), "fingering_diagram")
         self._chips = FlowLayout()
         self._chip_labels: tuple[tuple[str, str], ...] = ()
         self._chip_of: dict[str, Chip] = {}
-        self._fingering_title, self._lips_title = Label(), Label()
+        self._fingering_title, self._lips_title = Caption("note_section.fingering"), Caption("note_section.embouchure")
         self._why, self._problems = Label(), Label()
         self._fingering_by_hand, self._lips_by_hand = ByHandLine(session), ByHandLine(session)
         self._fingering_by_hand.setObjectName("fingering_by_hand")
@@ -72,11 +73,8 @@ class NoteSection(QWidget):
         body = self._section.body
         body.addLayout(grid)
         self._fingering = QWidget()
-        fingering = QVBoxLayout(self._fingering)
-        fingering.setContentsMargins(0, 4, 0, 0)
-        fingering.setSpacing(4)
-        chips = QWidget()
-        chips.setObjectName("fingering_chips")
+        fingering = in_column(of=self._fingering, margins=(0, 4, 0, 0), spacing=4)
+        chips = named(QWidget(), "fingering_chips")
         chips.setLayout(self._chips)
         self._chips_box = chips
         for widget in (self._fingering_title, chips, self._diagram, self._fingering_by_hand, self._why):
@@ -96,9 +94,7 @@ class NoteSection(QWidget):
         for label in (self._why, self._problems):
             label.setWordWrap(True)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._section)
+        in_column(self._section, of=self, margins=0)
 
     def _connect(self) -> None:
         document = self._session.document
@@ -404,17 +400,8 @@ class NoteSection(QWidget):
         }
         for name, (label, tip) in lips.items():
             self._lips[name].set_texts(label, "", tip)
-        self._fingering_title.setText(self.tr("note_section.fingering"))
-        self._lips_title.setText(self.tr("note_section.embouchure"))
         self._diagram.setAccessibleName(self.tr("note_section.fingering_diagram"))
         self.show_notes()
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def _cents_text(cents: float) -> str:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QScrollArea, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
 from app.editor.session import Session
 from app.project.document import Change
+from widgets.common.controls import Retranslated, named
+from widgets.common.layouts import in_column
 from widgets.common.plain import Label
 from widgets.inspector.correction_list import CorrectionList
 from widgets.inspector.event_section import EventSection
@@ -20,7 +22,7 @@ from widgets.inspector.take_section import TakeSection
 MOST_COUNTED = 999
 
 
-class InspectorPanel(QWidget):
+class InspectorPanel(Retranslated, QWidget):
     """Selected notes and events above, lists below.
 
     Parameters
@@ -44,8 +46,7 @@ class InspectorPanel(QWidget):
         self._corrections = CorrectionList(session, self._generated)
         self._history = HistoryList(session)
         self._problem_count = 0
-        self._tabs = QTabWidget()
-        self._tabs.setObjectName("inspector_tabs")
+        self._tabs = named(QTabWidget(), "inspector_tabs")
         self._build()
         session.selection_changed.connect(self.show_selection)
         session.performance_changed.connect(self._planned)
@@ -87,9 +88,7 @@ class InspectorPanel(QWidget):
         splitter.setStretchFactor(1, 1)
         splitter.setChildrenCollapsible(False)
         splitter.setSizes([540, 230])
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(splitter)
+        in_column(splitter, of=self, margins=0)
 
     def show_selection(self) -> None:
         """Show the selected notes and events, or the selected take."""
@@ -143,13 +142,6 @@ class InspectorPanel(QWidget):
         """Set every text in the language of the editor."""
         self._show_tab_texts()
         self.show_selection()
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def _short(count: int) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from operator import is_
 
 from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from app.editor.selection import Selection
 from app.editor.session import Session
@@ -13,6 +13,8 @@ from app.plan.model import Problem
 from app.project.model import Dancer, Player
 from app.score.model import Score
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Retranslated, named
+from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.text import sentence
 from widgets.inspector.rows import LineList, ListRow
@@ -33,7 +35,7 @@ MOST_LINES = 300
 """No one reads more; a large score that does not fit its instruments has thousands."""
 
 
-class ProblemList(QWidget):
+class ProblemList(Retranslated, QWidget):
     """Problems, by player and kind; a click shows where.
 
     Signals
@@ -52,23 +54,13 @@ class ProblemList(QWidget):
         self._who, self._kind = Combo(), Combo()
         self._who.setObjectName("problems_who")
         self._kind.setObjectName("problems_kind")
-        self.list = LineList(session)
-        self.list.setObjectName("problem_list")
+        self.list = named(LineList(session), "problem_list")
         self._empty = Label()
         self._empty.setWordWrap(True)
         self._empty.setContentsMargins(12, 4, 12, 4)
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
-        filters = QHBoxLayout()
-        filters.setContentsMargins(6, 6, 6, 4)
-        filters.setSpacing(4)
-        filters.addWidget(self._who, 1)
-        filters.addWidget(self._kind, 1)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addLayout(filters)
-        layout.addWidget(self.list, 1)
-        layout.addWidget(self._empty, 1)
+        filters = in_row((self._who, 1), (self._kind, 1), margins=(6, 6, 6, 4), spacing=4)
+        in_column(filters, (self.list, 1), (self._empty, 1), of=self, margins=0, spacing=0)
         self.list.opened.connect(self._open)
         self._who.chosen.connect(lambda _: self.show_problems())
         self._kind.chosen.connect(lambda _: self.show_problems())
@@ -182,11 +174,6 @@ class ProblemList(QWidget):
 
     def showEvent(self, event: QEvent) -> None:
         self.show_problems()
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def _kind(problem: Problem) -> str:

@@ -8,8 +8,8 @@ from fractions import Fraction
 from typing import Final
 
 import msgspec
-from PySide6.QtCore import QEvent, QSize
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPushButton, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtCore import QSize
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPushButton, QToolButton, QWidget
 
 from app.editor.grids import GRIDS
 from app.editor.session import Session
@@ -20,6 +20,8 @@ from app.project.limits import CLEANING
 from app.project.model import Player
 from app.score.take import Cleaning, Take
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Retranslated, named
+from widgets.common.layouts import in_column, in_row
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.common.section import Section
@@ -49,7 +51,7 @@ NUMBERS: Final = (
 )
 
 
-class TakeSection(QWidget):
+class TakeSection(Retranslated, QWidget):
     """Shows and edits the selected take of the player in front."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -59,15 +61,12 @@ class TakeSection(QWidget):
         self._take: Take | None = None
         self._section = Section(session, "inspector_take", self)
         self._cleaning = Section(session, "inspector_cleaning", self)
-        self._name = QLineEdit()
-        self._name.setObjectName("take_name")
-        self._swatch = ColourSwatch(session)
-        self._swatch.setObjectName("take_swatch")
+        self._name = named(QLineEdit(), "take_name")
+        self._swatch = named(ColourSwatch(session), "take_swatch")
         self._about, self._counts = Label(), Label()
         self._buttons = {id: QToolButton() for id in BUTTONS}
         self._sliders: dict[str, NumberSlider] = {}
-        self._grid = Combo()
-        self._grid.setObjectName("take_grid_quarters")
+        self._grid = named(Combo(), "take_grid_quarters")
         self._usual, self._beats = QPushButton(), QPushButton()
         self._usual.setObjectName("take_usual")
         self._beats.setObjectName("take_beats")
@@ -77,10 +76,7 @@ class TakeSection(QWidget):
         self.hide()
 
     def _build(self) -> None:
-        line = QHBoxLayout()
-        line.setSpacing(4)
-        line.addWidget(self._name, 1)
-        line.addWidget(self._swatch)
+        line = in_row((self._name, 1), self._swatch, spacing=4)
         buttons = QHBoxLayout()
         buttons.setSpacing(2)
         for id, button in self._buttons.items():
@@ -100,30 +96,25 @@ class TakeSection(QWidget):
         for number in NUMBERS:
             low, high = CLEANING[number.field]
             usual = getattr(Cleaning(), number.field) * number.scale
-            slider = NumberSlider(
-                self._session,
-                low * number.scale,
-                high * number.scale,
-                default=usual,
-                step=number.step,
-                decimals=0,
-                fills=(0.0, number.most),
+            slider = named(
+                NumberSlider(
+                    self._session,
+                    low * number.scale,
+                    high * number.scale,
+                    default=usual,
+                    step=number.step,
+                    decimals=0,
+                    fills=(0.0, number.most),
+                ),
+                f"take_{number.field}",
             )
-            slider.setObjectName(f"take_{number.field}")
             self._sliders[number.field] = slider
             body.addWidget(slider)
             if number.field == "quantise":
                 body.addWidget(self._grid)
-        below = QHBoxLayout()
-        below.setSpacing(4)
-        below.addWidget(self._usual)
-        below.addWidget(self._beats)
+        below = in_row(self._usual, self._beats, spacing=4)
         body.addLayout(below)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(0)
-        outer.addWidget(self._section)
-        outer.addWidget(self._cleaning)
+        in_column(self._section, self._cleaning, of=self, margins=0, spacing=0)
 
     def _connect(self) -> None:
         session = self._session
@@ -284,10 +275,3 @@ class TakeSection(QWidget):
         self._beats.setText(self.tr("take_section.find_beats"))
         self._beats.setToolTip(self.tr("take_section.for_take_without_click_piece"))
         self.show_take()
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

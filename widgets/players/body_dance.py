@@ -6,8 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QHBoxLayout, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.choreography.library import bundled_choreographies
 from app.choreography.model_file import SUFFIX
@@ -18,7 +17,8 @@ from app.project.edit import body_dance as edit
 from app.project.edit.players import parameter_edit, reset_parameters, set_parameters
 from app.project.model import Player, Project
 from widgets.common.combo import Combo, Option
-from widgets.common.icons import icon
+from widgets.common.controls import IconButton, Retranslated
+from widgets.common.layouts import in_row
 from widgets.common.paths import ask_for_file
 from widgets.common.plain import Label
 from widgets.common.text import parameter_text
@@ -31,7 +31,7 @@ _DANCED = PARAMETERS["choreography"]
 _VARIATION = "dance_variation"
 
 
-class BodyDanceRows(QWidget):
+class BodyDanceRows(Retranslated, QWidget):
     """Generated or a choreography, how much of it, and which of its dances; the latter two while there is one.
 
     Parameters
@@ -46,28 +46,18 @@ class BodyDanceRows(QWidget):
         self._choreography.setObjectName("parameter_choreography")
         self._label.setBuddy(self._choreography)
         self._sliders = {one.name: ParameterSlider(session, one) for one in rows_of("dance")}
-        self._dice = QToolButton()
-        self._dice.setObjectName("dance_dice")
+        self._dice = IconButton(session, "dice", "body_dance_rows.another_dance_for_each", self._vary, "dance_dice")
         self._build()
         self._choreography.chosen.connect(self._choose)
-        self._dice.clicked.connect(self._vary)
         for name, slider in self._sliders.items():
             slider.changed.connect(lambda value, token, name=name: self._set(name, value, token))
             slider.reset.connect(lambda _, name=name: self._reset(name))
             slider.released.connect(session.document.end_gesture)
-        session.theme_changed.connect(self._apply_theme)
-        self._apply_theme()
         self.retranslate()
 
     def _build(self) -> None:
-        choice = QHBoxLayout()
-        choice.setSpacing(4)
-        choice.addWidget(self._label)
-        choice.addWidget(self._choreography, 1)
-        variation = QHBoxLayout()
-        variation.setSpacing(4)
-        variation.addWidget(self._sliders[_VARIATION], 1)
-        variation.addWidget(self._dice)
+        choice = in_row(self._label, (self._choreography, 1), spacing=4)
+        variation = in_row((self._sliders[_VARIATION], 1), self._dice, spacing=4)
         rows = QVBoxLayout(self)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.addLayout(choice)
@@ -132,21 +122,10 @@ class BodyDanceRows(QWidget):
     def _edit(self, name: str, change: Callable[[Project], Project], token: object | None = None) -> None:
         self._session.attempt(parameter_edit(name, len(self._session.players)), change, token, self)
 
-    # Words and pictures
-
-    def _apply_theme(self) -> None:
-        self._dice.setIcon(icon("dice", self._session.tokens))
+    # Words
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor; what is shown of players follows with `show_players`."""
         self._label.setText(parameter_text(_DANCED.label))
-        self._dice.setToolTip(self.tr("body_dance_rows.another_dance_for_each"))
         for slider in self._sliders.values():
             slider.retranslate()
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

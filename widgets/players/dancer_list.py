@@ -29,6 +29,7 @@ from PySide6.QtWidgets import (
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.project.model import Dancer
+from widgets.common.controls import named
 from widgets.common.icons import icon
 from widgets.players.ordered_list import ID_ROLE, OrderedList
 
@@ -155,9 +156,7 @@ class _RowDelegate(QStyledItemDelegate):
         painter.restore()
 
     def createEditor(self, parent: QWidget, option: QStyleOptionViewItem, index: AnyIndex) -> QWidget:
-        field = QLineEdit(parent)
-        field.setObjectName("dancer_name")
-        return field
+        return named(QLineEdit(parent), "dancer_name")
 
     def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: AnyIndex) -> None:
         editor.setGeometry(option.rect.adjusted(13, 1, -2, -2))

@@ -6,15 +6,10 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, Qt, QTimer
+from PySide6.QtCore import QTimer
 from PySide6.QtGui import QContextMenuEvent
 from PySide6.QtWidgets import (
-    QCheckBox,
     QGridLayout,
-    QHBoxLayout,
-    QMenu,
-    QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -30,8 +25,10 @@ from app.project.edit import dancers as edit
 from app.project.model import DANCER_PARAMETERS, Dancer, Project
 from app.rig.character_library import characters
 from widgets.common.combo import Combo, Option
-from widgets.common.icons import icon
+from widgets.common.controls import Check, IconButton, Retranslated, named
 from widgets.common.instrument_name import character_name
+from widgets.common.layouts import in_column, in_row
+from widgets.common.menus import offer_actions, passing_menu
 from widgets.common.paths import ask_for_file
 from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
@@ -43,7 +40,6 @@ from widgets.players.place_numbers import name_places, place_sliders, shown_numb
 
 MENU = ("dancers.add", "dancers.rename", "dancers.duplicate", "dancers.remove", "", "dancers.choreography")
 """The context menu of the list: actions by id, an empty one is a line."""
-_TOOLS = (("add", "add"), ("duplicate", "duplicate"), ("remove", "delete"))
 _FROM_FILE = "\0file"
 _LEARN = "\0learn"
 """Of the options of choreographies: no names of one."""
@@ -51,7 +47,7 @@ _MOST_ROWS = 5
 _SOURCE = DANCER_PARAMETERS["source"]
 
 
-class DancersSection(QWidget):
+class DancersSection(Retranslated, QWidget):
     """The list of dancers, and what the selected one dances, how and where.
 
     Parameters
@@ -64,17 +60,22 @@ class DancersSection(QWidget):
         self.setObjectName("dancers")
         self._session = session
         self._section = Section(session, "players_dancers", self)
-        self._tools = {name: QToolButton() for name, _ in _TOOLS}
-        self.list = DancerList(session)
-        self.list.setObjectName("dancer_list")
+        self._tools = {
+            "add": self._tool("add", "dancers_section.add_dancer", self.offer),
+            "duplicate": self._tool("duplicate", "dancers_section.duplicate_another_one_dances_same", self._duplicate),
+            "remove": self._tool("delete", "dancers_section.remove_selected_dancer", self._remove),
+        }
+        self.list = named(DancerList(session), "dancer_list")
         self._form = QWidget()
         self._labels = {name: Label() for name in ("choreography", "character", "source")}
         self._choreography, self._character, self._source = Combo(), Combo(), Combo()
-        self._mirrored = QCheckBox()
-        self._mirrored.setObjectName("dancer_mirrored")
-        self._look, self._dice = QToolButton(), QToolButton()
-        self._look.setObjectName("dancer_look")
-        self._dice.setObjectName("dancer_dice")
+        self._mirrored = named(Check("dancers_section.mirrored"), "dancer_mirrored")
+        look_tip, dice_tip = (
+            "dancers_section.show_what_choreography_has_learned",
+            "dancers_section.another_dance_to_same_music",
+        )
+        self._look = IconButton(session, "information", look_tip, self._show_choreography, "dancer_look")
+        self._dice = IconButton(session, "dice", dice_tip, self._new_variation, "dancer_dice")
         numbers = rows_of("dancer", DANCER_PARAMETERS)
         self._numbers = {number.name: ParameterSlider(session, number, "dancer") for number in numbers}
         self._places = place_sliders(session, "dancer")
@@ -82,7 +83,6 @@ class DancersSection(QWidget):
         """A choreography whose sources are known."""
         self._build()
         self._connect()
-        self._apply_theme()
         self.retranslate()
 
     @property
@@ -90,9 +90,12 @@ class DancersSection(QWidget):
         """The selected one."""
         return self._session.dancer
 
+    def _tool(self, picture: str, tip_id: str, run: Callable[[], object]) -> IconButton:
+        name = "remove" if picture == "delete" else picture
+        return IconButton(self._session, picture, tip_id, run, f"dancers_{name}_button")
+
     def _build(self) -> None:
-        for name, button in self._tools.items():
-            button.setObjectName(f"dancers_{name}_button")
+        for button in self._tools.values():
             self._section.header.add_button(button)
         grid = QGridLayout(self._form)
         grid.setContentsMargins(0, 0, 0, 0)
@@ -105,13 +108,9 @@ class DancersSection(QWidget):
             grid.addWidget(self._labels[name], row, 0)
             if combo is not self._choreography:
                 grid.addWidget(combo, row, 1)
-        choreography = QHBoxLayout()
-        choreography.setSpacing(4)
-        choreography.addWidget(self._choreography, 1)
-        choreography.addWidget(self._look)
+        choreography = in_row((self._choreography, 1), self._look, spacing=4)
         grid.addLayout(choreography, 0, 1)
-        seed = QHBoxLayout()
-        seed.setSpacing(4)
+        seed = in_row(spacing=4)
         for row, (name, slider) in enumerate(self._numbers.items(), len(combos)):
             if name == "seed":
                 seed.addWidget(slider, 1)
@@ -119,8 +118,7 @@ class DancersSection(QWidget):
                 grid.addLayout(seed, row, 0, 1, 2)
             else:
                 grid.addWidget(slider, row, 0, 1, 2)
-        place = QHBoxLayout()
-        place.setSpacing(4)
+        place = in_row(spacing=4)
         for name in ("x_m", "z_m"):
             place.addWidget(self._places[name], 1)
         grid.addWidget(self._mirrored, grid.rowCount(), 0, 1, 2)
@@ -128,14 +126,11 @@ class DancersSection(QWidget):
         grid.addWidget(self._places["turn_rad"], grid.rowCount(), 0, 1, 2)
         self._section.body.addWidget(self.list)
         self._section.body.addWidget(self._form)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._section)
+        in_column(self._section, of=self, margins=0)
 
     def _connect(self) -> None:
         session = self._session
         session.changed.connect(self._changed)
-        session.theme_changed.connect(self._apply_theme)
         session.characters_changed.connect(self._show)
         session.choreographies_changed.connect(self._read_again)
         session.dancer_changed.connect(self._show)
@@ -144,15 +139,10 @@ class DancersSection(QWidget):
         self.list.chosen.connect(session.set_dancer)
         self.list.renamed.connect(self._rename)
         self.list.moved.connect(self._move)
-        self._tools["add"].clicked.connect(self.offer)
-        self._tools["duplicate"].clicked.connect(self._duplicate)
-        self._tools["remove"].clicked.connect(self._remove)
         self._choreography.chosen.connect(self._choose_choreography)
         self._character.chosen.connect(lambda id: self._change("character", character_id=id))
         self._source.chosen.connect(lambda number: self._change("source", source=int(number)))
         self._mirrored.clicked.connect(lambda on: self._change("mirrored", mirrored=bool(on)))
-        self._dice.clicked.connect(self._new_variation)
-        self._look.clicked.connect(self._show_choreography)
         for name, number in self._numbers.items():
             number.changed.connect(
                 lambda value, token, name=name, kind=number.parameter.kind: self._change(
@@ -229,9 +219,7 @@ class DancersSection(QWidget):
 
     def offer(self) -> None:
         """Ask which choreography another dancer is to dance."""
-        menu = QMenu(self)
-        menu.setObjectName("choreography_menu")
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu = passing_menu(self, "choreography_menu")
         for name in bundled_choreographies():
             menu.addAction(verbatim(name)).triggered.connect(lambda _=False, name=name: self.add(name))
         menu.addAction(self.tr("dancers_section.from_file")).triggered.connect(self._add_from_file)
@@ -323,20 +311,10 @@ class DancersSection(QWidget):
                 token,
             )
 
-    # Words and pictures
-
-    def _apply_theme(self) -> None:
-        tokens = self._session.tokens
-        for name, drawing in _TOOLS:
-            self._tools[name].setIcon(icon(drawing, tokens))
-        self._dice.setIcon(icon("dice", tokens))
-        self._look.setIcon(icon("information", tokens))
+    # Words
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._tools["add"].setToolTip(self.tr("dancers_section.add_dancer"))
-        self._tools["duplicate"].setToolTip(self.tr("dancers_section.duplicate_another_one_dances_same"))
-        self._tools["remove"].setToolTip(self.tr("dancers_section.remove_selected_dancer"))
         self.list.setAccessibleName(self.tr("dancers_section.dancers"))
         texts = {
             "choreography": self.tr("dancers_section.choreography"),
@@ -346,10 +324,7 @@ class DancersSection(QWidget):
         for name, text in texts.items():
             self._labels[name].setText(text)
         self._source.setToolTip(parameter_text(_SOURCE.tip))
-        self._mirrored.setText(self.tr("dancers_section.mirrored"))
         self._mirrored.setToolTip(self.tr("dancers_section.left_and_right_exchanged"))
-        self._look.setToolTip(self.tr("dancers_section.show_what_choreography_has_learned"))
-        self._dice.setToolTip(self.tr("dancers_section.another_dance_to_same_music"))
         name_places(self._places)
         for number in self._numbers.values():
             number.retranslate()
@@ -358,21 +333,8 @@ class DancersSection(QWidget):
     # Qt's own names
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
-        actions = self._session.actions
-        if not actions or not self.list.rect().contains(self.list.mapFromGlobal(event.globalPos())):
+        inside = self.list.rect().contains(self.list.mapFromGlobal(event.globalPos()))
+        if inside and self._session.actions:
+            offer_actions(self._session, MENU, self, "dancers_menu", event.globalPos())
+        else:
             super().contextMenuEvent(event)
-            return
-        menu = QMenu(self)
-        menu.setObjectName("dancers_menu")
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        for id in MENU:
-            if id in actions:
-                menu.addAction(actions[id])
-            elif not id:
-                menu.addSeparator()
-        menu.popup(event.globalPos())
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QPoint, Qt, QTimer
+from collections.abc import Callable
+
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent, QResizeEvent
 from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QMenu,
-    QPushButton,
     QScrollArea,
     QSplitter,
-    QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -21,8 +18,10 @@ from app.project.document import Change
 from app.project.edit import players as edit
 from app.project.edit.generation import vary_players
 from instrument_maps.library import all_maps
-from widgets.common.icons import icon
+from widgets.common.controls import Caption, IconButton, PictureButton, Retranslated, named
 from widgets.common.instrument_name import instrument_name
+from widgets.common.layouts import STRETCH, in_column, in_row, panel
+from widgets.common.menus import offer_actions, passing_menu
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
@@ -52,13 +51,12 @@ MENU = (
     "players.arrange",
 )
 """The context menu: actions by id, an empty one is a line."""
-_TOOLS = (("add", "add"), ("duplicate", "duplicate"), ("remove", "delete"))
 LEAST_LIST_PX = 130
 LIST_SHARE = 0.5
 """Of the panel: where there are many players the parameters still have room."""
 
 
-class PlayersPanel(QWidget):
+class PlayersPanel(Retranslated, QWidget):
     """The list of players, and below it the parameters of those selected.
 
     Parameters
@@ -70,10 +68,13 @@ class PlayersPanel(QWidget):
         super().__init__(parent)
         self.setObjectName("players")
         self._session = session
-        self._tools = {name: QToolButton() for name, _ in _TOOLS}
-        self.list = PlayerList(session)
-        self.list.setObjectName("player_list")
-        self._empty = Label()
+        self._tools = {
+            "add": self._tool("add", "players_panel.add_player", self._offer_instruments),
+            "duplicate": self._tool("duplicate", "players_panel.duplicate_somebody_else_plays_same", self._duplicate),
+            "remove": self._tool("delete", "players_panel.remove_selected_players", self._remove),
+        }
+        self.list = named(PlayerList(session), "player_list")
+        self._empty = Caption("players_panel.nobody_plays_yet_add_player")
         self._empty.setWordWrap(True)
         self._empty.setContentsMargins(12, 4, 12, 4)
         self._parameters = ParameterSections(session)
@@ -81,50 +82,35 @@ class PlayersPanel(QWidget):
         self._presets = PresetSection(session)
         self.dancers = DancersSection(session)
         self._variety = Section(session, "players_variety")
-        self._spread = NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05)
-        self._spread.setObjectName("spread")
-        self._throw, self._reset = QPushButton(), QPushButton()
-        self._throw.setObjectName("randomise")
-        self._reset.setObjectName("reset_parameters")
+        self._spread = named(NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05), "spread")
+        throw = (
+            "players_panel.randomise",
+            self._randomise,
+            "randomise",
+            "players_panel.amplitude_sway_weight_shift_bell",
+        )
+        self._throw = PictureButton(session, "dice", *throw)
+        reset = ("players_panel.reset", self._reset_all, "reset_parameters")
+        self._reset = PictureButton(session, "reset", *reset, "players_panel.return_all_parameters_of_selected")
         self._build()
         self._connect()
-        self._apply_theme()
         self.retranslate()
 
     # Building
 
+    def _tool(self, picture: str, tip_id: str, run: Callable[[], object]) -> IconButton:
+        name = "remove" if picture == "delete" else picture
+        return IconButton(self._session, picture, tip_id, run, f"players_{name}_button")
+
     def _build(self) -> None:
-        bar = QHBoxLayout()
-        bar.setContentsMargins(6, 4, 4, 4)
-        bar.setSpacing(2)
         self._count = Label()
-        bar.addWidget(self._count, 1)
-        for name, button in self._tools.items():
-            button.setObjectName(f"players_{name}_button")
-            bar.addWidget(button)
-        upper = QWidget()
-        upper_layout = QVBoxLayout(upper)
-        upper_layout.setContentsMargins(0, 0, 0, 0)
-        upper_layout.setSpacing(0)
-        upper_layout.addLayout(bar)
-        upper_layout.addWidget(self.list, 1)
-        upper_layout.addWidget(self._empty, 1)
-        buttons = QHBoxLayout()
-        buttons.setSpacing(4)
-        for wide in (self._throw, self._reset):
-            # The panel may be narrower than its longest word.
-            wide.setMinimumWidth(40)
-        buttons.addWidget(self._throw, 1)
-        buttons.addWidget(self._reset, 1)
+        bar = in_row((self._count, 1), *self._tools.values(), margins=(6, 4, 4, 4), spacing=2)
+        upper = panel(in_column(bar, (self.list, 1), (self._empty, 1), margins=0, spacing=0))
+        buttons = in_row((self._throw, 1), (self._reset, 1), spacing=4)
         self._variety.body.addWidget(self._spread)
         self._variety.body.addLayout(buttons)
-        lower = QWidget()
-        lower_layout = QVBoxLayout(lower)
-        lower_layout.setContentsMargins(0, 0, 0, 0)
-        lower_layout.setSpacing(0)
-        for part in (self._parameters, self._stage, self._variety, self._presets, self.dancers):
-            lower_layout.addWidget(part)
-        lower_layout.addStretch(1)
+        parts = (self._parameters, self._stage, self._variety, self._presets, self.dancers)
+        lower = panel(in_column(*parts, STRETCH, margins=0, spacing=0))
         scroll = QScrollArea()
         scroll.setWidgetResizable(True)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -138,9 +124,7 @@ class PlayersPanel(QWidget):
         self._splitter.setStretchFactor(1, 1)
         self._splitter.setChildrenCollapsible(False)
         self._splitter.splitterMoved.connect(self._splitter_moved)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._splitter)
+        in_column(self._splitter, of=self, margins=0)
 
     def _connect(self) -> None:
         session = self._session
@@ -148,7 +132,7 @@ class PlayersPanel(QWidget):
         session.performance_changed.connect(self._show_list)
         session.problems_changed.connect(self._show_list)
         session.players_changed.connect(self._players_changed)
-        session.theme_changed.connect(self._apply_theme)
+        session.theme_changed.connect(self._show_list)
         session.dancer_changed.connect(self._show_dancers)
         self.list.chosen.connect(session.set_players)
         self.list.mute_clicked.connect(self._mute)
@@ -156,13 +140,8 @@ class PlayersPanel(QWidget):
         self.list.solo_clicked.connect(self._solo)
         self.list.moved.connect(self._move)
         self.list.rows.renamed.connect(self._rename)
-        self._tools["add"].clicked.connect(self._offer_instruments)
-        self._tools["duplicate"].clicked.connect(self._duplicate)
-        self._tools["remove"].clicked.connect(self._remove)
         self._parameters.dice_thrown.connect(self._reseed)
         self._spread.changed.connect(self._set_spread)
-        self._throw.clicked.connect(self._randomise)
-        self._reset.clicked.connect(self._reset_all)
 
     # Showing
 
@@ -286,9 +265,7 @@ class PlayersPanel(QWidget):
         )
 
     def _offer_instruments(self) -> None:
-        menu = QMenu(self)
-        menu.setObjectName("instrument_menu")
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu = passing_menu(self, "instrument_menu")
         for instrument in all_maps().values():
             action = menu.addAction(verbatim(instrument_name(instrument)))
             action.triggered.connect(lambda _=False, id=instrument.id: self.add(id))
@@ -329,31 +306,15 @@ class PlayersPanel(QWidget):
             self._name("edit.reset_parameters"), lambda project: edit.reset_parameters(project, chosen)
         )
 
-    # Words and pictures
-
-    def _apply_theme(self) -> None:
-        tokens = self._session.tokens
-        for name, drawing in _TOOLS:
-            self._tools[name].setIcon(icon(drawing, tokens))
-        self._throw.setIcon(icon("dice", tokens))
-        self._reset.setIcon(icon("reset", tokens))
-        self._show_list()
+    # Words
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._tools["add"].setToolTip(self.tr("players_panel.add_player"))
-        self._tools["duplicate"].setToolTip(self.tr("players_panel.duplicate_somebody_else_plays_same"))
-        self._tools["remove"].setToolTip(self.tr("players_panel.remove_selected_players"))
-        self._empty.setText(self.tr("players_panel.nobody_plays_yet_add_player"))
         self._spread.set_texts(
             self.tr("players_panel.spread"),
             "",
             self.tr("players_panel.how_far_apart_players_become"),
         )
-        self._throw.setText(self.tr("players_panel.randomise"))
-        self._throw.setToolTip(self.tr("players_panel.amplitude_sway_weight_shift_bell"))
-        self._reset.setText(self.tr("players_panel.reset"))
-        self._reset.setToolTip(self.tr("players_panel.return_all_parameters_of_selected"))
         self._spread.show_value(self._session.variety)
         self._show_all()
 
@@ -365,22 +326,5 @@ class PlayersPanel(QWidget):
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         inside = self.list.rect().contains(self.list.mapFromGlobal(event.globalPos()))
-        if not inside or not self._session.actions:
-            return
-        self._popup(event.globalPos())
-
-    def _popup(self, at: QPoint) -> None:
-        menu = QMenu(self)
-        menu.setObjectName("players_menu")
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        for id in MENU:
-            if id and id in self._session.actions:
-                menu.addAction(self._session.actions[id])
-            elif not id:
-                menu.addSeparator()
-        menu.popup(at)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
+        if inside and self._session.actions:
+            offer_actions(self._session, MENU, self, "players_menu", event.globalPos())

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout
 from app.editor.session import Session
 from app.plan.parameters import PARAMETERS, Parameter
 from widgets.common.combo import Combo, Option
+from widgets.common.layouts import in_row
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.common.text import parameter_text
@@ -60,11 +61,7 @@ class ParameterChoice(Combo):
 
     def line(self) -> QHBoxLayout:
         """The list behind its label."""
-        line = QHBoxLayout()
-        line.setSpacing(4)
-        line.addWidget(self.label)
-        line.addWidget(self, 1)
-        return line
+        return in_row(self.label, (self, 1), spacing=4)
 
     def retranslate(self) -> None:
         """Set the words in the language of the editor."""

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from contextlib import suppress
 
 import shiboken6
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QIcon, QImage, QPixmap, QShowEvent
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
@@ -20,8 +20,9 @@ from app.project.model import Player, Project
 from app.rig.character_library import bundled_characters, characters
 from instrument_maps.library import all_maps
 from widgets.common.combo import Combo, Option
-from widgets.common.icons import icon
+from widgets.common.controls import IconButton, Retranslated
 from widgets.common.instrument_name import character_name, instrument_name
+from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.swatch import ColourSwatch
@@ -38,7 +39,7 @@ _SECTIONS = ("motion", "breath", "face", "player")
 _POSTURE = "posture"
 
 
-class ParameterSections(QWidget):
+class ParameterSections(Retranslated, QWidget):
     """Who the selected players are, and how they move, breathe and play.
 
     Signals
@@ -56,12 +57,9 @@ class ParameterSections(QWidget):
         self._sliders: dict[str, ParameterSlider] = {}
         self._choices: dict[str, ParameterChoice] = {}
         self._body_dance = BodyDanceRows(session)
-        self._dice = QToolButton()
-        self._dice.setObjectName("seed_dice")
-        self._dice.clicked.connect(self.dice_thrown)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(0)
+        dice_tip = "parameter_sections.another_seed_for_each"
+        self._dice = IconButton(session, "dice", dice_tip, self.dice_thrown.emit, "seed_dice")
+        outer = in_column(of=self, margins=0, spacing=0)
         for section in self._sections.values():
             outer.addWidget(section)
         self._portraits: dict[str, QIcon] = {}
@@ -71,10 +69,8 @@ class ParameterSections(QWidget):
             for parameter in rows_of(name):
                 self._make_row(parameter)
         self.retranslate()
-        session.theme_changed.connect(self._apply_theme)
         session.instruments_changed.connect(self._instruments_changed)
         session.characters_changed.connect(self._characters_changed)
-        self._apply_theme()
 
     # Building
 
@@ -116,11 +112,7 @@ class ParameterSections(QWidget):
         elif parameter.name == "choreography":
             body.addWidget(self._body_dance)
         elif parameter.name == "seed":
-            line = QHBoxLayout()
-            line.setSpacing(4)
-            line.addWidget(self._make_slider(parameter), 1)
-            line.addWidget(self._dice)
-            body.addLayout(line)
+            body.addLayout(in_row((self._make_slider(parameter), 1), self._dice, spacing=4))
         else:
             body.addWidget(self._make_slider(parameter))
 
@@ -135,9 +127,6 @@ class ParameterSections(QWidget):
         slider.reset.connect(lambda _: self._reset(parameter))
         slider.released.connect(self._session.document.end_gesture)
         return slider
-
-    def _apply_theme(self) -> None:
-        self._dice.setIcon(icon("dice", self._session.tokens))
 
     # Showing
 
@@ -276,7 +265,6 @@ class ParameterSections(QWidget):
         self._show_instruments()
         self._show_characters()
         self._colour.setToolTip(self.tr("parameter_sections.colour_of_player_in_timeline"))
-        self._dice.setToolTip(self.tr("parameter_sections.another_seed_for_each"))
         for slider in self._sliders.values():
             slider.retranslate()
         for choice in self._choices.values():
@@ -297,11 +285,6 @@ class ParameterSections(QWidget):
             self._asked = True
             # The players themselves come first.
             QTimer.singleShot(PORTRAITS_AFTER_MS, self, self._draw_portraits)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def _common(players: list[Player], value: Callable[[Player], str]) -> str | None:

@@ -40,6 +40,7 @@ from PySide6.QtWidgets import (
 
 from app.editor.session import Session
 from app.project.model import Player
+from widgets.common.controls import named
 from widgets.common.icons import icon
 from widgets.players.ordered_list import ID_ROLE, OrderedList
 
@@ -255,9 +256,7 @@ class _RowDelegate(QStyledItemDelegate):
         return font
 
     def createEditor(self, parent: QWidget, option: QStyleOptionViewItem, index: AnyIndex) -> QWidget:
-        field = QLineEdit(parent)
-        field.setObjectName("player_name")
-        return field
+        return named(QLineEdit(parent), "player_name")
 
     def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: AnyIndex) -> None:
         box = option.rect

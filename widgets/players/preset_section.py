@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from app.editor.session import Session, Severity
 from app.errors import AppError, Message
 from app.project import presets
 from app.project.edit import players as edit
 from widgets.common.combo import Combo, Option
-from widgets.common.icons import icon
+from widgets.common.controls import IconButton, Retranslated, named
+from widgets.common.layouts import in_column, in_row
 from widgets.common.section import Section
 
-_TOOLS = (("apply", "check"), ("save", "save"), ("delete", "delete"))
 
-
-class PresetSection(QWidget):
+class PresetSection(Retranslated, QWidget):
     """Apply a preset to the selected players, save theirs, delete one."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -24,33 +22,28 @@ class PresetSection(QWidget):
         self._session = session
         self._found: dict[str, presets.Preset] = {}
         self._section = Section(session, "players_presets", self, folded=True)
-        self._choice = Combo()
-        self._choice.setObjectName("preset_choice")
-        self._name = QLineEdit()
-        self._name.setObjectName("preset_name")
-        self._tools = {name: QToolButton() for name, _ in _TOOLS}
-        for name, button in self._tools.items():
-            button.setObjectName(f"preset_{name}")
-        for line in ((self._choice, ("apply", "delete")), (self._name, ("save",))):
-            row = QHBoxLayout()
-            row.setSpacing(2)
-            row.addWidget(line[0], 1)
-            for name in line[1]:
-                row.addWidget(self._tools[name])
-            self._section.body.addLayout(row)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._section)
+        self._choice = named(Combo(), "preset_choice")
+        self._name = named(QLineEdit(), "preset_name")
+        self._tools = {
+            "apply": IconButton(
+                session, "check", "preset_section.apply_to_selected_players", self._apply, "preset_apply"
+            ),
+            "save": IconButton(
+                session, "save", "preset_section.save_parameters_of_player_in", self._save, "preset_save"
+            ),
+            "delete": IconButton(
+                session, "delete", "preset_section.delete_this_preset_from_your", self._delete, "preset_delete"
+            ),
+        }
+        chosen = in_row((self._choice, 1), self._tools["apply"], self._tools["delete"], spacing=2)
+        self._section.body.addLayout(chosen)
+        self._section.body.addLayout(in_row((self._name, 1), self._tools["save"], spacing=2))
+        in_column(self._section, of=self, margins=0)
         self._section.header.toggled.connect(lambda is_open: self.show_presets() if is_open else None)
         self._choice.chosen.connect(lambda _: self._show_buttons())
         self._name.textChanged.connect(lambda _: self._show_buttons())
         self._name.returnPressed.connect(self._save)
-        self._tools["apply"].clicked.connect(self._apply)
-        self._tools["save"].clicked.connect(self._save)
-        self._tools["delete"].clicked.connect(self._delete)
         session.players_changed.connect(self._show_buttons)
-        session.theme_changed.connect(self._apply_theme)
-        self._apply_theme()
         self.retranslate()
         if self._section.is_open:
             self.show_presets()
@@ -108,23 +101,9 @@ class PresetSection(QWidget):
             self._session.notice(error.message, Severity.ERROR)
         self.show_presets()
 
-    def _apply_theme(self) -> None:
-        for name, drawing in _TOOLS:
-            self._tools[name].setIcon(icon(drawing, self._session.tokens))
-
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
         self._section.header.set_texts(self.tr("preset_section.presets"))
         self._choice.setPlaceholderText(self.tr("preset_section.no_presets_yet"))
         self._name.setPlaceholderText(self.tr("preset_section.name_for_new_preset"))
-        self._tools["apply"].setToolTip(self.tr("preset_section.apply_to_selected_players"))
-        self._tools["save"].setToolTip(self.tr("preset_section.save_parameters_of_player_in"))
-        self._tools["delete"].setToolTip(self.tr("preset_section.delete_this_preset_from_your"))
         self._show_buttons()
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

@@ -2,35 +2,32 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QGridLayout, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.editor.session import Session
 from app.errors import Message
 from app.project.casting import StagePosition
 from app.project.edit import players as edit
 from app.project.edit.dancers import place_dancers
-from widgets.common.icons import icon
+from widgets.common.controls import IconButton, Retranslated, named
+from widgets.common.layouts import in_column
 from widgets.common.section import Section
 from widgets.players.place_numbers import name_places, place_sliders, shown_number, with_number
 from widgets.players.stage import StageView
 
 
-class StageSection(QWidget):
+class StageSection(Retranslated, QWidget):
     """The stage from above with its tools; edits the places of the selected players."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
         self._section = Section(session, "players_stage", self)
-        self.view = StageView(session)
-        self.view.setObjectName("stage")
-        self._snap, self._arc = QToolButton(), QToolButton()
-        self._snap.setObjectName("stage_snap")
-        self._arc.setObjectName("stage_arc")
+        self.view = named(StageView(session), "stage")
+        self._snap = IconButton(session, "snap", "stage_section.snap_to_0_1_m", self._set_snap, "stage_snap")
+        arc_tip = "stage_section.automatic_arc_everyone_in_order"
+        self._arc = IconButton(session, "stage", arc_tip, self._arrange, "stage_arc")
         self._snap.setCheckable(True)
-        self._snap.toggled.connect(self._set_snap)
-        self._arc.clicked.connect(self._arrange)
         self._section.header.add_button(self._snap)
         self._section.header.add_button(self._arc)
         self._numbers = place_sliders(session, "stage")
@@ -42,15 +39,11 @@ class StageSection(QWidget):
             grid.addWidget(number, place // 2, place % 2, 1, 1 + place // 2)
         self._section.body.addWidget(self.view)
         self._section.body.addLayout(grid)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._section)
+        in_column(self._section, of=self, margins=0)
         self.view.placed.connect(self._place)
         self.view.released.connect(session.document.end_gesture)
         self.view.chosen.connect(session.set_players)
-        session.theme_changed.connect(self._apply_theme)
         session.dancer_changed.connect(self.view.update)
-        self._apply_theme()
         self.retranslate()
 
     def show_places(self) -> None:
@@ -67,8 +60,8 @@ class StageSection(QWidget):
                 apart = any(abs(one - other) > 5e-3 for one, other in zip(shown, usual, strict=True))
                 number.show_value(shown[0], mixed=len(set(shown)) > 1, default=usual[0], by_hand=apart)
 
-    def _set_snap(self, snaps: bool) -> None:
-        self.view.snaps = snaps
+    def _set_snap(self) -> None:
+        self.view.snaps = self._snap.isChecked()
 
     def _name(self) -> Message:
         return Message("edit.place_players", {"count": len(self._session.players)})
@@ -88,22 +81,9 @@ class StageSection(QWidget):
     def _arrange(self) -> None:
         self._session.attempt(Message("edit.arrange_players"), edit.arrange)
 
-    def _apply_theme(self) -> None:
-        self._snap.setIcon(icon("snap", self._session.tokens))
-        self._arc.setIcon(icon("stage", self._session.tokens))
-
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
         self._section.header.set_texts(self.tr("stage_section.stage"))
-        self._snap.setToolTip(self.tr("stage_section.snap_to_0_1_m"))
-        self._arc.setToolTip(self.tr("stage_section.automatic_arc_everyone_in_order"))
         self.view.setAccessibleName(self.tr("stage_section.stage_from_above"))
         name_places(self._numbers)
         self.view.update()
-
-    # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

@@ -126,14 +126,19 @@ class Lane(QWidget):
     def project_changed(self, change: Change) -> None:
         """The project is another value: compare what is shown by identity."""
 
+    def refresh(self) -> None:
+        """Show what is there of the player in front, where that is another."""
+
     def performance_changed(self) -> None:
         """New plans are there."""
+        self.refresh()
 
     def selection_changed(self, before: Selection) -> None:
         """Another selection; what shows only a part of it is drawn anew only where that is another."""
 
     def players_changed(self) -> None:
         """Another player is in front."""
+        self.refresh()
 
     def theme_changed(self) -> None:
         """Another theme."""

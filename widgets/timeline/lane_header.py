@@ -8,6 +8,8 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QVBoxLayout
 
 from app.editor.tokens import Tokens
 from app.editor.translated import tr
+from widgets.common.controls import named
+from widgets.common.layouts import STRETCH, in_column
 from widgets.common.plain import Label
 
 GUTTER_PX = 144
@@ -21,14 +23,12 @@ class LaneHeader(QWidget):
         super().__init__(parent)
         self.setFixedWidth(GUTTER_PX)
         self.setAutoFillBackground(True)
-        self.fold_button = QToolButton(self)
-        self.fold_button.setObjectName("fold")
+        self.fold_button = named(QToolButton(self), "fold")
         self.fold_button.setAutoRaise(True)
         self.fold_button.setFixedSize(QSize(24, 24))
         self.fold_button.setArrowType(Qt.ArrowType.DownArrow)
         self.name_fold(False)
-        self.title = Label(parent=self)
-        self.title.setObjectName("lane_title")
+        self.title = named(Label(parent=self), "lane_title")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.title_row = QHBoxLayout()
         self.title_row.setContentsMargins(0, 0, 0, 0)
@@ -39,12 +39,7 @@ class LaneHeader(QWidget):
         """Below the title: a lane's own small controls go here."""
         self.controls.setContentsMargins(4, 0, 4, 2)
         self.controls.setSpacing(2)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(2, 1, 4, 0)
-        column.setSpacing(0)
-        column.addLayout(self.title_row)
-        column.addLayout(self.controls)
-        column.addStretch(1)
+        in_column(self.title_row, self.controls, STRETCH, of=self, margins=(2, 1, 4, 0), spacing=0)
 
     def name_fold(self, folded: bool) -> None:
         """Say what the button does."""

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import msgspec
-from PySide6.QtCore import QEvent, QPoint, QSize, Qt, Signal
+from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QHideEvent, QPainter, QPaintEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QMenu,
     QScrollBar,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -19,7 +18,10 @@ from app.editor.timeline_view import Ghosts, Tool
 from app.errors import FileError
 from app.formats.json_data import decode_json
 from app.project.document import Change
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
+from widgets.common.layouts import in_column, in_row
+from widgets.common.menus import passing_menu
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.extent import scroll_limits, selected_span
 from widgets.timeline.flags import Flags
@@ -70,7 +72,7 @@ class Playhead(QWidget):
         QPainter(self).fillRect(event.rect(), QColor(self._session.tokens.accent))
 
 
-class TimelinePanel(QWidget):
+class TimelinePanel(Retranslated, QWidget):
     """The timeline panel. It is the session's `TimelineView`.
 
     Parameters
@@ -111,14 +113,9 @@ class TimelinePanel(QWidget):
             lane.header.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
             lane.header.customContextMenuRequested.connect(self._header_menu)
 
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addWidget(self.tool_bar)
-        column.addWidget(self.flags)
-        column.addWidget(self.ruler)
-        column.addWidget(self.stack, 1)
-        column.addLayout(self._make_foot())
+        in_column(
+            self.tool_bar, self.flags, self.ruler, (self.stack, 1), self._make_foot(), of=self, margins=0, spacing=0
+        )
         self.playhead = Playhead(session, self)
         for lane in self.lanes.values():
             lane.set_folded(lane.folded_at_first)
@@ -142,8 +139,7 @@ class TimelinePanel(QWidget):
         session.timeline_view = self
 
     def _make_foot(self) -> QHBoxLayout:
-        self.lanes_button = QToolButton(self)
-        self.lanes_button.setObjectName("lanes_menu")
+        self.lanes_button = named(QToolButton(self), "lanes_menu")
         self.lanes_button.setAutoRaise(True)
         self.lanes_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.lanes_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
@@ -151,15 +147,10 @@ class TimelinePanel(QWidget):
         self._lanes_menu = QMenu(self.lanes_button)
         self._lanes_menu.aboutToShow.connect(self._fill_lanes_menu)
         self.lanes_button.setMenu(self._lanes_menu)
-        self.time_bar = QScrollBar(Qt.Orientation.Horizontal, self)
-        self.time_bar.setObjectName("time_bar")
+        self.time_bar = named(QScrollBar(Qt.Orientation.Horizontal, self), "time_bar")
         self.time_bar.valueChanged.connect(self._scrolled)
         self.zoom_buttons = {name: QToolButton(self) for name in ("zoom_out", "zoom_in", "fit")}
-        row = QHBoxLayout()
-        row.setContentsMargins(2, 1, 2, 1)
-        row.setSpacing(2)
-        row.addWidget(self.lanes_button)
-        row.addWidget(self.time_bar, 1)
+        row = in_row(self.lanes_button, (self.time_bar, 1), margins=(2, 1, 2, 1), spacing=2)
         for name, button in self.zoom_buttons.items():
             button.setObjectName(name)
             button.setAutoRaise(True)
@@ -292,8 +283,7 @@ class TimelinePanel(QWidget):
         lane = header.parentWidget()
         assert isinstance(lane, Lane)
         at, last = self.stack.lanes.index(lane), len(self.stack.lanes) - 1
-        menu = QMenu(self)
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu = passing_menu(self)
         up = menu.addAction(self.tr("timeline_panel.move_up"))
         up.setEnabled(at > 0)
         up.triggered.connect(lambda: self.stack.shift(lane, -1))
@@ -373,11 +363,6 @@ class TimelinePanel(QWidget):
         self.playhead.update()
 
     # Qt overrides
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

@@ -10,7 +10,6 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QFrame,
     QGridLayout,
-    QHBoxLayout,
     QPushButton,
     QWidget,
 )
@@ -18,6 +17,8 @@ from PySide6.QtWidgets import (
 from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import notes
+from widgets.common.controls import Retranslated
+from widgets.common.layouts import STRETCH, in_row
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import ComboBox, Label
 
@@ -35,7 +36,7 @@ GRIDS: tuple[tuple[str, Fraction], ...] = (
 )
 
 
-class QuantisePopover(QFrame):
+class QuantisePopover(Retranslated, QFrame):
     """Quantise the selected notes, seen at once; Enter keeps it, Escape takes it back. One step of the history."""
 
     def __init__(self, session: Session, parent: QWidget) -> None:
@@ -63,11 +64,7 @@ class QuantisePopover(QFrame):
         grid.addWidget(self.grid_label, 0, 0)
         grid.addWidget(self.grid_box, 0, 1, 1, 2)
         grid.addWidget(self.strength, 1, 0, 1, 3)
-        row = QHBoxLayout()
-        row.addWidget(self.onsets)
-        row.addWidget(self.ends)
-        row.addStretch(1)
-        row.addWidget(self.keep_button)
+        row = in_row(self.onsets, self.ends, STRETCH, self.keep_button)
         grid.addLayout(row, 2, 0, 1, 3)
         self.strength.changed.connect(self._set_strength)
         self.grid_box.currentIndexChanged.connect(self._show)
@@ -129,11 +126,6 @@ class QuantisePopover(QFrame):
         self.hide()
 
     # Qt overrides
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def event(self, event: QEvent) -> bool:
         if event.type() == QEvent.Type.ShortcutOverride:

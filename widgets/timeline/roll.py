@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 from PySide6.QtCore import QEvent, QLineF, QRectF, Qt, Signal
-from PySide6.QtGui import QAction, QCursor, QFont, QKeyEvent, QResizeEvent
+from PySide6.QtGui import QCursor, QFont, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QMenu, QToolTip, QWidget
 
 from app.editor.selection import Selection
@@ -18,6 +18,7 @@ from app.project.document import Change
 from app.project.edit import notes
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap
+from widgets.common.menus import add_actions
 from widgets.common.pitch import pitch_text
 from widgets.common.text import sentence
 from widgets.timeline.axis import TimeAxis
@@ -335,10 +336,7 @@ class PianoRoll(Lane):
             self.model.bring_forward(hit)
             self.session.select(Selection(frozenset({hit.id})))
         menu = QMenu(self)
-        for id in MENU:
-            action: QAction | None = self.session.actions.get(id) if id else menu.addSeparator()
-            if id and action is not None:
-                menu.addAction(action)
+        add_actions(menu, self.session, MENU)
         return menu
 
     def _tell_pitch(self, note_id: str) -> None:

@@ -25,6 +25,8 @@ from app.editor.selection import Selection
 from app.editor.session import Session, Severity, TimeDisplay
 from app.editor.tokens import LEAST_TEXT_PT
 from app.errors import Message
+from widgets.common.controls import Retranslated
+from widgets.common.menus import add_actions
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_lines
 from widgets.timeline.hands import mouse_at
@@ -48,7 +50,7 @@ GRIP_PX = 5.0
 """So near to an edge of the loop, or to the playhead, a press takes hold of it."""
 
 
-class Ruler(Pictured):
+class Ruler(Retranslated, Pictured):
     """The ruler over the lanes.
 
     Signals
@@ -275,10 +277,7 @@ class Ruler(Pictured):
             menu.addMenu(self.tr("ruler.felt_beat")).addActions(felt)
         menu.addSeparator()
         menu.addAction(self.tr("ruler.select_this_bar")).triggered.connect(lambda: self._select_bar(tick))
-        for id in ("play.loop", "notes.select_span", "timeline.zoom_selection", "timeline.fit"):
-            action = self.session.actions.get(id)
-            if action is not None:
-                menu.addAction(action)
+        add_actions(menu, self.session, ("play.loop", "notes.select_span", "timeline.zoom_selection", "timeline.fit"))
         return menu
 
     def _remove(self, kind: str, tick: int) -> None:
@@ -387,11 +386,6 @@ class Ruler(Pictured):
     def resizeEvent(self, event: QResizeEvent) -> None:
         self.unit_button.setGeometry(2, self.height() - 28, GUTTER_PX - 6, 26)
         super().resizeEvent(event)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         if event.button() == Qt.MouseButton.MiddleButton:

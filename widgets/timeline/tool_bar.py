@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QActionGroup, QColor, QIcon, QPalette, QPixmap
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
 from app.project.document import Change
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.plain import ComboBox, Label
 from widgets.timeline.roll import PianoRoll
@@ -19,7 +20,7 @@ BUTTON_PX = 26
 SWATCH_PX = 12
 
 
-class ToolBar(QWidget):
+class ToolBar(Retranslated, QWidget):
     """Tools of the piano roll."""
 
     def __init__(self, session: Session, roll: PianoRoll, parent: QWidget | None = None) -> None:
@@ -41,8 +42,7 @@ class ToolBar(QWidget):
             row.addWidget(button)
         group.buttonClicked.connect(self._choose_tool)
         row.addSpacing(8)
-        self.player_box = ComboBox(self)
-        self.player_box.setObjectName("front_player")
+        self.player_box = named(ComboBox(self), "front_player")
         self.player_box.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
         self.player_box.setMinimumWidth(150)
         self.player_box.setMaximumWidth(280)
@@ -63,8 +63,7 @@ class ToolBar(QWidget):
         modes.triggered.connect(lambda action: self._choose_ghosts(action.data()))
         row.addWidget(self.ghosts_button)
         row.addStretch(1)
-        self.readout = Label(parent=self)
-        self.readout.setObjectName("readout")
+        self.readout = named(Label(parent=self), "readout")
         self.readout.setForegroundRole(QPalette.ColorRole.PlaceholderText)
         row.addWidget(self.readout)
         roll.reported.connect(self._report)
@@ -77,8 +76,7 @@ class ToolBar(QWidget):
         self.show_state()
 
     def _button(self, name: str) -> QToolButton:
-        button = QToolButton(self)
-        button.setObjectName(name)
+        button = named(QToolButton(self), name)
         button.setAutoRaise(True)
         button.setMinimumSize(QSize(BUTTON_PX, BUTTON_PX))
         return button
@@ -169,10 +167,3 @@ class ToolBar(QWidget):
         self.setPalette(palette)
         self._fill_players()
         self.show_state()
-
-    # Qt overrides
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import ceil, floor
 
-from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
@@ -15,6 +15,7 @@ from app.editor.tokens import LEAST_TARGET_PX
 from app.project.document import Change
 from app.project.grid import Grid
 from widgets.common.combo import Combo, Option
+from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.icons import icon, pixmap
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
@@ -42,7 +43,7 @@ _ROOMY_PX = 1250
 """With less room the hint is a picture alone."""
 
 
-class TransportBar(QWidget):
+class TransportBar(Retranslated, QWidget):
     """The bar under the menu.
 
     Parameters
@@ -64,10 +65,9 @@ class TransportBar(QWidget):
         )
         self.volume = NumberSlider(session, 0.0, 100.0, default=80.0, step=5.0, decimals=0, parent=self)
         self.source, self.snap = Combo(), Combo()
-        self.silent_sign, self.silent_text = Label(), Label()
+        self.silent_sign, self.silent_text = Label(), Caption("transport_bar.no_audio_device_silent")
         self.beat = BeatLight(session)
-        self.take_text = Label()
-        self.take_text.setObjectName("take_text")
+        self.take_text = named(Label(), "take_text")
         self.take_text.hide()
         self._name()
         self._build()
@@ -85,8 +85,7 @@ class TransportBar(QWidget):
         return button
 
     def _tool(self, name: str) -> QToolButton:
-        button = QToolButton(self)
-        button.setObjectName(name)
+        button = named(QToolButton(self), name)
         button.setAutoRaise(True)
         button.setMinimumSize(QSize(28, 28))
         button.setIconSize(QSize(18, 18))
@@ -98,8 +97,7 @@ class TransportBar(QWidget):
         names |= {self.snap: "snap", self.silent_sign: "silent_sign", self.silent_text: "silent_text"}
         for widget, name in names.items():
             widget.setObjectName(name)
-        menu = QMenu(self)
-        menu.setObjectName("record_menu")
+        menu = named(QMenu(self), "record_menu")
         menu.aboutToShow.connect(lambda: self._fill_record_menu(menu))
         self.buttons["record.toggle"].setMenu(menu)
         self.buttons["record.toggle"].setPopupMode(QToolButton.ToolButtonPopupMode.MenuButtonPopup)
@@ -312,7 +310,6 @@ class TransportBar(QWidget):
         self.snap.setAccessibleName(self.tr("transport_bar.step_of_grid"))
         self.snap.set_options([Option(name, name) for name in GRIDS])
         hint = self.tr("transport_bar.there_is_no_audio_device")
-        self.silent_text.setText(self.tr("transport_bar.no_audio_device_silent"))
         for label in (self.silent_sign, self.silent_text):
             label.setToolTip(hint)
             label.setAccessibleName(hint)
@@ -325,11 +322,6 @@ class TransportBar(QWidget):
         button.setAccessibleName(text)
 
     # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def showEvent(self, event: QShowEvent) -> None:
         # The table of actions may be filled after the bar is made.

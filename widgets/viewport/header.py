@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from functools import partial
 
-from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QButtonGroup, QMenu, QSizePolicy, QToolButton, QWidget
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.editor.viewport_state import SHOWN, VIEWS, Shown, View
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
+from widgets.common.layouts import in_row
 from widgets.common.plain import Label
 
 _SHOWN_ICONS: dict[Shown, str] = {
@@ -24,7 +26,7 @@ FULL_SCREEN = "application.full_screen"
 """The shell's: only a window can fill the screen."""
 
 
-class Header(QWidget):
+class Header(Retranslated, QWidget):
     """Buttons over the picture; views fold into a menu where there is no room for them.
 
     Parameters
@@ -40,11 +42,8 @@ class Header(QWidget):
         self._group = QButtonGroup(self)
         self._group.setExclusive(True)
         self._segments = QWidget(self)
-        segments = QHBoxLayout(self._segments)
-        segments.setContentsMargins(0, 0, 0, 0)
-        segments.setSpacing(1)
-        self._view_menu = QMenu(self)
-        self._view_menu.setObjectName("viewport_view_menu")
+        segments = in_row(of=self._segments, margins=0, spacing=1)
+        self._view_menu = named(QMenu(self), "viewport_view_menu")
         self._view_rows: dict[View, QAction] = {}
         rows = QActionGroup(self)
         for view in VIEWS:
@@ -64,8 +63,7 @@ class Header(QWidget):
         self._folded.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self._folded.hide()
         self._note_text = ""
-        self._note = Label(parent=self)
-        self._note.setObjectName("viewport_note")
+        self._note = named(Label(parent=self), "viewport_note")
         self._note.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._note.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self._pose = self._button("viewport_pose", checkable=True)
@@ -73,8 +71,7 @@ class Header(QWidget):
         self._pose.clicked.connect(session.viewport.set_posing)
         self._frame = self._button("viewport_frame")
         self._frame.clicked.connect(partial(session.viewport.frame, True))
-        self._show_menu = QMenu(self)
-        self._show_menu.setObjectName("viewport_show_menu")
+        self._show_menu = named(QMenu(self), "viewport_show_menu")
         self._show_rows: dict[Shown, QAction] = {}
         for what in SHOWN:
             row = self._show_menu.addAction("")
@@ -86,16 +83,18 @@ class Header(QWidget):
         self._show.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._full = self._button("viewport_full_screen")
         self._full.clicked.connect(self._toggle_full_screen)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(6, 2, 6, 2)
-        layout.setSpacing(4)
-        layout.addWidget(self._segments)
-        layout.addWidget(self._folded)
-        layout.addWidget(self._note, 1)
-        layout.addWidget(self._pose)
-        layout.addWidget(self._frame)
-        layout.addWidget(self._show)
-        layout.addWidget(self._full)
+        in_row(
+            self._segments,
+            self._folded,
+            (self._note, 1),
+            self._pose,
+            self._frame,
+            self._show,
+            self._full,
+            of=self,
+            margins=(6, 2, 6, 2),
+            spacing=4,
+        )
         session.viewport.changed.connect(self.refresh)
         session.theme_changed.connect(self._apply_theme)
         self._apply_theme()
@@ -174,8 +173,7 @@ class Header(QWidget):
         self._session.viewport.set_view(view)
 
     def _button(self, name: str, checkable: bool = False) -> QToolButton:
-        button = QToolButton(self)
-        button.setObjectName(name)
+        button = named(QToolButton(self), name)
         button.setCheckable(checkable)
         button.setAutoRaise(True)
         button.setMinimumSize(LEAST_TARGET_PX + 2, LEAST_TARGET_PX + 2)
@@ -221,9 +219,3 @@ class Header(QWidget):
         """Fold or unfold the views."""
         super().resizeEvent(event)
         self._fold()
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Follow the language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

@@ -10,13 +10,16 @@ import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QColor, QImage, QPainter
-from PySide6.QtWidgets import QMenu, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QStackedWidget, QWidget
 
 from app.editor.poses import Poses
 from app.editor.session import Session
 from app.editor.viewport_state import SHOWN, VIEWS, View
 from app.errors import AppError
 from app.project.document import Change
+from widgets.common.controls import Retranslated, named
+from widgets.common.layouts import in_column
+from widgets.common.menus import passing_menu
 from widgets.common.plain import Label
 from widgets.viewport.camera import Camera, frame, triple
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
@@ -49,7 +52,7 @@ MENU = (
 """The menu under the right button: groups of actions."""
 
 
-class ViewportPanel(QWidget):
+class ViewportPanel(Retranslated, QWidget):
     """The players in three dimensions.
 
     Without a working GL the panel says why in plain Qt, and everything else of the editor works.
@@ -73,18 +76,13 @@ class ViewportPanel(QWidget):
 
         self.header = Header(session, self)
         self._stack = QStackedWidget(self)
-        self._reason = Label(parent=self._stack)
-        self._reason.setObjectName("viewport_reason")
+        self._reason = named(Label(parent=self._stack), "viewport_reason")
         self._reason.setWordWrap(True)
         self._reason.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._reason.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._reason.setMargin(24)
         self._stack.addWidget(self._reason)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.header)
-        layout.addWidget(self._stack, 1)
+        in_column(self.header, (self._stack, 1), of=self, margins=0, spacing=0)
 
         self._canvas: Canvas | None = None
         self._layer: Layer | None = None
@@ -460,9 +458,7 @@ class ViewportPanel(QWidget):
 
     def _show_menu(self, at: QPoint) -> None:
         """What can be done here, from the table of actions."""
-        menu = QMenu(self)
-        menu.setObjectName("viewport_menu")
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu = passing_menu(self, "viewport_menu")
         for group in MENU:
             rows = [self._session.actions[name] for name in group if name in self._session.actions]
             if rows:
@@ -500,9 +496,3 @@ class ViewportPanel(QWidget):
         if event.type() == QEvent.Type.Resize:
             self._place_camera()
         return super().eventFilter(watched, event)
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Follow the language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from itertools import pairwise
 
 import pytest
-from PySide6.QtCore import QPointF, Qt
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QPainter, QPixmap
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
@@ -381,3 +382,30 @@ def test_from_far_away_the_strongest_of_each_column_is_drawn(panel: TimelinePane
                 and other.amount >= region.amount
                 for other in drawn
             ), region
+
+
+@pytest.mark.parametrize("px_per_s", [3.0, 12.0, 40.0])
+def test_names_of_neighbouring_cues_do_not_overlap(
+    panel: TimelinePanel, session: Session, monkeypatch: pytest.MonkeyPatch, px_per_s: float
+) -> None:
+    lane = panel.lanes["acting"]
+    assert isinstance(lane, ActingLane)
+    rooms: list[QRectF] = []
+
+    def drawn(painter: QPainter, box: QRectF, text: str) -> None:
+        rooms.append(box)
+
+    monkeypatch.setattr("widgets.timeline.lanes.acting_drawing.draw_text", drawn)
+    cues = sorted((one for one in lane.regions if one.kind == "cue"), key=lambda one: (one.row, one.start_s))
+    assert len(cues) > 2
+    start_s = panel.axis.start_s
+    panel.axis.show(start_s, start_s + panel.axis.width_px / px_per_s)
+    picture = QPixmap(100, 100)
+    with QPainter(picture) as painter:
+        for cue, following in pairwise(cues):
+            rooms.clear()
+            box = QRectF(lane.box(cue))
+            box.setWidth(max(box.width(), 10.0))
+            lane._painter.paint_cue(painter, cue, box, "#ffffff", lane._name_room_px(cue))
+            if following.row == cue.row and rooms:
+                assert lane.box(cue).right() + 4.0 + max(rooms[0].width(), 0.0) <= lane.box(following).left()

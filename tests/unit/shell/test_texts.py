@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import string
 from collections import Counter
 from collections.abc import Iterator
@@ -14,7 +15,10 @@ from app.shell.rows import rows
 
 ROOT = Path(__file__).parents[3]
 TEXTS = {id: wording for room in ROOMS for id, wording in room.items()}
-FUNCTIONS = frozenset({"tr"})
+FUNCTIONS = frozenset({"tr", "Caption", "Button", "Check", "ColumnList", "IconButton", "PictureButton", "in_form"})
+"""What is given ids."""
+ID = re.compile(r"[a-z_]+\.\w+")
+"""Names of objects have no dot."""
 
 
 def fields(text: str) -> set[tuple[str, str]]:
@@ -54,8 +58,11 @@ def test_what_is_used_is_there_and_what_is_there_is_used() -> None:
         if not isinstance(node, ast.Call) or not node.args:
             continue
         name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
-        if name in FUNCTIONS and isinstance(node.args[0], ast.Constant):
-            used.add(str(node.args[0].value))
+        if name in FUNCTIONS:
+            strings = (
+                part.value for argument in node.args for part in ast.walk(argument) if isinstance(part, ast.Constant)
+            )
+            used.update(text for text in strings if isinstance(text, str) and ID.fullmatch(text))
     actions = {f"action.{row.id}" for row in rows()}
     actions |= {f"menu.{part}" for row in rows() for part in row.menu.split("/") if part}
     actions.add("menu.open_recent")  # the window fills it

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from operator import is_
 
 import numpy as np
-from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
+from PySide6.QtCore import QPoint, QPointF, QRectF
 from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
@@ -28,6 +29,7 @@ from app.project.edit.generation import variations
 from app.project.model import Project
 from app.score.tempo import TempoMap
 from widgets.common.event_names import expression_name, kind_name, pose_name
+from widgets.common.menus import passing_menu
 from widgets.common.plain import verbatim
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_columns, draw_mark, draw_rects, shade
@@ -55,6 +57,7 @@ from widgets.timeline.model.region import Region
 
 BASE_PX = 5.0
 NEW_BEATS = 2
+MOST_NAME_PX, NAME_GAP_PX = 130.0, 8.0
 CUE_REACH_PX = 10.0
 """A cue that is dragged this close to an entry belongs to it."""
 
@@ -263,7 +266,7 @@ class ActingLane(RegionLane):
         colour = tokens.accent if selected else self.session.colour(project.player(region.player_id))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
         if region.kind == "cue":
-            self._painter.paint_cue(painter, region, box, colour)
+            self._painter.paint_cue(painter, region, box, colour, self._name_room_px(region))
         elif region.kind == VARIED:
             self._painter.paint_varied(painter, region, box, colour, selected)
         elif region.kind in STRIPS:
@@ -273,6 +276,12 @@ class ActingLane(RegionLane):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
         if region.by_hand:
             draw_mark(painter, tokens, box.left() + 1.0, box.top() + 1.0)
+
+    def _name_room_px(self, cue: Region) -> float:
+        """How much room there is for a cue's name: up to the next cue of its row, that names do not overlap."""
+        later = [one.start_s for one in self.regions if one.kind == "cue" and one.row == cue.row]
+        at = bisect_right(later, cue.start_s)
+        return MOST_NAME_PX if at == len(later) else self.axis.x_px(later[at]) - self.axis.x_px(cue.end_s) - NAME_GAP_PX
 
     # Hands on it
 
@@ -302,8 +311,7 @@ class ActingLane(RegionLane):
         if kind == "cue":
             self._add_cue(mouse)
         elif kind == "expression":
-            menu = QMenu(self)
-            menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+            menu = passing_menu(self)
             self._expression_entries(menu, lambda name: self._add_expression(name, mouse))
             menu.popup(QPoint(*mouse.screen_px))
         else:

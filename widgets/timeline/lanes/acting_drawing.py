@@ -48,8 +48,8 @@ class ActingPainter:
         draw_path(painter, points, QPen(colour, 1.2))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
 
-    def paint_cue(self, painter: QPainter, region: Region, box: QRectF, colour: str) -> None:
-        """A triangle whose tip is the beat."""
+    def paint_cue(self, painter: QPainter, region: Region, box: QRectF, colour: str, room_px: float) -> None:
+        """A triangle whose tip is the beat; its name where there is room."""
         tokens = self._lane.session.tokens
         peak = min(max(self._lane.axis.x_px(region.peak_s), box.left()), box.right())
         outline = [(box.left(), box.bottom()), (peak, box.top() + 2.0), (box.right(), box.bottom())]
@@ -60,7 +60,7 @@ class ActingPainter:
         if box.width() < LEAST_SHAPE_PX:
             return
         painter.setPen(QColor(tokens.text_dim if region.guest else tokens.text))
-        draw_text(painter, QRectF(box.right() + 4.0, box.top(), 130.0, box.height()), region.label)
+        draw_text(painter, QRectF(box.right() + 4.0, box.top(), min(room_px, 130.0), box.height()), region.label)
 
     def paint_varied(self, painter: QPainter, region: Region, box: QRectF, colour: str, selected: bool) -> None:
         """A frame around the bars."""

@@ -13,6 +13,7 @@ from app.plan.model import FingeringEvent
 from app.project.edit.events import corrections_of, give_back, pin_fingerings
 from instrument_maps.model import Fingering
 from widgets.common.chip import Chip
+from widgets.common.controls import named
 from widgets.common.fingering_tags import words_of_tags
 from widgets.common.icons import icon
 from widgets.common.plain import verbatim
@@ -63,22 +64,25 @@ class Alternates(QFrame):
         pinned = self.is_pinned(player_id, event)
         for fingering in self.choices(player_id, event):
             now = fingering.label == event.label
-            chip = Chip(
-                self._session,
-                fingering.label,
-                self.note_text(fingering),
-                by_hand=now and pinned,
-                outlined=now and not pinned,
-                parent=self,
+            chip = named(
+                Chip(
+                    self._session,
+                    fingering.label,
+                    self.note_text(fingering),
+                    by_hand=now and pinned,
+                    outlined=now and not pinned,
+                    parent=self,
+                ),
+                f"chip_{fingering.label}",
             )
-            chip.setObjectName(f"chip_{fingering.label}")
             chip.setChecked(now)
             chip.setToolTip(self.tr("alternates.choice").format(rank=fingering.rank))
             chip.clicked.connect(lambda _=False, label=fingering.label: self.choose(label))
             self._row.addWidget(chip)
         if pinned:
-            back = QPushButton(icon("reset", self._session.tokens), self.tr("alternates.generated"), self)
-            back.setObjectName("give_back")
+            back = named(
+                QPushButton(icon("reset", self._session.tokens), self.tr("alternates.generated"), self), "give_back"
+            )
             back.setFlat(True)
             back.setMinimumHeight(LEAST_TARGET_PX)
             back.setIconSize(QSize(16, 16))

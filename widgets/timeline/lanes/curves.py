@@ -15,6 +15,8 @@ from app.errors import Message
 from app.plan.model import EmbouchureEvent, PlayerPlan
 from app.project.document import Change
 from app.score.model import Part
+from widgets.common.controls import named
+from widgets.common.menus import add_actions
 from widgets.common.plain import ComboBox, verbatim
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
@@ -121,8 +123,7 @@ class CurvesLane(Lane):
         self._plan: PlayerPlan | None = None
         self._part: Part | None = None
         self._drag: DragCurve | None = None
-        self.choice = ComboBox(self.header)
-        self.choice.setObjectName("curve_choice")
+        self.choice = named(ComboBox(self.header), "curve_choice")
         self.choice.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.choice.activated.connect(self._chosen)
         self.controls.addWidget(self.choice)
@@ -206,12 +207,6 @@ class CurvesLane(Lane):
             return None
         found = self.lips.spans.between(time_s, time_s)
         return self.lips.events[int(found[-1])] if len(found) else None
-
-    def performance_changed(self) -> None:
-        self.refresh()
-
-    def players_changed(self) -> None:
-        self.refresh()
 
     def project_changed(self, change: Change) -> None:
         if change.before.score is not change.after.score:
@@ -324,8 +319,6 @@ class CurvesLane(Lane):
             entry.setCheckable(True)
             entry.setChecked(curve == self.curve)
             entry.triggered.connect(lambda _=False, curve=curve: self.set_curve(curve))
-        action = self.session.actions.get("events.give_back")
-        if event is not None and action is not None:
-            menu.addSeparator()
-            menu.addAction(action)
+        if event is not None:
+            add_actions(menu, self.session, ("", "events.give_back"))
         return menu

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QRectF, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QMenu, QWidget
 
@@ -20,9 +20,10 @@ from app.project.edit import dance_corrections as edit
 from app.project.model import Dancer, Project
 from widgets.common.text import sentence
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.lane import Lane, LaneMouse
+from widgets.timeline.lane import LaneMouse
 from widgets.timeline.lanes.dance_drawing import DancesItem
 from widgets.timeline.lanes.dance_menu import DanceMenu
+from widgets.timeline.lanes.row_lane import RowLane
 from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.model.dances import MoveStep, state_beside
 
@@ -36,7 +37,7 @@ SHOWN_ROWS, LEAST_SHOWN_ROWS = 4, 2
 EMPTY_PX = 46
 
 
-class DanceLane(Lane):
+class DanceLane(RowLane):
     """Dancers one under another, each with the basic motions that are danced: a click selects one, a drag moves it to
     other beats, its context menu and the arrow keys change it. The dance around it is found anew."""
 
@@ -44,6 +45,7 @@ class DanceLane(Lane):
     preferred_height_px = EMPTY_PX
     least_height_px = EMPTY_PX
     folded_at_first = True
+    row_limits_px = (LEAST_ROW_PX, MOST_ROW_PX)
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
@@ -51,7 +53,6 @@ class DanceLane(Lane):
         """What is known, by dancer; the newest once the task is done."""
         self._selected_at: tuple[str, int] | None = None
         self.moving: MoveStep | None = None
-        self._scrolled_px = 0.0
         self._shown_of: Performance | None = None
         self._names = RowNames(self, self._row_names)
         DancesItem(self)
@@ -128,39 +129,18 @@ class DanceLane(Lane):
 
     # Where rows lie
 
-    @property
-    def row_px(self) -> float:
-        """How high a row is."""
-        room = self.plot_rect.height() / max(len(self.dancers), 1)
-        return min(max(room, LEAST_ROW_PX), MOST_ROW_PX)
-
-    def row_rect(self, number: int) -> QRectF:
-        """A row, pixels of the plot."""
-        return QRectF(0.0, number * self.row_px - self._scrolled_px, self.plot_rect.width(), self.row_px)
-
     def _row_names(self) -> Sequence[tuple[str, float]]:
         return [(dancer.name, self.row_rect(at).center().y()) for at, dancer in enumerate(self.dancers)]
 
-    def _scroll_to(self, top_px: float) -> None:
-        kept = min(max(top_px, 0.0), max(len(self.dancers) * self.row_px - self.plot_rect.height(), 0.0))
-        if kept != self._scrolled_px:
-            self._scrolled_px = kept
-            self._names.update()
-            self.update_items()
+    def count_rows(self) -> int:
+        return len(self.dancers)
 
-    def wheel(self, mouse: LaneMouse, steps: float) -> bool:
-        """Where there are more rows than room."""
-        if len(self.dancers) * self.row_px <= self.plot_rect.height() + 0.5:
-            return False
-        self._scroll_to(self._scrolled_px - steps * self.row_px)
-        return True
-
-    def pan_y(self, by_px: float) -> None:
-        self._scroll_to(self._scrolled_px - by_px)
+    def rows_scrolled(self) -> None:
+        self._names.update()
 
     def _dance_at(self, mouse: LaneMouse) -> DanceSteps | None:
-        row = int((mouse.y_px + self._scrolled_px) // self.row_px)
-        return self.dances.get(self.dancers[row].id) if 0 <= row < len(self.dancers) else None
+        row = self.row_number_at(mouse.y_px)
+        return None if row is None else self.dances.get(self.dancers[row].id)
 
     def step_at(self, mouse: LaneMouse) -> tuple[str, int] | None:
         """The dancer and the number of the step at a place."""

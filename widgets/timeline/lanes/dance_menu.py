@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 
 from app.editor.session import Session
 from app.project.dance_corrections import DanceCorrection
+from widgets.common.controls import named
 from widgets.common.dance_figures import ICON_PX, Floats, figure_icon
 from widgets.common.plain import verbatim
 
@@ -119,8 +120,7 @@ class DanceMenu(QMenu):
         menu.setEnabled(bool(len(others)))
 
     def _submenu(self, title: str, name: str) -> QMenu:
-        menu = self.addMenu(title)
-        menu.setObjectName(name)
+        menu = named(self.addMenu(title), name)
         # Figures are to be recognised.
         menu.setStyleSheet(f"QMenu {{ icon-size: {ICON_PX}px; }}")
         return menu

@@ -18,6 +18,7 @@ from app.project.document import Change
 from app.project.model import Player
 from instrument_maps.model import Control, InstrumentMap
 from widgets.common.fingering_text import short_label
+from widgets.common.menus import add_actions
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import (
@@ -277,12 +278,9 @@ class FingeringLane(Lane):
         inside = [index for index in found.tolist() if self.data.start_s[index] <= time_s <= self.data.end_s[index]]
         return self.data.events[(inside or found.tolist())[-1]] if len(found) else None
 
-    def performance_changed(self) -> None:
-        self.refresh()
-
     def players_changed(self) -> None:
         self.alternates.hide()
-        self.refresh()
+        super().players_changed()
 
     def project_changed(self, change: Change) -> None:
         if change.opened:
@@ -376,8 +374,5 @@ class FingeringLane(Lane):
         if event is not None and self._plan is not None:
             self.alternates.fill_menu(menu, self._plan.player_id, event)
             menu.addSeparator()
-        for action_id in ("fingering.cycle", "events.give_back"):
-            action = self.session.actions.get(action_id)
-            if action is not None:
-                menu.addAction(action)
+        add_actions(menu, self.session, ("fingering.cycle", "events.give_back"))
         return menu

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from app.editor.selection import Selection
 from app.editor.session import Session, Severity
 from app.plan.model import Problem
+from widgets.common.controls import named
 from widgets.common.plain import Label
 from widgets.common.text import sentence
 from widgets.timeline.axis import TimeAxis
@@ -114,8 +115,7 @@ class ProblemsLane(Lane):
         self._note_ids: frozenset[str] = frozenset()
         self._player_id: str | None = None
         session.problems_changed.connect(self.refresh)
-        self.count = Label(parent=self.header)
-        self.count.setObjectName("problem_count")
+        self.count = named(Label(parent=self.header), "problem_count")
         self.count.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.count.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
         self.title_row.addWidget(self.count)
@@ -154,12 +154,6 @@ class ProblemsLane(Lane):
             key=lambda problem: abs(problem.start_s - mouse.time_s),
             default=None,
         )
-
-    def performance_changed(self) -> None:
-        self.refresh()
-
-    def players_changed(self) -> None:
-        self.refresh()
 
     def selection_changed(self, before: Selection) -> None:
         if not self._note_ids.isdisjoint(before.notes ^ self.session.selection.notes):

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from msgspec.structs import replace
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QAction, QColor, QKeyEvent, QPainter, QPen
+from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.editor.selection import EventKey, Selection
@@ -18,6 +18,7 @@ from app.plan.model import PlayerPlan
 from app.project.document import Change
 from app.project.edit.events import set_amounts
 from app.project.model import Project
+from widgets.common.menus import add_actions
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import MARK_PX, draw_mark, rect, shade, small_font
@@ -243,12 +244,6 @@ class RegionLane(Lane):
 
     # What happens around
 
-    def performance_changed(self) -> None:
-        self.refresh()
-
-    def players_changed(self) -> None:
-        self.refresh()
-
     def project_changed(self, change: Change) -> None:
         if change.origin is not self:
             self._end_preview()
@@ -403,10 +398,7 @@ class RegionLane(Lane):
         self.menu_entries(menu, region, mouse)
         if region is not None:
             menu.addSeparator()
-            for action_id in ("events.give_back", "edit.delete"):
-                action: QAction | None = self.session.actions.get(action_id)
-                if action is not None:
-                    menu.addAction(action)
+            add_actions(menu, self.session, ("events.give_back", "edit.delete"))
         return menu
 
     def snap(self, tick: float, mouse: LaneMouse) -> int:

@@ -21,6 +21,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QLineEdit, QMenu, QToolTip, QWidget
 
 from app.project.edit.takes import BEFORE
+from widgets.common.controls import named
 from widgets.common.icons import icon
 from widgets.common.take_times import clock_text, when_text
 from widgets.timeline.drawing import draw_text, shade, small_font
@@ -103,8 +104,7 @@ class TakeHeads(QWidget):
             return
         self._end_typing(False)
         box = self._row_box(number)
-        field = QLineEdit(take.name, self)
-        field.setObjectName("take_name_field")
+        field = named(QLineEdit(take.name, self), "take_name_field")
         field.setAccessibleName(self.tr("take_heads.name_of_take"))
         field.setGeometry(QRectF(BAR_PX + 1.0, box.center().y() - 13.0, self.width() - BAR_PX - 3.0, 26.0).toRect())
         field.selectAll()

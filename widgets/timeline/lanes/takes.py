@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRectF, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QMenu, QWidget
 
@@ -13,9 +13,12 @@ from app.project.edit.takes import BEFORE
 from app.project.model import CompSpan
 from app.score.clean import Fault
 from instrument_maps.library import all_maps
+from widgets.common.controls import named
+from widgets.common.menus import add_actions
 from widgets.common.pitch import pitch_text
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.lane import Lane, LaneMouse
+from widgets.timeline.lane import LaneMouse
+from widgets.timeline.lanes.row_lane import RowLane
 from widgets.timeline.lanes.take_drawing import STRIP_PX, TakesItem
 from widgets.timeline.lanes.take_heads import TakeHeads
 from widgets.timeline.model.take_rows import TakeRow
@@ -27,7 +30,7 @@ SHOWN_ROWS, LEAST_SHOWN_ROWS = 6, 3
 EMPTY_PX = 62
 
 
-class TakesLane(Lane):
+class TakesLane(RowLane):
     """Takes one under another. Swiping over a row takes that span from that take; where two takes meet, the edge can be
     dragged."""
 
@@ -35,11 +38,12 @@ class TakesLane(Lane):
     preferred_height_px = EMPTY_PX
     least_height_px = EMPTY_PX
     folded_at_first = True
+    row_limits_px = (LEAST_ROW_PX, MOST_ROW_PX)
+    strip_px = STRIP_PX
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
         self.model = TakesModel(session, axis)
-        self._scrolled_px = 0.0
         self.heads = TakeHeads(self)
         self.item = TakesItem(self)
         session.listening.changed.connect(self.heads.update)
@@ -137,36 +141,16 @@ class TakesLane(Lane):
 
     # Where rows lie
 
-    @property
-    def rows_rect(self) -> QRectF:
-        """The room below the strip, pixels of the plot."""
-        return self.plot_rect.adjusted(0.0, STRIP_PX, 0.0, 0.0)
+    def count_rows(self) -> int:
+        return len(self.rows)
 
-    @property
-    def row_px(self) -> float:
-        """How high a row is."""
-        room = self.rows_rect.height() / max(len(self.rows), 1)
-        return min(max(room, LEAST_ROW_PX), MOST_ROW_PX)
-
-    def row_rect(self, number: int) -> QRectF:
-        """A row, pixels of the plot."""
-        top = STRIP_PX - self._scrolled_px + number * self.row_px
-        return QRectF(0.0, top, self.plot_rect.width(), self.row_px)
+    def rows_scrolled(self) -> None:
+        self.heads.update()
 
     def row_at(self, y_px: float) -> TakeRow | None:
         """The row at a height."""
-        if y_px < STRIP_PX:
-            return None
-        number = int((y_px - STRIP_PX + self._scrolled_px) // self.row_px)
-        return self.rows[number] if 0 <= number < len(self.rows) else None
-
-    def _scroll_to(self, top_px: float) -> None:
-        most = max(len(self.rows) * self.row_px - self.rows_rect.height(), 0.0)
-        kept = min(max(top_px, 0.0), most)
-        if kept != self._scrolled_px:
-            self._scrolled_px = kept
-            self.heads.update()
-            self.update_items()
+        number = self.row_number_at(y_px)
+        return None if number is None else self.rows[number]
 
     def show_row(self, take_id: str) -> None:
         """Scroll to a take."""
@@ -175,16 +159,6 @@ class TakesLane(Lane):
             top, bottom = number * self.row_px, (number + 1) * self.row_px
             height = self.rows_rect.height()
             self._scroll_to(min(top, max(self._scrolled_px, bottom - height)))
-
-    def wheel(self, mouse: LaneMouse, steps: float) -> bool:
-        """Where there are more rows than room."""
-        if len(self.rows) * self.row_px <= self.rows_rect.height() + 0.5:
-            return False
-        self._scroll_to(self._scrolled_px - steps * self.row_px)
-        return True
-
-    def pan_y(self, by_px: float) -> None:
-        self._scroll_to(self._scrolled_px - by_px)
 
     # Edits
 
@@ -322,8 +296,7 @@ class TakesLane(Lane):
 
     def menu(self) -> QMenu:
         """What can be done with the selected take."""
-        menu = QMenu(self)
-        menu.setObjectName("takes_menu")
+        menu = named(QMenu(self), "takes_menu")
         for group in (
             ("takes.listen", "takes.listen_alone"),
             ("takes.whole", "takes.above", "takes.below", "takes.before"),
@@ -331,10 +304,7 @@ class TakesLane(Lane):
             ("takes.usual_cleaning", "takes.find_beats"),
             ("takes.remove",),
         ):
-            for action_id in group:
-                action = self.session.actions.get(action_id)
-                if action is not None:
-                    menu.addAction(action)
+            add_actions(menu, self.session, group)
             menu.addSeparator()
         return menu
 

@@ -15,6 +15,7 @@ from app.errors import Message
 from app.project.document import Change
 from app.project.edit.piece import set_offset
 from app.project.model import Project
+from widgets.common.menus import add_actions
 from widgets.common.numbers import number_text
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import Floats, draw_lines, draw_text, shade, small_font
@@ -193,10 +194,7 @@ class WaveformLane(Lane):
             menu.addAction(self.tr("waveform_lane.type_offset")).triggered.connect(
                 lambda _=False: self.double_click(mouse)
             )
-        for action_id in ("file.add_audio", "play.estimate_offset", "play.remove_recording"):
-            action = self.session.actions.get(action_id)
-            if action is not None:
-                menu.addAction(action)
+        add_actions(menu, self.session, ("file.add_audio", "play.estimate_offset", "play.remove_recording"))
         return menu
 
     def _typed(self, offset_s: float) -> None:

@@ -1,0 +1,104 @@
+"""Widgets side by side, one below another, and as a form, described in one place from the outside in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final, TypeAlias, TypeVar
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QBoxLayout, QFormLayout, QHBoxLayout, QLayout, QVBoxLayout, QWidget
+
+from widgets.common.controls import Caption
+
+STRETCH: Final = None
+"""Room that is left over."""
+Part: TypeAlias = QWidget | QLayout
+Item: TypeAlias = Part | int | tuple[Part, int] | tuple[QWidget, int, Qt.AlignmentFlag] | None
+"""A widget or layout, perhaps with its share of the room that is left over, and how it lies in its own; a gap in
+pixels; `STRETCH`."""
+Margins: TypeAlias = int | tuple[int, int, int, int]
+
+
+def in_row(
+    *items: Item, of: QWidget | None = None, margins: Margins | None = None, spacing: int | None = None
+) -> QHBoxLayout:
+    """Items from left to right.
+
+    Parameters
+    ----------
+    *items : Item
+    of : QWidget, optional
+        Whose contents they are.
+    margins : int or tuple of int, optional
+        Pixels left, above, right and below of them, or all around; the style's where None.
+    spacing : int, optional
+        Pixels between them; the style's where None.
+    """
+    return _filled(QHBoxLayout(), items, of, margins, spacing)
+
+
+def in_column(
+    *items: Item, of: QWidget | None = None, margins: Margins | None = None, spacing: int | None = None
+) -> QVBoxLayout:
+    """Items from top to bottom; parameters as of `in_row`."""
+    return _filled(QVBoxLayout(), items, of, margins, spacing)
+
+
+def in_form(rows: Mapping[str, Part], of: QWidget | None = None) -> QFormLayout:
+    """Fields below one another, each with a caption that has the text of its id; a layout's is of its first field."""
+    layout = QFormLayout()
+    layout.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+    for text_id, part in rows.items():
+        layout.addRow(Caption(text_id, _field(part)), part)
+    if of is not None:
+        of.setLayout(layout)
+    return layout
+
+
+def panel(layout: QLayout) -> QWidget:
+    """A widget with these contents."""
+    widget = QWidget()
+    widget.setLayout(layout)
+    return widget
+
+
+def _field(part: Part) -> QWidget | None:
+    if isinstance(part, QWidget):
+        return part
+    first = part.itemAt(0)
+    return None if first is None else first.widget()
+
+
+Box = TypeVar("Box", bound=QBoxLayout)
+
+
+def _filled(
+    layout: Box, items: tuple[Item, ...], of: QWidget | None, margins: Margins | None, spacing: int | None
+) -> Box:
+    if of is not None:
+        of.setLayout(layout)
+    if margins is not None:
+        layout.setContentsMargins(*((margins,) * 4 if isinstance(margins, int) else margins))
+    if spacing is not None:
+        layout.setSpacing(spacing)
+    for item in items:
+        _add(layout, item)
+    return layout
+
+
+def _add(layout: QBoxLayout, item: Item) -> None:
+    match item:
+        case None:
+            layout.addStretch(1)
+        case int():
+            layout.addSpacing(item)
+        case QWidget():
+            layout.addWidget(item)
+        case QLayout():
+            layout.addLayout(item)
+        case (QWidget() as widget, share, alignment):
+            layout.addWidget(widget, share, alignment)
+        case (QWidget() as widget, share):
+            layout.addWidget(widget, share)
+        case (QLayout() as part, share):
+            layout.addLayout(part, share)

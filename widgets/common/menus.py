@@ -1,0 +1,34 @@
+"""Menus of the table of actions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtWidgets import QMenu, QWidget
+
+from app.editor.session import Session
+from widgets.common.controls import named
+
+
+def passing_menu(parent: QWidget, name: str = "") -> QMenu:
+    """A menu that is gone when it closes."""
+    menu = named(QMenu(parent), name)
+    menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    return menu
+
+
+def add_actions(menu: QMenu, session: Session, ids: Iterable[str]) -> None:
+    """Add these actions, as far as there are any; an empty id is a line."""
+    for id in ids:
+        if id in session.actions:
+            menu.addAction(session.actions[id])
+        elif not id:
+            menu.addSeparator()
+
+
+def offer_actions(session: Session, ids: Iterable[str], parent: QWidget, name: str, at: QPoint) -> None:
+    """Open a menu of these actions at a place of the screen; see `add_actions`."""
+    menu = passing_menu(parent, name)
+    add_actions(menu, session, ids)
+    menu.popup(at)

@@ -1,0 +1,75 @@
+"""Lanes of rows of the same height, which are scrolled where there is not enough room."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QRectF
+from PySide6.QtWidgets import QWidget
+
+from app.editor.session import Session
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.lane import Lane, LaneMouse
+
+
+class RowLane(Lane):
+    """A lane of rows; the wheel, or a drag with the middle button, scrolls to those out of sight.
+
+    Attributes
+    ----------
+    row_limits_px : (int, int)
+        Class attribute: how low and how high a row may be.
+    strip_px : float
+        Class attribute: what is above the rows, and stays there.
+    """
+
+    row_limits_px = (24, 72)
+    strip_px = 0.0
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        super().__init__(session, axis, parent)
+        self._scrolled_px = 0.0
+
+    def count_rows(self) -> int:
+        """How many rows there are."""
+        raise NotImplementedError
+
+    def rows_scrolled(self) -> None:
+        """The rows are in other places."""
+
+    @property
+    def rows_rect(self) -> QRectF:
+        """The room of the rows, pixels of the plot."""
+        return self.plot_rect.adjusted(0.0, self.strip_px, 0.0, 0.0)
+
+    @property
+    def row_px(self) -> float:
+        """How high a row is."""
+        least, most = self.row_limits_px
+        return min(max(self.rows_rect.height() / max(self.count_rows(), 1), least), most)
+
+    def row_rect(self, number: int) -> QRectF:
+        """A row, pixels of the plot."""
+        top = self.strip_px - self._scrolled_px + number * self.row_px
+        return QRectF(0.0, top, self.plot_rect.width(), self.row_px)
+
+    def row_number_at(self, y_px: float) -> int | None:
+        """The number of the row at a height."""
+        number = int((y_px - self.strip_px + self._scrolled_px) // self.row_px)
+        return number if y_px >= self.strip_px and 0 <= number < self.count_rows() else None
+
+    def _scroll_to(self, top_px: float) -> None:
+        most = max(self.count_rows() * self.row_px - self.rows_rect.height(), 0.0)
+        kept = min(max(top_px, 0.0), most)
+        if kept != self._scrolled_px:
+            self._scrolled_px = kept
+            self.rows_scrolled()
+            self.update_items()
+
+    def wheel(self, mouse: LaneMouse, steps: float) -> bool:
+        """Where there are more rows than room."""
+        if self.count_rows() * self.row_px <= self.rows_rect.height() + 0.5:
+            return False
+        self._scroll_to(self._scrolled_px - steps * self.row_px)
+        return True
+
+    def pan_y(self, by_px: float) -> None:
+        self._scroll_to(self._scrolled_px - by_px)
