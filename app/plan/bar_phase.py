@@ -1,8 +1,9 @@
 """Where the bars begin that are felt: a MIDI file does not say that a piece begins with a pickup.
 
 Notes on the first beat of a bar are longer than others and the bass plays there (Lerdahl & Jackendoff, A Generative
-Theory of Tonal Music, 1983, ch. 4: metrical preference rules for long notes and a stable bass). Where the given
-bar lines fall on beats that are weaker than most, and one other beat is clearly the strongest, bars begin there.
+Theory of Tonal Music, 1983, ch. 4: metrical preference rules for long notes and a stable bass). Where nearly all long
+notes begin the same part of a beat after the given beats, the pickup is no whole number of beats. Where the bar lines
+then fall on beats that are weaker than most, and one other beat is clearly the strongest, bars begin there.
 """
 
 from __future__ import annotations
@@ -27,6 +28,12 @@ GIVEN_MOST = 0.9
 BEST_LEAST = 1.5
 CLEAR = 1.3
 """The beat that bars begin on instead has at least `BEST_LEAST`, and so many times the weight of any other."""
+LONG_UNITS = 0.75
+"""Notes of so many beats and more begin on a beat, unless they are syncopated."""
+LONG_NOTES = 8
+"""Fewer of them show no beat."""
+OFF_BEAT_SHARE = 0.8
+"""So much of the weight of long notes lies at one place between the given beats only if the beats are there."""
 
 
 def with_felt_bars(piece: Piece, lines: Sequence[LineTimes]) -> Piece:
@@ -45,13 +52,37 @@ def with_felt_bars(piece: Piece, lines: Sequence[LineTimes]) -> Piece:
     if bar % unit or np.any(np.diff(bars) != bar):
         return piece
     onsets = [written_onsets(times.onset_tick, quarter, bars) - bars[0] for times in lines]
-    beats = _weights(lines, onsets, unit, bar // unit)
+    late = _late_ticks(lines, onsets, unit)
+    beats = _weights(lines, [since - late for since in onsets], unit, bar // unit)
     best = int(np.argmax(beats))
     others = np.delete(beats, best)
     if beats[0] >= GIVEN_MOST or beats[best] < BEST_LEAST or beats[best] < CLEAR * others.max():
+        best = 0
+    if late + best == 0:
         return piece
-    felt = msgspec.structs.replace(metre, tick=metre.tick - bar + best * unit)
+    felt = msgspec.structs.replace(metre, tick=metre.tick - bar + best * unit + late)
     return msgspec.structs.replace(piece, metre_map=msgspec.structs.replace(metre_map, metres=(felt,)))
+
+
+def _late_ticks(lines: Sequence[LineTimes], onsets: Sequence[IntArray], unit_ticks: int) -> int:
+    """How long after the given beats the felt ones come: quarters of a beat, 0 unless the long notes show another.
+
+    Parameters
+    ----------
+    onsets : sequence of (N,) int64
+        As of `_weights`.
+    """
+    if unit_ticks % 4:
+        return 0
+    units = np.concatenate([(times.played_end_tick - times.onset_tick) / unit_ticks for times in lines])
+    since = np.concatenate(onsets) % unit_ticks
+    long = units >= LONG_UNITS
+    if np.count_nonzero(long) < LONG_NOTES:
+        return 0
+    weights = np.log2(1.0 + units[long])
+    shares = [float(weights[since[long] == part * unit_ticks // 4].sum()) for part in range(4)]
+    best = int(np.argmax(shares))
+    return best * unit_ticks // 4 if shares[best] >= OFF_BEAT_SHARE * float(weights.sum()) else 0
 
 
 def _weights(lines: Sequence[LineTimes], onsets: Sequence[IntArray], unit_ticks: int, count: int) -> FloatArray:

@@ -88,10 +88,10 @@ def catch_places(
     for start, end in stretches:
         found, is_enough = chain(start, end, open_ & may)
         also = start + 1 + np.flatnonzero(dropping[start + 1 : end] & may[start + 1 : end])
-        if not is_enough and len(also):
+        if len(also) and not (is_enough and (cost[found] < DROPPED_COST).all()):
             # As good as a breath before the notes that are left out, but for these.
             dropped = room.dropped[also]
-            cost[also] = place_costs(notes, times, piece, rests, also - dropped, taken, seeds)
+            cost[also] = place_costs(notes, times, piece, rests, also - dropped, taken, seeds, dropped)
             cost[also] += DROPPED_COST * dropped + slur_costs(times, rests, also)
             found, _ = chain(start, end, (open_ | dropping) & may)
         result += found

@@ -7,7 +7,7 @@ from statistics import median
 import numpy as np
 import numpy.typing as npt
 
-from app.plan.catch_lengths import CATCH_MIN_S, CATCH_NOTE_SHARE, gaps_s
+from app.plan.catch_lengths import CATCH_MIN_S, CATCH_NOTE_SHARE, MOST_DROPPED, gaps_s
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import EPSILON
 from app.plan.model import FloatArray
@@ -33,6 +33,8 @@ SQUARE = 1.0
 """Two bars after the line last came in; four bars twice as much: most phrases are as long."""
 AFTER_UPBEAT = -2.5
 """Between an upbeat and the place it leads to: never, unless the upbeat is a long note or before a rest."""
+AFTER_ENTRY = -80.0
+"""The same where the upbeat itself comes in after a rest: rather two notes are left out elsewhere."""
 BEFORE_TAIL = -7.0
 """Before a lone short note that leads to a beat, the tail of a dotted note; half a beat before a bar line is none."""
 LIKE_ENTRIES = 1.5
@@ -65,8 +67,15 @@ def place_costs(
     at: IntArray,
     taken: frozenset[str],
     seeds: Seeds,
+    dropped: IntArray | int = 0,
 ) -> FloatArray:
-    """(K,): what a breath before each of the notes ``at`` (1 and up) costs."""
+    """(K,): what a breath before each of the notes ``at`` (1 and up) costs.
+
+    Parameters
+    ----------
+    dropped : (K,) int64
+        How many notes from there on are left out for it.
+    """
     if not len(at):
         return np.zeros(0)
     duration, onsets = times.duration_s, times.onset_tick
@@ -80,7 +89,8 @@ def place_costs(
     onsets = written_onsets(onsets, piece.clock.ticks_per_quarter, bars)
     onset = onsets[at]
     strength = _strength(onsets, bars, piece.beat_ticks_at(onsets))
-    falls = strength[at - 1] - strength[at]
+    strongest = np.max([strength[at + np.minimum(dropped, more)] for more in range(MOST_DROPPED + 1)], axis=0)
+    falls = strength[at - 1] - strongest
     steps = np.diff(onsets, append=onsets[-1] + max(beat.max(), 1))
     leads_to = strength[np.minimum(at + 1, len(onsets) - 1)]
     tail = ~rest & (2 * steps[at] <= beat - (leads_to == 3)) & (leads_to > 0) & (steps[at - 1] > 2 * steps[at])
@@ -91,6 +101,7 @@ def place_costs(
     runs = steps[at - 1] <= RUNNING * beat
     # A long note or a rest ends what led to the next one; unless notes run, nothing leads to where the line comes in.
     leads = (~rest & (long < 1.0)) * (1.0 - like * ~runs)
+    good += AFTER_ENTRY * (~rest & runs & (falls < 0) & (rests[at - 1] > 0))
     # Out of running notes a breath comes after the note on the beat.
     good += SQUARE * _squareness(rests, onsets, at - runs, bars)
     good += BEFORE_UPBEAT * np.clip(falls, 0, np.where(runs, 3, 1)) + AFTER_UPBEAT * np.maximum(-falls, 0) * leads

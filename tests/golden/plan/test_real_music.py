@@ -21,6 +21,14 @@ from instrument_maps.load import bundled_maps
 ENSEMBLE = Path(__file__).parents[2] / "data" / "midi" / "ensemble"
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 CATCHES = {"breath.catch", "breath.catch_dropped", "breath.catch_dropped_two"}
+PICKUPS = {
+    "brass_quartet_lutkin_2tpt_tbn_tuba.mid": 1.0,
+    "oboe_bassoon_devienne_sonata2.mid": 0.5,
+    "orch_brandenburg2_mv1_trumpet_recorder_oboe.mid": 0.5,
+    "solo_flute_bach_partita_corrente.mid": 0.5,
+    "solo_horn_mozart_k447_mv1.mid": 1.0,
+}
+"""Quarters before the first bar line in the scores that the files were made from; the files do not say it."""
 FILES = sorted(path.name for path in ENSEMBLE.glob("*.mid"))
 
 
@@ -131,3 +139,23 @@ def test_every_rest_serves_by_the_thesis_and_no_breath_cuts_a_note(name: str) ->
                     note.onset_tick - 2 * quarter,
                     note.onset_tick - quarter,
                 )
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_no_breath_stands_before_a_downbeat_in_running_notes(name: str) -> None:
+    """Nor between the upbeat after a rest and the beat that it leads to."""
+    made = performance(name)
+    quarter = made.project.score.ticks_per_quarter
+    metres = made.project.score.metres
+    for line, plan in played(name):
+        number = {note.id: index for index, note in enumerate(line.notes)}
+        steps = [after.onset_tick - before.onset_tick for before, after in itertools.pairwise(line.notes)]
+        served = {number[event.id.split(":", 1)[1]] for event in plan.breaths if event.kind == "breath"}
+        for index in sorted(served & set(range(2, len(line.notes) - 1))):
+            metre = max(metres, key=lambda metre, at=line.notes[index].onset_tick: (metre.tick <= at, metre.tick))
+            since = line.notes[index].onset_tick - metre.tick - round(PICKUPS.get(name, 0.0) * quarter)
+            runs = steps[index - 1] <= 0.75 * quarter and steps[index - 2] == steps[index - 1] == steps[index]
+            rests = line.notes[index - 1].duration_tick < 0.5 * steps[index - 1]
+            if since % (4 * quarter * metre.numerator // metre.denominator) == 0:
+                assert rests or not runs, line.notes[index]
+                assert rests or not (index - 1 in served and steps[index - 1] <= 0.75 * quarter), line.notes[index]

@@ -42,6 +42,28 @@ def test_bars_begin_after_the_pickup(pickup: int, late_ticks: int) -> None:
     assert len(bars) == 19
 
 
+@pytest.mark.parametrize("parts", [1, 2, 3])
+def test_a_pickup_may_be_shorter_than_a_beat(parts: int) -> None:
+    """Some sixteenths, then bars of a quarter, running notes and a quarter."""
+    early = parts * TICKS // 4
+    notes = [(index * TICKS // 4, TICKS // 4, 65) for index in range(parts)]
+    for bar in range(12):
+        start = early + 3 * bar * TICKS
+        notes += [(start, TICKS, 60), *((start + step * TICKS // 4, TICKS // 4, 65 + step) for step in range(4, 8))]
+        notes.append((start + 2 * TICKS, TICKS, 67))
+    felt = with_felt_bars(piece_in(3, 4), (times_of(*notes),))
+    assert set(felt.bars(0, 36 * TICKS) % (3 * TICKS)) == {early}
+
+
+def test_syncopation_moves_no_bars() -> None:
+    """Eighth, quarter, eighth, and a half note on the beat."""
+    rhythm = ((0, 1), (1, 2), (3, 1), (4, 4))
+    notes = [(4 * bar + at, long) for bar in range(0, 32, 2) for at, long in rhythm]
+    piece = piece_in(4, 4)
+    times = times_of(*((at * TICKS // 2, long * TICKS // 2, 65) for at, long in notes))
+    assert with_felt_bars(piece, (times,)) is piece
+
+
 def test_bars_that_fit_stay() -> None:
     piece = piece_in(3, 4)
     assert with_felt_bars(piece, (waltz(0),)) is piece

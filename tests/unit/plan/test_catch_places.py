@@ -15,9 +15,9 @@ from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
 Q = 480
 
 
-def catches(notes: tuple[PlainNote, ...], lung_s: float) -> list[float]:
-    """Quarters from the start at which breaths after the first one end, at 120."""
-    clock = PlainClock()
+def catches(notes: tuple[PlainNote, ...], lung_s: float, bpm: float = 120.0) -> list[float]:
+    """Quarters from the start at which breaths after the first one end."""
+    clock = PlainClock(((0, bpm),))
     line = MonophonicPart("p", notes, valves(), PlayerParameters(lung_s=lung_s))
     plan = make_plans(piece_of(clock, (Metre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
     return [event.end_tick / Q for event in plan.breaths if event.kind == "breath"][1:]
@@ -50,6 +50,25 @@ def test_running_notes_are_breathed_between_after_the_first_of_a_bar() -> None:
     found = catches(notes, lung_s=14.0)
     assert found
     assert all(place % 4 == 0.5 for place in found)
+
+
+def test_no_upbeat_is_left_out_for_a_breath() -> None:
+    """Eighths too short to take a breath from; the first of each beat but the last is slurred to the second."""
+    slur = (10, 0, 10, 0, 10, 0, 0, 0)
+    notes = line_of(*((step * Q // 2, Q // 2 + slur[step % 8], 65 + step % 2) for step in range(256)))
+    found = catches(notes, lung_s=9.0, bpm=150.0)
+    assert len(found) >= 3
+    assert all(place % 4 for place in found)
+
+
+def test_nothing_comes_between_the_upbeat_after_a_rest_and_its_downbeat() -> None:
+    """An eighth's rest fills half the lungs, and the upbeat is longer than the sixteenths around: no phrase's end."""
+    runs = [(at * Q // 4, Q // 4, 65 + at % 5) for at in range(44)]
+    after = [(12 * Q + at * Q // 4, Q // 4, 65 + at % 5) for at in range(48)]
+    found = catches(line_of(*runs, (12 * Q - Q // 2, Q // 2, 72), *after), lung_s=7.0)
+    assert len(found) == 2
+    assert found[0] == 11.5
+    assert found[1] != 12.0
 
 
 @pytest.mark.parametrize("seed", range(3))
