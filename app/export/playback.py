@@ -81,7 +81,7 @@ class Surface:
         bones = np.flatnonzero(weights.any(axis=0))
         binds = np.asarray(mesh.world_from_bone_bind, np.float64)[bones].copy()
         binds[:, :3, 3] *= METRES
-        bone_from_mesh: FloatArray = np.linalg.inv(binds)
+        bone_from_mesh: FloatArray = np.asarray(np.linalg.inv(binds), np.float64)
         self._playback = playback
         self.skin: Skin = Skin(
             positions_m=np.asarray(mesh.vertices_cm, np.float64)[vertices] * METRES,
