@@ -12,7 +12,7 @@ import numpy as np
 from app.cli.options import Commands, add_rate_option, add_source_options, add_title_option, open_project
 from app.cli.progress import find_holds
 from app.cli.status import report_left_out
-from app.cli.summary import columns
+from app.cli.summary import columns, look_at
 from app.cli.terminal import say, say_json
 from app.encoding import shown
 from app.errors import Message
@@ -20,8 +20,8 @@ from app.messages import filled, text
 from app.messages.pitches import pitch_name
 from app.performance.cast import attempt
 from app.performance.ensemble import Performance
+from app.performance.judged import all_problems
 from app.performance.loudness import heard
-from app.performance.reach import carried_controls
 from app.plan.bends import bends
 from app.plan.line import dynamic_mark, staccato
 from app.plan.model import (
@@ -59,15 +59,7 @@ def add_command(commands: Commands) -> None:
 def inspect(arguments: argparse.Namespace) -> int:
     """Print the file's plan and name the players who have none; the exit status."""
     performance = Performance(open_project(arguments))
-    maps = performance.library.maps
-    find_holds(
-        performance,
-        [
-            player
-            for player in performance.project.players
-            if player.instrument_id in maps and carried_controls(maps[player.instrument_id])
-        ],
-    )
+    find_holds(performance, performance.project.players)
     found = inspection(performance)
     if arguments.json:
         say_json(found)
@@ -83,6 +75,7 @@ def inspection(performance: Performance) -> Table:
     # No one plans for an instrument that is not there.
     playable = attempt(project.players, performance.instrument)
     absent = {one.player.id for one in playable.left_out}
+    problems = all_problems(performance, project.players)
     return {
         "title": score.title,
         "fps": float(project.fps),
@@ -105,7 +98,7 @@ def inspection(performance: Performance) -> Table:
                 f"{player.name}: {line}"
                 for player in project.players
                 if player.id not in absent
-                for line in problem_lines(performance.plan(player).problems, score, text, player.part_id)
+                for line in problem_lines(problems[player.id], score, text, player.part_id)
             ),
         ],
         "unplayed": [
@@ -297,10 +290,7 @@ def tables(file: str, found: Table) -> list[str]:
         lines += [
             f"  {part['name']} ({_counted(part['note_count'], 'note')}): {part['reason']}" for part in found["unplayed"]
         ]
-    if found["warnings"]:
-        lines += ["", "to look at:"]
-        lines += [f"  {warning}" for warning in found["warnings"]]
-    return lines
+    return [*lines, *look_at(found["warnings"])]
 
 
 def _tempo(tempos: list[Table]) -> str:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final
 from app.cli.options import Commands, add_source_options, frame_rate, open_project, seconds, within
 from app.cli.progress import Progress, find_holds
 from app.cli.status import report_left_out
+from app.cli.summary import look_at
 from app.cli.terminal import say
 from app.errors import UsageError
 from app.messages import text
@@ -140,6 +141,7 @@ def stream(arguments: argparse.Namespace) -> int:
             _Streamed(performance, one, made[one.id], _beside(performance, one, playing.made), span, arguments, alone)
             for one in sent
         ]
+        say(*look_at([line for streamed in cast for line in streamed.warnings])[1:], stream=sys.stderr)
         for one, sender in zip(sent, senders, strict=True):
             say(f"{one.name}: {arguments.host}:{sender.address.at[1]}")
         if not is_loopback(arguments.host):
@@ -193,10 +195,13 @@ class _Streamed:
         alone: bool,
     ) -> None:
         from app.performance.cast import Performer
+        from app.performance.judged import judged_problems
         from app.performance.motion import player_motion
+        from app.plan.problem_lines import problem_lines
         from app.stream.vmc import IN_THE_MIDDLE, Sent
 
         progress = Progress(sys.stderr)
+        self.warnings: list[str] = []
         try:
             if isinstance(made, Performer):
                 self._motion: Motion = player_motion(
@@ -206,6 +211,11 @@ class _Streamed:
                 progress(0.0, performer.name)
                 self._motion = made.motion(span.fps, span.first, span.count)
             self._beside = [player_motion(performance, one, span) for one in beside]
+            played = [(made, self._motion)] if isinstance(made, Performer) else []
+            for one, motion in [*played, *zip(beside, self._beside, strict=True)]:
+                found = judged_problems(performance, one, motion)
+                lines = problem_lines(found, performance.project.score, text, one.player.part_id)
+                self.warnings += [f"{one.player.name}: {line}" for line in lines]
         finally:
             progress.clear()
         instrument = performer.instrument_id if isinstance(performer, Player) else None

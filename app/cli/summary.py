@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
+from app.contacts.bounds import GRIP_MM, TOUCH_MM, Spread
 from app.encoding import shown
-from app.export.measure import PlayerMeasures, Spread
+from app.export.measure import PlayerMeasures
 from app.export.report import (
     BONES_BOUND_MM,
     SLIDE_BOUND_MM_S,
@@ -18,7 +19,6 @@ from app.export.report import (
     failures,
 )
 from app.messages import filled, text
-from app.performance.contacts import GRIP_MM, TOUCH_MM
 
 if TYPE_CHECKING:
     from app.export.unreal.project import UnrealProject
@@ -94,10 +94,12 @@ def _judgement(report: Report) -> list[str]:
             f"  {part.name} ({filled('{count} {count:note|notes}', {'count': part.note_count})}): {part.reason}"
             for part in report.unplayed
         ]
-    if report.warnings:
-        lines += ["", "to look at:"]
-        lines += [f"  {warning}" for warning in report.warnings]
-    return lines
+    return [*lines, *look_at(report.warnings)]
+
+
+def look_at(warnings: Sequence[str]) -> list[str]:
+    """What to look at, after an empty line; nothing where all is well."""
+    return ["", "to look at:", *(f"  {warning}" for warning in warnings)] if warnings else []
 
 
 def columns(rows: Iterable[tuple[str, ...]]) -> list[str]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QObject, Signal
 
+from app.contacts.breaks import by_time
 from app.editor.listening import Listening
 from app.editor.live_players import LivePlayers
 from app.editor.recording import Recording
@@ -182,18 +183,18 @@ class Session(QObject):
                 self.select(self._selection.planned(performance.plans))
 
     def problems(self, player_id: str) -> tuple[Problem, ...]:
-        """What is wrong with a player's plan and, as far as it was made, motion, by time; the same tuple until that
-        changes, and none before there are plans. Of a dancer, who has no plan, what is wrong with the dance."""
-        plan = self._performance.plans.get(player_id) if self._performance.planned else None
-        planned, broken = () if plan is None else plan.problems, self._broken.get(player_id, ())
+        """What is wrong with a player's performance, its motion as far as it was made included, by time; the same tuple
+        until that changes, and none before there are plans. Of a dancer, who has no plan, what is wrong with the
+        dance."""
+        performance, broken = self._performance, self._broken.get(player_id, ())
+        planned = performance.problems(player_id) if performance.planned else ()
         if not broken:
             return planned
-        if plan is None:
-            return broken if player_id in self._performance.project.dancer_ids else planned
+        if not performance.planned or player_id not in performance.plans:
+            return broken if player_id in performance.project.dancer_ids else planned
         known = self._problems.get(player_id)
         if known is None or known[0] is not planned or known[1] is not broken:
-            together = tuple(sorted(planned + broken, key=lambda problem: problem.start_s))
-            known = self._problems[player_id] = (planned, broken, together)
+            known = self._problems[player_id] = (planned, broken, by_time(planned + broken))
         return known[2]
 
     def set_broken(self, broken: Mapping[str, tuple[Problem, ...]]) -> None:

@@ -8,42 +8,40 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass
 
 import msgspec
 import numpy as np
 
-from app.export.control_judge import (
+from app.contacts.bounds import (
+    FEET_MM,
+    HOVER_MM,
+    LIPS_MM,
+    PENETRATION_MM,
     BoolArray,
-    ControlJudge,
-    ControlMeasure,
     FloatArray,
-    IntArray,
-    control_values,
-    notes_of,
+    Spread,
+    bound_mm,
+    contact_name,
 )
+from app.contacts.controls import ControlMeasure, NoteFrames, notes_of
+from app.contacts.depths import HandDepths
+from app.contacts.touches import LIPS, UPPER_LIP, TouchJudge, Traces, distance_m, hole_values
 from app.export.joint_playback import JointPlayback
 from app.export.joints import anatomical_angles, angular_accelerations
-from app.export.penetration import Hands
 from app.export.playback import Playback, Surface
 from app.export.target import TargetSkeleton, normalised_target
 from app.formats.scene import Scene
-from app.performance.contacts import FEET_MM, LIPS_MM, TOUCH_MM, bound_mm
 from app.plan.model import BreathEvent, PlayerPlan
+from app.rig import quaternion
 from app.rig.fitted_instrument import mouth_opens
-from app.rig.hold import ContactFit
 from app.rig.lips import meeting
 from app.rig.model import Character
-from app.rig.stations import MOST_HOVER_M, aside_m, only_at, stations, stations_of_notes, worked_by
-from instrument_maps.model import ROOT, Contact, InstrumentMap
+from instrument_maps.model import ROOT, InstrumentMap
 from metadata.model import Body, SkeletonProfile
 
 BONES_MM = 0.01
-PENETRATION_MM = 3.0
-HOVER_MM = 1000.0 * MOST_HOVER_M
-CLEAR_MM = 3.0
-"""A finger farther than this from a hole lets it sound open; of a smaller instrument, from its smaller one."""
 JAW_OPENS = 0.05
 TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
@@ -52,22 +50,6 @@ _CHUNK = 256
 _TORSO = ("hips", "neck")
 _SOLES = ("left.foot.sole", "right.foot.sole")
 _HANDS = ("left.hand", "right.hand")
-_LIPS = "lips.contact"
-_UPPER_LIP = "lips.upper"
-
-
-class Spread(msgspec.Struct, frozen=True):
-    """A distance over frames, against its bound. With no frame there is nothing to measure and nothing is wrong."""
-
-    max_mm: float
-    p99_mm: float
-    bound_mm: float
-    frames: int
-
-    @property
-    def kept(self) -> bool:
-        """Whether the bound is kept at every frame."""
-        return self.max_mm <= self.bound_mm
 
 
 class JointMeasure(msgspec.Struct, frozen=True):
@@ -120,11 +102,10 @@ class Measured:
 
 
 @dataclass(frozen=True, eq=False)
-class _Traces:
+class _Read:
     """What the frames are asked for, over the whole file."""
 
-    landmarks: dict[str, FloatArray]
-    nodes: dict[str, FloatArray]
+    traces: Traces
     torso: FloatArray
     bone_deviation_m: FloatArray
     depth_m: FloatArray
@@ -142,6 +123,7 @@ def measure_player(
     progress: Callable[[float], None] = lambda share: None,
     target: TargetSkeleton | None = None,
     changing: Sequence[tuple[float, float]] = (),
+    out_of_reach: Set[str | None] = frozenset(),
 ) -> Measured:
     """Measure what was read back of one player's two files.
 
@@ -164,55 +146,57 @@ def measure_player(
         The skeleton the player's file is on; ours if absent.
     changing : sequence of (float, float)
         When the player changes instruments: a breath may be drawn then, with nothing at the lips.
+    out_of_reach : set of str
+        Ids of the notes that are (`app.contacts.reach`).
     """
     if player_scene.clip is None or instrument_scene.clip is None:
         raise ValueError("a file without a clip cannot be measured")
     character = meeting(character, instrument, body)
     player = Playback(player_scene, player_scene.clip)
     held = Playback(instrument_scene, instrument_scene.clip)
-    fps = player.clip.fps
-    times_s = first_frame_s + np.arange(player.clip.frames) / float(fps)
-    notes = notes_of(plan.grips, float(times_s[0]), float(times_s[-1]))
-    sounding = _within(times_s, [(note.start_s, note.end_s) for note in notes])
+    fps = float(player.clip.fps)
+    times_s = first_frame_s + np.arange(player.clip.frames) / fps
+    notes = NoteFrames(times_s, notes_of(plan.grips, float(times_s[0]), float(times_s[-1])))
+    sounding = notes.sounding
     # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
-    blowing = sounding & ~_within(times_s, [(event.start_s, event.end_s) for event in plan.breaths])
-    inhaling = [(event.start_s, event.end_s) for event in plan.breaths if event.kind == "breath"]
+    blowing = sounding & ~notes.within((event.start_s, event.end_s) for event in plan.breaths)
+    inhaling = notes.within((event.start_s, event.end_s) for event in plan.breaths if event.kind == "breath")
     joints = JointPlayback(player, target or normalised_target(character.skeleton), character)
-    traces = _trace(joints, held, character, instrument, sounding, progress)
-    unreached = {problem.note_id for problem in plan.problems if problem.message.id == "contact.out_of_reach"}
-    judge = ControlJudge(times_s, float(fps), first_frame_s, notes, unreached)
-    values = control_values(instrument, held) | _hole_values(instrument, traces)
-    working = stations_of_notes(instrument, ((note.controls, note.fingers) for note in notes))
+    found = _read(joints, held, character, instrument, sounding, progress)
+    traces = found.traces
+    values = _control_values(instrument, held) | hole_values(instrument, traces)
+    judge = TouchJudge(instrument, traces, values, notes)
+    touches = [
+        (contact, Spread.of(judge.gap_m(index)[judge.asked(index)], bound_mm(contact)))
+        for index, contact in enumerate(instrument.contacts)
+    ]
+    lips_m, upper_lip_m = traces.lips_m(instrument), traces.upper_lip_m(instrument, blowing)
     measures = PlayerMeasures(
         sounding_frames=int(sounding.sum()),
-        contacts={
-            contact_name(contact): _contact(index, instrument, traces, judge, values, sounding, working)
-            for index, contact in enumerate(instrument.contacts)
-            if contact.grip != "guide"
-        },
-        guides={
-            contact_name(contact): _contact(index, instrument, traces, judge, values, sounding, working)
-            for index, contact in enumerate(instrument.contacts)
-            if contact.grip == "guide"
-        },
-        lips=_lips(instrument, traces, blowing),
-        upper_lip_in_breaths=_lip_gap(
-            instrument, traces, blowing, _within(times_s, inhaling) & ~_within(times_s, changing)
+        contacts={contact_name(contact): spread for contact, spread in touches if contact.grip != "guide"},
+        guides={contact_name(contact): spread for contact, spread in touches if contact.grip == "guide"},
+        lips=Spread.of(np.zeros(0) if lips_m is None else lips_m[blowing], LIPS_MM),
+        upper_lip_in_breaths=Spread.of(
+            np.zeros(0) if upper_lip_m is None else upper_lip_m[inhaling & ~notes.within(changing)], LIPS_MM
         ),
-        feet={name: _drift(traces.landmarks[name]) for name in _SOLES if name in traces.landmarks},
-        bones=_spread(traces.bone_deviation_m, BONES_MM),
-        penetration=_spread(traces.depth_m[sounding], PENETRATION_MM),
+        feet={
+            name: Spread.of(distance_m(traces.marks_m[name], traces.marks_m[name][0]), FEET_MM)
+            for name in _SOLES
+            if name in traces.marks_m
+        },
+        bones=Spread.of(found.bone_deviation_m, BONES_MM),
+        penetration=Spread.of(found.depth_m[sounding], PENETRATION_MM),
         controls={
-            control.name: judge.measure(control, values[control.name])
+            control.name: notes.measure(control, values[control.name], fps, out_of_reach)
             for control in instrument.controls
             if control.name in values
         },
         limits=_limits(joints.rotations, joints.names, body, profile),
-        acceleration=_acceleration(joints.rotations, joints.names, body, profile, float(fps)),
-        breaths=_breaths(plan.breaths, times_s, joints.curve("jawOpen"), traces.torso, mouth_opens(character)),
-        hovering=_hovering(instrument, traces, judge, working),
+        acceleration=_acceleration(joints.rotations, joints.names, body, profile, fps),
+        breaths=_breaths(plan.breaths, times_s, joints.curve("jawOpen"), found.torso, mouth_opens(character)),
+        hovering={finger: Spread.of(gaps_m, HOVER_MM) for finger, gaps_m in judge.hovering_m().items()},
     )
-    return Measured(measures, traces.torso)
+    return Measured(measures, found.torso)
 
 
 def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]:
@@ -226,22 +210,23 @@ def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]
     return greatest
 
 
-def _trace(
+def _read(
     joints: JointPlayback,
     held: Playback,
     character: Character,
     instrument: InstrumentMap,
     sounding: BoolArray,
     progress: Callable[[float], None],
-) -> _Traces:
+) -> _Read:
     """One walk over all frames, a chunk at a time."""
     player = joints.playback
     frames = player.clip.frames
-    requested = {contact.part for contact in instrument.contacts} | {*_SOLES, _LIPS, _UPPER_LIP}
+    requested = {contact.part for contact in instrument.contacts} | {*_SOLES, LIPS, UPPER_LIP}
     requested &= character.landmarks.keys()
     surfaces = {name: Surface(player, *joints.surface(character.landmarks[name])) for name in sorted(requested)}
     there = [name for name in _HANDS if name in character.landmarks]
-    hands = [Hands(player, *joints.surface(character.landmarks[name]), instrument.proxy) for name in there]
+    skins = [Surface(player, *joints.surface(character.landmarks[name])).skin for name in there]
+    hands = [HandDepths(skin, instrument.proxy) for skin in skins]
     bone_of_node = {part.node: part.name for part in instrument.moving_parts} | {ROOT: held.bone_names[0]}
     node_bones = {node: held.bone_names.index(bone) for node, bone in bone_of_node.items()}
     landmarks = {name: np.empty((frames, 3)) for name in surfaces}
@@ -266,174 +251,29 @@ def _trace(
         found_m = np.linalg.norm(bones_m - bones_m[:, parents], axis=-1)
         deviation_m[span] = np.abs(found_m - lengths_m)[:, joints.rigid].max(axis=1)
         if sounding[span].any():
-            for part in hands:
-                depth_m[span] = np.maximum(
-                    depth_m[span], part.depths_m(world, {name: nodes[name][span] for name in nodes}, first, last)
-                )
+            here, morphs = {name: nodes[name][span] for name in nodes}, player.morphs(first, last)
+            depth_m[span] = np.max([part.depths_m(world, morphs, here) for part in hands], axis=0, initial=0.0)
         progress(last / frames)
-    return _Traces(landmarks, nodes, torso, deviation_m, depth_m)
+    return _Read(Traces(landmarks, nodes), torso, deviation_m, depth_m)
 
 
-def _within(times_s: FloatArray, spans: Sequence[tuple[float, float]]) -> BoolArray:
-    inside = np.zeros(len(times_s), dtype=np.bool_)
-    for start_s, end_s in spans:
-        inside[slice(*np.searchsorted(times_s, [start_s - 1e-9, end_s - 1e-9]))] = True
-    return inside
-
-
-def _spread(distances_m: FloatArray, bound_mm: float) -> Spread:
-    if not len(distances_m):
-        return Spread(0.0, 0.0, bound_mm, 0)
-    distances_mm = distances_m * 1000.0
-    return Spread(
-        round(float(distances_mm.max()), 5),
-        round(float(np.percentile(distances_mm, 99)), 5),
-        bound_mm,
-        len(distances_mm),
-    )
-
-
-def contact_name(contact: Contact | ContactFit) -> str:
-    """What a measure of a contact is called."""
-    return f"{contact.part} on {'+'.join((contact.control or contact.node, *contact.together))}"
-
-
-def _contact(
-    index: int,
-    instrument: InstrumentMap,
-    traces: _Traces,
-    judge: ControlJudge,
-    values: Mapping[str, FloatArray],
-    sounding: BoolArray,
-    working: Mapping[str, IntArray],
-) -> Spread:
-    contact = instrument.contacts[index]
-    frames = sounding
-    place = only_at(instrument)[index]
-    if contact.control is not None:
-        pressed, released = judge.working(instrument.control(contact.control), values[contact.control])
-        frames = {"always": sounding, "pressed": pressed, "released": released}[contact.when]
-    if place is not None:
-        finger, station = place
-        names = sorted({name for found in stations(instrument)[finger] for name in found.controls})
-        frames = frames & judge.kept(station, working[finger], [instrument.control(name) for name in names])
-        for control in map(instrument.control, worked_by(contact, instrument)):
-            # Of a hole without a moving part the finger itself is the measure: it closes it where it should or fails.
-            if control.motion is not None:
-                frames = frames & judge.working(control, values[control.name])[0]
-    gap_m = _gap_m(contact, instrument, traces, None if contact.control is None else judge)[frames]
-    return _spread(gap_m, bound_mm(contact))
-
-
-def _gap_m(contact: Contact, instrument: InstrumentMap, traces: _Traces, judge: ControlJudge | None) -> FloatArray:
-    """How far (F,) a part of a hand is from its touch point; aside on a hole that its note half closes."""
-    node = traces.nodes[contact.node]
-    point_m = node[:, :3, :3] @ np.asarray(contact.position_m) + node[:, :3, 3]
-    if judge is not None and contact.control is not None:
-        targets = np.nan_to_num(judge.targets_at_frames(instrument.control(contact.control)), nan=1.0)
-        point_m = point_m + np.einsum("fij,fj->fi", node[:, :3, :3], aside_m(contact, instrument, targets))
-    gap_m: FloatArray = np.linalg.norm(traces.landmarks[contact.part] - point_m, axis=1)
-    return gap_m
-
-
-def _hole_values(instrument: InstrumentMap, traces: _Traces) -> dict[str, FloatArray]:
-    """Value of every hole without a moving part (F,), from the fingers that may close it.
-
-    1 or its half where a finger lies there, 0 where none is near, NaN where one is too near to let it sound open.
-    """
+def _control_values(instrument: InstrumentMap, held: Playback) -> dict[str, FloatArray]:
+    """Value of every control that moves (F,), from where its bone is in the file."""
+    frames = held.clip.frames
+    rotations, translations_m = held.rotations(0, frames), held.translations_m(0, frames)
     result = {}
     for control in instrument.controls:
-        if control.motion is not None:
+        if control.motion is None:
             continue
-        touches = [contact for contact in instrument.contacts if control.name in worked_by(contact, instrument)]
-        if not touches:
-            # No one's finger is there: fingers that do not bend (`app.rig.fitted_instrument`).
-            continue
-        whole_m = np.min([_gap_m(contact, instrument, traces, None) for contact in touches], axis=0)
-        values = np.where(whole_m > instrument.size * CLEAR_MM / 1000.0, 0.0, np.nan)
-        if control.half_value is not None:
-            half_m = np.min([_half_gap_m(contact, instrument, traces) for contact in touches], axis=0)
-            values = np.where(half_m <= TOUCH_MM / 1000.0, control.half_value, values)
-            whole_m = np.where(half_m < whole_m, np.inf, whole_m)
-        result[control.name] = np.where(whole_m <= TOUCH_MM / 1000.0, 1.0, values)
+        bone = held.bone_names.index(control.name)
+        axis = np.asarray(control.motion.axis)
+        if control.travel_m:
+            moved_m = (translations_m[:, bone] - held.rest_m[bone]) @ axis
+            result[control.name] = moved_m / control.travel_m
+        else:
+            angles = quaternion.twist_angle(rotations[:, bone], axis)
+            result[control.name] = angles / (control.motion.angle_rad or math.nan)
     return result
-
-
-def _half_gap_m(contact: Contact, instrument: InstrumentMap, traces: _Traces) -> FloatArray:
-    node = traces.nodes[contact.node]
-    half = None if contact.control is None else instrument.control(contact.control).half_value
-    aside = aside_m(contact, instrument, np.full(1, half or 0.0))[0]
-    point_m = node[:, :3, :3] @ (np.asarray(contact.position_m) + aside) + node[:, :3, 3]
-    gap_m: FloatArray = np.linalg.norm(traces.landmarks[contact.part] - point_m, axis=1)
-    return gap_m
-
-
-def _hovering(
-    instrument: InstrumentMap, traces: _Traces, judge: ControlJudge, working: Mapping[str, IntArray]
-) -> dict[str, Spread]:
-    """How far fingers that work nothing are from the nearest of the places where they do, or from the way between two
-    of them."""
-    found = {}
-    for finger, places in stations(instrument).items():
-        touches = sorted({index for place in places if place.controls for index in place.contacts})
-        touches = [index for index in touches if only_at(instrument)[index] is not None]
-        if not touches:
-            continue
-        frames = judge.asked(working[finger] < 0)
-        parts = {instrument.contacts[index].part for index in touches}
-        points = [_point_m(instrument.contacts[index], traces)[frames] for index in touches]
-        gaps_m = [
-            _to_way_m(traces.landmarks[part][frames], points[a], points[b])
-            for part in sorted(parts)
-            for a in range(len(points))
-            for b in range(a, len(points))
-        ]
-        found[finger] = _spread(np.min(gaps_m, axis=0), HOVER_MM)
-    return found
-
-
-def _point_m(contact: Contact, traces: _Traces) -> FloatArray:
-    node = traces.nodes[contact.node]
-    point_m: FloatArray = node[:, :3, :3] @ np.asarray(contact.position_m) + node[:, :3, 3]
-    return point_m
-
-
-def _to_way_m(place_m: FloatArray, a_m: FloatArray, b_m: FloatArray) -> FloatArray:
-    """Distance (F,) of a place (F, 3) from the line between two others."""
-    way, off = b_m - a_m, place_m - a_m
-    length2 = np.maximum(np.einsum("fi,fi->f", way, way), 1e-12)
-    share = np.clip(np.einsum("fi,fi->f", off, way) / length2, 0.0, 1.0)
-    gap_m: FloatArray = np.linalg.norm(off - way * share[:, None], axis=1)
-    return gap_m
-
-
-def _rim_to(instrument: InstrumentMap, traces: _Traces, landmark: str) -> FloatArray:
-    """From the middle of the rim to a place on the lips, in the instrument's frame (F, 3)."""
-    root = traces.nodes[ROOT]
-    rim_m = root[:, :3, :3] @ np.asarray(instrument.mouthpiece.position_m) + root[:, :3, 3]
-    offset_m: FloatArray = np.einsum("fji,fj->fi", root[:, :3, :3], traces.landmarks[landmark] - rim_m)
-    return offset_m
-
-
-def _lips(instrument: InstrumentMap, traces: _Traces, blowing: BoolArray) -> Spread:
-    """How far the lips are from the rim; a head without a mouth has none to judge."""
-    if _LIPS not in traces.landmarks:
-        return _spread(np.zeros(0), LIPS_MM)
-    return _spread(np.linalg.norm(_rim_to(instrument, traces, _LIPS)[blowing], axis=1), LIPS_MM)
-
-
-def _lip_gap(instrument: InstrumentMap, traces: _Traces, playing: BoolArray, breathing: BoolArray) -> Spread:
-    """How far the rim leaves its place on the upper lip while the mouth breathes; its place is where it lies while
-    notes sound."""
-    if not playing.any() or _UPPER_LIP not in traces.landmarks:
-        return _spread(np.zeros(0), LIPS_MM)
-    offset_m = _rim_to(instrument, traces, _UPPER_LIP)
-    place_m = np.median(offset_m[playing], axis=0)
-    return _spread(np.linalg.norm(offset_m[breathing] - place_m, axis=1), LIPS_MM)
-
-
-def _drift(landmark_m: FloatArray) -> Spread:
-    return _spread(np.linalg.norm(landmark_m - landmark_m[0], axis=1), FEET_MM)
 
 
 def _limits(rotations: FloatArray, bones: Sequence[str], body: Body, profile: SkeletonProfile) -> JointMeasure:

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from app.export.joints import world_transforms
 from app.formats.scene import Clip, Scene, SkinnedMesh
 from app.rig import quaternion
+from app.rig.skinning import Skin
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.integer]
@@ -54,9 +55,13 @@ class Playback:
         """World transforms (n, J, 4, 4) of the frames ``first`` .. ``last - 1``."""
         return world_transforms(self.parents, self.translations_m(first, last), self.rotations(first, last))
 
+    def morphs(self, first: int, last: int) -> dict[str, npt.NDArray[np.floating]]:
+        """Weights (n,) of the morphs at the frames ``first`` .. ``last - 1``."""
+        return {name: np.asarray(weights)[first:last] for name, weights in self.clip.morph_weights.items()}
+
 
 class Surface:
-    """Some vertices of a mesh, ready to be deformed: linear blend skinning after the morph targets.
+    """Some vertices of a mesh, ready to be deformed.
 
     Parameters
     ----------
@@ -64,36 +69,31 @@ class Surface:
     mesh : SkinnedMesh
         One of its scene's.
     vertices : (V,) integer array
+
+    Attributes
+    ----------
+    skin : Skin
+        Its joints are the file's bones.
     """
 
     def __init__(self, playback: Playback, mesh: SkinnedMesh, vertices: IntArray) -> None:
         weights = _dense_weights(mesh, vertices, len(playback.bone_names))
-        self._bones = np.flatnonzero(weights.any(axis=0))
-        self._weights = weights[:, self._bones]
-        binds = np.asarray(mesh.world_from_bone_bind, np.float64)[self._bones].copy()
+        bones = np.flatnonzero(weights.any(axis=0))
+        binds = np.asarray(mesh.world_from_bone_bind, np.float64)[bones].copy()
         binds[:, :3, 3] *= METRES
-        self._bone_from_mesh = np.linalg.inv(binds)
-        self._positions = np.asarray(mesh.vertices_cm, np.float64)[vertices] * METRES
-        homogeneous = np.concatenate([self._positions, np.ones((len(vertices), 1))], axis=1)
-        # (4 * bones, V): one matrix product skins all vertices of all frames.
-        self._blend = np.einsum("vb,vi->biv", self._weights, homogeneous).reshape(-1, len(vertices))
-        self._morphs = _touching_morphs(playback.clip, mesh, vertices)
+        bone_from_mesh: FloatArray = np.asarray(np.linalg.inv(binds), np.float64)
+        self._playback = playback
+        self.skin: Skin = Skin(
+            positions_m=np.asarray(mesh.vertices_cm, np.float64)[vertices] * METRES,
+            joints=bones,
+            weights=weights[:, bones],
+            joint_from_mesh=bone_from_mesh[:, :3],
+            morphs=_touching_morphs(playback.clip, mesh, vertices),
+        )
 
     def positions_m(self, world: FloatArray, first: int, last: int) -> FloatArray:
         """Deformed positions (n, V, 3); ``world`` is `Playback.world` of the same frames."""
-        frames = last - first
-        world_from_mesh = (world[:, self._bones] @ self._bone_from_mesh)[:, :, :3]
-        rows = world_from_mesh.transpose(0, 2, 1, 3).reshape(frames * 3, -1)
-        result: FloatArray = (rows @ self._blend).reshape(frames, 3, -1).transpose(0, 2, 1)
-        if self._morphs:
-            moved = np.zeros((frames, len(self._positions), 3))
-            for weights, deltas_m in self._morphs:
-                moved += weights[first:last, None, None] * deltas_m
-            touched = np.flatnonzero(np.any([deltas_m.any(axis=1) for _, deltas_m in self._morphs], axis=0))
-            blended = np.tensordot(self._weights[touched], world_from_mesh[..., :3], axes=(1, 1))
-            result = result.copy()
-            result[:, touched] += np.einsum("vfij,fvj->fvi", blended, moved[:, touched])
-        return result
+        return self.skin.deformed(world, self._playback.morphs(first, last))
 
 
 def _dense_weights(mesh: SkinnedMesh, vertices: IntArray, bones: int) -> FloatArray:
@@ -106,19 +106,18 @@ def _dense_weights(mesh: SkinnedMesh, vertices: IntArray, bones: int) -> FloatAr
     return weights
 
 
-def _touching_morphs(clip: Clip, mesh: SkinnedMesh, vertices: IntArray) -> list[tuple[FloatArray, FloatArray]]:
-    """Weight curve (F,) and displacement (V, 3) in metres of every morph that moves one of the vertices."""
+def _touching_morphs(clip: Clip, mesh: SkinnedMesh, vertices: IntArray) -> dict[str, FloatArray]:
+    """Displacement (V, 3) in metres of every morph of the clip that moves one of the vertices."""
     once, copies = np.unique(vertices, return_inverse=True)
     place = np.full(len(mesh.vertices_cm), -1)
     place[once] = np.arange(len(once))
-    touching = []
+    touching = {}
     for morph in mesh.morphs:
-        curve = clip.morph_weights.get(morph.name)
         rows = place[morph.vertex_indices]
-        if curve is None or not (rows >= 0).any():
+        if morph.name not in clip.morph_weights or not (rows >= 0).any():
             continue
         deltas_m = np.zeros((len(once), 3))
         deltas_m[rows[rows >= 0]] = np.asarray(morph.position_deltas_cm, np.float64)[rows >= 0] * METRES
         if deltas_m.any():
-            touching.append((np.asarray(curve, np.float64), deltas_m[copies]))
+            touching[morph.name] = deltas_m[copies]
     return touching

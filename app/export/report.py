@@ -6,8 +6,9 @@ import math
 
 import msgspec
 
+from app.contacts.bounds import Spread, allowed_mm
 from app.export.check_skeleton import Difference
-from app.export.measure import PlayerMeasures, Spread
+from app.export.measure import PlayerMeasures
 from app.export.target import SkeletonChoice
 from app.project.casting import StagePosition
 
@@ -194,11 +195,6 @@ def _check_finite(value: object) -> None:
         raise ValueError("a report holds finite numbers only")
 
 
-def _reported(spread: Spread, missed_mm: float) -> bool:
-    """Whether a contact is off by no more than was said of its hold, and what moving hands may add."""
-    return missed_mm > 0.0 and spread.max_mm <= missed_mm + spread.bound_mm
-
-
 def failures(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
     """Names of the measures that a player's files do not keep."""
     measures = player.measures
@@ -214,9 +210,7 @@ def failures(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
         **measures.feet,
     }
     failed = [
-        name
-        for name, spread in spreads.items()
-        if not spread.kept and not _reported(spread, player.missed.get(name, 0.0))
+        name for name, spread in spreads.items() if spread.max_mm > allowed_mm(name, spread.bound_mm, player.missed)
     ]
     # What closes a hole is the finger itself: where the hold misses it, that is reported already.
     unmet = {part for touch in player.missed for part in touch.rpartition(" on ")[2].split("+")}

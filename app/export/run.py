@@ -11,16 +11,18 @@ from pathlib import Path
 
 import msgspec
 
+from app.contacts.bounds import FloatArray
+from app.contacts.hold import missed_mm
+from app.contacts.reach import unreached
 from app.encoding import shown
 from app.errors import Cancelled, Message
 from app.export.bone_names import profile_names
 from app.export.character import character_scene
-from app.export.control_judge import FloatArray
 from app.export.dancers import measure_dancer, standing_frames
 from app.export.folder import files_into
 from app.export.formats import FILE_FORMATS, Format, SettingBinding, WriteOptions
 from app.export.instrument import instrument_scene
-from app.export.measure import Measured, contact_name, greatest_correlations, measure_player
+from app.export.measure import Measured, greatest_correlations, measure_player
 from app.export.report import (
     DancerReport,
     DoubleReport,
@@ -43,12 +45,12 @@ from app.motion.model import Motion
 from app.performance.cast import Performer
 from app.performance.dancers import Dancing
 from app.performance.ensemble import Performance, changes_of
+from app.performance.judged import judged_problems
 from app.performance.motion import player_motion
+from app.plan.model import Problem
 from app.plan.problem_lines import problem_lines
 from app.project.model import Dancer
 from app.project.names import file_stems
-from app.rig.fit import INSIDE_M, missed
-from app.rig.hold import GripPose
 from metadata.load import load_skeleton
 
 Progress = Callable[[float, str], None]
@@ -98,6 +100,7 @@ def write_cast(
     stems, names = _stems(request.performance), file_names(request.performance, request.formats)
     reports: list[PlayerReport] = []
     torsos: dict[str, FloatArray] = {}
+    problems: dict[str, tuple[Problem, ...]] = {}
     dancers: list[DancerReport] = []
     everyone = len(cast.performers) + len(cast.dances)
     whole = everyone + (_SOUND_WORK if request.sound else 0.0)
@@ -111,7 +114,7 @@ def write_cast(
                 progress((done + share) / whole, name)
 
             checked = cast.targets[player.id]
-            report, measured = _export_player(
+            report, measured, found = _export_player(
                 request,
                 performer,
                 cast.doubles.get(player.id, ()),
@@ -125,6 +128,7 @@ def write_cast(
             skeleton = SkeletonReport(checked.target.choice, asset, checked.differences)
             report = msgspec.structs.replace(report, skeleton=skeleton)
             reports.append(report)
+            problems |= found
             if measured is not None:
                 torsos[player.id] = measured.torso_rad
         here = {dancer.id: dancer for dancer in request.dancers}
@@ -147,7 +151,8 @@ def write_cast(
                 progress((everyone + _SOUND_WORK * share) / whole, sound)
 
             write_sound(folder / sound, request.performance.project, request.span, mixed, stop_requested)
-        report_value = _report(request, cast, _compared(reports, cast.player_ids, torsos), tuple(dancers), wording)
+        compared = _compared(reports, cast.player_ids, torsos)
+        report_value = _report(request, cast, compared, tuple(dancers), problems, wording)
         with atomic_write(folder / REPORT) as stream:
             stream.write(encode_report(report_value))
     return report_value
@@ -201,7 +206,8 @@ def _export_player(
     names: dict[str, dict[str, str]],
     folder: Path,
     reported: Callable[[float], None],
-) -> tuple[PlayerReport, Measured | None]:
+) -> tuple[PlayerReport, Measured | None, dict[str, tuple[Problem, ...]]]:
+    """Write what a person plays; its report, what was measured, and what is wrong with it by the id of each player."""
     reported(0.0)
     performance, character, files = request.performance, performer.character, names[performer.player.id]
     requested = {name: kind for name, kind in FILE_FORMATS.items() if name in request.formats}
@@ -222,6 +228,7 @@ def _export_player(
             kind.write(folder / files[f"{held}_{name}"], scenes[held], beside)
         done += kind.work
         reported(done / work)
+    problems = {performer.player.id: judged_problems(performance, performer, motion)}
     del motion, scenes  # the files are measured, not what they were made from
     _, found = changes_of(performance, [one.player for one in (performer, *doubles)])
     changing = tuple((change.start_s, change.end_s) for change in found)
@@ -237,12 +244,13 @@ def _export_player(
         for name, kind in requested.items():
             if "instrument" in kind.holds:
                 kind.write(folder / own_files[f"instrument_{name}"], scene, beside)
+        problems[double.player.id] = judged_problems(performance, double, motion)
         del motion, scene
         own = judging.measured(double, own_files, _part_of(reported, begun, 1.0 / (1 + len(doubles))))
         reports.append(_double_report(request, double, own_files, own))
     reported(1.0)
     report = msgspec.structs.replace(_player_report(request, performer, files, measured), doubles=tuple(reports))
-    return report, measured
+    return report, measured, problems
 
 
 def _part_of(reported: Callable[[float], None], begun: float, share: float) -> Callable[[float], None]:
@@ -278,6 +286,7 @@ class _Judging:
             reported,
             self.target,
             self.changing,
+            unreached(self.request.performance.problems(performer.player.id)),
         )
 
 
@@ -290,7 +299,7 @@ def _double_report(
         part=request.performance.project.part(player).name,
         instrument=player.instrument_id,
         size=double.instrument.size,
-        missed=_missed_mm(double.hold),
+        missed=missed_mm(double.hold),
         files=files,
         notes=sum(span.shows_onset(note.start_s) for note in request.performance.plan(player).fingerings),
         measures=None if measured is None else measured.measures,
@@ -358,13 +367,6 @@ def _stems(performance: Performance) -> dict[str, str]:
     return dict(zip(names, file_stems(list(names.values())), strict=True))
 
 
-def _missed_mm(hold: GripPose) -> dict[str, float]:
-    """What a hold itself misses by how much, by the names of the measures: touches, and skin inside the instrument."""
-    found = {contact_name(one): round(1000.0 * one.distance_m, 2) for one in missed(hold)}
-    deepest_m = max((hand.penetration_m for hand in hold.hands), default=0.0)
-    return found | ({"penetration": round(1000.0 * deepest_m, 2)} if deepest_m > INSIDE_M else {})
-
-
 def _player_report(
     request: Request, performer: Performer, files: dict[str, str], measured: Measured | None
 ) -> PlayerReport:
@@ -376,7 +378,7 @@ def _player_report(
         instrument=player.instrument_id,
         character=player.character_id,
         size=performer.instrument.size,
-        missed=_missed_mm(performer.hold),
+        missed=missed_mm(performer.hold),
         posture=request.performance.instrument(player).hold.possible(player.parameters.posture),
         files=files,
         stage=stage_place(player.stage),
@@ -408,16 +410,17 @@ def _report(
     cast: ExportCast,
     players: tuple[PlayerReport, ...],
     dancers: tuple[DancerReport, ...],
+    problems: dict[str, tuple[Problem, ...]],
     wording: Callable[[Message], str],
 ) -> Report:
     project, span = request.performance.project, request.span
-    problems = [
+    warnings = [
         f"{player.name}: {line}"
         for performer in cast.performers
         for player in (performer.player, *(double.player for double in cast.doubles.get(performer.player.id, ())))
         for line in (
             *(map(wording, cast.targets[player.id].messages) if player is performer.player else ()),
-            *problem_lines(request.performance.plan(player).problems, project.score, wording, player.part_id),
+            *problem_lines(problems[player.id], project.score, wording, player.part_id),
         )
     ]
     rate = span.fps
@@ -432,7 +435,7 @@ def _report(
         bars=request.bars,
         seed=project.seed,
         players=players,
-        warnings=(*(wording(message) for message in project.score.warnings), *problems),
+        warnings=(*(wording(message) for message in project.score.warnings), *warnings),
         unplayed=tuple(
             UnplayedPart(part.name, wording(part.reason), part.note_count) for part in project.score.unplayed
         ),

@@ -15,10 +15,11 @@ from typing import Final
 
 import msgspec
 
+from app.contacts.breaks import by_time
 from app.errors import AppError, Cancelled, MapError, Message
-from app.performance.bodies import hold_now, hold_of, is_held, suited_to
+from app.performance.bodies import hold_now, is_held, suited_to
+from app.performance.body_problems import body_problems
 from app.performance.loudness import heard, note_loudness
-from app.performance.reach import posed_body, reached
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.doubling import Change, changes, first_played, held_plan
 from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
@@ -26,8 +27,7 @@ from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.plan.parameters import deciding
 from app.project.model import Player, Project
-from app.rig.character_library import bundled_characters, character_library, character_revision
-from app.rig.fit import missed
+from app.rig.character_library import character_library
 from app.score.limits import too_long
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
@@ -157,14 +157,14 @@ class Performance:
                 progress,
             )
             self.unseen = dict[str, Message]()
-            plans = {}
-            held = {player.id: self._in_hands(player, made) for player in self.project.players}
+            self._plans = {player.id: self._in_hands(player, made) for player in self.project.players}
+            problems = {}
             for player in self.project.players:
                 # Whether hands reach is found out by posing them: with many players it takes as long as planning.
                 if stop_requested():
                     raise Cancelled("work.stopped")
-                plans[player.id] = self._reported(player, held[player.id])
-            self._plans = plans
+                problems[player.id] = self._problems_of(player, self._plans[player.id])
+            self._problems = problems
             _CHECKED.update(player.parameters.choreography for player in self.project.players)
             self.__dict__["_ensemble"] = made
             self._memo.close()
@@ -188,11 +188,14 @@ class Performance:
             return False
         return True
 
-    def _in_hands(self, player: Player, made: EnsemblePlan) -> PlayerPlan | None:
-        """A player's plan; of who plays other instruments too, without what is done while this one lies aside."""
+    def _in_hands(self, player: Player, made: EnsemblePlan) -> PlayerPlan:
+        """A player's plan, empty where there is no instrument; of who plays other instruments too, without what is done
+        while this one lies aside."""
         plan = made.plans.get(player.id)
+        if plan is None:
+            return self._memo.step(f"unplayed:{player.id}", no_events, player.id, self.time_frame)
         played = [one for one in self.project.played_by(player) if one.id in made.plans]
-        if plan is None or len(played) == 1:
+        if len(played) == 1:
             return plan
         plans = {one.id: made.plans[one.id] for one in played}
         names = {one.id: one.name for one in played}
@@ -205,62 +208,33 @@ class Performance:
         }
         return self._memo.step(f"held:{player.id}", _with_parts, plan, tuple(parts), *parts.values())
 
-    def _reported(self, player: Player, plan: PlayerPlan | None) -> PlayerPlan:
-        """A player's plan with what is wrong about the player."""
-        frame = self.time_frame
-        lacking = self.lacking(player)
+    def _problems_of(self, player: Player, plan: PlayerPlan) -> tuple[Problem, ...]:
+        """What is wrong with a player's plan, and what the player lacks for it."""
+        lacking, unreached = self.lacking(player), tuple[Problem, ...]()
         if lacking:
             self.unseen[player.id] = lacking[0]
-        if plan is not None and not lacking:
-            return self._reaching(player, plan)
-        reported = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking)
-        return self._memo.step(f"problems:{player.id}", _with_problems, player.id, plan, frame, reported)
-
-    def _reaching(self, player: Player, plan: PlayerPlan) -> PlayerPlan:
-        """The plan with what the player's body has not, and what its hands do not reach."""
-        lacking: tuple[Message, ...]
-        unreached: tuple[Problem, ...] = ()
-        try:
-            held, lacking = suited_to(player, self.instrument(player))
-            if player.id in self.waiting:
-                lacking += (Message("character.hold_waiting", {}),)
-            else:
-                lacking += self._missed(player, held)
-                unreached = self._unreached(player, held, plan)
-        except AppError as error:
-            # A model or character that cannot be read is this player's problem; the others play on.
-            lacking = (error.message,)
-            self.unseen[player.id] = error.message
-        lacking += _not_danced(player)
-        if not unreached and not lacking:
-            return plan
+        else:
+            found = body_problems(
+                player, self.instrument(player), plan.fingerings, self._memo, player.id in self.waiting
+            )
+            lacking, unreached = found.lacking + _not_danced(player), found.unreached
+            if found.unseen is not None:
+                self.unseen[player.id] = found.unseen
         frame = self.time_frame
         reported = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking) + unreached
-        return self._memo.step(f"problems:{player.id}", _with_problems, player.id, plan, frame, reported)
-
-    def _missed(self, player: Player, held: InstrumentMap) -> tuple[Message, ...]:
-        """What to report about touches that a hold does not meet, as soon as it is known; those of our own bodies all
-        do."""
-        if player.character_id in bundled_characters() or not is_held(player, self.instrument(player)):
-            return ()
-        off = missed(hold_of(player, held))
-        if not off:
-            return ()
-        gap_mm = round(1000.0 * off[0].distance_m, 1)
-        return (Message("character.touches_missed", {"count": len(off), "touch": off[0].part, "gap_mm": gap_mm}),)
-
-    def _unreached(self, player: Player, held: InstrumentMap, plan: PlayerPlan) -> tuple[Problem, ...]:
-        """What the player's hands do not reach."""
-        revision = character_revision(player.character_id)
-        return self._memo.revised(
-            f"reach:{player.id}", reached, posed_body(player), held, revision, plan.fingerings
-        ).problems
+        return self._memo.step(f"problems:{player.id}", _together, reported, plan.problems)
 
     @cached_property
     def plans(self) -> dict[str, PlayerPlan]:
         """Every player's plan by player id."""
         self.prepare()
         return self._plans
+
+    def problems(self, player_id: str) -> tuple[Problem, ...]:
+        """What is wrong with a player's part of the performance, by time, before anything is seen of it: with the plan,
+        with what the player is to play it with, and with what the body does not reach. Dancers have none."""
+        self.prepare()
+        return self._problems.get(player_id, ())
 
     @cached_property
     def expressions(self) -> dict[str, Expression]:
@@ -407,10 +381,10 @@ def _with_parts(plan: PlayerPlan, names: tuple[str, ...], *values: tuple[object,
     return msgspec.structs.replace(plan, **dict(zip(names, values, strict=True)))
 
 
-def _with_problems(
-    player_id: str, plan: PlayerPlan | None, frame: TimeFrame, reported: tuple[Problem, ...]
-) -> PlayerPlan:
-    if plan is None:
-        return PlayerPlan(player_id, frame, (), (), (), (), (), (), (), reported)
-    problems = tuple(sorted(reported + plan.problems, key=lambda problem: problem.start_s))
-    return msgspec.structs.replace(plan, problems=problems)
+def no_events(player_id: str, frame: TimeFrame) -> PlayerPlan:
+    """The plan of someone for whom nothing is planned."""
+    return PlayerPlan(player_id, frame, (), (), (), (), (), (), (), ())
+
+
+def _together(reported: tuple[Problem, ...], planned: tuple[Problem, ...]) -> tuple[Problem, ...]:
+    return by_time(reported + planned) if reported else planned

@@ -19,13 +19,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from app.contacts.breaks import Break, contact_problems
+from app.contacts.judge import ContactJudge
 from app.errors import AppError, Message
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.performance.cast import Performer, performers_of
 from app.performance.chunks import Chunk, Grid, Pose, poses_of
-from app.performance.contacts import Break, ContactJudge, contact_problems
-from app.performance.ensemble import Performance
+from app.performance.ensemble import Performance, no_events
 from app.performance.motion import playing_of
 from app.plan.model import PlayerPlan, Problem
 from app.project.model import Dancer, Player
@@ -57,6 +58,8 @@ class _Track:
     player : Player or Dancer
     plan : PlayerPlan
         Of a dancer one without events.
+    known : tuple of Problem
+        What is wrong with the performance before its motion is made.
     playing : PerformanceCurves, Dancing or None
         None until it is first needed, and for who cannot play.
     chunks : dict of int to Chunk
@@ -83,6 +86,7 @@ class _Track:
 
     player: Player | Dancer
     plan: PlayerPlan
+    known: tuple[Problem, ...] = ()
     playing: PerformanceCurves | Dancing | None = None
     chunks: dict[int, Chunk] = field(default_factory=dict)
     basis: PerformanceCurves | Dancing | None = None
@@ -105,12 +109,13 @@ class _Track:
         """What is shown of a chunk's time: the best there is."""
         return self.chunks.get(index) or self.unproven.get(index) or self.outdated.get(index)
 
-    def after(self, player: Player | Dancer, plan: PlayerPlan, same_chunks: int) -> _Track:
+    def after(self, player: Player | Dancer, plan: PlayerPlan, known: tuple[Problem, ...], same_chunks: int) -> _Track:
         """The track of the same performer after an edit; chunks from ``same_chunks`` on have other frames now."""
         proven = self.playing is not None
         return _Track(
             player,
             plan,
+            known,
             basis=self.playing if proven else self.basis,
             unproven=self.chunks if proven else self.unproven,
             outdated=self.outdated,
@@ -171,16 +176,17 @@ class LiveMotion:
             same_chunks = min(grid.frames, before.grid.frames) // grid.length
             if grid.frames == before.grid.frames:
                 same_chunks = grid.chunks
-            revisions, known = performance.characters.revisions, before.performance.characters.revisions
+            revisions, before_it = performance.characters.revisions, before.performance.characters.revisions
 
             def same_body(player: Player) -> bool:
-                return revisions.get(player.character_id) == known.get(player.character_id)
+                return revisions.get(player.character_id) == before_it.get(player.character_id)
 
             def same_playing(player: Player) -> bool:
                 old = before.tracks.get(player.id)
                 return (
                     old is not None
                     and performance.plan(player) is old.plan
+                    and performance.problems(player.id) is old.known
                     and _looks_same(player, old.player)
                     and same_body(player)
                     and not player.parameters.choreography
@@ -190,22 +196,23 @@ class LiveMotion:
             unchanged = {player.id for player in project.players if same_playing(player)}
             tracks: dict[str, _Track] = {}
             for player in project.players:
-                plan, old = performance.plan(player), before.tracks.get(player.id)
+                plan, known = performance.plan(player), performance.problems(player.id)
+                old = before.tracks.get(player.id)
                 # Whoever plays several instruments moves as all of them ask.
                 whole = {one.id for one in project.played_by(player)}
                 waited = not whole.isdisjoint(before.performance.waiting)
                 if old is None or not same_frames or waited:
-                    tracks[player.id] = _Track(player, plan)
+                    tracks[player.id] = _Track(player, plan, known)
                 elif same_faces and whole <= unchanged and whole == _played_before(before, player):
                     tracks[player.id] = old
                 else:
-                    tracks[player.id] = old.after(player, plan, same_chunks)
+                    tracks[player.id] = old.after(player, plan, known, same_chunks)
             for dancer in performance.project.dancers:
                 old = before.tracks.get(dancer.id)
-                plan = PlayerPlan(dancer.id, performance.time_frame, (), (), (), (), (), (), (), ())
+                plan = no_events(dancer.id, performance.time_frame)
                 # Whether the dance is still the same is known once it is made ready.
                 kept = old is not None and same_frames and isinstance(old.player, Dancer)
-                tracks[dancer.id] = old.after(dancer, plan, same_chunks) if old and kept else _Track(dancer, plan)
+                tracks[dancer.id] = old.after(dancer, plan, (), same_chunks) if old and kept else _Track(dancer, plan)
             self._shown = _Shown(performance, grid, tracks)
             self._todo = self._unjudged = None
             self._report(self._shown)
@@ -419,7 +426,7 @@ class LiveMotion:
         """Contacts that a player breaks, or corrections that a dance does not hold."""
         if track.playing is None or isinstance(track.playing, PerformanceCurves):
             breaks = [item for index in sorted(track.breaks) for item in track.breaks[index]]
-            problems = contact_problems(breaks, track.plan)
+            problems = contact_problems(breaks, track.plan.grips, track.known)
         else:
             problems = track.playing.problems
         if problems != track.problems:

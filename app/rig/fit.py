@@ -32,7 +32,7 @@ from app.rig.grip_lean import Leaning, lean_of, leanings, whole_hand
 from app.rig.grip_problem import Problem, grip_problem, joint_angles, travel, wrist_transform
 from app.rig.grip_search import Progress, finished, no_progress, search_knots, starts
 from app.rig.grip_ways import lifted_ways
-from app.rig.hold import ContactFit, GripPose, HandHold, NodeMotion, StationTable
+from app.rig.hold import GripPose, HandHold, NodeMotion, StationTable
 from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
 from app.rig.stations import asked_together
@@ -148,14 +148,6 @@ def _fit_hand(
             break
     assert best is not None
     return best
-
-
-def missed(hold: GripPose) -> tuple[ContactFit, ...]:
-    """The touches that a hold does not meet however a player moves, the worst first: hands and instrument do not go
-    together. Those that only guide or rest are not among them."""
-    touches = [one for hand in hold.hands for one in hand.contacts if one.firm]
-    off = [one for one in touches if one.distance_m > (GRIP_M if one.control is None else TOUCH_M)]
-    return tuple(sorted(off, key=lambda one: -one.distance_m))
 
 
 def _missed(hold: HandHold, size: float) -> float:

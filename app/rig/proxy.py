@@ -9,7 +9,8 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +20,7 @@ from instrument_maps.model import Box, Capsule, Cone, Cylinder, Proxy, Ring
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.intp]
 _STEP_M = 1e-6
+_Measure = Callable[[npt.NDArray[Any], npt.NDArray[Any]], npt.NDArray[Any]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,6 +167,18 @@ def gradient(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IntArray) -
     return turned
 
 
+def signed_distance(shape: Proxy, points_m: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
+    """Signed distance (...) of points (..., 3) to one body, both in the frame of its node, in the points' precision."""
+    row, measure = _alone(shape)
+    return measure(row.astype(points_m.dtype), points_m)
+
+
+@lru_cache(maxsize=1024)
+def _alone(shape: Proxy) -> tuple[FloatArray, _Measure]:
+    """The row of a single body, and what measures such rows."""
+    return next((rows[0], measure) for rows, measure in _kinds(bodies((shape,), (shape.node,))) if len(rows))
+
+
 def _local(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IntArray) -> FloatArray:
     """Points (K, 3) in the frame of the node of a body (K,) each."""
     node = some.nodes[body]
@@ -199,15 +213,17 @@ def _measured(some: Bodies, local_m: FloatArray, body: IntArray) -> FloatArray:
     """Signed distance (K,) of points (K, 3), each to one body (K,) in the frame of its node."""
     result = np.empty(len(body))
     start = 0
-    kinds: tuple[tuple[FloatArray, Callable[[FloatArray, FloatArray], FloatArray]], ...] = (
-        (some.tapers, _taper), (some.capsules, _capsule), (some.rings, _ring), (some.boxes, _box),
-    )  # fmt: skip
-    for rows, measure in kinds:
+    for rows, measure in _kinds(some):
         hit = np.flatnonzero((body >= start) & (body < start + len(rows)))
         if len(hit):
             result[hit] = measure(rows[body[hit] - start], local_m[hit])
         start += len(rows)
     return result
+
+
+def _kinds(some: Bodies) -> tuple[tuple[FloatArray, _Measure], ...]:
+    """The rows of every kind of body in the order of the numbers, and what measures them."""
+    return (some.tapers, _taper), (some.capsules, _capsule), (some.rings, _ring), (some.boxes, _box)
 
 
 def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
@@ -234,8 +250,8 @@ def _taper(row: FloatArray, point: FloatArray) -> FloatArray:
     side_y = along - share * length
     inside = (side_x < 0.0) & (cap_y < 0.0)
     nearest = np.minimum(cap_x * cap_x + cap_y * cap_y, side_x * side_x + side_y * side_y)
-    result: FloatArray = np.where(inside, -1.0, 1.0) * np.sqrt(nearest)
-    return result
+    far: FloatArray = np.sqrt(nearest)
+    return np.where(inside, -far, far)
 
 
 def _capsule(row: FloatArray, point: FloatArray) -> FloatArray:

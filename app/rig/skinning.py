@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -19,12 +19,12 @@ IntArray = npt.NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)
-class Patch:
-    """Some vertices of a mesh, prepared for deforming.
+class Skin:
+    """Some vertices, prepared for deforming: linear blend skinning after the morph targets.
 
     Attributes
     ----------
-    positions_m, normals : (V, 3) float64
+    positions_m : (V, 3) float64
         In the mesh's bind space.
     joints : (J,) int
         Joints that carry any of the vertices.
@@ -35,11 +35,61 @@ class Patch:
     """
 
     positions_m: FloatArray
-    normals: FloatArray
     joints: IntArray
     weights: FloatArray
     joint_from_mesh: FloatArray
     morphs: Mapping[str, FloatArray]
+
+    @cached_property
+    def _blend(self) -> FloatArray:
+        """(4 * J, V): one matrix product skins all vertices of all frames."""
+        homogeneous = np.concatenate([self.positions_m, np.ones((len(self.positions_m), 1))], axis=1)
+        blend: FloatArray = np.einsum("vj,vi->jiv", self.weights, homogeneous).reshape(-1, len(self.positions_m))
+        return blend
+
+    def part(self, rows: npt.NDArray[np.integer]) -> Skin:
+        """Some of the vertices alone."""
+        weights = self.weights[rows]
+        used = np.flatnonzero(weights.any(axis=0))
+        morphs = {name: deltas[rows] for name, deltas in self.morphs.items() if deltas[rows].any()}
+        positions_m, joint_from_mesh = self.positions_m[rows], self.joint_from_mesh[used]
+        return Skin(positions_m, self.joints[used], weights[:, used], joint_from_mesh, morphs)
+
+    def deformed(
+        self, world_from_joint: FloatArray, morphs: Mapping[str, npt.NDArray[np.floating]] | None = None
+    ) -> FloatArray:
+        """Positions (F, V, 3) of the vertices, metres.
+
+        Parameters
+        ----------
+        world_from_joint : (F, A, 4, 4) float64
+            Of all joints.
+        morphs : dict of str to (F,), optional
+            Weight curves by morph name.
+        """
+        frames = len(world_from_joint)
+        world = world_from_joint[:, self.joints, :3]
+        matrices = world[..., :3] @ self.joint_from_mesh
+        matrices[..., 3] += world[..., 3]
+        rows = matrices.transpose(0, 2, 1, 3).reshape(frames * 3, -1)
+        result: FloatArray = (rows @ self._blend).reshape(frames, 3, -1).transpose(0, 2, 1)
+        shown = [(morphs[name], deltas) for name, deltas in self.morphs.items() if name in morphs] if morphs else []
+        if shown:
+            touched = np.flatnonzero(np.any([deltas.any(axis=1) for _, deltas in shown], axis=0))
+            moved = np.zeros((frames, len(touched), 3))
+            for curve, deltas in shown:
+                moved += np.asarray(curve, dtype=np.float64)[:, None, None] * deltas[touched]
+            blended = np.tensordot(self.weights[touched], matrices[..., :3], axes=(1, 1))
+            result = result.copy()
+            result[:, touched] += np.einsum("vfij,fvj->fvi", blended, moved)
+        return result
+
+
+@dataclass(frozen=True, eq=False)
+class Patch(Skin):
+    """The same with normals (V, 3)."""
+
+    normals: FloatArray
 
 
 def mesh_named(character: Character, name: str) -> Mesh:

@@ -172,7 +172,7 @@ def test_a_lost_correction_is_attached_to_another_note(panel: InspectorPanel, pl
 def test_problems_are_counted_filtered_and_opened(panel: InspectorPanel, planned: Session) -> None:
     owner, other = planned.project.players[:2]
     note = planned.project.part(other).notes[4]
-    before = sum(len(one.problems) for one in planned.performance.plans.values())
+    before = sum(len(planned.problems(player.id)) for player in planned.project.players)
     planned.attempt(NAME, lambda p: put(p, other.id, [PinFingering(note.id, "no such")]))
     planned.attempt(NAME, lambda p: put(p, owner.id, [PinFingering("77:7", "12")]))
     tabs = child(panel, QTabWidget, "inspector_tabs")

@@ -32,7 +32,7 @@ def test_very_many_problems_are_counted_and_not_all_listed(qt_app: object, qtbot
     high = replace(project, score=msgspec.structs.replace(project.score, parts=parts))
     session = Session(high, ImmediateTasks())
     performance = Performance(high)
-    count = sum(len(plan.problems) for plan in performance.plans.values())
+    count = sum(len(performance.problems(player.id)) for player in high.players)
     assert count > MOST_LINES
     shown = ProblemList(session)
     qtbot.addWidget(shown)

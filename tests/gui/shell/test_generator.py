@@ -202,6 +202,7 @@ def test_plans_that_take_longer_come_from_a_thread(
         assert session.performance.plan(player).embouchures[20].tension == 0.8
         fresh = Performance(session.project)
         assert session.performance.plans == fresh.plans
+        assert session.performance.problems(player.id) == fresh.problems(player.id)
     finally:
         generator.close()
         tasks.cancel_all(1.0)
@@ -233,7 +234,7 @@ def test_a_player_without_an_instrument_is_a_problem_and_the_others_play(
     lost = msgspec.structs.replace(first, instrument_id="serpent")
     session.apply(EDIT, replace(session.project, players=(lost, *others)))
     assert generator.up_to_date
-    assert [problem.message.id for problem in session.performance.plan(lost).problems] == ["project.instrument_missing"]
+    assert [problem.message.id for problem in session.problems(lost.id)] == ["project.instrument_missing"]
     qtbot.waitUntil(lambda: generator.ready_share == 1.0)
     assert generator.live.pose(first.id, 1.0) is None
     assert generator.live.pose_now(first.id, 1.0) is None
@@ -313,7 +314,7 @@ def test_how_a_new_body_holds_an_instrument_is_found_beside_the_window(
 
             def reported() -> list[str]:
                 player = session.project.players[0]
-                return [problem.message.id for problem in session.performance.plan(player).problems]
+                return [problem.message.id for problem in session.problems(player.id)]
 
             session.apply(EDIT, players.change(session.project, [first.id], character_id="unmarked"))
             qtbot.waitUntil(lambda: bool(where))

@@ -142,7 +142,9 @@ def performed() -> Project:
 def made(performance: Performance) -> Any:
     """Plans, or what is wrong."""
     try:
-        return performance.plans, performance.time_frame, performance.piece, performance.lines, performance.unseen
+        problems = {player.id: performance.problems(player.id) for player in performance.project.players}
+        unseen = performance.unseen
+        return performance.plans, problems, performance.time_frame, performance.piece, performance.lines, unseen
     except AppError as error:
         return error.message
 

@@ -32,6 +32,7 @@ def test_plans_after_edits_are_those_of_a_fresh_performance(data: st.DataObject)
             performance.prepare()
     fresh = Performance(project)
     assert performance.plans == fresh.plans
+    assert [performance.problems(id) for id in fresh.plans] == [fresh.problems(id) for id in fresh.plans]
     assert performance.time_frame == fresh.time_frame
     assert performance.piece == fresh.piece
     assert performance.lines == fresh.lines

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.contacts.judge import ContactJudge
 from app.export.character import character_scene
 from app.export.instrument import instrument_scene
 from app.export.measure import PlayerMeasures, measure_player
 from app.export.report import PlayerReport, StagePlace, failures
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves, prepare
-from app.performance.contacts import ContactJudge
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.rig.character_library import character_named

@@ -2,32 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Set
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-import msgspec
 import numpy as np
 import pytest
 
-from app.errors import Message
 from app.export.character import character_scene
-from app.export.control_judge import ControlJudge, notes_of
 from app.export.instrument import instrument_scene
 from app.export.measure import Measured, greatest_correlations, measure_player
-from app.export.penetration import Hands
-from app.export.playback import Playback, Surface
-from app.export.proxy import signed_distance
 from app.formats.scene import Scene
 from app.performance.bodies import body_of, character_of, model_of
 from app.performance.ensemble import Performance
 from app.performance.span import cut_span
-from app.plan.model import FingeringEvent
 from app.project.model import map_choices, project_from_score
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
-from instrument_maps.model import Control, Motion
 from metadata.load import load_skeleton
 from tests.support.performed import player_motion
 
@@ -138,38 +129,6 @@ def test_a_hand_thrust_into_the_instrument_is_found(case: Case) -> None:
     assert max(deeper) > before + 3.0
 
 
-@pytest.mark.parametrize("push_cm", [(0.6, -0.4, 0.5), (-1.0, 0.0, 0.0), (0.0, 1.0, -0.6)])
-def test_no_vertex_of_a_hand_is_left_out(case: Case, push_cm: tuple[float, float, float]) -> None:
-    """The search by groups against every vertex and every body, with the instrument pushed into the hands."""
-    scene, held = case.player_scene, moved(case.held_scene, 0, np.array(push_cm))
-    assert scene.clip is not None
-    assert held.clip is not None
-    player, instrument = Playback(scene, scene.clip), Playback(held, held.clip)
-    first, last = 40, 130
-    world, held_world = player.world(first, last), instrument.world(first, last)
-    bones = {control.node: control.name for control in case.instrument.controls}
-    nodes = {
-        node: held_world[:, instrument.bone_names.index(bones.get(node, node))]
-        for node in {body.node for body in case.instrument.proxy}
-    }
-    deepest = 0.0
-    for hand in ("left.hand", "right.hand"):
-        landmark, meshes = case.character.landmarks[hand], case.character.meshes
-        before = [mesh.name for mesh in meshes].index(landmark.mesh)
-        vertices = landmark.vertices + sum(len(mesh.positions_m) for mesh in meshes[:before])
-        mesh = scene.meshes[0]
-        found = Hands(player, mesh, vertices, case.instrument.proxy).depths_m(world, nodes, first, last)
-        points = Surface(player, mesh, vertices).positions_m(world, first, last)
-        slow = np.zeros(last - first)
-        for frame in range(0, last - first, 9):
-            for body in case.instrument.proxy:
-                local = (points[frame] - nodes[body.node][frame, :3, 3]) @ nodes[body.node][frame, :3, :3]
-                slow[frame] = max(slow[frame], -signed_distance(body, local).min())
-            assert found[frame] == pytest.approx(slow[frame], abs=1e-9)
-        deepest = max(deepest, slow.max())
-    assert deepest > 0.003
-
-
 def test_a_control_out_of_place_is_found(case: Case) -> None:
     control = case.instrument.controls[0]
     bone = [bone.name for bone in case.held_scene.bones].index(control.name)
@@ -204,74 +163,6 @@ def test_a_breath_without_a_jaw_is_missed(case: Case) -> None:
     assert after.measures.breaths.jaw_open == 0
     assert after.measures.breaths.shown == 0
     assert after.measures.breaths.torso_back == before.torso_back
-
-
-def event(start_s: float, end_s: float, value: float) -> FingeringEvent:
-    controls = {"c": value} if value else {}
-    return FingeringEvent("x", "n", 0, 1, start_s, end_s, "", 1, controls, 0.0, Message("fingering.first_choice"))
-
-
-def control(**changes: object) -> Control:
-    plain = Control("c", "press", "pitch", "right.index", "c", Motion((0.0, -1.0, 0.0), travel_m=0.016))
-    return msgspec.structs.replace(plain, **changes)
-
-
-def judge(
-    notes: list[FingeringEvent], fps: float = 10.0, first_frame_s: float = -0.05, out_of_reach: Set[str] = frozenset()
-) -> ControlJudge:
-    return ControlJudge(first_frame_s + np.arange(40) / fps, fps, first_frame_s, notes, out_of_reach)
-
-
-def test_a_note_is_judged_at_the_first_frame_at_or_after_its_onset() -> None:
-    # Onset 1.0 s lies between the frames 10 (0.95 s) and 11 (1.05 s).
-    values = np.zeros(40)
-    values[11:] = 1.0
-    assert judge([event(1.0, 2.0, 1.0)]).measure(control(), values).right == 1
-    values[11] = 0.89
-    assert judge([event(1.0, 2.0, 1.0)]).measure(control(), values).right == 0
-    values[11] = 0.9
-    assert judge([event(1.0, 2.0, 1.0)]).measure(control(), values).right == 1
-
-
-def test_short_notes_are_counted_apart() -> None:
-    found = judge([event(1.0, 1.1, 1.0), event(1.1, 2.0, 0.0)]).measure(control(), np.zeros(40))
-    assert (found.judged, found.right, found.short_notes, found.short_right) == (1, 1, 1, 0)
-
-
-def test_a_slide_is_judged_in_millimetres() -> None:
-    slide = control(kind="slide", motion=Motion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5)
-    notes = [event(1.0, 2.0, 0.5)]
-    assert judge(notes).measure(slide, np.full(40, 0.5 + 0.0049 / 0.6)).right == 1
-    assert judge(notes).measure(slide, np.full(40, 0.5 + 0.0051 / 0.6)).right == 0
-
-
-def test_what_stops_where_the_hand_ends_is_distinguished_from_what_is_wrong() -> None:
-    slide = control(kind="slide", finger="right.hand", motion=Motion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5)
-    notes, values = [event(1.0, 2.0, 0.9)], np.full(40, 0.8)
-    wrong = judge(notes).measure(slide, values)
-    assert (wrong.right, wrong.stopped_short, wrong.held_wrong, wrong.held_stopped_short) == (0, 0, 10, 0)
-    reported = judge(notes, out_of_reach={"n"}).measure(slide, values)
-    assert (reported.right, reported.stopped_short, reported.held_wrong, reported.held_stopped_short) == (0, 1, 0, 10)
-    assert reported.most_short_mm == pytest.approx(60.0)
-    # Beyond its place it is wrong all the same, and so is what no hand carries.
-    assert judge(notes, out_of_reach={"n"}).measure(slide, np.ones(40)).held_wrong == 10
-    pressed = msgspec.structs.replace(slide, finger="right.index")
-    assert judge(notes, out_of_reach={"n"}).measure(pressed, values).held_wrong == 10
-
-
-def test_leaving_too_early_is_found() -> None:
-    notes = [event(1.0, 2.0, 1.0), event(2.0, 3.0, 0.0)]
-    values = np.zeros(40)
-    values[11:20] = 1.0  # the last frame before 1.94 s is 19 (1.85 s)
-    assert judge(notes).measure(control(), values).held_wrong == 0
-    values[19] = 0.5
-    assert judge(notes).measure(control(), values).held_wrong == 1
-
-
-def test_a_slide_may_leave_the_last_note_of_a_cut_for_the_note_after_it() -> None:
-    notes = [event(0.0, 1.0, 0.0), event(1.0, 2.0, 1.0), event(2.0, 3.0, 0.0)]
-    assert notes_of(notes, 0.5, 1.9) == notes
-    assert notes_of(notes, 1.0, 2.5) == notes[1:]
 
 
 def test_sway_of_twins_and_of_strangers() -> None:

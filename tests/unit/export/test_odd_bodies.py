@@ -11,7 +11,8 @@ import msgspec
 import pytest
 
 from app.cli import main
-from app.export.measure import PlayerMeasures, Spread
+from app.contacts.bounds import Spread
+from app.export.measure import PlayerMeasures
 from app.export.report import PlayerReport, StagePlace, failures
 from instrument_maps.load import bundled_maps
 from tests.support.bodies import playing

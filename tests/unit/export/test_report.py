@@ -10,8 +10,9 @@ import msgspec
 import pytest
 
 from app.cli.summary import columns, summary
-from app.export.control_judge import ControlMeasure
-from app.export.measure import BreathMeasure, JointMeasure, PlayerMeasures, Spread
+from app.contacts.bounds import Spread
+from app.contacts.controls import ControlMeasure
+from app.export.measure import BreathMeasure, JointMeasure, PlayerMeasures
 from app.export.report import PlayerReport, Report, StagePlace, UnplayedPart, encode_report, failures
 
 

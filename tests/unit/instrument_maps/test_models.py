@@ -11,8 +11,8 @@ import numpy.typing as npt
 import pytest
 from scipy.spatial import cKDTree
 
-from app.export.proxy import signed_distance
 from app.formats.gltf import GltfModel, read_glb
+from app.rig.proxy import signed_distance
 from instrument_maps.check_model import model_problems, node_triangles
 from instrument_maps.load import bundled_maps, model_path
 from instrument_maps.model import ROOT, InstrumentMap

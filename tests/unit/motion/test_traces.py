@@ -11,11 +11,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.contacts.breaks import joined
+from app.contacts.judge import ContactJudge
 from app.motion.curve import EVERYWHERE, Trace, moves
 from app.motion.model import Motion
 from app.motion.solve import padding
 from app.performance.bodies import character_of, model_of
-from app.performance.contacts import ContactJudge, joined
 from app.performance.ensemble import Performance
 from app.performance.span import whole_span
 from app.plan.corrections import Correction, SetEmbouchure

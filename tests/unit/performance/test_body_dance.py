@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 
 from app.choreography.library import choreography_path
+from app.contacts.judge import ContactJudge
 from app.export.request import Request
 from app.export.run import export
 from app.messages import text
 from app.motion.model import Motion
 from app.performance.bodies import character_of, model_of
-from app.performance.contacts import ContactJudge
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.performance.span import bars_span, whole_span
@@ -144,7 +144,7 @@ def test_a_player_without_the_choreography_moves_as_is_generated_and_is_reported
     ):
         requested = set_body_dance(project, (player.id,), choreography)
         performance = Performance(requested)
-        assert id in [problem.message.id for problem in performance.plan(requested.player(player.id)).problems]
+        assert id in [problem.message.id for problem in performance.problems(player.id)]
         assert not performance.unseen
         assert bits(motion_of(requested, player.id, 300)) == generated
 

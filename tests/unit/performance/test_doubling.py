@@ -10,10 +10,10 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.contacts.judge import ContactJudge
 from app.motion.model import Motion
 from app.performance.bodies import character_of, lies_at
 from app.performance.cast import performer_of
-from app.performance.contacts import ContactJudge
 from app.performance.ensemble import Performance, changes_of
 from app.performance.live import LiveMotion
 from app.performance.motion import player_motion, playing_of
@@ -138,12 +138,12 @@ def test_nothing_is_planned_for_what_lies_aside_and_no_one_cues_themselves() -> 
 
 def test_too_short_a_rest_is_reported_at_the_note_that_suffers() -> None:
     performance = performed(0)
-    problems = performance.plan(performance.project.players[1]).problems
+    problems = performance.problems(performance.project.players[1].id)
     assert [problem.message.id for problem in problems] == ["doubling.rest_short"]
     assert problems[0].note_id == "1:9"
     assert not any(
         problem.message.id.startswith("doubling") for player in performed().project.players
-        for problem in performed().plan(player).problems
+        for problem in performed().problems(player.id)
     )  # fmt: skip
     assert np.isfinite(motion_of(performance, 0).rotations).all()
 

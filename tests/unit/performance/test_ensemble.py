@@ -45,7 +45,9 @@ def test_a_plan_can_be_stopped_and_begun_again() -> None:
     assert not performance.planned
     performance.prepare(progress=shares.append)
     assert shares[-1] == 1.0
-    assert performance.plans == Performance(piece()).plans
+    fresh = Performance(piece())
+    assert performance.plans == fresh.plans
+    assert [performance.problems(id) for id in fresh.plans] == [fresh.problems(id) for id in fresh.plans]
 
 
 def test_performances_do_not_hold_those_before_them() -> None:

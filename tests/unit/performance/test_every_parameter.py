@@ -75,6 +75,7 @@ def test_a_change_makes_anew_what_it_says_and_no_less(parameter: Parameter) -> N
         changed = set_parameters(old.project, (first.id,), **{parameter.name: value})
         warm, cold = Performance(changed, old), Performance(changed)
         assert warm.plans == cold.plans
+        assert [warm.problems(id) for id in cold.plans] == [cold.problems(id) for id in cold.plans]
         assert warm.plans == old.plans or parameter.decides != {"motion"}
         seen |= warm.plans != old.plans
         for player, was in zip(changed.players, old.project.players, strict=True):

@@ -11,9 +11,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from app.contacts.breaks import Break, joined
+from app.contacts.judge import ContactJudge
 from app.performance.bodies import character_of, model_of
 from app.performance.chunks import Pose
-from app.performance.contacts import Break, ContactJudge, joined
 from app.performance.play_along import PlayAlong
 from app.project.model import Player
 from app.rig import quaternion

@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from app.export.measure import CLEAR_MM
-from app.performance.contacts import bound_mm
+from app.contacts.bounds import CLEAR_MM, bound_mm
 from app.rig import proxy, quaternion, skinning
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.finger_poses import finger_rotations

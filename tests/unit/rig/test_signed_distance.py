@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from app.export.proxy import signed_distance
+from app.rig.proxy import signed_distance
 from instrument_maps.model import Box, Capsule, Cone, Cylinder, Proxy, Ring
 
 

@@ -7,15 +7,14 @@ vertices stay within its radius.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from app.export.playback import Playback, Surface
-from app.export.proxy import signed_distance
-from app.formats.scene import SkinnedMesh
+from app.rig.proxy import signed_distance
+from app.rig.skinning import Skin
 from instrument_maps.model import Proxy
 
 FloatArray = npt.NDArray[np.float64]
@@ -38,60 +37,61 @@ class _Group:
     radius_m: float
 
 
-class Hands:
-    """The vertices of both hands and the bodies they must not enter.
+class HandDepths:
+    """The skin of a hand and the bodies it must not enter.
 
     Parameters
     ----------
-    playback : Playback
-        Of the player.
-    mesh : SkinnedMesh
-    vertices : (V,) integer array
-        Those of hands and fingers.
-    proxy : sequence of Proxy
+    hand : Skin
+        Of hand and fingers.
+    bodies : sequence of Proxy
     """
 
-    def __init__(self, playback: Playback, mesh: SkinnedMesh, vertices: IntArray, proxy: Sequence[Proxy]) -> None:
-        self._surface = Surface(playback, mesh, vertices)
+    def __init__(self, hand: Skin, bodies: Sequence[Proxy]) -> None:
         self._by_node: dict[str, list[Proxy]] = {}
-        for body in proxy:
+        for body in bodies:
             self._by_node.setdefault(body.node, []).append(body)
-        positions_m = np.asarray(mesh.vertices_cm, np.float64)[vertices] / 100.0
-        strongest = np.asarray(mesh.joint_indices)[vertices, np.argmax(mesh.weights[vertices], axis=1)]
-        self._groups = [
-            _group(rows, positions_m)
-            for bone in np.unique(strongest)
-            for rows in _split(np.flatnonzero(strongest == bone), positions_m)
+        strongest = np.argmax(hand.weights, axis=1)
+        groups = [
+            _group(rows, hand.positions_m)
+            for joint in np.unique(strongest)
+            for rows in _split(np.flatnonzero(strongest == joint), hand.positions_m)
         ]
-        middles = vertices[[group.middle for group in self._groups]]
-        self._middles = Surface(playback, mesh, middles)
-        self._members = [Surface(playback, mesh, vertices[group.members]) for group in self._groups]
+        self._radii_m = np.array([group.radius_m for group in groups])
+        self._middles = hand.part(np.array([group.middle for group in groups]))
+        self._members = [hand.part(group.members) for group in groups]
 
-    def depths_m(self, world: FloatArray, nodes: dict[str, FloatArray], first: int, last: int) -> FloatArray:
-        """Greatest depth of any vertex in any body, at each frame.
+    def depths_m(
+        self,
+        world_from_joint: FloatArray,
+        morphs: Mapping[str, AnyFloatArray],
+        world_from_node: Mapping[str, FloatArray],
+    ) -> FloatArray:
+        """Greatest depth of any vertex in any body, at each of some frames.
 
         Parameters
         ----------
-        world : (n, J, 4, 4) float64
-            `Playback.world` of the player at these frames.
-        nodes : dict of str to (n, 4, 4) float64
-            World transforms of the instrument's nodes at these frames.
+        world_from_joint : (F, J, 4, 4) float64
+            Of the joints that the skin's numbers mean.
+        morphs : dict of str to (F,)
+            Weights by morph name.
+        world_from_node : dict of str to (F, 4, 4) float64
+            Of the instrument's nodes.
 
         Returns
         -------
-        (n,) float64
+        (F,) float64
             Metres, 0 where everything is outside.
         """
-        deepest = np.zeros(last - first)
-        middles = self._middles.positions_m(world, first, last)
-        node_from_world = {name: np.linalg.inv(matrix) for name, matrix in nodes.items()}
-        radii = np.array([group.radius_m for group in self._groups])
+        deepest = np.zeros(len(world_from_joint))
+        middles = self._middles.deformed(world_from_joint, morphs)
+        node_from_world = {node: np.linalg.inv(world_from_node[node]) for node in self._by_node}
         found = [
             (float(possible.max()), group, body, possible)
             for node, bodies in self._by_node.items()
             for blocks in [_Blocks(_moved(node_from_world[node], middles))]
             for body in bodies
-            for group, possible in blocks.possible_depths(body, radii)
+            for group, possible in blocks.possible_depths(body, self._radii_m)
         ]
         points: dict[int, FloatArray] = {}
         # The likely deepest first: what cannot be deeper than what was found is not looked at.
@@ -100,7 +100,7 @@ class Hands:
             if not frames.any():
                 continue
             if group not in points:
-                points[group] = self._members[group].positions_m(world, first, last)
+                points[group] = self._members[group].deformed(world_from_joint, morphs)
             local = _moved(node_from_world[body.node][frames], points[group][frames])
             deepest[frames] = np.maximum(deepest[frames], -signed_distance(body, local).min(axis=1))
         return deepest

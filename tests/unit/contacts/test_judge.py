@@ -10,10 +10,12 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.contacts.bounds import LIPS_MM
+from app.contacts.breaks import Break, contact_problems, joined
+from app.contacts.judge import ContactJudge
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.performance.bodies import character_of, model_of
-from app.performance.contacts import LIPS_MM, Break, ContactJudge, contact_problems, joined
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.performance.span import whole_span
@@ -51,7 +53,7 @@ def judged(
     playing = playing or playing_of(performance, player)
     motion = motion or playing.motion(FPS, 0, whole_span(performance.time_frame, FPS).count)
     judge = ContactJudge(playing, character_of(player), model_of(performance.instrument(player)))
-    return contact_problems(judge.breaks(motion), performance.plan(player))
+    return contact_problems(judge.breaks(motion), performance.plan(player).grips, performance.problems(player.id))
 
 
 @pytest.mark.parametrize("path", [AIR, LUTKIN], ids=["slides", "valves"])

@@ -1,24 +1,17 @@
-"""Whether controls are where the notes ask for them: at the frames of the notes, as far as they may not have left."""
+"""What the notes ask for, frame by frame, and whether controls are there as far as they may not have left."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence, Set
-from typing import TypeAlias
+from collections.abc import Iterable, Sequence, Set
+from functools import cached_property
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
-from app.export.playback import Playback
-from app.performance.contacts import in_place
+from app.contacts.bounds import BoolArray, FloatArray, IntArray, in_place
 from app.plan.model import FingeringEvent
-from app.rig import quaternion
-from instrument_maps.model import Control, InstrumentMap
-
-FloatArray: TypeAlias = npt.NDArray[np.float64]
-BoolArray: TypeAlias = npt.NDArray[np.bool_]
-IntArray: TypeAlias = npt.NDArray[np.intp]
+from instrument_maps.model import Control
 
 
 class ControlMeasure(msgspec.Struct, frozen=True):
@@ -47,64 +40,47 @@ def notes_of(notes: Sequence[FingeringEvent], first_s: float, last_s: float) -> 
     return later[: inside + 1]
 
 
-def control_values(instrument: InstrumentMap, held: Playback) -> dict[str, FloatArray]:
-    """Value of every control (F,), from where its bone is in the file."""
-    frames = held.clip.frames
-    rotations, translations_m = held.rotations(0, frames), held.translations_m(0, frames)
-    result = {}
-    for control in instrument.controls:
-        if control.motion is None:
-            continue
-        bone = held.bone_names.index(control.name)
-        axis = np.asarray(control.motion.axis)
-        if control.travel_m:
-            moved_m = (translations_m[:, bone] - held.rest_m[bone]) @ axis
-            result[control.name] = moved_m / control.travel_m
-        else:
-            angles = quaternion.twist_angle(rotations[:, bone], axis)
-            result[control.name] = angles / (control.motion.angle_rad or math.nan)
-    return result
-
-
-class ControlJudge:
-    """The notes of a file and when each is judged.
+class NoteFrames:
+    """Some frames and the notes that sound in them.
 
     Parameters
     ----------
     times_s : (F,) float64
-    fps, first_frame_s : float
+        Ascending.
     notes : sequence of FingeringEvent
-        Ordered by onset.
-    out_of_reach : set of str
-        Ids of the notes for which a hand cannot bring what it carries to its place.
+        Ordered by onset; see `notes_of`.
     """
 
-    def __init__(
-        self,
-        times_s: FloatArray,
-        fps: float,
-        first_frame_s: float,
-        notes: Sequence[FingeringEvent],
-        out_of_reach: Set[str | None] = frozenset(),
-    ) -> None:
+    def __init__(self, times_s: FloatArray, notes: Sequence[FingeringEvent]) -> None:
         self._times_s = times_s
-        self._notes = notes
-        starts = np.array([note.start_s for note in notes])
-        self._ends = np.array([note.end_s for note in notes])
-        self._frames = np.ceil((starts - first_frame_s) * fps).astype(np.int64)
-        self._inside = (self._frames >= 0) & (self._frames < len(times_s))
-        self._short = self._ends - starts < 2.0 / fps
-        self._unreached = np.array([note.note_id in out_of_reach for note in notes], dtype=np.bool_)
+        self.notes: Sequence[FingeringEvent] = notes
+        self._targets: dict[str, FloatArray] = {}
+
+    @cached_property
+    def sounding(self) -> BoolArray:
+        """Frames (F,) at which a note sounds."""
+        return self.within([(note.start_s, note.end_s) for note in self.notes])
+
+    def within(self, spans_s: Iterable[tuple[float, float]]) -> BoolArray:
+        """Frames (F,) inside any of these spans."""
+        inside = np.zeros(len(self._times_s), dtype=np.bool_)
+        for start_s, end_s in spans_s:
+            inside[self._span(start_s, end_s)] = True
+        return inside
 
     def targets(self, control: Control) -> FloatArray:
         """Value of a control that each note asks for."""
-        return np.array([note.controls.get(control.name, control.rest_value) for note in self._notes])
+        known = self._targets.get(control.name)
+        if known is None:
+            asked = [note.controls.get(control.name, control.rest_value) for note in self.notes]
+            known = self._targets[control.name] = np.array(asked)
+        return known
 
     def working(self, control: Control, values: FloatArray) -> tuple[BoolArray, BoolArray]:
         """Frames of a sounding note at which a control is away from rest as its note asks, and at rest as it asks."""
         pressed = np.zeros(len(self._times_s), dtype=np.bool_)
         released = pressed.copy()
-        for note, target in zip(self._notes, self.targets(control), strict=True):
+        for note, target in zip(self.notes, self.targets(control), strict=True):
             span = self._span(note.start_s, note.end_s)
             there = in_place(control, values[span], np.asarray(target))
             (released if target == control.rest_value else pressed)[span] |= there
@@ -132,7 +108,7 @@ class ControlJudge:
         for index in np.flatnonzero(worked == station).tolist():
             span = self._belongs(index)
             frames[span] = True
-            following = min(index + 1, len(self._notes) - 1)
+            following = min(index + 1, len(self.notes) - 1)
             leaves_s = [
                 self._leaves_s(control, values, index)
                 for control, values in targets
@@ -149,22 +125,37 @@ class ControlJudge:
             result[self._belongs(index)] = target
         return result
 
-    def measure(self, control: Control, values: FloatArray) -> ControlMeasure:
-        """Count the notes at whose judged frame a control is in place, and the frames at which it left too early."""
+    def measure(
+        self, control: Control, values: FloatArray, fps: float, out_of_reach: Set[str | None] = frozenset()
+    ) -> ControlMeasure:
+        """Count the notes at whose judged frame a control is in place, and the frames at which it left too early.
+
+        Parameters
+        ----------
+        control : Control
+        values : (F,) float64
+        fps : float
+            The frames are every one of this rate.
+        out_of_reach : set of str
+            Ids of the notes for which a hand cannot bring what it carries to its place.
+        """
         targets = self.targets(control)
-        long, short = self._inside & ~self._short, self._inside & self._short
+        starts_s, ends_s = np.array([(note.start_s, note.end_s) for note in self.notes]).reshape(-1, 2).T
+        unreached = np.array([note.note_id in out_of_reach for note in self.notes], dtype=np.bool_)
+        frames = np.ceil((starts_s - self._times_s[0]) * fps).astype(np.int64)
+        inside = (frames >= 0) & (frames < len(self._times_s))
+        is_short = ends_s - starts_s < 2.0 / fps
+        long, short = inside & ~is_short, inside & is_short
         right, stopped = np.zeros((2, len(targets)), dtype=np.bool_)
-        at_onsets = values[self._frames[self._inside]]
-        right[self._inside] = in_place(control, at_onsets, targets[self._inside])
-        stopped[self._inside] = self._stops_short(
-            control, at_onsets, targets[self._inside], self._unreached[self._inside]
-        )
+        at_onsets = values[frames[inside]]
+        right[inside] = in_place(control, at_onsets, targets[inside])
+        stopped[inside] = _stops_short(control, at_onsets, targets[inside], unreached[inside])
         held = wrong = held_stopped = 0
         most_short = 0.0
         for index in np.flatnonzero(long).tolist():
-            span = self._span(self._notes[index].start_s, self._leaves_s(control, targets, index))
+            span = self._span(self.notes[index].start_s, self._leaves_s(control, targets, index))
             there = in_place(control, values[span], targets[index])
-            short_of = self._stops_short(control, values[span], targets[index], self._unreached[index])
+            short_of = _stops_short(control, values[span], targets[index], unreached[index])
             held += len(there)
             wrong += int((~there & ~short_of).sum())
             held_stopped += int(short_of.sum())
@@ -181,28 +172,19 @@ class ControlJudge:
             most_short_mm=round(1000.0 * most_short * (control.travel_m or 0.0), 2),
         )
 
-    def _stops_short(
-        self, control: Control, values: FloatArray, targets: FloatArray, unreached: BoolArray
-    ) -> BoolArray:
-        """Where a control that carries a hand is out of its place on the near side, for a note that is out of reach."""
-        if not control.finger.endswith(".hand"):
-            return np.zeros(len(values), dtype=np.bool_)
-        near: BoolArray = np.abs(values - control.rest_value) < np.abs(targets - control.rest_value)
-        return near & unreached & ~in_place(control, values, targets)
-
     def _leaves_s(self, control: Control, targets: FloatArray, index: int) -> float:
         """The earliest time at which a control may leave the place of a note: its end, or shortly before.
 
         Where its share of the note is not enough for the way at the speed the map gives, it may take the time it
         needs: the plan flags such notes.
         """
-        note = self._notes[index]
+        note = self.notes[index]
         if index + 1 == len(targets):
             return note.end_s
         needed_s = 0.0
         if control.max_speed_m_s and control.travel_m:
             needed_s = abs(targets[index + 1] - targets[index]) * control.travel_m / control.max_speed_m_s
-        next_s = self._notes[index + 1].start_s
+        next_s = self.notes[index + 1].start_s
         # A note may sound on under the next one (legato); its control belongs to it until then only.
         end_s = min(note.end_s, next_s)
         allowed_s = max(next_s - end_s, control.move_note_share * (end_s - note.start_s))
@@ -211,9 +193,17 @@ class ControlJudge:
 
     def _belongs(self, index: int) -> slice:
         """The frames of a note, to the next one's onset at most."""
-        note = self._notes[index]
-        following_s = self._notes[index + 1].start_s if index + 1 < len(self._notes) else math.inf
+        note = self.notes[index]
+        following_s = self.notes[index + 1].start_s if index + 1 < len(self.notes) else math.inf
         return self._span(note.start_s, min(note.end_s, following_s))
 
     def _span(self, start_s: float, end_s: float) -> slice:
         return slice(*np.searchsorted(self._times_s, [start_s - 1e-9, end_s - 1e-9]))
+
+
+def _stops_short(control: Control, values: FloatArray, targets: FloatArray, unreached: BoolArray) -> BoolArray:
+    """Where a control that carries a hand is out of its place on the near side, for a note that is out of reach."""
+    if not control.finger.endswith(".hand"):
+        return np.zeros(len(values), dtype=np.bool_)
+    near: BoolArray = np.abs(values - control.rest_value) < np.abs(targets - control.rest_value)
+    return near & unreached & ~in_place(control, values, targets)

@@ -10,8 +10,8 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.contacts import reach
 from app.errors import FileError
-from app.performance import reach
 from app.performance.bodies import character_of, hold_of
 from app.performance.ensemble import Performance
 from app.performance.span import whole_span
@@ -47,8 +47,7 @@ def unreached(project: Project, player_id: str) -> set[str | None]:
 
 
 def unreached_at(performance: Performance, player: Player) -> set[str | None]:
-    problems = performance.plan(player).problems
-    return {problem.note_id for problem in problems if problem.message.id == "contact.out_of_reach"}
+    return set(reach.unreached(performance.problems(player.id)))
 
 
 def test_long_arms_reach_everything() -> None:
@@ -71,7 +70,7 @@ def test_what_is_reported_is_what_the_motion_shows(index: int) -> None:
         reached_m, _ = forward(skeleton, motion.rotations, motion.hips_m, (wrist,)).of(wrist)
         requested_m, _ = hand_targets(hand, motion.instrument_position_m, motion.instrument_rotation, motion.controls)
         assert np.linalg.norm(reached_m - requested_m, axis=1).max() < 0.001
-    problems = performance.plan(player).problems
+    problems = performance.problems(player.id)
     reported = {item.note_id: item.message.arguments for item in problems if item.message.id == "contact.out_of_reach"}
     assert bool(reported) == (index == 3)
     travel_mm = 1000.0 * performance.instrument(player).control("slide").travel_m
@@ -113,11 +112,13 @@ def test_a_model_that_cannot_be_read_is_a_problem_of_its_player_alone(monkeypatc
             raise FileError("model.invalid", file="x.glb", detail="damaged")
         return hold_of(player, instrument)
 
-    monkeypatch.setattr("app.performance.reach.hold_of", hold)
-    plans = Performance(project).plans
-    reported = {id_: [problem.message.id for problem in plan.problems] for id_, plan in plans.items()}
+    monkeypatch.setattr("app.performance.body_problems.hold_of", hold)
+    performance = Performance(project)
+    reported = {
+        player.id: [problem.message.id for problem in performance.problems(player.id)] for player in project.players
+    }
     assert reported == {player.id: ["model.invalid"] if player.id == ill else [] for player in project.players}
-    assert all(plan.fingerings for plan in plans.values())
+    assert all(plan.fingerings for plan in performance.plans.values())
 
 
 def test_after_an_edit_no_one_is_posed_again_for_places_that_were_judged(monkeypatch: pytest.MonkeyPatch) -> None:

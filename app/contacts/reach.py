@@ -6,29 +6,41 @@ a note. What the hand carries stops where the hand does (`app.motion.stop`).
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Final, NamedTuple
 
 import msgspec
 import numpy as np
 
+from app.contacts.bounds import UNREACHED_M
+from app.contacts.touches import hand_gaps_m
 from app.errors import Message
 from app.motion.perform import prepare
-from app.performance.bodies import body_of, character_of, hold_of
 from app.plan.model import FingeringEvent, PlayerPlan, Problem, TimeFrame, grips_of
 from app.plan.parameters import PlayerParameters
-from app.project.casting import StagePosition
-from app.project.model import Player
-from app.rig.hold import hand_targets
+from app.rig.hold import GripPose
+from app.rig.model import Character
 from app.rig.skeleton import forward
-from instrument_maps.model import InstrumentMap
+from instrument_maps.model import InstrumentMap, Posture
+from metadata.model import Body
 
-MOST_GAP_M = 0.005
-"""A hand may stay this far from its grip before the user sees it."""
+OUT_OF_REACH: Final = "contact.out_of_reach"
 _NOTE_S, _APART_S = 2.0, 4.0
 
 Place = tuple[tuple[str, float], ...]
 """Where the controls are that whole hands move."""
+
+
+class Holding(NamedTuple):
+    """A body that holds an instrument."""
+
+    player_id: str
+    character: Character
+    hold: GripPose
+    body: Body
+    posture: Posture
 
 
 @dataclass(frozen=True)
@@ -38,7 +50,7 @@ class Reached:
     Attributes
     ----------
     asked : tuple
-        All that the gaps depend on: player, instrument, and for every place its controls and fingers.
+        All that the gaps depend on: player and instrument, and for every place its controls and fingers.
     gaps_m : tuple of float
         Of the places, in the same order.
     problems : tuple of Problem
@@ -50,23 +62,22 @@ class Reached:
     problems: tuple[Problem, ...]
 
 
+def unreached(problems: Iterable[Problem]) -> frozenset[str | None]:
+    """Ids of the notes that are out of reach."""
+    return frozenset(problem.note_id for problem in problems if problem.message.id == OUT_OF_REACH)
+
+
 def carried_controls(instrument: InstrumentMap) -> frozenset[str]:
     """The controls that a whole hand moves, such as a slide: only of them it is looked at what a player reaches."""
     return frozenset(control.name for control in instrument.controls if control.finger.endswith(".hand"))
 
 
-def posed_body(player: Player) -> Player:
-    """The player as far as it matters to what the hands reach: whose body it is, and how it is held."""
-    posture = PlayerParameters(posture=player.parameters.posture)
-    return Player(player.id, "", "", player.instrument_id, player.character_id, posture, StagePosition(0.0, 0.0, 0.0))
-
-
 def reached(
     before: Reached | None,
-    player: Player,
+    player: object,
     instrument: InstrumentMap,
-    revision: int,
     fingerings: tuple[FingeringEvent, ...],
+    holding: Callable[[], Holding],
 ) -> Reached:
     """How far the hands come, and what they do not reach.
 
@@ -76,13 +87,13 @@ def reached(
     Parameters
     ----------
     before : Reached or None
-    player : Player
-        See `posed_body`.
+    player : object
+        What ``holding`` depends on.
     instrument : InstrumentMap
         As the player's body plays it.
-    revision : int
-        Of the player's character, whose file may change.
     fingerings : tuple of FingeringEvent
+    holding : callable
+        Asked only where someone has to be posed.
     """
     carried = carried_controls(instrument)
     if not carried:
@@ -100,18 +111,18 @@ def reached(
     for place, event in zip(places, grips, strict=True):
         examples.setdefault(place, event)
     held = tuple((place, event.controls, event.fingers) for place, event in examples.items())
-    asked = (player, instrument, revision, held)
+    asked = (player, instrument, held)
     if before is not None and before.asked == asked:
         gaps_m = before.gaps_m
     else:
-        gaps_m = tuple(_gaps_m(player, instrument, list(examples.values())))
-    far = {place: gap_m for place, gap_m in zip(examples, gaps_m, strict=True) if gap_m > MOST_GAP_M}
+        gaps_m = tuple(_gaps_m(holding(), instrument, list(examples.values())))
+    far = {place: gap_m for place, gap_m in zip(examples, gaps_m, strict=True) if gap_m > UNREACHED_M}
     problems = []
     for place, event in zip(places, grips, strict=True):
         if place in far:
             control = max(sorted(carried), key=lambda name: event.controls.get(name, 0.0))
             gap_mm = 5 * round(200.0 * far[place])
-            message = Message("contact.out_of_reach", {"label": event.label, "control": control, "gap_mm": gap_mm})
+            message = Message(OUT_OF_REACH, {"label": event.label, "control": control, "gap_mm": gap_mm})
             problems.append(Problem(message, event.note_id, event.start_s, event.end_s))
     return Reached(asked, gaps_m, tuple(problems))
 
@@ -120,7 +131,7 @@ def _place(event: FingeringEvent, carried: frozenset[str]) -> Place:
     return tuple(sorted((name, value) for name, value in event.controls.items() if name in carried))
 
 
-def _gaps_m(player: Player, instrument: InstrumentMap, examples: list[FingeringEvent]) -> list[float]:
+def _gaps_m(holding: Holding, instrument: InstrumentMap, examples: list[FingeringEvent]) -> list[float]:
     """How far a hand stays from where each fingering has its grip, metres."""
     held = tuple(
         msgspec.structs.replace(
@@ -135,10 +146,10 @@ def _gaps_m(player: Player, instrument: InstrumentMap, examples: list[FingeringE
         for index, event in enumerate(examples)
     )
     frame = TimeFrame(-_APART_S, _APART_S * len(held))
-    still = PlayerPlan(player.id, frame, held, (), (), (), (), (), (), ())
-    parameters = PlayerParameters(amplitude=0.0, posture=player.parameters.posture, sway=0.0, weight_shift=0.0)
-    character, hold = character_of(player), hold_of(player, instrument)
-    playing = prepare(still, parameters, instrument, character, hold, body_of(player), felt_beats=((0, 1),))
+    player_id, character, hold, body, posture = holding
+    still = PlayerPlan(player_id, frame, held, (), (), (), (), (), (), ())
+    parameters = PlayerParameters(amplitude=0.0, posture=posture, sway=0.0, weight_shift=0.0)
+    playing = prepare(still, parameters, instrument, character, hold, body, felt_beats=((0, 1),))
     # One frame in the middle of each note.
     fps = Fraction(1, round(_NOTE_S / 2.0))
     motion = playing.motion(fps, 0, round((frame.end_s - frame.first_frame_s) * fps))
@@ -150,15 +161,10 @@ def _gaps_m(player: Player, instrument: InstrumentMap, examples: list[FingeringE
         for control in instrument.controls
     }
     gaps = np.zeros(len(held))
+    place_m = motion.instrument_position_m[frames].astype(np.float64)
+    turn = motion.instrument_rotation[frames].astype(np.float64)
     for hand in hold.hands:
         wrist = skeleton.index(f"{hand.side}Hand")
         joints = forward(skeleton, motion.rotations[frames].astype(np.float64), motion.hips_m[frames], (wrist,))
-        reached_m, _ = joints.of(wrist)
-        requested_m, _ = hand_targets(
-            hand,
-            motion.instrument_position_m[frames].astype(np.float64),
-            motion.instrument_rotation[frames].astype(np.float64),
-            asked,
-        )
-        gaps = np.maximum(gaps, np.linalg.norm(reached_m - requested_m, axis=1))
+        gaps = np.maximum(gaps, hand_gaps_m(hand, joints.of(wrist)[0], place_m, turn, asked))
     return [float(gap) for gap in gaps]

@@ -1,0 +1,82 @@
+"""How far off what touches may be: declared here, and read by whoever judges."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TypeAlias
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.rig.fit import GRIP_M, INSIDE_M, TOUCH_M
+from app.rig.hold import ContactFit
+from app.rig.stations import MOST_HOVER_M
+from instrument_maps.model import Contact, Control
+
+FloatArray: TypeAlias = npt.NDArray[np.float64]
+BoolArray: TypeAlias = npt.NDArray[np.bool_]
+IntArray: TypeAlias = npt.NDArray[np.intp]
+
+TOUCH_MM, GRIP_MM, PENETRATION_MM = 1000.0 * TOUCH_M, 1000.0 * GRIP_M, 1000.0 * INSIDE_M
+LIPS_MM = 2.0
+FEET_MM = 1.0
+HOVER_MM = 1000.0 * MOST_HOVER_M
+CLEAR_MM = 3.0
+"""A finger farther than this from a hole lets it sound open; of a smaller instrument, from its smaller one."""
+PRESSED = 0.9
+"""A control is where it should be within a tenth of its travel ..."""
+SLIDE_M = 0.005
+"""... or, where it slides, within this distance."""
+MOVED_MM = 1.0
+"""A hand that is farther from its place takes its fingers with it: what they miss is the hand's matter."""
+UNREACHED_M = 0.005
+"""A hand may stay this far from its grip before the user sees it."""
+
+
+class Spread(msgspec.Struct, frozen=True):
+    """A distance over frames, against its bound. With no frame there is nothing to measure and nothing is wrong."""
+
+    max_mm: float
+    p99_mm: float
+    bound_mm: float
+    frames: int
+
+    @classmethod
+    def of(cls, distances_m: FloatArray, bound_mm: float) -> Spread:
+        """Of distances (F,)."""
+        if not len(distances_m):
+            return cls(0.0, 0.0, bound_mm, 0)
+        distances_mm = distances_m * 1000.0
+        most, nearly = float(distances_mm.max()), float(np.percentile(distances_mm, 99))
+        return cls(round(most, 5), round(nearly, 5), bound_mm, len(distances_mm))
+
+    @property
+    def kept(self) -> bool:
+        """Whether the bound is kept at every frame."""
+        return self.max_mm <= self.bound_mm
+
+
+def bound_mm(contact: Contact) -> float:
+    """How far a contact of a map may be off."""
+    touches = contact.control is not None and contact.grip == "firm"
+    return TOUCH_MM if touches and not contact.part.endswith(("palm", "thumb_web")) else GRIP_MM
+
+
+def allowed_mm(name: str, bound_mm: float, missed: Mapping[str, float]) -> float:
+    """How far off a contact may be before it is reported: what its hold misses was reported (`app.contacts.hold`), and
+    moving hands may add the bound."""
+    return bound_mm + missed.get(name, 0.0)
+
+
+def contact_name(contact: Contact | ContactFit) -> str:
+    """What a measure of a contact is called."""
+    return f"{contact.part} on {'+'.join((contact.control or contact.node, *contact.together))}"
+
+
+def in_place(control: Control, values: FloatArray, targets: FloatArray) -> BoolArray:
+    """Whether values of a control are near enough to their targets."""
+    off = np.abs(values - targets)
+    if control.kind == "slide" and control.travel_m:
+        return off * control.travel_m <= SLIDE_M
+    return off <= 1.0 - PRESSED + 1e-9

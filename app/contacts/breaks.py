@@ -1,0 +1,147 @@
+"""Contacts that are not kept for a while, and the problems that they are.
+
+Messages, all problems of a player's motion: ``contact.hand_off`` (side, gap_mm): "the {side} hand comes off ...";
+``contact.finger_off`` (touch, control, gap_mm): "the {touch} misses {control} ..."; ``contact.grip_off`` (touch,
+gap_mm): "the {touch} does not touch ..."; ``contact.stops_short`` (control, side,
+gap_mm): "{control} stops {gap_mm} mm short ..."; ``contact.lips_off`` (gap_mm): "the lips are {gap_mm} mm off ...";
+``contact.foot_off`` (side, gap_mm): "the {side} foot leaves its place ...".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from app.contacts.bounds import BoolArray, FloatArray
+from app.contacts.reach import OUT_OF_REACH
+from app.errors import Message
+from app.plan.model import FingeringEvent, Problem
+
+JUDGED_PER_S = 15
+"""So many frames of a second are looked at: no body leaves a contact and is back sooner."""
+APART_S = 0.5
+"""Two breaks of one contact that are nearer than this are one."""
+
+Kind = Literal["hand", "short", "touch", "lips", "foot"]
+
+
+@dataclass(frozen=True)
+class Break:
+    """A contact that is not kept for a while.
+
+    Attributes
+    ----------
+    kind : str
+    part : str
+        Side of a hand or foot; part of a hand that touches; empty for the lips.
+    control : str
+        What the touch works or, where it stops short, the hand carries; else empty.
+    start_s, end_s : float
+    gap_m : float
+        The farthest.
+    """
+
+    kind: Kind
+    part: str
+    control: str
+    start_s: float
+    end_s: float
+    gap_m: float
+
+    @property
+    def contact(self) -> tuple[str, str, str]:
+        """Which contact it is."""
+        return self.kind, self.part, self.control
+
+
+def runs(contact: tuple[Kind, str, str], times_s: FloatArray, gaps_m: FloatArray, broken: BoolArray) -> Iterator[Break]:
+    """The spans of broken frames (F,)."""
+    if not broken.any():
+        return
+    indices = np.flatnonzero(broken)
+    apart = np.flatnonzero(np.diff(times_s[indices]) > APART_S) + 1
+    for run in np.split(indices, apart):
+        yield Break(*contact, float(times_s[run[0]]), float(times_s[run[-1]]), float(gaps_m[run].max()))
+
+
+def contact_problems(
+    breaks: Iterable[Break], grips: Sequence[FingeringEvent], known: Iterable[Problem]
+) -> tuple[Problem, ...]:
+    """A problem for every while that a contact is broken, in the order of time.
+
+    Parameters
+    ----------
+    breaks : iterable of Break
+    grips : sequence of FingeringEvent
+        Of the player's plan.
+    known : iterable of Problem
+        What is reported of the player: a control that stops short of a note that is out of reach is a problem of that
+        note already (`app.contacts.reach`), and is not reported again.
+    """
+    problems = []
+    reported = _united(
+        [
+            (problem.start_s - APART_S, problem.end_s + APART_S)
+            for problem in known
+            if problem.message.id == OUT_OF_REACH
+        ]
+    )
+    starts_s = np.array([event.start_s for event in grips])
+    for found in joined(breaks):
+        if found.kind == "short" and any(
+            start_s <= found.start_s and found.end_s <= end_s for start_s, end_s in reported
+        ):
+            continue
+        note_id = None
+        if found.kind != "foot":
+            index = max(int(np.searchsorted(starts_s, found.start_s + 1e-9, side="right")) - 1, 0)
+            note_id = grips[index].note_id
+        end_s = found.end_s + 1.0 / JUDGED_PER_S
+        problems.append(Problem(_message(found), note_id, found.start_s, end_s))
+    return by_time(problems)
+
+
+def by_time(problems: Iterable[Problem]) -> tuple[Problem, ...]:
+    """Problems in the order of time."""
+    return tuple(sorted(problems, key=lambda problem: problem.start_s))
+
+
+def _united(spans_s: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    result: list[tuple[float, float]] = []
+    for start_s, end_s in sorted(spans_s):
+        if result and start_s <= result[-1][1]:
+            result[-1] = (result[-1][0], max(result[-1][1], end_s))
+        else:
+            result.append((start_s, end_s))
+    return result
+
+
+def joined(breaks: Iterable[Break]) -> list[Break]:
+    """Breaks of one contact that follow one another, as one."""
+    result: list[Break] = []
+    for item in sorted(breaks, key=lambda item: (*item.contact, item.start_s)):
+        last = result[-1] if result else None
+        if last is not None and last.contact == item.contact and item.start_s - last.end_s <= APART_S:
+            end_s, gap_m = max(last.end_s, item.end_s), max(last.gap_m, item.gap_m)
+            result[-1] = Break(last.kind, last.part, last.control, last.start_s, end_s, gap_m)
+        else:
+            result.append(item)
+    return result
+
+
+def _message(found: Break) -> Message:
+    gap_mm = round(1000.0 * found.gap_m)
+    if found.kind == "hand":
+        return Message("contact.hand_off", {"side": found.part, "gap_mm": gap_mm})
+    if found.kind == "short":
+        return Message("contact.stops_short", {"control": found.control, "side": found.part, "gap_mm": gap_mm})
+    if found.kind == "lips":
+        return Message("contact.lips_off", {"gap_mm": gap_mm})
+    if found.kind == "foot":
+        return Message("contact.foot_off", {"side": found.part, "gap_mm": gap_mm})
+    if found.control:
+        return Message("contact.finger_off", {"touch": found.part, "control": found.control, "gap_mm": gap_mm})
+    return Message("contact.grip_off", {"touch": found.part, "gap_mm": gap_mm})

@@ -1,0 +1,34 @@
+"""What a hold itself misses, however its player moves: hands and instrument do not go together.
+
+Messages: ``character.touches_missed`` (count, touch, gap_mm): "{count} contact points do not reach ...".
+"""
+
+from __future__ import annotations
+
+from app.contacts.bounds import contact_name
+from app.errors import Message
+from app.rig.fit import GRIP_M, INSIDE_M, TOUCH_M
+from app.rig.hold import ContactFit, GripPose
+
+
+def missed(hold: GripPose) -> tuple[ContactFit, ...]:
+    """The touches that a hold does not meet, the worst first. Those that only guide or rest are not among them."""
+    touches = [one for hand in hold.hands for one in hand.contacts if one.firm]
+    off = [one for one in touches if one.distance_m > (GRIP_M if one.control is None else TOUCH_M)]
+    return tuple(sorted(off, key=lambda one: -one.distance_m))
+
+
+def missed_mm(hold: GripPose) -> dict[str, float]:
+    """By how much, by the names of the measures: touches, and skin inside the instrument."""
+    found = {contact_name(one): round(1000.0 * one.distance_m, 2) for one in missed(hold)}
+    deepest_m = max((hand.penetration_m for hand in hold.hands), default=0.0)
+    return found | ({"penetration": round(1000.0 * deepest_m, 2)} if deepest_m > INSIDE_M else {})
+
+
+def missed_message(hold: GripPose) -> Message | None:
+    """What to report about the touches; None where all are met."""
+    off = missed(hold)
+    if not off:
+        return None
+    gap_mm = round(1000.0 * off[0].distance_m, 1)
+    return Message("character.touches_missed", {"count": len(off), "touch": off[0].part, "gap_mm": gap_mm})

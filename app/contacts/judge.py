@@ -1,0 +1,132 @@
+"""Where a player's made motion breaks a contact: lips, hands, single fingers and feet, judged as an export is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from app.contacts.bounds import (
+    FEET_MM,
+    GRIP_MM,
+    LIPS_MM,
+    MOVED_MM,
+    SLIDE_M,
+    BoolArray,
+    FloatArray,
+    IntArray,
+    allowed_mm,
+    bound_mm,
+    contact_name,
+)
+from app.contacts.breaks import JUDGED_PER_S, Break, runs
+from app.contacts.controls import NoteFrames
+from app.contacts.hold import missed_mm
+from app.contacts.touches import LIPS, TouchJudge, Traces, distance_m, hand_gaps_m, world_from_nodes
+from app.motion.model import Motion
+from app.motion.perform import PerformanceCurves
+from app.rig.hold import hand_targets
+from app.rig.instrument import node_transforms
+from app.rig.lips import meeting
+from app.rig.model import Character, InstrumentModel
+from app.rig.skeleton import forward
+from app.rig.skinning import landmark_joints, landmark_positions
+
+
+class ContactJudge:
+    """Judges the motion that is made from one player's curves.
+
+    Parameters
+    ----------
+    playing : PerformanceCurves
+    character : Character
+    model : InstrumentModel
+    """
+
+    def __init__(self, playing: PerformanceCurves, character: Character, model: InstrumentModel) -> None:
+        plan, instrument = playing.plan, playing.instrument_map
+        self._playing, self._model = playing, model
+        self._character = meeting(character, instrument, playing.body)
+        self._missed = missed_mm(playing.player.hold)
+        self._starts_s = np.array([event.start_s for event in plan.grips])
+        self._until_s = np.maximum.accumulate(np.array([event.end_s for event in plan.grips]))
+        self._breaths_s = [(event.start_s, event.end_s) for event in plan.breaths]
+        marks = [*(contact.part for contact in instrument.contacts), *({LIPS} & character.landmarks.keys())]
+        self._marks = tuple(dict.fromkeys(marks))
+        self._nodes = {contact.node: model.node_names.index(contact.node) for contact in instrument.contacts}
+        skeleton = character.skeleton
+        self._wrists = {hand.side: skeleton.index(f"{hand.side}Hand") for hand in playing.player.hold.hands}
+        self._joints = sorted({*landmark_joints(self._character, self._marks), *self._wrists.values()})
+
+    def breaks(self, motion: Motion) -> tuple[Break, ...]:
+        """The contacts that some frames do not keep, in no order. The same frames of the performance are looked at,
+        whatever part of it a motion is."""
+        rate = float(motion.fps)
+        step = max(1, round(rate / JUDGED_PER_S))
+        before = round((motion.first_frame_s - self._playing.plan.time_frame.first_frame_s) * rate)
+        frames = np.arange(-before % step, motion.frames, step)
+        if not len(frames):
+            return ()
+        times_s = motion.first_frame_s + frames / rate
+        found = list(self._feet(motion, frames, times_s))
+        first = int(np.searchsorted(self._until_s, times_s[0], side="right"))
+        notes = self._playing.plan.grips[first : int(np.searchsorted(self._starts_s, times_s[-1], side="right")) + 1]
+        sounds = NoteFrames(times_s, notes).sounding
+        if sounds.any():
+            found += self._playing_contacts(motion, frames[sounds], times_s[sounds], NoteFrames(times_s[sounds], notes))
+        return tuple(found)
+
+    def _feet(self, motion: Motion, frames: IntArray, times_s: FloatArray) -> Iterator[Break]:
+        place = self._playing.player.place
+        ankles = {side: limb.end for side, limb in place.legs.items()}
+        joints = forward(
+            self._character.skeleton, motion.rotations[frames], motion.hips_m[frames], sorted(ankles.values())
+        )
+        for side, ankle in ankles.items():
+            gaps_m = distance_m(joints.of(ankle)[0], place.ankles_m[side])
+            yield from runs(("foot", side, ""), times_s, gaps_m, gaps_m * 1000.0 > FEET_MM)
+
+    def _playing_contacts(
+        self, motion: Motion, frames: IntArray, times_s: FloatArray, notes: NoteFrames
+    ) -> Iterator[Break]:
+        instrument = self._playing.instrument_map
+        joints = forward(self._character.skeleton, motion.rotations[frames], motion.hips_m[frames], self._joints)
+        morphs = {name: values[frames] for name, values in motion.morphs.items()}
+        marks_m = landmark_positions(self._character, self._marks, joints, morphs)
+        controls = {name: values[frames].astype(np.float64) for name, values in motion.controls.items()}
+        place_m = motion.instrument_position_m[frames].astype(np.float64)
+        turn = motion.instrument_rotation[frames].astype(np.float64)
+        nodes_m, turns = node_transforms(self._model, instrument, controls, len(frames))
+        nodes = {name: (nodes_m[:, node], turns[:, node]) for name, node in self._nodes.items()}
+        marks = {name: marks_m[:, index] for index, name in enumerate(self._marks)}
+        traces = Traces(marks, world_from_nodes(place_m, turn, nodes))
+        lips_m = traces.lips_m(instrument)
+        if lips_m is not None:
+            # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
+            off_lips = (lips_m * 1000.0 > LIPS_MM) & ~notes.within(self._breaths_s)
+            yield from runs(("lips", "", ""), times_s, lips_m, off_lips)
+        placed = self._playing.placed(times_s)
+        off: dict[str, BoolArray] = {}
+        for hand in self._playing.player.hold.hands:
+            gaps_m = hand_gaps_m(hand, joints.of(self._wrists[hand.side])[0], place_m, turn, controls, placed)
+            bounds_mm = [bound_mm(contact) for contact in instrument.contacts if contact.part.startswith(hand.side)]
+            off[hand.side] = gaps_m * 1000.0 > MOVED_MM
+            broken = gaps_m * 1000.0 > min(bounds_mm, default=GRIP_MM)
+            yield from runs(("hand", hand.side, ""), times_s, gaps_m, broken)
+            if hand.motion is not None and hand.motion.control in self._playing.controls:
+                control = hand.motion.control
+                asked = {**controls, control: self._playing.controls[control].sample(times_s)}
+                asked_m, _ = hand_targets(hand, place_m, turn, asked, placed)
+                gaps_m = hand_gaps_m(hand, asked_m, place_m, turn, controls, placed)
+                yield from runs(("short", hand.side, control), times_s, gaps_m, gaps_m > SLIDE_M)
+        judge = TouchJudge(instrument, traces, controls, notes)
+        for index, contact in enumerate(instrument.contacts):
+            if contact.grip == "guide":
+                continue
+            gaps_m = judge.gap_m(index)
+            # Where the whole hand has moved, its fingers have with it.
+            most_mm = allowed_mm(contact_name(contact), bound_mm(contact), self._missed)
+            broken = (gaps_m * 1000.0 > most_mm) & ~off[contact.part.split(".")[0]]
+            if broken.any():
+                broken = broken & judge.asked(index)
+                yield from runs(("touch", contact.part, contact.control or ""), times_s, gaps_m, broken)

@@ -1,0 +1,228 @@
+"""Touches, grips, lips and feet: how far each is off at every frame, and at which frames it counts.
+
+All of it on `Traces`: places at some frames, wherever they come from, a motion or a file that was read back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from app.contacts.bounds import CLEAR_MM, TOUCH_MM, BoolArray, FloatArray, IntArray
+from app.contacts.controls import NoteFrames
+from app.rig import quaternion
+from app.rig.hold import HandHold, Placed, hand_targets
+from app.rig.stations import aside_m, only_at, stations, stations_of_notes, worked_by
+from instrument_maps.model import ROOT, Contact, InstrumentMap
+
+LIPS, UPPER_LIP = "lips.contact", "lips.upper"
+
+
+@dataclass(frozen=True, eq=False)
+class Traces:
+    """Where everything is that touches, or is touched.
+
+    Attributes
+    ----------
+    marks_m : dict of str to (F, 3)
+        The body's landmarks in the world.
+    nodes : dict of str to (F, 4, 4)
+        ``world_from_node`` of the instrument's.
+    """
+
+    marks_m: Mapping[str, FloatArray]
+    nodes: Mapping[str, FloatArray]
+
+    def point_m(self, node: str, place_m: FloatArray) -> FloatArray:
+        """A place (3,) or (F, 3) of a node in the world (F, 3)."""
+        turn, origin_m = self.nodes[node][:, :3, :3], self.nodes[node][:, :3, 3]
+        moved_m: FloatArray = turn @ place_m if place_m.ndim == 1 else np.einsum("fij,fj->fi", turn, place_m)
+        return moved_m + origin_m
+
+    def off_m(self, mark: str, point_m: FloatArray) -> FloatArray:
+        """How far (F,) a landmark is from a point (F, 3)."""
+        return distance_m(self.marks_m[mark], point_m)
+
+    def from_rim_m(self, instrument: InstrumentMap, mark: str) -> FloatArray:
+        """From the middle of the rim to a landmark, in the instrument's frame (F, 3)."""
+        rim_m = self.point_m(ROOT, np.asarray(instrument.mouthpiece.position_m))
+        offset_m: FloatArray = np.einsum("fji,fj->fi", self.nodes[ROOT][:, :3, :3], self.marks_m[mark] - rim_m)
+        return offset_m
+
+    def lips_m(self, instrument: InstrumentMap) -> FloatArray | None:
+        """How far (F,) the lips are from the rim; a head without a mouth has none to judge."""
+        return np.linalg.norm(self.from_rim_m(instrument, LIPS), axis=1) if LIPS in self.marks_m else None
+
+    def upper_lip_m(self, instrument: InstrumentMap, playing: BoolArray) -> FloatArray | None:
+        """How far (F,) the rim has left its place on the upper lip, where it lies in the frames ``playing`` (F,); None
+        without a mouth or such a frame."""
+        if not playing.any() or UPPER_LIP not in self.marks_m:
+            return None
+        offset_m = self.from_rim_m(instrument, UPPER_LIP)
+        return distance_m(offset_m, np.median(offset_m[playing], axis=0))
+
+
+def distance_m(places_m: FloatArray, others_m: FloatArray) -> FloatArray:
+    """Distances (F,) between places (F, 3); of feet to where they stand, too."""
+    result: FloatArray = np.linalg.norm(places_m - others_m, axis=1)
+    return result
+
+
+def hand_gaps_m(
+    hand: HandHold,
+    wrist_m: FloatArray,
+    world_from_instrument_m: FloatArray,
+    world_from_instrument_rotation: FloatArray,
+    controls: Mapping[str, FloatArray],
+    placed: Mapping[str, Placed] | None = None,
+) -> FloatArray:
+    """How far (F,) a hand is from its place on the instrument; parameters as of `app.rig.hold.hand_targets`."""
+    requested_m, _ = hand_targets(hand, world_from_instrument_m, world_from_instrument_rotation, controls, placed)
+    return distance_m(wrist_m, requested_m)
+
+
+def hole_values(instrument: InstrumentMap, traces: Traces) -> dict[str, FloatArray]:
+    """Value of every hole without a moving part (F,), from the fingers that may close it.
+
+    1 or its half where a finger lies there, 0 where none is near, NaN where one is too near to let it sound open.
+    """
+    result = {}
+    for control in instrument.controls:
+        if control.motion is not None:
+            continue
+        touches = [contact for contact in instrument.contacts if control.name in worked_by(contact, instrument)]
+        if not touches:
+            # No one's finger is there: fingers that do not bend (`app.rig.fitted_instrument`).
+            continue
+        whole_m = np.min([_gap_m(contact, instrument, traces) for contact in touches], axis=0)
+        values = np.where(whole_m > instrument.size * CLEAR_MM / 1000.0, 0.0, np.nan)
+        half = control.half_value
+        if half is not None:
+            half_m = np.min([_gap_m(contact, instrument, traces, np.full(1, half)) for contact in touches], axis=0)
+            values = np.where(half_m <= TOUCH_MM / 1000.0, half, values)
+            whole_m = np.where(half_m < whole_m, np.inf, whole_m)
+        result[control.name] = np.where(whole_m <= TOUCH_MM / 1000.0, 1.0, values)
+    return result
+
+
+def _gap_m(
+    contact: Contact, instrument: InstrumentMap, traces: Traces, targets: FloatArray | None = None
+) -> FloatArray:
+    """How far (F,) a part of a hand is from its touch point; aside on a hole that is to be half closed, where
+    ``targets`` (F,) or (1,) say how far it is to be."""
+    point_m = np.asarray(contact.position_m)
+    if targets is not None and contact.control is not None:
+        aside = aside_m(contact, instrument, targets)
+        point_m = point_m + (aside[0] if len(aside) == 1 else aside)
+    return traces.off_m(contact.part, traces.point_m(contact.node, point_m))
+
+
+class TouchJudge:
+    """The contacts of an instrument's map at some frames.
+
+    Parameters
+    ----------
+    instrument : InstrumentMap
+    traces : Traces
+    values : dict of str to (F,)
+        Of the controls: those that were measured, or those that were made.
+    notes : NoteFrames
+    """
+
+    def __init__(
+        self, instrument: InstrumentMap, traces: Traces, values: Mapping[str, FloatArray], notes: NoteFrames
+    ) -> None:
+        self._instrument, self._traces, self._values, self._notes = instrument, traces, values, notes
+        self._only_at = only_at(instrument)
+
+    @cached_property
+    def _stations(self) -> Mapping[str, IntArray]:
+        """Which of its stations each finger works in each note."""
+        fingered = ((note.controls, note.fingers) for note in self._notes.notes)
+        return stations_of_notes(self._instrument, fingered)
+
+    def gap_m(self, index: int) -> FloatArray:
+        """How far (F,) a contact of the map is off."""
+        contact, targets = self._instrument.contacts[index], None
+        if contact.control is not None:
+            control = self._instrument.control(contact.control)
+            if control.half_value is not None:
+                targets = np.nan_to_num(self._notes.targets_at_frames(control), nan=1.0)
+        return _gap_m(contact, self._instrument, self._traces, targets)
+
+    def asked(self, index: int) -> BoolArray:
+        """Frames (F,) at which a contact of the map counts: what is worked is where its note asks for it, and the
+        finger may not have left yet."""
+        instrument, notes = self._instrument, self._notes
+        contact, frames, place = instrument.contacts[index], notes.sounding, self._only_at[index]
+        if contact.control is not None and contact.when != "always":
+            pressed, released = notes.working(instrument.control(contact.control), self._values[contact.control])
+            frames = pressed if contact.when == "pressed" else released
+        if place is not None:
+            finger, station = place
+            names = sorted({name for found in stations(instrument)[finger] for name in found.controls})
+            controls = [instrument.control(name) for name in names]
+            frames = frames & notes.kept(station, self._stations[finger], controls)
+            for control in map(instrument.control, worked_by(contact, instrument)):
+                # Of a hole without a moving part the finger itself is the measure: it closes it where it should.
+                if control.motion is not None:
+                    frames = frames & notes.working(control, self._values[control.name])[0]
+        return frames
+
+    def hovering_m(self) -> dict[str, FloatArray]:
+        """How far fingers that work nothing are, while they do, from the nearest of the places where they work, or from
+        the way between two of them."""
+        found = {}
+        contacts, traces = self._instrument.contacts, self._traces
+        for finger, places in stations(self._instrument).items():
+            touches = sorted({index for place in places if place.controls for index in place.contacts})
+            touches = [index for index in touches if self._only_at[index] is not None]
+            if not touches:
+                continue
+            frames = self._notes.asked(self._stations[finger] < 0)
+            points = [
+                traces.point_m(contacts[index].node, np.asarray(contacts[index].position_m))[frames]
+                for index in touches
+            ]
+            gaps_m = [
+                _to_way_m(traces.marks_m[part][frames], points[a], points[b])
+                for part in sorted({contacts[index].part for index in touches})
+                for a in range(len(points))
+                for b in range(a, len(points))
+            ]
+            found[finger] = np.min(gaps_m, axis=0)
+        return found
+
+
+def world_from_nodes(
+    position_m: FloatArray, rotation: FloatArray, nodes: Mapping[str, tuple[FloatArray, FloatArray]]
+) -> dict[str, FloatArray]:
+    """World transforms (F, 4, 4) of an instrument's nodes, and of its root.
+
+    Parameters
+    ----------
+    position_m, rotation : (F, 3) and (F, 4) float64
+        ``world_from_instrument``.
+    nodes : dict of str to (F, 3) and (F, 4)
+        ``instrument_from_node``.
+    """
+    placed = {ROOT: (position_m, rotation)}
+    for node, (local_m, turn) in nodes.items():
+        placed[node] = (position_m + quaternion.rotate(rotation, local_m), quaternion.multiply(rotation, turn))
+    result = {}
+    for node, (place_m, turn) in placed.items():
+        matrix = np.tile(np.eye(4), (len(place_m), 1, 1))
+        matrix[:, :3, :3], matrix[:, :3, 3] = quaternion.to_matrix(turn), place_m
+        result[node] = matrix
+    return result
+
+
+def _to_way_m(place_m: FloatArray, a_m: FloatArray, b_m: FloatArray) -> FloatArray:
+    """Distance (F,) of a place (F, 3) from the line between two others."""
+    way, off = b_m - a_m, place_m - a_m
+    length2 = np.maximum(np.einsum("fi,fi->f", way, way), 1e-12)
+    share = np.clip(np.einsum("fi,fi->f", off, way) / length2, 0.0, 1.0)
+    return distance_m(off, way * share[:, None])

@@ -1,0 +1,86 @@
+"""What a player's body lacks for its instrument, and what its hands do not reach: problems of the performance."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from app.contacts.hold import missed_message
+from app.contacts.reach import Holding, Reached, reached
+from app.errors import AppError, Message
+from app.performance.bodies import body_of, character_of, hold_of, is_held, suited_to
+from app.plan.memo import Memo
+from app.plan.model import FingeringEvent, Problem
+from app.plan.parameters import PlayerParameters
+from app.project.casting import StagePosition
+from app.project.model import Player
+from app.rig.character_library import bundled_characters, character_revision
+from instrument_maps.model import InstrumentMap
+
+
+class BodyProblems(NamedTuple):
+    """What is wrong with one player's body.
+
+    Attributes
+    ----------
+    lacking : tuple of Message
+        From beginning to end.
+    unreached : tuple of Problem
+        Note by note.
+    unseen : Message or None
+        Why the player cannot be seen.
+    """
+
+    lacking: tuple[Message, ...]
+    unreached: tuple[Problem, ...] = ()
+    unseen: Message | None = None
+
+
+def body_problems(
+    player: Player, instrument: InstrumentMap, fingerings: tuple[FingeringEvent, ...], memo: Memo, waiting: bool
+) -> BodyProblems:
+    """What is wrong with a player's body.
+
+    Parameters
+    ----------
+    player : Player
+    instrument : InstrumentMap
+        Of the library.
+    fingerings : tuple of FingeringEvent
+    memo : Memo
+        Of the performance.
+    waiting : bool
+        Whether someone else finds out first how the instrument is held.
+    """
+    try:
+        held, lacking = suited_to(player, instrument)
+        if waiting:
+            return BodyProblems((*lacking, Message("character.hold_waiting", {})))
+        # Holds of our own bodies meet all touches; what another's misses is reported as soon as it is known.
+        ours = player.character_id in bundled_characters()
+        missed = None if ours or not is_held(player, instrument) else missed_message(hold_of(player, held))
+        revision = character_revision(player.character_id)
+        found = memo.revised(f"reach:{player.id}", _reached, _posed(player), held, revision, fingerings)
+        return BodyProblems(lacking if missed is None else (*lacking, missed), found.problems)
+    except AppError as error:
+        # A model or character that cannot be read is this player's problem; the others play on.
+        return BodyProblems((error.message,), unseen=error.message)
+
+
+def _posed(player: Player) -> Player:
+    """The player as far as it matters to what the hands reach: whose body it is, and how it is held."""
+    posture = PlayerParameters(posture=player.parameters.posture)
+    return Player(player.id, "", "", player.instrument_id, player.character_id, posture, StagePosition(0.0, 0.0, 0.0))
+
+
+def _reached(
+    before: Reached | None,
+    player: Player,
+    held: InstrumentMap,
+    revision: int,
+    fingerings: tuple[FingeringEvent, ...],
+) -> Reached:
+    def holding() -> Holding:
+        posture = player.parameters.posture
+        return Holding(player.id, character_of(player), hold_of(player, held), body_of(player), posture)
+
+    return reached(before, (player, revision), held, fingerings, holding)

@@ -1,0 +1,84 @@
+"""Controls are judged at the frames of their notes; against values made up frame by frame."""
+
+from __future__ import annotations
+
+from collections.abc import Set
+
+import msgspec
+import numpy as np
+import pytest
+
+from app.contacts.controls import ControlMeasure, NoteFrames, notes_of
+from app.errors import Message
+from app.plan.model import FingeringEvent
+from instrument_maps.model import Control, Motion
+
+FPS, FIRST_FRAME_S = 10.0, -0.05
+
+
+def event(start_s: float, end_s: float, value: float) -> FingeringEvent:
+    controls = {"c": value} if value else {}
+    return FingeringEvent("x", "n", 0, 1, start_s, end_s, "", 1, controls, 0.0, Message("fingering.first_choice"))
+
+
+def control(**changes: object) -> Control:
+    plain = Control("c", "press", "pitch", "right.index", "c", Motion((0.0, -1.0, 0.0), travel_m=0.016))
+    return msgspec.structs.replace(plain, **changes)
+
+
+def measured(
+    notes: list[FingeringEvent], control: Control, values: np.ndarray, out_of_reach: Set[str] = frozenset()
+) -> ControlMeasure:
+    return NoteFrames(FIRST_FRAME_S + np.arange(40) / FPS, notes).measure(control, values, FPS, out_of_reach)
+
+
+def test_a_note_is_judged_at_the_first_frame_at_or_after_its_onset() -> None:
+    # Onset 1.0 s lies between the frames 10 (0.95 s) and 11 (1.05 s).
+    values = np.zeros(40)
+    values[11:] = 1.0
+    assert measured([event(1.0, 2.0, 1.0)], control(), values).right == 1
+    values[11] = 0.89
+    assert measured([event(1.0, 2.0, 1.0)], control(), values).right == 0
+    values[11] = 0.9
+    assert measured([event(1.0, 2.0, 1.0)], control(), values).right == 1
+
+
+def test_short_notes_are_counted_apart() -> None:
+    found = measured([event(1.0, 1.1, 1.0), event(1.1, 2.0, 0.0)], control(), np.zeros(40))
+    assert (found.judged, found.right, found.short_notes, found.short_right) == (1, 1, 1, 0)
+
+
+def test_a_slide_is_judged_in_millimetres() -> None:
+    slide = control(kind="slide", motion=Motion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5)
+    notes = [event(1.0, 2.0, 0.5)]
+    assert measured(notes, slide, np.full(40, 0.5 + 0.0049 / 0.6)).right == 1
+    assert measured(notes, slide, np.full(40, 0.5 + 0.0051 / 0.6)).right == 0
+
+
+def test_what_stops_where_the_hand_ends_is_distinguished_from_what_is_wrong() -> None:
+    slide = control(kind="slide", finger="right.hand", motion=Motion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5)
+    notes, values = [event(1.0, 2.0, 0.9)], np.full(40, 0.8)
+    wrong = measured(notes, slide, values)
+    assert (wrong.right, wrong.stopped_short, wrong.held_wrong, wrong.held_stopped_short) == (0, 0, 10, 0)
+    reported = measured(notes, slide, values, {"n"})
+    assert (reported.right, reported.stopped_short, reported.held_wrong, reported.held_stopped_short) == (0, 1, 0, 10)
+    assert reported.most_short_mm == pytest.approx(60.0)
+    # Beyond its place it is wrong all the same, and so is what no hand carries.
+    assert measured(notes, slide, np.ones(40), {"n"}).held_wrong == 10
+    pressed = msgspec.structs.replace(slide, finger="right.index")
+    assert measured(notes, pressed, values, {"n"}).held_wrong == 10
+
+
+def test_leaving_too_early_is_found() -> None:
+    notes = [event(1.0, 2.0, 1.0), event(2.0, 3.0, 0.0)]
+    values = np.zeros(40)
+    values[11:20] = 1.0  # the last frame before 1.94 s is 19 (1.85 s)
+    assert measured(notes, control(), values).held_wrong == 0
+    values[19] = 0.5
+    assert measured(notes, control(), values).held_wrong == 1
+
+
+def test_a_slide_may_leave_the_last_note_of_a_cut_for_the_note_after_it() -> None:
+    notes = [event(0.0, 1.0, 0.0), event(1.0, 2.0, 1.0), event(2.0, 3.0, 0.0)]
+    assert notes_of(notes, 0.5, 1.9) == notes
+    assert notes_of(notes, 1.0, 2.5) == notes[1:]
