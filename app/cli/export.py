@@ -145,8 +145,8 @@ def export(arguments: argparse.Namespace) -> int:
     count = len(project.players)
     players = tuple(project.players[index] for index in chosen if index < count)
     # Before the plans, which say what a body does not reach.
-    persons = dict.fromkeys(project.person(player) for player in players)
-    find_holds(performance, [player for person in persons for player in project.played_by(person)])
+    musicians = dict.fromkeys(project.musician(player) for player in players)
+    find_holds(performance, [player for musician in musicians for player in project.played_by(musician)])
     progress = Progress(sys.stderr)
     request = Request(
         performance=performance,

@@ -173,7 +173,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         "name": player.name,
         "instrument": player.instrument_id,
         "part": part.name,
-        "person": performance.project.person(player).name,
+        "musician": performance.project.musician(player).name,
         # Of notes struck together only one is played; the others are among what to look at.
         "notes": [
             _note(note, fingerings[note.id], instrument, clock)

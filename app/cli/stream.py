@@ -113,7 +113,7 @@ def stream(arguments: argparse.Namespace) -> int:
     performers = project.performers
     asked = [performers[at] for at in select_players(arguments.players, [one.name for one in performers])]
     # Whoever is asked for by any instrument is sent with all.
-    chosen = list(dict.fromkeys(project.person(one) if isinstance(one, Player) else one for one in asked))
+    chosen = list(dict.fromkeys(project.musician(one) if isinstance(one, Player) else one for one in asked))
     if not chosen:
         raise UsageError("stream.no_players")
     checked_port(arguments.port + len(chosen) - 1)

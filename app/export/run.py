@@ -155,12 +155,12 @@ def write_cast(
 
 def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str, dict[str, str]]:
     """Names of the files of every player and dancer: by id, then by what they hold. Who doubles has a file of the
-    instrument alone, named after the person."""
+    instrument alone, named after the musician."""
     names: dict[str, dict[str, str]] = {}
     stems = _stems(performance)
-    for person in performance.project.bodies:
-        stem, taken = stems[person.id], set[str]()
-        for player in performance.project.played_by(person):
+    for musician in performance.project.bodies:
+        stem, taken = stems[musician.id], set[str]()
+        for player in performance.project.played_by(musician):
             held_stem = f"{stem}_{player.instrument_id}"
             if held_stem in taken:
                 held_stem = f"{held_stem}_{stems[player.id]}"
@@ -171,7 +171,7 @@ def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str
                 for name, kind in FILE_FORMATS.items()
                 if name in formats
                 for held in kind.holds
-                if held == "instrument" or player is person
+                if held == "instrument" or player is musician
             }
     for dancer in performance.project.dancers:
         names[dancer.id] = {
@@ -252,7 +252,7 @@ def _part_of(reported: Callable[[float], None], begun: float, share: float) -> C
 
 @dataclass(frozen=True)
 class _Judging:
-    """What the files of a person are measured with; without an FBX file of the character nothing is."""
+    """What the files of a musician are measured with; without an FBX file of the character nothing is."""
 
     request: Request
     target: TargetSkeleton
@@ -263,7 +263,7 @@ class _Judging:
     def measured(
         self, performer: Performer, held: dict[str, str], reported: Callable[[float], None]
     ) -> Measured | None:
-        """What the files hold of someone's playing: the person's character and the instrument."""
+        """What the files hold of a player: the musician's character and the instrument."""
         if self.character is None:
             return None
         return measure_player(

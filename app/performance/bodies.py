@@ -94,7 +94,7 @@ def hold_of(player: Player, instrument: InstrumentMap, progress: Progress = no_p
 
 
 def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[FloatArray, FloatArray] | None:
-    """Where an instrument lies in the player's frame while the person has another in the hands: position (3,) and
+    """Where an instrument lies in the player's frame while the musician has another in the hands: position (3,) and
     rotation (4,). None as long as it would take time to say how it is held.
 
     Parameters
@@ -103,7 +103,7 @@ def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[Flo
     instrument : InstrumentMap
         Of the library.
     number : int
-        Which of the person's instruments it is, from 0.
+        Which of the musician's instruments it is, from 0.
     """
     if not is_held(player, instrument):
         return None

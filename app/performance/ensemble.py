@@ -365,7 +365,7 @@ class Performance:
 
 
 def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str, tuple[Change, ...]]:
-    """Of a person who plays several instruments, whose is in the hands at first, and when they are changed."""
+    """For a musician who plays several instruments: which is in the hands first, and when they change."""
     plans = {player.id: performance.plan(player) for player in played}
     return first_played(plans), changes(plans)
 

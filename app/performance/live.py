@@ -588,7 +588,7 @@ def _distance(index: int, here: int) -> int:
 
 
 def _played_before(shown: _Shown, player: Player) -> set[str]:
-    """Ids of all that the person played who played this before."""
+    """Ids of all that the musician played who played this before."""
     project = shown.performance.project
     return {one.id for one in project.played_by(project.player(player.id))}
 

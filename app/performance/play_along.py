@@ -70,7 +70,7 @@ class PlayAlong:
 
     @property
     def lying(self) -> dict[str, tuple[Floats, Floats]]:
-        """Where the person's other instruments lie meanwhile, by player: position (3,) and rotation (4,)."""
+        """Where the musician's other instruments lie meanwhile, by player: position (3,) and rotation (4,)."""
         if not isinstance(self._whole, Doubling):
             return {}
         others = (

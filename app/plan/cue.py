@@ -97,10 +97,10 @@ class Entry(msgspec.Struct, frozen=True):
     players: tuple[tuple[int, int], ...]
 
 
-def entries(all_times: tuple[Rhythm, ...], piece: Piece, persons: tuple[str, ...] = ()) -> tuple[Entry, ...]:
+def entries(all_times: tuple[Rhythm, ...], piece: Piece, musicians: tuple[str, ...] = ()) -> tuple[Entry, ...]:
     """Every place that asks for a cue, in order: by the rhythm of the lines and the tempo alone.
 
-    ``persons`` says who plays each line, where someone plays several: whoever changes instruments has not rested.
+    ``musicians`` gives the musician of each line, where one plays several: changing instruments is no rest.
     """
     sounding = [(line, times) for line, times in enumerate(all_times) if len(times.onset_tick)]
     if not sounding:
@@ -113,7 +113,7 @@ def entries(all_times: tuple[Rhythm, ...], piece: Piece, persons: tuple[str, ...
         # A tempo that changes while they come in belongs to their entry.
         if not shared or entry.tick - shared[-1].tick >= _beat(piece, shared[-1].tick):
             shared.append(entry)
-    return tuple(sorted([*shared, *_joining(sounding, lines, shared, piece, persons)], key=lambda entry: entry.tick))
+    return tuple(sorted([*shared, *_joining(sounding, lines, shared, piece, musicians)], key=lambda entry: entry.tick))
 
 
 class _Spans(msgspec.Struct, frozen=True):
@@ -251,7 +251,7 @@ def _joining(
     lines: _Spans,
     shared: list[Entry],
     piece: Piece,
-    persons: tuple[str, ...],
+    musicians: tuple[str, ...],
 ) -> list[Entry]:
     """Where players come in after long rests of their own while others play; those within a bar are one entry."""
     first = int(lines.starts[0])
@@ -261,7 +261,7 @@ def _joining(
         ends_s = np.insert(times.played_end_s[:-1], 0, piece.clock.seconds(float(first)))
         begins = np.arange(len(ends)) == 0
         for other, theirs in sounding:
-            if other != line and persons and persons[other] == persons[line]:
+            if other != line and musicians and musicians[other] == musicians[line]:
                 before = np.searchsorted(theirs.onset_tick, times.onset_tick) - 1
                 later = (before >= 0) & (theirs.played_end_tick[before] >= ends)
                 ends, ends_s = (
@@ -322,10 +322,10 @@ def leader_of(
 
 
 def _at_hand(leader: int, tick: int, lines: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...]) -> int:
-    """Of all lines of the leader's person the one whose instrument is in the hands: what begins there, or began last
+    """Of all lines of the leader's musician the one whose instrument is in the hands: what begins there, or began last
     before it."""
-    person = lines[leader].person or lines[leader].player_id
-    own = [index for index, line in enumerate(lines) if (line.person or line.player_id) == person]
+    musician = lines[leader].musician or lines[leader].player_id
+    own = [index for index, line in enumerate(lines) if (line.musician or line.player_id) == musician]
     if len(own) == 1:
         return leader
 

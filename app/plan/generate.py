@@ -160,8 +160,8 @@ def plan_ensemble(
         playable.append(_playable(line, piece.clock, tuple(faces), frame.first_frame_s, own[line.player_id]))
     lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
     piece = shared.step("felt bars", with_felt_bars, piece, all_times)
-    persons = tuple(line.person or line.player_id for line in lines)
-    found = shared.step("entries", entries, tuple(times.rhythm for times in all_times), piece, persons)
+    musicians = tuple(line.musician or line.player_id for line in lines)
+    found = shared.step("entries", entries, tuple(times.rhythm for times in all_times), piece, musicians)
     leading = tuple(_leading(line) for line in lines)
     cues, cue_ids = shared.step("cues", plan_cues, found, leading, all_times, piece, frame)
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
@@ -220,7 +220,9 @@ def _leading(line: MonophonicPart) -> MonophonicPart:
     """The line as far as cues depend on it."""
     corrections = _of(line.corrections, SetCue, RemoveEvent, SetBreath)
     parameters = restricted(line.parameters, "cues")
-    return MonophonicPart(line.player_id, line.notes, line.instrument_map, parameters, corrections, person=line.person)
+    return MonophonicPart(
+        line.player_id, line.notes, line.instrument_map, parameters, corrections, musician=line.musician
+    )
 
 
 def _of(corrections: tuple[Correction, ...], *kinds: type[Correction]) -> tuple[Correction, ...]:

@@ -96,7 +96,7 @@ class MonophonicPart(msgspec.Struct, frozen=True):
         Mean loudness 0..1 of every note where a breath, volume or expression curve says it; empty: the velocities do.
     heard : ControllerInput or None
         Those curves, and what else tells about the lips.
-    person : str
+    musician : str
         Id of the player whose body plays it; empty: one of its own.
     """
 
@@ -107,7 +107,7 @@ class MonophonicPart(msgspec.Struct, frozen=True):
     corrections: tuple[Correction, ...] = ()
     loudness: tuple[float, ...] = ()
     heard: ControllerInput | None = None
-    person: str = ""
+    musician: str = ""
 
 
 class Piece(msgspec.Struct, frozen=True):

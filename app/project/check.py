@@ -207,13 +207,13 @@ def _player_faults(project: Project) -> Iterator[Fault]:
     yield from unique("players", (player.id for player in players))
     yield from unique("players", (player.name.casefold() for player in players), "name")
     parts = {part.id for part in project.score.parts}
-    persons = {player.id: player for player in players}
+    musicians = {player.id: player for player in players}
     for index, player in enumerate(players):
         place = f"players[{index}]"
         if player.part_id not in parts:
             yield f"{place}.part_id", f"there is no part {player.part_id!r}"
-        person = persons.get(player.doubles)
-        if player.doubles and (person is None or person.doubles or person is player):
+        musician = musicians.get(player.doubles)
+        if player.doubles and (musician is None or musician.doubles or musician is player):
             yield f"{place}.doubles", f"there is no player {player.doubles!r} with a body"
         yield from about(player, _one_player_faults(player, place))
 

@@ -80,7 +80,7 @@ class Outcome(msgspec.Struct, frozen=True):
     Attributes
     ----------
     players : int
-        Persons: who plays several instruments in turn is one.
+        Musicians: one who plays several instruments counts once.
     warnings : tuple of Message
     unplayed : tuple of UnplayedPart
     instruments : dict of PartAssignment to tuple of str

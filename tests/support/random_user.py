@@ -152,7 +152,7 @@ def file_name(chance: random.Random) -> str:
 
 
 class RandomUser(Restless):
-    """A restless person who opens, saves, names, undoes and imports again as well.
+    """A restless user who opens, saves, names, undoes and imports again as well.
 
     Parameters
     ----------

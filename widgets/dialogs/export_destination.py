@@ -93,10 +93,10 @@ def foresee(
         )
     names = file_names(performance, formats)
     project = performance.project
-    # Of a person also the other instruments.
+    # Of a musician also the other instruments.
     everything = [
         *player_ids,
-        *(one.id for one in project.players if one.doubles in player_ids and project.person(one) is not one),
+        *(one.id for one in project.players if one.doubles in player_ids and project.musician(one) is not one),
     ]
     requested = [name for player_id in everything for name in names[player_id].values()] + [REPORT]
     if sound:

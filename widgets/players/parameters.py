@@ -174,7 +174,7 @@ class ParameterSections(QWidget):
         }
         for id, word in posture.parameter.choices:
             barred = [
-                player.name for player in players if id not in edit.postures_of_person(self._session.project, player)
+                player.name for player in players if id not in edit.postures_of_musician(self._session.project, player)
             ]
             reason = reasons[str(id)].format(players=", ".join(barred)) if barred else ""
             options.append(Option(str(id), parameter_text(word), reason=reason))

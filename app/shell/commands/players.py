@@ -40,7 +40,7 @@ def remove(session: Session) -> None:
 
 
 def join(session: Session) -> None:
-    """Let one person play what the selected players play, in turn: the first of them in the list."""
+    """Let one musician play what the selected players play, in turn: the first of them in the list."""
     chosen = [player for player in session.project.players if player.id in session.players]
     first, *others = chosen
 
@@ -109,7 +109,7 @@ def _step(session: Session, by: int) -> None:
 def toggle_posture(session: Session) -> None:
     """Let the selected players sit down, those whose instruments are played so; stand up where all of them sit."""
     project = session.project
-    free = [player for player in _chosen(session) if len(edit.postures_of_person(project, player)) > 1]
+    free = [player for player in _chosen(session) if len(edit.postures_of_musician(project, player)) > 1]
     chosen = tuple(player.id for player in free)
     seated = all(player.parameters.posture == "seated" for player in free)
     session.attempt(
@@ -152,11 +152,11 @@ def _has_players(session: Session) -> bool:
 
 
 def _may_sit_or_stand(session: Session) -> bool:
-    return any(len(edit.postures_of_person(session.project, player)) > 1 for player in _chosen(session))
+    return any(len(edit.postures_of_musician(session.project, player)) > 1 for player in _chosen(session))
 
 
 def _are_several(session: Session) -> bool:
-    return len({session.project.person(player).id for player in _chosen(session)}) > 1
+    return len({session.project.musician(player).id for player in _chosen(session)}) > 1
 
 
 def _double(session: Session) -> bool:

@@ -158,7 +158,7 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
             "name",
             "instrument",
             "part",
-            "person",
+            "musician",
             "notes",
             "breaths",
             "cues",

@@ -1,4 +1,4 @@
-"""Files of one person who plays two instruments, read back."""
+"""Files of one musician who plays two instruments, read back."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def test_what_is_not_played_lies_still_in_the_files(written: tuple[Path, Report]
         assert np.ptp(place_cm, axis=0).max() > 20.0
 
 
-def test_an_instrument_that_is_not_there_is_left_out_and_the_person_plays_on(tmp_path: Path) -> None:
+def test_an_instrument_that_is_not_there_is_left_out_and_the_musician_plays_on(tmp_path: Path) -> None:
     project = flutist(beside=False)
     project = edit.change(project, (project.players[1].id,), instrument_id="no_such_thing")
     report = exported(project, tmp_path / "out", 0, frozenset(("glb",)))

@@ -206,7 +206,7 @@ def test_unity_s_left_is_left_and_forward_is_forward() -> None:
     assert frame.bones["Hips"][1] > 0.4
 
 
-def test_each_instrument_of_a_person_is_a_tracker_of_one_performer() -> None:
+def test_each_instrument_of_a_musician_is_a_tracker_of_one_performer() -> None:
     character, pose = pose_of(1, 5.0)
     aside = dataclasses.replace(pose, instrument_position_m=pose.instrument_position_m + np.float32(0.5))
     sent = Sent(character, "trumpet_Bb", doubles=("flugelhorn_Bb",)).datagrams(pose, 0.0, beside=[aside])

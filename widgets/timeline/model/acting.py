@@ -31,7 +31,7 @@ BASE = "expression:neutral"
 
 
 class Names(NamedTuple):
-    """What things are called in the language of the person."""
+    """What things are called in the language of the user."""
 
     expression: Callable[[str], str]
     kind: Callable[[str], str]
