@@ -71,7 +71,7 @@ def decode(
     path : str
     progress : callable
         Called with the share 0..1 that is read.
-    stop_wanted : callable
+    stop_requested : callable
         Asked now and then; true ends the work.
 
     Raises

@@ -94,7 +94,7 @@ def mixdown(
     rate_hz : int
     progress : callable
         Called with the share 0..1 that is done.
-    stop_wanted : callable
+    stop_requested : callable
         Asked now and then; true ends the work.
 
     Returns

@@ -163,15 +163,15 @@ def programs() -> frozenset[int]:
 def _controls(part: Part, tempo_map: TempoMap) -> tuple[tuple[Integers, tuple[bytes, ...]], ...]:
     """The curves that are heard, as samples and messages: the player's loudness as expression, volume, pitch bend."""
     loudness = sounding_curve(part)
-    heard = [curve for curve in part.curves if curve.kind in ("volume", "pitch_bend")]
+    audible = [curve for curve in part.curves if curve.kind in ("volume", "pitch_bend")]
     if loudness is not None and loudness.kind != "volume":
-        heard.append(loudness)
+        audible.append(loudness)
     return tuple(
         (
             _samples(tempo_map, np.array(curve.ticks, np.int64)),
             tuple(_control(curve.kind, value) for value in curve.values),
         )
-        for curve in heard
+        for curve in audible
     )
 
 

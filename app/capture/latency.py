@@ -113,23 +113,23 @@ def hits(events: Iterable[tuple[float, bytes]], breath: BreathSource) -> tuple[f
     return tuple(found)
 
 
-def placed(events: Iterable[tuple[int, bytes]], heard: Sequence[tuple[int, float]]) -> list[tuple[float, bytes]]:
+def placed(events: Iterable[tuple[int, bytes]], positions: Sequence[tuple[int, float]]) -> list[tuple[float, bytes]]:
     """Events on the time line of what was heard.
 
     Parameters
     ----------
     events : iterable of (int, bytes)
         Moments of a clock, nanoseconds.
-    heard : sequence of (int, float)
+    positions : sequence of (int, float)
         At which moment of that clock which second was heard, ascending; outside them time goes on as a clock does.
     """
-    if not heard:
+    if not positions:
         return []
-    moments = np.array([moment for moment, _ in heard], np.float64)
-    seconds = np.array([second for _, second in heard], np.float64)
+    moments = np.array([moment for moment, _ in positions], np.float64)
+    seconds = np.array([second for _, second in positions], np.float64)
     result = []
     for moment, message in events:
         at_s = float(np.interp(moment, moments, seconds))
-        beyond_ns = min(moment - heard[0][0], 0) + max(moment - heard[-1][0], 0)
+        beyond_ns = min(moment - positions[0][0], 0) + max(moment - positions[-1][0], 0)
         result.append((at_s + beyond_ns / 1e9, message))
     return result

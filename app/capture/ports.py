@@ -19,7 +19,7 @@ import msgspec
 from app.capture.jack import ServerWatch
 from app.errors import AppError
 
-Heard: TypeAlias = Callable[[tuple[list[int], float], object], None]
+MidiCallback: TypeAlias = Callable[[tuple[list[int], float], object], None]
 """Called in the driver's thread with (bytes, delta) and nothing of use."""
 
 CLIENT: Final = "Suisou"
@@ -125,7 +125,7 @@ class MidiSystem:
         """What could be sent to now."""
         return named(self._outputs.get_ports(), self.name)
 
-    def open_input(self, port: Port, heard: Heard) -> Any:
+    def open_input(self, port: Port, callback: MidiCallback) -> Any:
         """Listen to a port, to messages of channels only.
 
         Raises
@@ -139,7 +139,7 @@ class MidiSystem:
             midi.open_port(port.index, "in")
             # Not before: rtmidi keeps Python's lock while it connects, and JACK waits meanwhile for its thread, which
             # waits for that lock with the first event.
-            midi.set_callback(heard)
+            midi.set_callback(callback)
         return midi
 
     @contextlib.contextmanager

@@ -20,7 +20,7 @@ from app.messages import filled, text
 from app.messages.pitches import pitch_name
 from app.performance.cast import attempt
 from app.performance.ensemble import Performance
-from app.performance.loudness import heard
+from app.performance.loudness import controller_input
 from app.performance.reach import carried_controls
 from app.plan.bends import bends
 from app.plan.line import dynamic_mark, staccato
@@ -167,7 +167,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
     fingerings = {event.note_id: event for event in plan.fingerings}
     played = [note for note in part.notes if note.id in fingerings]
     loudness = {event.note_id: event.air for event in plan.embouchures}
-    blown = heard(part)
+    blown = controller_input(part)
     articulation = _articulations(played, {event.note_id for event in plan.tongues}, clock.ticks_per_quarter)
     table = {
         "name": player.name,

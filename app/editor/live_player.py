@@ -53,7 +53,7 @@ class LivePlayer(QObject):
         """
         playing = self._ready()
         if playing is not None:
-            self._session.live_players.hear(playing.player_id, time_s, raw, wiring)
+            self._session.live_players.receive(playing.player_id, time_s, raw, wiring)
             self._rest.start()
 
     def silence(self) -> None:

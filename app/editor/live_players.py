@@ -37,9 +37,9 @@ class _Blend:
 class LivePlayers(QObject):
     """The players that are armed, each with what makes the pose of now.
 
-    Whoever listens to a controller makes a `PlayAlong` of the player, hands it over with `begin`, tells `hear` what is
-    played (stamped by ``time.perf_counter``) and takes it back with `end`. After a change of the player, the
-    instrument or the body another one is begun in its place.
+    The controller's listener makes a `PlayAlong` of the player, registers it with `begin`, passes each message (stamped
+    by ``time.perf_counter``) to `receive` and removes it with `end`. After a change of the player, the instrument or
+    the body another one replaces it.
 
     Signals
     -------
@@ -90,11 +90,11 @@ class LivePlayers(QObject):
         if gone is not None:
             self.changed.emit()
 
-    def hear(self, player_id: str, time_s: float, raw: str, wiring: ControllerMapping) -> None:
-        """A player is played so: a MIDI message in hexadecimal, see `PlayAlong.hear`."""
+    def receive(self, player_id: str, time_s: float, raw: str, wiring: ControllerMapping) -> None:
+        """A player is played so: a MIDI message in hexadecimal, see `PlayAlong.receive`."""
         with self._lock:
             play_along = self._playing.get(player_id)
-            struck = play_along is not None and play_along.hear(time_s, raw, wiring)
+            struck = play_along is not None and play_along.receive(time_s, raw, wiring)
             if struck:
                 self._poses.pop(player_id, None)
         if struck:

@@ -253,7 +253,7 @@ class Recorder(QObject):
             case Restarted():
                 self._session.notice(reported.reason, Severity.WARNING)
             case Events():
-                self._hear(reported)
+                self._on_received(reported)
             case Written():
                 state.set(events=reported.count)
             case Finished():
@@ -277,7 +277,7 @@ class Recorder(QObject):
                 return
         self._session.notice(reason, Severity.ERROR)
 
-    def _hear(self, events: Events) -> None:
+    def _on_received(self, events: Events) -> None:
         wiring = self._state.wiring
         breath, pitch = self._state.breath, self._state.pitch
         for ns, raw in zip(events.times_ns, events.messages, strict=True):
@@ -291,7 +291,7 @@ class Recorder(QObject):
             breath = next((value for kind, value in said(message, wiring) if kind == "breath"), breath)
             self._live.report(ns / 1e9, raw.hex(), wiring)
         self._state.set_played(breath, pitch)
-        self._state.heard.emit(events)
+        self._state.received.emit(events)
 
     # A take
 

@@ -65,7 +65,7 @@ class Recording(QObject):
 
     changed = Signal()
     played = Signal()
-    heard = Signal(object)
+    received = Signal(object)
 
     def __init__(self) -> None:
         super().__init__()

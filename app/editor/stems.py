@@ -152,7 +152,7 @@ class Stems(QObject):
                     if stop_requested():
                         raise Cancelled("work.stopped")
                 everything = [(player_id, phrase) for player_id, one in made.items() for phrase in one.phrases]
-                requested, job.window_s = _next_heard(everything, from_s)
+                requested, job.window_s = _next_phrases(everything, from_s)
                 gone = synthesiser.forget(phrase for _, phrase in requested)
                 stale.extend({player_id for player_id, phrase in everything if phrase.midi in gone} if gone else ())
                 missing = [item for item in requested if synthesiser.ready(item[1]) is None]
@@ -188,7 +188,7 @@ class Stems(QObject):
         self.changed.emit()
 
 
-def _next_heard(
+def _next_phrases(
     phrases: Sequence[tuple[str, Phrase]], from_s: float
 ) -> tuple[tuple[tuple[str, Phrase], ...], tuple[float, float]]:
     """As many players' phrases as there is room for, what is heard next first, and the seconds that they cover."""

@@ -118,7 +118,7 @@ def cast_of(
     UsageError
         ``usd.missing``.
     Cancelled
-        ``stop_wanted`` said so.
+        ``stop_requested`` said so.
     """
     if request.span.count > MOST_FRAMES:
         raise FileError("export.too_long", file=request.source, frames=request.span.count, most=MOST_FRAMES)

@@ -73,7 +73,7 @@ def export(
     request : Request
     wording : callable
         Words a message for the report.
-    stop_wanted, progress : callable
+    stop_requested, progress : callable
 
     Raises
     ------
@@ -82,7 +82,7 @@ def export(
     UsageError
         ``usd.missing``.
     Cancelled
-        ``stop_wanted`` said so.
+        ``stop_requested`` said so.
     """
     return write_cast(request, cast_of(request, wording, stop_requested), wording, stop_requested, progress)
 

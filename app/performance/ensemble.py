@@ -17,7 +17,7 @@ import msgspec
 
 from app.errors import AppError, Cancelled, MapError, Message
 from app.performance.bodies import hold_now, hold_of, is_held, suited_to
-from app.performance.loudness import heard, note_loudness
+from app.performance.loudness import controller_input, note_loudness
 from app.performance.reach import posed_body, reached
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.doubling import Change, changes, first_played, held_plan
@@ -106,7 +106,7 @@ class Performance:
         part = self.project.part(player)
         corrections = self.project.corrections.get(player.id, ())
         loudness = self._memo.step(f"loudness:{player.id}", note_loudness, part)
-        blown = self._memo.step(f"heard:{player.id}", heard, part)
+        blown = self._memo.step(f"controller:{player.id}", controller_input, part)
         said = (player.parameters, corrections, loudness, blown, player.doubles)
         return self._memo.step(f"line:{player.id}", MonophonicPart, player.id, part.notes, instrument, *said)
 
@@ -140,7 +140,7 @@ class Performance:
         Raises
         ------
         Cancelled
-            ``stop_wanted`` said so; the next one begins again.
+            ``stop_requested`` said so; the next one begins again.
         """
         with self._lock:
             if self.planned:
@@ -336,7 +336,7 @@ class Performance:
 
         Parameters
         ----------
-        stop_wanted, progress : callable
+        stop_requested, progress : callable
             Asked and called often; ``progress`` is given the share 0..1 that is done.
         players : iterable of Player, optional
             Only these; all by default.
@@ -344,7 +344,7 @@ class Performance:
         Raises
         ------
         Cancelled
-            ``stop_wanted`` said so; holds that were finished stay.
+            ``stop_requested`` said so; holds that were finished stay.
         """
         chosen = None if players is None else {player.id for player in players}
         unheld = [player for player in self.unheld if chosen is None or player.id in chosen]

@@ -35,7 +35,7 @@ def note_loudness(part: Part) -> tuple[float, ...]:
     return () if curve is None else tuple(_loudness(part, curve).tolist())
 
 
-def heard(part: Part) -> ControllerInput | None:
+def controller_input(part: Part) -> ControllerInput | None:
     """The curves that tell how a part was blown and what the lips did; None if none of them moves."""
     breath = speaking_curve(part)
     span = _span(part)

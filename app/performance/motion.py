@@ -97,7 +97,7 @@ def player_motion(
     Raises
     ------
     Cancelled
-        ``stop_wanted`` said so.
+        ``stop_requested`` said so.
     """
     playing = playing_of(performance, performer)
     pieces = []

@@ -136,7 +136,7 @@ class PlayAlong:
         self._time(time_s)
         self._breath.bend(min(max(value, -1.0), 1.0))
 
-    def hear(self, time_s: float, raw: str, wiring: ControllerMapping) -> bool:
+    def receive(self, time_s: float, raw: str, wiring: ControllerMapping) -> bool:
         """Take a MIDI message, in hexadecimal, as takes keep them; what says nothing of notes, breath or lips is passed
         over. Whether a note began or ended.
 

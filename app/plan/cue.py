@@ -166,13 +166,13 @@ def _coming_in(sounding: list[tuple[int, Rhythm]], tick: int, ticks: int) -> tup
 def _common_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece) -> list[Entry]:
     """The first entry, and those after silences of everybody, on stage or not."""
     accompaniment = np.array(piece.accompaniment, np.int64).reshape(-1, 2)
-    heard = _Spans.of([(lines.starts, lines.ends), (accompaniment[:, 0], accompaniment[:, 1])])
+    all_spans = _Spans.of([(lines.starts, lines.ends), (accompaniment[:, 0], accompaniment[:, 1])])
     first = int(lines.starts[0])
     found = []
-    if not heard.sounds_before(first, _beat(piece, first)):
+    if not all_spans.sounds_before(first, _beat(piece, first)):
         found.append(Entry(first, "cue.start", None, _coming_in(sounding, first, _together(piece, first))))
-    for gap in np.flatnonzero(heard.starts[1:] > heard.ends[:-1]).tolist():
-        end, begin = int(heard.ends[gap]), int(heard.starts[gap + 1])
+    for gap in np.flatnonzero(all_spans.starts[1:] > all_spans.ends[:-1]).tolist():
+        end, begin = int(all_spans.ends[gap]), int(all_spans.starts[gap + 1])
         index = int(np.searchsorted(lines.starts, begin))
         # What comes in later comes in with the accompaniment.
         if end <= first or index == len(lines.starts) or lines.starts[index] - begin >= _beat(piece, begin):

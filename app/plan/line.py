@@ -94,7 +94,7 @@ class MonophonicPart(msgspec.Struct, frozen=True):
         Monophonic, ordered by onset; neighbours may overlap a little (legato).
     loudness : tuple of float
         Mean loudness 0..1 of every note where a breath, volume or expression curve says it; empty: the velocities do.
-    heard : ControllerInput or None
+    controller : ControllerInput or None
         Those curves, and what else tells about the lips.
     musician : str
         Id of the player whose body plays it; empty: one of its own.
@@ -106,7 +106,7 @@ class MonophonicPart(msgspec.Struct, frozen=True):
     parameters: PlayerParameters = PlayerParameters()
     corrections: tuple[Correction, ...] = ()
     loudness: tuple[float, ...] = ()
-    heard: ControllerInput | None = None
+    controller: ControllerInput | None = None
     musician: str = ""
 
 

@@ -84,11 +84,11 @@ def _score_faults(score: Score) -> Iterator[Fault]:
         yield from text_faults(f"unplayed[{index}].name", unplayed.name)
         yield from between(f"unplayed[{index}].end_tick", unplayed.end_tick, (0, limits.LAST_TICK))
         yield from between(f"unplayed[{index}].note_count", unplayed.note_count, (0, limits.LAST_TICK))
-        heard = f"unplayed[{index}].sounding"
+        spans = f"unplayed[{index}].sounding"
         free = 0
         for number, (start, end) in enumerate(unplayed.sounding):
-            yield from between(f"{heard}[{number}][0]", start, (free, limits.LAST_TICK))
-            yield from between(f"{heard}[{number}][1]", end, (start, limits.LAST_TICK))
+            yield from between(f"{spans}[{number}][0]", start, (free, limits.LAST_TICK))
+            yield from between(f"{spans}[{number}][1]", end, (start, limits.LAST_TICK))
             free = end
     long = too_long(score)
     if long is not None:

@@ -148,13 +148,13 @@ def assigned_parts(
     maps : sequence of MapChoice
     piece : Score
         Its tempo and metres.
-    stop_wanted : callable
+    stop_requested : callable
         Asked before each part.
 
     Raises
     ------
     Cancelled
-        ``stop_wanted`` said so.
+        ``stop_requested`` said so.
     """
     parts: list[Part] = []
     warnings: list[Message] = []

@@ -432,15 +432,15 @@ def _assign(
 
     A beam search over the onsets: what a choice costs shows only when the next chord forces the voices apart.
     """
-    everybody = tuple(range(count))
+    everyone = tuple(range(count))
     beam = [_Hypothesis(0.0, (_Voice(-1, -1.0, -1.0),) * count, None)]
     for onset, sounding, rest_s in zip(onsets, groups, rests_s, strict=True):
         if len(sounding) == count and len(beam) == 1:  # no choice, no rival: nothing to weigh
-            beam = [_Hypothesis(0.0, tuple(sounding), (beam[0].history, everybody))]
+            beam = [_Hypothesis(0.0, tuple(sounding), (beam[0].history, everyone))]
             continue
         candidates: list[tuple[float, int, tuple[int, ...]]] = []
         for number, (so_far, voices, _) in enumerate(beam):
-            free = [place for place in everybody if voices[place].free_s <= onset]
+            free = [place for place in everyone if voices[place].free_s <= onset]
             costs = _costs(voices, free, sounding, onset, rest_s)
             for places in _choices(len(free), costs):
                 cost = so_far + sum(map(getitem, costs, places))

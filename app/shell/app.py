@@ -97,7 +97,7 @@ class Program(QObject):
     tasks : Tasks
     questions : Questions
     autosave : Autosave or None
-    heard : bool
+    audible : bool
         Whether the performance can be played.
     playback : Playback, optional
         One on the system's device, if None.
@@ -111,7 +111,7 @@ class Program(QObject):
         tasks: Tasks | None = None,
         questions: Questions | None = None,
         autosave: Autosave | None = None,
-        heard: bool = True,
+        audible: bool = True,
         playback: Playback | None = None,
         recorder: Callable[[Session, Files], Recorder] | None = None,
     ) -> None:
@@ -136,7 +136,7 @@ class Program(QObject):
         self._apply_theme()
         self.generator = Generator(self.session, self.tasks)
         # Children of the session: they stay.
-        Sound(self.session, playback, heard)
+        Sound(self.session, playback, audible)
         watch_instruments(self.session)
         watch_characters(self.session)
         self.recorder = (
@@ -249,7 +249,7 @@ def picture(start: Start, target: Path) -> int:
         settings = Settings(folder / "editor.toml")
         settings.language = start.language or "en"
         settings.theme = start.theme or "dark"
-        program = Program(settings, heard=False)
+        program = Program(settings, audible=False)
         failure: list[AppError] = []
         if isinstance(program.tasks, ThreadTasks):
             program.tasks.failed.connect(failure.append)

@@ -286,7 +286,7 @@ class StatusLine(QStatusBar):
             "off": ("", tokens.text_dim),
             "looking": (self.tr("status_line.looking_for"), tokens.text_dim),
             "sending": (self.tr("status_line.vmc_to_s"), tokens.good),
-            "unheard": (self.tr("status_line.vmc_nobody_listens_at"), tokens.warning),
+            "no_receiver": (self.tr("status_line.vmc_no_receiver_at"), tokens.warning),
             "failed": (self.tr("status_line.vmc_cannot_be_reached"), tokens.error),
         }[streaming.state]
         room_px = max(self.width() // 8, 100)

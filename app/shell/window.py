@@ -407,7 +407,7 @@ class Window(QMainWindow):
     def _ask_to_save_over(self, path: Path, then: Callable[[], None] | None) -> None:
         self.banner.ask(
             lambda: (
-                self.tr("window.was_changed_by_somebody_else").format(name=shown(path.name)),
+                self.tr("window.was_changed_outside").format(name=shown(path.name)),
                 (self.tr("window.save_as"), self.tr("window.replace_it")),
             ),
             (partial(self._files.save_as, then), partial(self._files.save_over, then)),

@@ -66,7 +66,7 @@ class Outcome(Enum):
     SENT = "sent"
     DROPPED = "dropped"
     """The system has no room: this frame is not sent, and not kept either."""
-    UNHEARD = "unheard"
+    NO_RECEIVER = "no_receiver"
     """It went out, but no one listens there."""
 
 
@@ -164,7 +164,7 @@ class Sender:
                 return Outcome.DROPPED
             except (ConnectionRefusedError, ConnectionResetError):
                 # Of a packet before this one; whoever comes later hears the next.
-                outcome = Outcome.UNHEARD
+                outcome = Outcome.NO_RECEIVER
             except OSError as error:
                 raise self._not_sent(error) from error
         return outcome

@@ -104,7 +104,7 @@ class CharacterDialog(QDialog):
         self._source, self._reported, self._picture = Label(), Label(), Label()
         self._legend = [(Label(sign), Label()) for sign in ("●", "◉", "○")]
         self._picture.setObjectName("character_picture")
-        self._reported.setObjectName("character_told")
+        self._reported.setObjectName("character_status")
         self.body = BodyMap(session, self._joint_text)
         self.rows = QTreeWidget()
         self.rows.setObjectName("joint_list")

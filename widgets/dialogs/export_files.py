@@ -107,7 +107,7 @@ class ExportDialog(QDialog):
             item.setSizeHint(QSize(0, LEAST_TARGET_PX))
             self._players.addItem(item)
         self._everybody = QPushButton()
-        self._everybody.setObjectName("export_everybody")
+        self._everybody.setObjectName("export_everyone")
         self._everybody.setAutoDefault(False)
         self._everybody.clicked.connect(self._toggle_everybody)
         self._place = PlaceChooser(folder, unreal, destination)
@@ -363,7 +363,7 @@ class ExportDialog(QDialog):
         )
         lines = []
         if seen.project is not None:
-            engine = self.tr("export_dialog.version_not_told") if seen.project.version is None else seen.project.engine
+            engine = self.tr("export_dialog.version_unknown") if seen.project.version is None else seen.project.engine
             lines.append(self.tr("export_dialog.unreal_engine").format(name=seen.project.name, engine=engine))
         lines.append(self.tr("export_dialog.files_that_will_be_written").format(count=seen.count))
         if seen.replaced:

@@ -162,11 +162,11 @@ class SkeletonChooser(QWidget):
         spoilt = not all(map(_fits, self._checked.values()))
         for player, checked in self._checked.items():
             # What has to be put right comes alone.
-            grave = reported([difference for difference in checked.differences if difference.grave])
-            for message in grave if spoilt else checked.messages:
+            severe = reported([difference for difference in checked.differences if difference.severe])
+            for message in severe if spoilt else checked.messages:
                 said.setdefault(sentence(message), []).append(names.get(player, ""))
-        everybody = len(self._checked)
-        return [f"⚠ {text}" if len(who) == everybody else f"⚠ {', '.join(who)}: {text}" for text, who in said.items()]
+        everyone = len(self._checked)
+        return [f"⚠ {text}" if len(who) == everyone else f"⚠ {', '.join(who)}: {text}" for text, who in said.items()]
 
     def _choose_asset(self) -> None:
         patterns = " ".join(f"*{suffix}" for suffix in SUFFIXES)
@@ -199,7 +199,7 @@ class SkeletonChooser(QWidget):
 
 def _fits(checked: CheckedTarget) -> bool:
     """Whether a player is exported for the asset; one whose animation it would lose or spoil is left out."""
-    return not any(difference.grave for difference in checked.differences)
+    return not any(difference.severe for difference in checked.differences)
 
 
 def _comparison(

@@ -60,11 +60,11 @@ class LatencyDialog(QDialog):
         playback.setParent(self)
         self._running = False
         self._events: list[tuple[int, bytes]] = []
-        self._heard: list[tuple[int, float]] = []
+        self._positions: list[tuple[int, float]] = []
         self._found: Measured | None = None
         self._stopped_why = ""
         self._explained, self._reported, self._value_name = Label(), Label(), Label()
-        self._reported.setObjectName("latency_told")
+        self._reported.setObjectName("latency_status")
         self.chart = HitChart(session)
         self.value = QDoubleSpinBox()
         self.value.setObjectName("latency_value")
@@ -83,7 +83,7 @@ class LatencyDialog(QDialog):
         self._close.clicked.connect(self.close)
         self.value.valueChanged.connect(self._show)
         self.finished.connect(self._stop)
-        session.recording.heard.connect(self._hear)
+        session.recording.received.connect(self._on_received)
         session.recording.changed.connect(self._changed)
         session.theme_changed.connect(self._show)
         self._port = ""
@@ -135,7 +135,7 @@ class LatencyDialog(QDialog):
         if session.playback is not None:
             session.playback.stop()
         self._events.clear()
-        self._heard.clear()
+        self._positions.clear()
         self._found, self._stopped_why = None, ""
         self.chart.show_measured(None)
         playback.set_volume(session.listening.volume)
@@ -153,7 +153,7 @@ class LatencyDialog(QDialog):
         self.chart.show_click(-1, False)
         self._show()
 
-    def _hear(self, events: Events) -> None:
+    def _on_received(self, events: Events) -> None:
         if self._running:
             channel = self._session.recording.wiring.channel
             self._events += [
@@ -166,11 +166,11 @@ class LatencyDialog(QDialog):
         """Note down what is heard now, and show what came in."""
         ns, position_s = self._now_ns(), self._playback.position_s()
         # The device plays nothing for a while at first: the clock does not run yet.
-        if not self._heard or position_s > self._heard[-1][1]:
-            self._heard.append((ns, position_s))
+        if not self._positions or position_s > self._positions[-1][1]:
+            self._positions.append((ns, position_s))
         last = sum(click_s <= position_s for click_s in CLICKS_S) - 1
         self.chart.show_click(last - LEAD, last >= 0 and position_s - CLICKS_S[last] < _FLASH_S)
-        found = hits(placed(self._events, self._heard), self._session.recording.wiring.breath)
+        found = hits(placed(self._events, self._positions), self._session.recording.wiring.breath)
         # A click that may still be hit is not missed.
         over = sum(click_s + LATEST_S <= position_s for click_s in CLICKS_S)
         self.chart.show_measured(measured(CLICKS_S[LEAD : max(over, LEAD)], found))

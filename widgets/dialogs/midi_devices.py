@@ -82,7 +82,7 @@ class MidiDevicesDialog(QDialog):
         self._listed: tuple[object, ...] = ()
         self._list = QTreeWidget()
         self._list.setObjectName("midi_device_list")
-        self._hint, self._reported, self._heard, self._late = (Label() for _ in range(4))
+        self._hint, self._reported, self._audio_status, self._late = (Label() for _ in range(4))
         self._kind, self._channel, self._breath, self._bite = (Combo() for _ in range(4))
         self._rows = {widget: Label() for widget in (self._kind, self._channel, self._breath, self._bite)}
         self._late_name = Label()
@@ -103,7 +103,7 @@ class MidiDevicesDialog(QDialog):
         named: dict[QWidget, str] = {self._kind: "midi_kind", self._channel: "midi_wired_channel"}
         named |= {self._breath: "midi_breath_source", self._bite: "midi_bite_source", self._learn: "midi_learn"}
         named |= {self._measure: "midi_measure", self._beep: "midi_beep", self._close: "midi_close"}
-        named |= {self._hint: "midi_hint", self._reported: "midi_learned", self._heard: "midi_beep_told"}
+        named |= {self._hint: "midi_hint", self._reported: "midi_learned", self._audio_status: "midi_beep_status"}
         named[self._late] = "midi_latency"
         for widget, name in named.items():
             widget.setObjectName(name)
@@ -116,7 +116,7 @@ class MidiDevicesDialog(QDialog):
         header.setStretchLastSection(False)
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
-        for label in (self._hint, self._reported, self._heard):
+        for label in (self._hint, self._reported, self._audio_status):
             label.setWordWrap(True)
         for button in (self._learn, self._measure, self._beep, self._close):
             # Enter in the list is no answer.
@@ -142,7 +142,7 @@ class MidiDevicesDialog(QDialog):
         self._incoming.setMinimumWidth(_SIDE_PX)
         bottom = QHBoxLayout()
         bottom.addWidget(self._beep)
-        bottom.addWidget(self._heard, 1)
+        bottom.addWidget(self._audio_status, 1)
         bottom.addWidget(self._close)
         page = QVBoxLayout(self)
         page.addLayout(columns, 1)
@@ -163,7 +163,7 @@ class MidiDevicesDialog(QDialog):
         # However it is closed.
         self.finished.connect(self._playback.stop)
         recording.changed.connect(self._show)
-        recording.heard.connect(self._hear)
+        recording.received.connect(self._on_received)
         session.theme_changed.connect(self._show)
 
     # What the user does
@@ -192,11 +192,11 @@ class MidiDevicesDialog(QDialog):
         playback.set_span(0.0, BEEP_S)
         playback.play(0.0)
         if playback.is_silent:
-            self._report(self._heard, self.tr("midi_devices_dialog.there_is_no_audio_device"), wrong=True)
+            self._report(self._audio_status, self.tr("midi_devices_dialog.there_is_no_audio_device"), wrong=True)
         elif volume == 0.0:
-            self._report(self._heard, self.tr("midi_devices_dialog.volume_of_transport_is_0"), wrong=True)
+            self._report(self._audio_status, self.tr("midi_devices_dialog.volume_of_transport_is_0"), wrong=True)
         else:
-            self._report(self._heard, self.tr("midi_devices_dialog.you_should_hear_short_tone"))
+            self._report(self._audio_status, self.tr("midi_devices_dialog.you_should_hear_short_tone"))
 
     # Learning
 
@@ -217,7 +217,7 @@ class MidiDevicesDialog(QDialog):
         self._second.stop()
         self._show()
 
-    def _hear(self, events: Events) -> None:
+    def _on_received(self, events: Events) -> None:
         if self._learning is not None:
             self._learning += zip(events.times_ns, events.messages, strict=True)
 

@@ -61,7 +61,7 @@ class MidiMonitor(QWidget):
         self._soon = QTimer(self, singleShot=True, interval=SHOW_MS)
         self._soon.timeout.connect(self._show)
         recording = session.recording
-        recording.heard.connect(self._hear)
+        recording.received.connect(self._on_received)
         recording.played.connect(self._show_soon)
         recording.changed.connect(self._changed)
         session.pitch_display.changed.connect(self._show)
@@ -69,7 +69,7 @@ class MidiMonitor(QWidget):
         self._port, self._bite_source = recording.port, recording.wiring.bite
         self.retranslate()
 
-    def _hear(self, events: Events) -> None:
+    def _on_received(self, events: Events) -> None:
         for raw in events.messages:
             self._log.add(raw)
             self._channel = (raw[0] & 0x0F) + 1

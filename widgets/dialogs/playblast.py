@@ -279,7 +279,7 @@ class PlayblastDialog(QDialog):
             "file": self.tr("playblast_dialog.file"),
         }.items():
             self._labels[name].setText(text)
-        self._with_sound.setText(self.tr("playblast_dialog.with_what_is_heard"))
+        self._with_sound.setText(self.tr("playblast_dialog.include_audio"))
         self._choose.setText(self.tr("playblast_dialog.choose"))
         self._start.setText(self.tr("playblast_dialog.make_film"))
         self._show.setText(self.tr("playblast_dialog.show_in_folder"))

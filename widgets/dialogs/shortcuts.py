@@ -116,7 +116,7 @@ class ShortcutsPage(QWidget):
         self.back.clicked.connect(self._back)
         self.all_back.clicked.connect(self._all_back)
         self.reported = Label()
-        self.reported.setObjectName("shortcut_told")
+        self.reported.setObjectName("shortcut_status")
         self.reported.setWordWrap(True)
         line = QHBoxLayout()
         line.addWidget(self._label)

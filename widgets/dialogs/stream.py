@@ -77,7 +77,7 @@ class StreamDialog(QDialog):
         named |= {self._faces: "stream_faces", self._rate: "stream_rate", self._list: "stream_list"}
         named |= {self._toggle: "stream_toggle", self._here: "stream_here", self._close: "stream_close"}
         named |= {self._anyway: "stream_anyway"}
-        named |= {self._warning: "stream_warning", self._reported: "stream_told"}
+        named |= {self._warning: "stream_warning", self._reported: "stream_status"}
         for widget, name in named.items():
             widget.setObjectName(name)
         for label in (self._explained, self._warning, self._reported):
@@ -226,9 +226,9 @@ class StreamDialog(QDialog):
             return sentence(state.trouble, self._session), tokens.error
         if state.state == "looking":
             return self.tr("stream_dialog.looking_for").format(host=state.host), tokens.text_dim
-        if state.state == "unheard":
+        if state.state == "no_receiver":
             return (
-                self.tr("stream_dialog.nobody_listens_there_yet_start"),
+                self.tr("stream_dialog.no_receiver_there_yet_start"),
                 tokens.warning,
             )
         if state.state == "sending":

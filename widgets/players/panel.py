@@ -342,9 +342,9 @@ class PlayersPanel(QWidget):
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
         self._tools["add"].setToolTip(self.tr("players_panel.add_player"))
-        self._tools["duplicate"].setToolTip(self.tr("players_panel.duplicate_somebody_else_plays_same"))
+        self._tools["duplicate"].setToolTip(self.tr("players_panel.duplicate_same_part"))
         self._tools["remove"].setToolTip(self.tr("players_panel.remove_selected_players"))
-        self._empty.setText(self.tr("players_panel.nobody_plays_yet_add_player"))
+        self._empty.setText(self.tr("players_panel.no_players_yet_add_player"))
         self._spread.set_texts(
             self.tr("players_panel.spread"),
             "",

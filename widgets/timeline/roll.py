@@ -124,7 +124,7 @@ class PianoRoll(Lane):
         """What to do where nothing is yet; empty where there are notes."""
         front = self.model.front()
         if front is None:
-            return self.tr("piano_roll.nobody_plays_yet_open_midi")
+            return self.tr("piano_roll.no_players_yet_open_midi")
         if len(front[0]):
             return ""
         return self.tr("piano_roll.no_notes_yet_take_pencil")

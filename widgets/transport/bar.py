@@ -296,8 +296,8 @@ class TransportBar(QWidget):
         self.speed.set_texts(
             self.tr("transport_bar.speed"), "%", self.tr("transport_bar.speed_pitch_stays_double_click")
         )
-        self.source.setToolTip(self.tr("transport_bar.what_is_heard"))
-        self.source.setAccessibleName(self.tr("transport_bar.what_is_heard"))
+        self.source.setToolTip(self.tr("transport_bar.playback_source"))
+        self.source.setAccessibleName(self.tr("transport_bar.playback_source"))
         self.source.set_options(
             (
                 Option("recording", self.tr("transport_bar.recording")),

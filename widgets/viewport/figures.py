@@ -99,8 +99,8 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
             kits[pair] = dancer_kit(dancer)
         return dancing_member(dancer, kits[pair])
 
-    everybody = [player for musician in project.bodies for player in project.played_by(musician)]
-    found, dancers = attempt(everybody, make), attempt(project.dancers, make_dancer)
+    everyone = [player for musician in project.bodies for player in project.played_by(musician)]
+    found, dancers = attempt(everyone, make), attempt(project.dancers, make_dancer)
     members = [*found.made.values(), *dancers.made.values()]
     stage = Stage(members)
     shapes = shapes_of(stage, before)

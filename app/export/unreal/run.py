@@ -162,7 +162,7 @@ def export_into(
     project : UnrealProject
     wording : callable
         Words a message for the report.
-    stop_wanted, progress : callable
+    stop_requested, progress : callable
 
     Raises
     ------

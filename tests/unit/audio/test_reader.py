@@ -43,10 +43,10 @@ def test_before_the_beginning_it_is_silent() -> None:
 
 def test_a_loop_goes_round_and_its_marks_say_so() -> None:
     block, marks = read_all(Reader(MIX, 3.5, loop_s=(3.0, 4.0)), 3.0, chunk=777)
-    heard = times_s(block)
+    found_s = times_s(block)
     for at_s, expected_s in ((0.25, 3.75), (0.6, 3.1), (1.3, 3.8), (1.6, 3.1), (2.9, 3.4)):
         sample = round(at_s * RATE_HZ)
-        assert heard[sample] == pytest.approx(expected_s, abs=2e-3)
+        assert found_s[sample] == pytest.approx(expected_s, abs=2e-3)
         assert said_s(marks, sample) == pytest.approx(expected_s, abs=1e-6)
     assert [mark[0] / RATE_HZ for mark in marks[1:]] == pytest.approx([0.5, 1.5, 2.5], abs=1e-6)
 
@@ -68,12 +68,12 @@ def test_a_loop_of_no_length_is_none(loop_s: tuple[float, float]) -> None:
 def test_at_any_speed_the_marks_say_what_is_heard(speed: float, chunk: int, loops: bool) -> None:
     reader = Reader(MIX, 2.0, speed, loop_s=(2.0, 3.0) if loops else None)
     block, marks = read_all(reader, 3.0, chunk)
-    heard = times_s(block)
+    found_s = times_s(block)
     for sample in range(RATE_HZ // 2, len(block) - 1, RATE_HZ // 7):
         said = said_s(marks, sample)
         if loops and min(abs(said - 2.0), abs(said - 3.0)) < 0.15:
             continue
-        assert heard[sample] == pytest.approx(said, abs=0.045)
+        assert found_s[sample] == pytest.approx(said, abs=0.045)
     if not loops and speed != 1.0:
         assert said_s(marks, 2 * RATE_HZ) == pytest.approx(2.0 + 2.0 * speed, abs=0.035 * max(speed, 1.0))
 

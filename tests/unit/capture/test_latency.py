@@ -90,8 +90,8 @@ def test_without_notes_a_hit_is_where_the_breath_begins() -> None:
 
 
 def test_events_lie_where_that_was_heard() -> None:
-    heard = [(1_000_000_000, 0.0), (2_000_000_000, 1.0), (3_000_000_000, 2.5)]
+    positions = [(1_000_000_000, 0.0), (2_000_000_000, 1.0), (3_000_000_000, 2.5)]
     moments = (500_000_000, 1_500_000_000, 2_500_000_000, 3_250_000_000)
-    found = placed([(moment, b"") for moment in moments], heard)
+    found = placed([(moment, b"") for moment in moments], positions)
     assert [at_s for at_s, _ in found] == pytest.approx([-0.5, 0.5, 1.75, 2.75])
     assert placed([(1, b"")], []) == []

@@ -30,7 +30,7 @@ def test_count_is_the_slow_count():
     transition, emission, initial = count(states, symbols, n_states, smoothing=0.7)
 
     pairs = [pair for clip in states for pair in pairwise(clip.tolist())]
-    heard = [
+    observed = [
         (state, symbol)
         for clip, its_symbols in zip(states, symbols, strict=True)
         for state, some in zip(clip.tolist(), its_symbols, strict=True)
@@ -42,9 +42,9 @@ def test_count_is_the_slow_count():
         for j in range(n_states):
             expected = (pairs.count((i, j)) + 0.7 / n_states) / (left + 0.7)
             assert transition[i, j] == pytest.approx(expected, rel=1e-12)
-        sounding = sum(a == i for a, _ in heard)
+        sounding = sum(a == i for a, _ in observed)
         for o in range(len(SYMBOLS)):
-            expected = (heard.count((i, o)) + 0.7 / len(SYMBOLS)) / (sounding + 0.7)
+            expected = (observed.count((i, o)) + 0.7 / len(SYMBOLS)) / (sounding + 0.7)
             assert emission[i, o] == pytest.approx(expected, rel=1e-12)
         assert initial[i] == pytest.approx((first.count(i) + 0.7 / n_states) / (len(first) + 0.7), rel=1e-12)
 
@@ -71,14 +71,14 @@ def test_segments_and_symbols_must_agree():
 def test_viterbi_is_the_best_of_all_sequences(seed):
     rng = np.random.default_rng(seed)
     initial, transition, emission = random_model(rng, 3, 4)
-    heard = [rng.integers(0, 4, rng.integers(0, 4)) for _ in range(5)]
+    observed = [rng.integers(0, 4, rng.integers(0, 4)) for _ in range(5)]
 
     def log_probability(states):
         total = log(initial[states[0]]) + sum(log(transition[a, b]) for a, b in pairwise(states))
-        return total + sum(log(emission[state, o]) for state, some in zip(states, heard, strict=True) for o in some)
+        return total + sum(log(emission[state, o]) for state, some in zip(states, observed, strict=True) for o in some)
 
     best = max(product(range(3), repeat=5), key=log_probability)
-    states, found = viterbi(initial, transition, log_likelihood(emission, heard))
+    states, found = viterbi(initial, transition, log_likelihood(emission, observed))
 
     assert tuple(states) == best
     assert found == pytest.approx(log_probability(best), rel=1e-12)
@@ -89,11 +89,11 @@ def test_viterbi_is_that_of_hmmlearn(seed):
     rng = np.random.default_rng(100 + seed)
     other = CategoricalHMM(n_components=12)
     other.startprob_, other.transmat_, other.emissionprob_ = random_model(rng, 12, len(SYMBOLS))
-    heard = rng.integers(0, len(SYMBOLS), 400)
-    heard[:47] = np.arange(47)
+    observed = rng.integers(0, len(SYMBOLS), 400)
+    observed[:47] = np.arange(47)
 
-    expected_log_probability, expected = other.decode(heard[:, None], algorithm="viterbi")
-    likelihoods = log_likelihood(other.emissionprob_, list(heard[:, None]))
+    expected_log_probability, expected = other.decode(observed[:, None], algorithm="viterbi")
+    likelihoods = log_likelihood(other.emissionprob_, list(observed[:, None]))
     states, found = viterbi(other.startprob_, other.transmat_, likelihoods)
 
     np.testing.assert_array_equal(states, expected)
