@@ -134,7 +134,7 @@ def _read(
 
 
 def _stereo(block: Block) -> Block:
-    """Two channels: one is heard on both sides; what comes beside left and right is added to both."""
+    """Two channels: one is played on both sides; channels beside left and right are added to both."""
     if block.shape[1] == 1:
         return np.ascontiguousarray(np.repeat(block, 2, axis=1))
     if block.shape[1] == 2:

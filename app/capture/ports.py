@@ -3,7 +3,7 @@
 Names stay the same when a device goes and comes back: the numbers that a system puts behind them are taken off, and of
 two devices of one kind the second gets a number of ours.
 
-Everything here is called from one thread: macOS tells of new devices only in it.
+Everything here is called from one thread: macOS reports new devices only in it.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Port(msgspec.Struct, frozen=True):
 
 
 def named(found: Sequence[str], system: str) -> tuple[Port, ...]:
-    """The ports of a system's list, our own left out.
+    """The ports of a system's list, without our own.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The recorder: a process of its own that listens to one MIDI port, stamps what it hears, and writes the journal.
+"""The recorder: a process of its own that listens to one MIDI port, stamps what it receives, and writes the journal.
 
 Neither the window's redrawing nor the editor's death reaches it. It is this module, run as a program: commands come in
 by its input, news go out by its output (`app.capture.protocol`), and it ends when its input does, the journal finished.
@@ -75,7 +75,7 @@ class Recorder:
         What is put into it is sent.
     journal : SimpleQueue
         What is put into it is written.
-    wanted_system : str
+    requested_system : str
     on_open : callable
         Called when a port was opened: the driver's threads are there.
 
@@ -218,8 +218,8 @@ def _names(ports: tuple[Port, ...]) -> tuple[str, ...]:
 
 
 class JournalKeeper:
-    """Writes what comes into a queue: commands `Start`, `Sync`, `Stop`, `Leave`, what was heard, marks; None ends the
-    running journal and the keeping."""
+    """Writes what a queue holds: commands `Start`, `Sync`, `Stop`, `Leave`, received messages, marks; None ends the
+    journal and the thread."""
 
     def __init__(self, queue: SimpleQueue[Any], news: SimpleQueue[News | StampedMessage | None]) -> None:
         self._queue, self._news = queue, news
@@ -371,7 +371,7 @@ def take_precedence() -> None:
 
     All of the process's threads: were only the driver's quick, it would wait for Python's lock while another that holds
     it waits for the processor. Those that a driver's library makes do not always take after ours, so this is called
-    again when a port was opened. On Windows whoever starts the process says so.
+    again when a port was opened. On Windows the parent process sets it.
     """
     with contextlib.suppress(PermissionError):
         if sys.platform == "linux":
@@ -386,7 +386,7 @@ def take_precedence() -> None:
 
 
 def main() -> None:
-    """Record for whoever started this process."""
+    """Record for the parent process."""
     sys.excepthook = _end_at_once
     threading.excepthook = lambda failed: _end_at_once(failed.exc_type, failed.exc_value, failed.exc_traceback)
     take_precedence()
