@@ -27,10 +27,11 @@ breath.catch_dropped(after_note, phrase_s, lung_s): "A catch breath instead of n
 breath.catch_dropped_two(first_note, after_note, phrase_s, lung_s): "A catch breath instead of notes {first_note} and
     {after_note}, which are left out: {phrase_s} s without a breath in a rest need more than the {lung_s} s of air
     there are, and no note is long enough to take it from."
-breath.blown(gap_s): "Heard in the breath: {gap_s} s without blowing."
+breath.blown(gap_s): "from the recorded breath: {gap_s} s without blowing"
     Within a note too, which is blown on afterwards.
-breath.blown_preparation(gap_s): "Heard in the breath: {gap_s} s without blowing; getting ready to breathe."
-breath.blown_short(gap_s): "Heard in the breath: {gap_s} s without blowing, where air was needed."
+breath.blown_preparation(gap_s): "from the recorded breath: {gap_s} s without blowing; breath preparation"
+breath.blown_short(gap_s): "from the recorded breath: {gap_s} s without blowing, used because air runs
+    out"
 """
 
 from __future__ import annotations
@@ -111,7 +112,7 @@ def plan_breaths(
     shared : Shared
         Where others of a unison breathe.
     seeds : Seeds
-        What tells this player from others where places are equally good.
+        What distinguishes this player where places are equally good.
     envelope : BreathEnvelope or None
         The breath that was blown. Where it shows breaths, they are where it has gaps and nowhere else.
     """
@@ -168,7 +169,7 @@ class _Score(NamedTuple):
     lung_s : float
         `app.plan.lungs.lungful_s`.
     within : tuple of BreathEvent
-        Breaths that were heard within notes.
+        Breaths that were recorded within notes.
     """
 
     written: LineTimes

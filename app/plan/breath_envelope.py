@@ -1,7 +1,7 @@
 """What a part's controllers say about how it was blown: when there was no breath, how strong it was, what the lips did.
 
 The curve of a wind controller's breath sensor goes to zero when the player stops blowing, and stays there while they
-breathe in. A curve that a sequencer or an engraver drew for the dynamics does not: it tells how loud, not where the
+breathe in. A curve that a sequencer or an engraver drew for the dynamics does not: it shows how loud, not where the
 breaths are. So gaps are believed only of a curve that is at zero in most of the rests.
 """
 
@@ -59,7 +59,7 @@ class BreathEnvelope:
         return np.asarray(self.mean(times.onset_s, ends_s) > STOPS_AT)
 
     def has_breath_gaps(self, times: LineTimes) -> bool:
-        """Whether its gaps are those of someone who breathes."""
+        """Whether its gaps are breaths."""
         gaps_s = self.gaps_s[np.isfinite(self.gaps_s).all(axis=1)]
         gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= GASP_S]
         played = self.plays(times)
@@ -113,7 +113,7 @@ def find_gaps(at_s: FloatArray, values: FloatArray) -> FloatArray:
 
 
 def gaps_within(envelope: BreathEnvelope, times: LineTimes) -> list[tuple[int, float, float]]:
-    """Where someone stopped blowing for a breath and blew the same note on: note by note its longest gap."""
+    """Where blowing stops for a breath within a note: the longest gap of each note."""
     gaps_s = envelope.gaps_s[np.isfinite(envelope.gaps_s).all(axis=1)]
     gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= BREATH_S]
     notes = np.searchsorted(times.onset_s + LEAST_PLAYED_S, gaps_s[:, 0]) - 1

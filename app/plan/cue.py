@@ -3,7 +3,7 @@
 Without a conductor the players give the entries themselves, by body and instrument, with a preparatory beat: the start,
 and the new start after a rest or a general pause of all; going on after a fermata; a new tempo, in which that beat is
 given; and a player or a section that comes in after a long rest, or as the next voice of a canon, while others play.
-What an accompaniment plays that is not on stage sounds too: whoever comes in with it needs no cue.
+What an accompaniment plays that is not on stage sounds too: an entry with it needs no cue.
 
 The nod's acceleration peak marks the preparatory beat and its duration the tempo (Bishop and Goebl 2017). It falls on a
 beat of the metre: before a pickup on the one before the beat that the pickup lies in.
@@ -64,7 +64,7 @@ LONG_REST_S, LONG_REST_BARS = 8.0, 4
 LONG_REST_LEAST_S, LONG_REST_LEAST_BARS = 4.0, 2
 """... which is at least so long in both."""
 MELODY_BARS = 2
-"""Who has the melody is heard in so many bars."""
+"""Bars over which the players of the melody are determined."""
 DOUBLED_SHARE = 0.8
 """Who plays so much of the melody, in any octave, has it too."""
 SMALLEST, LARGEST = 0.4, 1.2
@@ -164,7 +164,7 @@ def _coming_in(sounding: list[tuple[int, Rhythm]], tick: int, ticks: int) -> tup
 
 
 def _common_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece) -> list[Entry]:
-    """The first entry, and those after silences of everybody, on stage or not."""
+    """The first entry, and those after silences of all, on stage or not."""
     accompaniment = np.array(piece.accompaniment, np.int64).reshape(-1, 2)
     all_spans = _Spans.of([(lines.starts, lines.ends), (accompaniment[:, 0], accompaniment[:, 1])])
     first = int(lines.starts[0])
@@ -187,7 +187,7 @@ def _common_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Pi
 
 
 def _silence(sounding: list[tuple[int, Rhythm]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
-    """Why everybody needs a cue after a silence of all from ``end`` to ``tick``; None if no one does."""
+    """Why all need a cue after a silence of all from ``end`` to ``tick``; None if no one does."""
     bars, beats = (tick - end) / piece.metre_map.bar_ticks_at(end), (tick - end) / _beat(piece, tick)
     if beats >= LEAST_BEATS:
         if rest_s >= COMMON_REST_S or (bars >= COMMON_REST_BARS and rest_s >= COMMON_REST_LEAST_S):

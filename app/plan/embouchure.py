@@ -4,8 +4,8 @@ tongue's stroke before each attack.
 Messages
 --------
 embouchure.register(pitch, low, high, loudness): "{pitch} in a range of {low}-{high}, loudness {loudness}."
-embouchure.controller(pitch, low, high, loudness): "{pitch} in a range of {low}-{high}; loudness, heard in the breath,
-    {loudness} on average."
+embouchure.controller(pitch, low, high, loudness): "{pitch} in a range of {low}-{high}; from the recorded breath:
+    average loudness {loudness}."
 """
 
 from __future__ import annotations

@@ -100,7 +100,7 @@ class EnsemblePlan:
     plans : dict of str to PlayerPlan
         By player id.
     shared : Memo
-        Steps that concern everybody.
+        Steps that concern all players.
     own : dict of str to Memo
         Steps of single players.
     """

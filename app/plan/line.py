@@ -68,7 +68,7 @@ class Steps:
 
 @dataclass(frozen=True)
 class ControllerInput:
-    """What a wind controller, or whoever drew the curves, says about how a line is played; None: nothing.
+    """What recorded or drawn controller curves say about how a line is played; None: nothing.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ class MonophonicPart(msgspec.Struct, frozen=True):
     loudness : tuple of float
         Mean loudness 0..1 of every note where a breath, volume or expression curve says it; empty: the velocities do.
     controller : ControllerInput or None
-        Those curves, and what else tells about the lips.
+        Those curves, and the other input for the lips.
     musician : str
         Id of the player whose body plays it; empty: one of its own.
     """

@@ -41,7 +41,7 @@ def air_used_s(times: LineTimes, air: Air | None = None, envelope: BreathEnvelop
     Parameters
     ----------
     envelope : BreathEnvelope or None
-        The breath, where it tells when air is blown: then all of it counts, also between the notes.
+        The breath, where it shows when air is blown: then all of it counts, also between the notes.
     """
     lasts_s = times.duration_s
     # The dynamic of the phrases takes the air, not how each of their notes turned out.

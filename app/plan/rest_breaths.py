@@ -1,4 +1,4 @@
-"""The breaths that rests give, or the silences of someone who was heard to blow.
+"""The breaths in rests, or in the silences of a recorded breath.
 
 Their messages are those of `app.plan.breath`.
 """
@@ -49,7 +49,7 @@ def blown_breaths(
     frame: TimeFrame,
     gaps: Silences,
 ) -> tuple[BreathEvent, ...]:
-    """The breaths of someone who was heard to blow: in the gaps, each shaped by its length as in a rest.
+    """The breaths of a recorded breath curve: in the gaps, each shaped by its length as in a rest.
 
     What the rests of the score say counts only before the first note and before notes that were not blown.
     """

@@ -27,10 +27,10 @@ RANK_COST = 1.0
 MOST_RANKS = 3
 """Further down the list an alternate is no stranger: woodwinds have many, ordered by little."""
 CENTS_PER_UNIT = 20.0
-"""An alternate worse in tune than the first choice by this much costs one unit on a note that can be heard out: about
+"""An alternate worse in tune than the first choice by this much costs one unit on a fully audible note: about
 what a listener notices in a melody."""
 FULLY_AUDIBLE_S = 0.25
-"""Shorter notes do not let their intonation be heard; their cost falls in proportion."""
+"""The intonation of shorter notes is less audible; their cost falls in proportion."""
 FORKED_COST = 0.5
 """A forked fingering sounds covered, beside its rank."""
 IN_PLACE_COST = {"trill": 0.5, "fast": 0.5, "forte": 0.5, "piano": 0.5, "chromatic": -0.5, "attack": -4.0}
@@ -130,7 +130,7 @@ class Table:
     register : (P,) int64
         How many breaks lie below the pitch.
     rare : (P, K) bool
-        Which hardly anybody takes.
+        Which are hardly ever used.
     leaves_down : bool
         Whether any fingering of the instrument leaves a key down that its note does not need (tag "held").
     places : FingerPlaces

@@ -43,7 +43,7 @@ def plan_traces(
     blown: BreathEnvelope | None,
     corrections: Iterable[Correction] = (),
 ) -> SampledCurves | None:
-    """The traces of a line; None where there are no notes or nothing was heard.
+    """The traces of a line; None where there are no notes or no controller input.
 
     Parameters
     ----------

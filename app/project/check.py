@@ -38,7 +38,7 @@ _MORPHS = frozenset(ARKIT_MORPHS)
 
 
 def faults(project: Project) -> Iterator[Fault]:
-    """Everything that is wrong, one by one as it is found; whoever needs the first one only stops there."""
+    """Everything that is wrong, one by one as it is found; a caller may stop at the first."""
     yield from within("score", _score_faults(project.score))
     yield from _player_faults(project)
     yield from _correction_faults(project)

@@ -49,7 +49,7 @@ class Player(msgspec.Struct, frozen=True):
     colour : str
         ``"#rrggbb"``; empty: the theme's, by the player's place in the project.
     muted, soloed : bool
-        Whether the player is heard; who is muted still plays in the picture and in exports.
+        Whether the player sounds; a muted player is still shown and exported.
     doubles : str
         Id of the player whose body plays this instrument too, as a flutist's plays the piccolo; empty: a body of its
         own. The character, parameters and place of the musician are stored with that player.
@@ -174,7 +174,7 @@ class PlayerTakes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class AudioTrack(msgspec.Struct, frozen=True):
-    """The recording that the piece is heard with.
+    """The recording that plays with the piece.
 
     Attributes
     ----------
@@ -384,7 +384,7 @@ def project_from_score(
 
 
 def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:
-    """What the maps can be chosen for, as the score's reader wants to know it."""
+    """What the maps can be chosen for, in the form that the score's reader takes."""
     return tuple(
         MapChoice(
             map_id=instrument.id,

@@ -103,7 +103,7 @@ Split: TypeAlias = Literal["sustained", "every", "never"]
 
 
 class PartAssignment(msgspec.Struct, frozen=True):
-    """What the user wants of some tracks.
+    """The user's choices for some tracks.
 
     Attributes
     ----------
@@ -127,7 +127,7 @@ class PartAssignment(msgspec.Struct, frozen=True):
 
 
 def usual_wishes(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> tuple[PartAssignment, ...]:
-    """What names, programs and ranges say: a wish, which the user may change, for every stream someone can play."""
+    """Suggested assignments by names, programs and ranges, for the user to change: one for every playable stream."""
     return tuple(PartAssignment((index,)) for index, stream in enumerate(streams) if refusal(stream, maps) is None)
 
 
@@ -138,7 +138,7 @@ def assigned_parts(
     piece: Score,
     stop_requested: Callable[[], bool] = lambda: False,
 ) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
-    """Sort tracks into the parts that the user wants and those no one plays, and say what was guessed.
+    """Sort tracks into requested parts and unplayed ones, and report what was guessed.
 
     Parameters
     ----------
@@ -265,8 +265,8 @@ def _switches(streams: Sequence[TrackChannel], own: Sequence[int], places: Seque
 
 
 def _silent(id_: str, part: str, notes: Sequence[Note], piece: Score) -> list[UnplayedPart]:
-    """The notes of a part that its players leave out, as something that no one plays or hears: few stray notes and key
-    switches accompany no one."""
+    """The notes of a part that its players do not play, as a silent part: a few stray notes and key switches are no
+    accompaniment."""
     if not notes:
         return []
     return [UnplayedPart(part, _about(id_, part, notes, piece), len(notes), max(note.end_tick for note in notes))]
@@ -307,7 +307,7 @@ def _found(chosen: Sequence[TrackChannel], map_id: str | None, maps: Sequence[Ma
         by_id = {choice.map_id: choice for choice in maps}
         return Candidates(How.SAID, found.instrument, (by_id[require_map(map_id, by_id)],))
     if not found.maps:
-        # The user wants it played though no map is for it, and must say what plays it.
+        # The user requests a player though no map fits, and must select the instrument.
         return Candidates(How.RANGE, None, tuple(maps), unknown=True)
     return found
 

@@ -40,7 +40,7 @@ from instrument_maps.model import InstrumentMap, Posture
 
 
 def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap | None = None) -> PlayerParameters:
-    """The parameters a player has before anybody changes them; with an instrument, in a posture it is played in."""
+    """The parameters a player has before any change; with an instrument, in a posture it is played in."""
     usual = usual_posture(len(project.bodies))
     return PlayerParameters(
         amplitude=amplitude(project.seed, player_id),
@@ -325,9 +325,9 @@ def newcomer(
 
 
 def remove_players(project: Project, player_ids: Collection[str]) -> Project:
-    """Send players away, with their corrections. A file's part that no one plays any more stays in the score, so that
-    someone else may be given it; one that is empty or was made here goes too. The next instrument of a musician whose
-    first one is removed becomes the first."""
+    """Remove players, with their corrections. A file's part without a player stays in the score, so that it can be
+    assigned to another player; one that is empty or was made here is removed too. The next instrument of a musician
+    whose first one is removed becomes the first."""
     on_arc = _on_arc(project)
     kept = promote_remaining(player for player in project.players if player.id not in player_ids)
     played = {player.part_id for player in kept}
