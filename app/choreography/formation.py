@@ -22,7 +22,7 @@ APART_M: Final[dict[Formation, float]] = {"unison": 2.0, "canon": 3.0, "mirror":
 """From dancer to dancer in the row: those who dance alike at a time do not meet however far they go, the others keep
 about `app.choreography.stitch.STAGE_M` near to their places."""
 ENDS_S: Final = 2.0
-"""All come to rest within this time after the last beat that any of them hears."""
+"""All come to rest within this time after the last beat that any of them follows."""
 
 
 @dataclass(frozen=True)

@@ -70,7 +70,7 @@ def model_of(instrument: InstrumentMap) -> InstrumentModel:
 def suited_to(player: Player, instrument: InstrumentMap) -> FittedInstrument:
     """An instrument as a player's body plays it: its size, and what touches it; found once for each pair."""
     if player.character_id in bundled_characters():
-        # Ours are grown-ups and lack nothing: plans are made before anybody is loaded.
+        # Ours are adult and complete: plans are made before any character is loaded.
         return FittedInstrument(instrument, ())
     character, body = character_of(player), body_of(player)
 

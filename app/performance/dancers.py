@@ -72,7 +72,7 @@ class Dancing:
         The seed is the dancer's and the project's together.
     choreographer : Choreographer
     rhythm : Rhythm
-        As the dancer hears it.
+        As the dancer follows it.
     corrections : sequence of DanceCorrection
     tempo_map : TempoMap
         Of the piece: when the corrections' ticks are.
@@ -232,7 +232,7 @@ def dancer_motion(
 
 
 def rhythm_of(performance: Performance) -> Rhythm:
-    """What all dancers hear of the piece."""
+    """The rhythm of the piece that all dancers follow."""
     score = performance.project.score
     return _RHYTHMS.get((score,), lambda: _same_rhythm(audible_rhythm(score)))
 
@@ -351,7 +351,7 @@ def _interned(dancer: Dancer) -> Dancer:
 
 
 def _same_rhythm(rhythm: Rhythm) -> Rhythm:
-    """One object for equal rhythms: an edit of notes seldom changes what dancers hear."""
+    """One object for equal rhythms: an edit of notes seldom changes the rhythm."""
     with _recent_rhythms_lock:
         for known in _recent_rhythms:
             if all(np.array_equal(getattr(known, name), getattr(rhythm, name)) for name in _RHYTHM_FIELDS):

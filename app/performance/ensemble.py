@@ -57,7 +57,7 @@ class Performance:
         Of the same document before an edit: what has not changed is taken from there, to the object. The result is
         the same without it.
     waiting : frozenset of str
-        Players who are not seen yet, because someone else finds out first how they hold their instruments (`hold`).
+        Players who are not seen yet, because another task first computes how they hold their instruments (`hold`).
 
     Raises
     ------
@@ -118,7 +118,7 @@ class Performance:
         first_ticks = [part.notes[0].onset_tick for part in played]
         last_ticks = [part.end_tick for part in played]
         if self.project.dancers:
-            # They move to all that is heard.
+            # They move to all that sounds.
             first_ticks += [hit.tick for hit in self.project.score.percussion[:1]]
             last_ticks.append(self.project.score.sounding_end_tick)
         first_tick, last_tick = min(first_ticks, default=0), max(last_ticks, default=0)

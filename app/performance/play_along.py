@@ -1,4 +1,4 @@
-"""The pose of now of someone who plays: the chosen character fingers, breathes and moves its lips as one plays.
+"""The current pose of a live player: the character fingers, breathes and moves its lips as the user plays.
 
 `PlayAlong` takes what a controller says, as it says it, and gives the pose at any later moment. What is seen of a note
 begins with its onset; nothing is known beforehand. The layers of the body, the face and the contacts are those of
@@ -166,7 +166,7 @@ class PlayAlong:
         return message.type in ("note_on", "note_off")
 
     def hold(self, poses: Sequence[PoseEvent]) -> None:
-        """Stand as an animator wants it, from now on."""
+        """Stand as the project says, from now on."""
         self._poses = Poses.of(poses)
 
     def pose(self, time_s: float, at_s: float | None = None) -> Pose:

@@ -163,7 +163,7 @@ class Sender:
             except BlockingIOError:
                 return Outcome.DROPPED
             except (ConnectionRefusedError, ConnectionResetError):
-                # Of a packet before this one; whoever comes later hears the next.
+                # Of a packet before this one; a later receiver gets the next.
                 outcome = Outcome.NO_RECEIVER
             except OSError as error:
                 raise self._not_sent(error) from error
