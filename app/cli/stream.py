@@ -95,7 +95,7 @@ def _host(text: str) -> str:
 
 
 def stream(arguments: argparse.Namespace) -> int:
-    """Send the piece, in time, and name whoever is left out; the exit status.
+    """Send the piece, in time, and name who is excluded; the exit status.
 
     Raises
     ------
@@ -130,7 +130,7 @@ def stream(arguments: argparse.Namespace) -> int:
     if not made:
         require_players(left_out, str(arguments.file), text)
     status = report_left_out((one.player.name, text(one.reason)) for one in left_out)
-    # Whoever is left out keeps the port: the others have theirs whatever happens.
+    # An excluded player keeps its port, so that the ports of the others never change.
     ports = {one.id: arguments.port + place for place, one in enumerate(chosen)}
     sent = [one for one in chosen if one.id in made]
     senders = [Sender(address.port(ports[one.id]), arguments.broadcast) for one in sent]
@@ -154,7 +154,7 @@ def stream(arguments: argparse.Namespace) -> int:
 
 
 def _beside(performance: Performance, one: Player | Dancer, made: Mapping[str, Performer]) -> tuple[Performer, ...]:
-    """The other instruments of someone who is sent, as far as they can be seen."""
+    """The other visible instruments of a streamed musician."""
     if not isinstance(one, Player):
         return ()
     return tuple(
@@ -233,7 +233,7 @@ def _pose(motion: Motion, frame: int) -> Pose:
 
 
 def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: int, loop: bool) -> None:
-    """Every frame at its time; those that come too late are left out."""
+    """Every frame at its time; late ones are dropped."""
     fps, frames = float(span.fps), span.count
     began_s = time.perf_counter()
     sounding_s, inaudible, sent = began_s, False, 0

@@ -1,7 +1,7 @@
 """The skeleton of an export against the one of an asset, bone by bone.
 
 Unreal matches bones by name. A root of another name, a bone below another parent or a length in another unit spoils an
-animation; what a bone does that the asset lacks is dropped without a word. Those differences are grave, the others are
+animation; what a bone does that the asset lacks is dropped silently. Those differences are severe, the others are
 to be known.
 """
 

@@ -1,4 +1,4 @@
-"""What to export, and who of the players asked for can be exported: the others are left out with the reason.
+"""What to export, and which requested players can be exported: the others are excluded with the reason.
 
 Messages: ``export.no one`` (file): "{file}: there is no one to export"; ``export.too_long`` (file, frames,
 most); ``work.stopped``; those of `app.performance.cast`.
@@ -49,7 +49,7 @@ class Request:
     skeleton : SkeletonChoice
         What the characters are written on; instruments have one skeleton only.
     sound : bool
-        Whether what is heard is written as a WAV file, from the first frame to the last.
+        Whether the sound is written as a WAV file, from the first frame to the last.
     bvh_names : str
         Table of bone names that BVH files have; empty: those of the skeleton.
     dancers : tuple of Dancer

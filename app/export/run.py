@@ -1,4 +1,4 @@
-"""A performance to files: characters, instruments, report. Players who cannot be exported are left out and named.
+"""A performance to files: characters, instruments, report. Players who cannot be exported are excluded and named.
 
 Messages: those of `app.export.request`.
 """
@@ -352,7 +352,7 @@ def _scenes(
 
 
 def _stems(performance: Performance) -> dict[str, str]:
-    """File stems by the id of the player or dancer; the names are the same whoever is exported."""
+    """File stems by the id of the player or dancer; the same for any selection of players."""
     project = performance.project
     names = {one.id: one.name for one in project.players} | {one.id: one.name for one in project.dancers}
     return dict(zip(names, file_stems(list(names.values())), strict=True))
