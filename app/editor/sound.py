@@ -1,4 +1,4 @@
-"""What is heard follows the project: recording, players and metronome are kept ready and given to the playback.
+"""The sound follows the project: recording, players and metronome are kept ready and given to the playback.
 
 While it plays, the playhead follows the sound.
 """
@@ -32,7 +32,7 @@ from app.project.model import Project
 
 _FRAME_MS = 16
 _TAKE_WAIT_MS = 1000
-"""A take that is listened to is waited for at most so long: what is heard first is rendered first."""
+"""The longest wait for the audition of a take: what sounds first is rendered first."""
 _TAKE_LOOK_MS = 50
 SURE = 0.5
 """An offset that was estimated with less confidence is not taken by itself."""
@@ -41,7 +41,7 @@ SAME_TEMPO = 0.002
 
 
 _CLICKS_ON_S = 1800.0
-"""Clicks beyond the end of the piece, while someone records there."""
+"""Clicks beyond the end of the piece, while recording there."""
 
 
 class Sound(QObject):
@@ -103,7 +103,7 @@ class Sound(QObject):
 
     @property
     def is_busy(self) -> bool:
-        """Whether something that is to be heard is not made yet."""
+        """Whether some of the sound is not rendered yet."""
         return self._stems.is_busy
 
     # The playhead
@@ -167,7 +167,7 @@ class Sound(QObject):
             self.playback.play(self._session.playhead_s)
 
     def _sounding_project(self) -> Project:
-        """The project as it is heard: the take that is listened to stands in the place of the part."""
+        """The project as it sounds: the auditioned take replaces the part."""
         project, take = self._session.project, self._session.listening.take
         recorded = project.takes.get(take.player_id) if take is not None else None
         if take is None or recorded is None or (take.take_id and all(take.take_id != t.id for t in recorded.takes)):
@@ -175,7 +175,7 @@ class Sound(QObject):
         known = self._audition
         if known is None or known[0] is not project or known[1] is not take:
             audition = comp_whole(project, take.player_id, take.take_id)
-            # In a recording of the piece the part is heard already: the take alone is added to it.
+            # In a recording of the piece the part sounds already: the take alone is added to it.
             over = project.audio is not None and self._session.listening.source == "recording"
             everyone = [player.id for player in project.players]
             if take.alone or over:
@@ -186,7 +186,7 @@ class Sound(QObject):
             self._audition = known = (project, take, audition)
         return known[2]
 
-    # What is heard
+    # Sound
 
     def _changed(self, change: Change) -> None:
         if change.opened:
@@ -211,7 +211,7 @@ class Sound(QObject):
             self._take()
 
     def _take(self) -> None:
-        """Let the project be heard as it is now."""
+        """Play the project as it is now."""
         project = self._sounding_project()
         self._set_span(project)
         path = project.audio.path if project.audio is not None else ""
@@ -302,7 +302,7 @@ class Sound(QObject):
         def failed(error: AppError) -> None:
             self._session.notice(error.message, Severity.ERROR)
 
-        # Later: whoever adds a recording is still being reported of it.
+        # Later: the edit that adds the recording is still being reported.
         QTimer.singleShot(
             0,
             self,
@@ -312,7 +312,7 @@ class Sound(QObject):
         )
 
     def estimate(self, unasked: bool = False, with_tempo: bool = False) -> None:
-        """Find the recording's offset from what is heard in it; set it as an edit.
+        """Estimate the recording's offset from its sound; set it as an edit.
 
         Parameters
         ----------
@@ -377,5 +377,5 @@ def span_of(project: Project) -> TimeFrame:
 
 
 def sound_of(session: Session) -> Sound | None:
-    """The sound of a session; None where nothing is heard."""
+    """The sound of a session; None without sound."""
     return session.findChild(Sound, "sound", Qt.FindChildOption.FindDirectChildrenOnly)

@@ -1,8 +1,8 @@
 """Streams the poses of players and dancers while the editor plays, is scrubbed, rests or records: see `app.stream`.
 
 A thread sends, so that neither waits for the other: the window says what is wished, where the sound is and that
-something moves. A frame that the network does not take at once is dropped. While nothing moves it goes on slowly, so
-that who receives knows that someone is there.
+something moves. A frame that the network does not take at once is dropped. While nothing moves it continues slowly, so
+that the receiver knows that the sender is there.
 """
 
 from __future__ import annotations

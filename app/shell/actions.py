@@ -209,7 +209,7 @@ class ActionTable(QObject):
         if row.checked is None:
             row.run(self.session)
         else:
-            # PySide tells a partial of a method nothing of the state.
+            # PySide does not pass the state to a partial of a method.
             row.run(self.session, self.actions[row.id].isChecked())
         self.refresh_soon()
 

@@ -35,9 +35,9 @@ POLL_MS = 100
 NAME_PX = 48
 """The name of work may become this narrow."""
 MOTION_PX = 64
-"""Width of the bar that tells how much motion is made."""
+"""Width of the progress bar of the motion."""
 QUIET_S = 0.25
-"""Work that is done sooner is not shown: a flash tells nothing."""
+"""Shorter work is not shown: it would only flash."""
 INFORMATION_S = 6.0
 """How long an information stays; warnings and errors stay until they are closed or another comes."""
 MOST_NOTICES = 100
@@ -56,13 +56,13 @@ class StatusLine(QStatusBar):
     Signals
     -------
     problems_asked()
-        The user wants to see the problems.
+        The problems are requested.
     instruments_asked()
-        The user wants to see what is wrong with instruments of their own.
+        The problems of the user's instruments are requested.
     devices_asked()
-        The user wants to see the MIDI devices.
+        The MIDI devices are requested.
     streaming_asked()
-        The user wants to see what is streamed.
+        The streaming is requested.
     """
 
     problems_asked = Signal()

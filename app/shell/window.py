@@ -225,7 +225,7 @@ class Window(QMainWindow):
                 self._layout = self._default_layout
                 self.restoreState(self._layout, LAYOUT_VERSION)
             if self._layout == self._default_layout:
-                # It was made before anyone knew how large the window would be.
+                # It was made before the size of the window was known.
                 self._size_docks()
         elif not is_open:
             if shown:

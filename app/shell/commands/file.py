@@ -37,7 +37,7 @@ def import_midi(session: Session) -> None:
 
 
 def add_audio(session: Session) -> None:
-    """Ask for the recording that the piece is heard with."""
+    """Ask for the recording that plays with the piece."""
     editor = editor_of(session)
     kinds = ((tr("files.sound_files"), AUDIO_SUFFIXES), (tr("files.all_files"), ("",)))
     path = editor.questions.open_file(tr("files.add_recording"), editor.files.folder, _filters(kinds))

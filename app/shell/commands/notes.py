@@ -42,7 +42,7 @@ def _has_player(session: Session) -> bool:
 
 
 def select_all(session: Session) -> None:
-    """Every note of the players that are selected; where all are already: of everybody."""
+    """Select every note of the selected players; where all are selected already: of all players."""
     project = session.project
     mine = _notes_of(session, session.players)
     everyone = _notes_of(session, tuple(player.id for player in project.players))

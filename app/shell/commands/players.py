@@ -1,4 +1,4 @@
-"""Players: who is there, who is heard, who is in front."""
+"""Players: add, remove, mute, solo, activate."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def _count(id: str, players: int) -> Message:
 
 
 def add(session: Session) -> None:
-    """Add someone who plays what the player in front plays; the first instrument there is in an empty project."""
+    """Add a player with the instrument of the active player; in an empty project with the first instrument."""
     front = session.player
     known = all_maps()
     instrument_id = front.instrument_id if front is not None and front.instrument_id in known else next(iter(known))
@@ -53,7 +53,7 @@ def join(session: Session) -> None:
 
 
 def separate(session: Session) -> None:
-    """Give those of the selected who double someone a body of their own."""
+    """Make the selected doubling players musicians with their own bodies."""
     chosen = session.players
     count = sum(bool(player.doubles) for player in _chosen(session))
     session.attempt(_count("edit.separate_players", count), lambda project: edit.separate(project, chosen))
@@ -65,12 +65,12 @@ def rename(session: Session) -> None:
 
 
 def mute(session: Session, on: bool) -> None:
-    """Let the selected players be silent, or heard again."""
+    """Mute or unmute the selected players."""
     _change(session, "muted", on, "edit.mute" if on else "edit.unmute")
 
 
 def solo(session: Session, on: bool) -> None:
-    """Let only these be heard."""
+    """Solo or unsolo the selected players."""
     _change(session, "soloed", on, "edit.solo" if on else "edit.unsolo")
 
 
