@@ -44,9 +44,9 @@ class LivePlayers(QObject):
     Signals
     -------
     changed()
-        Others are played now, or someone otherwise.
+        Other players are live, or one in another way.
     struck()
-        A note began or ended: whoever draws need not wait.
+        A note began or ended: redraw at once.
     """
 
     changed = Signal()
@@ -68,7 +68,7 @@ class LivePlayers(QObject):
 
     @property
     def is_shown(self) -> bool:
-        """Whether someone is played now, or has just ended and is on the way back to the performance."""
+        """Whether a player is live, or has just ended and is returning to the performance."""
         with self._lock:
             now_s = perf_counter()
             return bool(self._playing) or any(blend.at(now_s) > 0.0 for blend in self._blends.values())

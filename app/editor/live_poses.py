@@ -26,7 +26,7 @@ class LivePoses:
 
     @property
     def is_live(self) -> bool:
-        """Whether someone is played now, or has just been."""
+        """Whether a player is live, or has just been."""
         return self._session.live_players.is_shown
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Posed | None]:

@@ -59,7 +59,7 @@ class Recording(QObject):
         One of these is another, `breath` and `pitch` excepted.
     played()
         `breath` or `pitch` is another.
-    heard(object)
+    received(object)
         An `app.capture.protocol.Events` came in; for the monitor and the live pose.
     """
 

@@ -74,7 +74,7 @@ class CharacterDialog(QDialog):
     Signals
     -------
     agreed(object, bool)
-        The user wants the character of this `Draft`; and whether the selected players become it.
+        The user accepts the character of this `Draft`; and whether the selected players become it.
     """
 
     agreed = Signal(object, bool)

@@ -45,7 +45,7 @@ class Foreseen:
 
 @dataclass(frozen=True)
 class Done:
-    """What an export has done: how many files, the folder to show, who is left out, what to look at; whether Unreal
+    """What an export has done: how many files, the folder to show, who is excluded, what to look at; whether Unreal
     has a plug-in now that it loads when its editor starts."""
 
     count: int
@@ -74,12 +74,12 @@ def foresee(
     source : str
         Name of the piece's file.
     sound : bool
-        Whether a folder gets what is heard; an Unreal project always does.
+        Whether a folder gets the sound; an Unreal project always does.
 
     Raises
     ------
     FileError
-        There is no project, or something of someone else's is in the way.
+        There is no project, or files of another program are in the way.
     """
     if destination == "unreal":
         unreal = find_project(place)

@@ -138,7 +138,7 @@ class ExportDialog(QDialog):
         self._files.setObjectName("export_outcome")
         self._files.setWordWrap(True)
         self._files.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
-        # Whoever is left out of an orchestra may take more lines than there is room for.
+        # The excluded players of an orchestra may take more lines than there is room for.
         self._outcome = QScrollArea()
         self._outcome.setFrameShape(QScrollArea.Shape.NoFrame)
         self._outcome.setWidgetResizable(True)
@@ -282,7 +282,7 @@ class ExportDialog(QDialog):
             if done.new_plugin:
                 text += "\n" + self.tr("export_dialog.if_unreal_has_project_open")
             reported = Message("unreal.done", {"count": done.count, "project": done.project.name})
-        # Whoever is left out comes first, all of them.
+        # Excluded players come first, all of them.
         lines = [sentence(message) for message in done.left_out] + list(done.warnings[:6])
         self._files.setText(text + "".join(f"\n⚠ {line}" for line in lines))
         self._shown_folder = done.folder

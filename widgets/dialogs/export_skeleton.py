@@ -112,7 +112,7 @@ class SkeletonChooser(QWidget):
     def compare(self) -> None:
         """Compare what is chosen with the asset's file, in the background."""
         players, choice, asset = self._players(), self.choice, self.asset
-        # Typing a path gives many that are none; reading what was read already tells nothing new.
+        # Typing a path gives many that are none; what was read already is not read again.
         requested = (choice, asset, tuple(player.character_id for player in players))
         if requested == self._requested:
             return
@@ -198,7 +198,7 @@ class SkeletonChooser(QWidget):
 
 
 def _fits(checked: CheckedTarget) -> bool:
-    """Whether a player is exported for the asset; one whose animation it would lose or spoil is left out."""
+    """Whether a player is exported for the asset; one whose animation it would lose or spoil is excluded."""
     return not any(difference.severe for difference in checked.differences)
 
 
@@ -209,7 +209,7 @@ def _comparison(
 
     def work(progress: Progress, stop_requested: StopRequested) -> Found:
         try:
-            # Who has no character is left out of the export, and among the problems.
+            # A player without a character is excluded from the export, and among the problems.
             characters = attempt(players, character_of).made
             return requested, checked_targets(characters, choice, read_figure(asset)), None
         except AppError as error:

@@ -1,4 +1,4 @@
-"""Finds out how late a device comes: clicks are heard, and someone blows on each of them."""
+"""Finds out how late a device comes: clicks sound, and the user blows on each of them."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class LatencyDialog(QDialog):
     ----------
     session : Session
     playback : Playback
-        Plays the clicks; becomes the dialog's. Its device and its clock are those that a take is heard by.
+        Plays the clicks; becomes the dialog's. Its device and its clock are those of the playback of a take.
     now_ns : callable
         The clock of the events.
     parent : QWidget, optional
@@ -120,7 +120,7 @@ class LatencyDialog(QDialog):
         return self._running
 
     def sounding_s(self) -> float:
-        """The moment of the clicks that is heard now."""
+        """The moment of the clicks that sounds now."""
         return self._playback.position_s()
 
     def toggle(self) -> None:
@@ -163,7 +163,7 @@ class LatencyDialog(QDialog):
             ]
 
     def _look(self) -> None:
-        """Note down what is heard now, and show what came in."""
+        """Record the position that sounds now, and show the input."""
         ns, position_s = self._now_ns(), self._playback.position_s()
         # The device plays nothing for a while at first: the clock does not run yet.
         if not self._positions or position_s > self._positions[-1][1]:

@@ -99,7 +99,7 @@ class LearnDialog(QDialog):
     Signals
     -------
     used(Path)
-        The user wants it danced.
+        The user assigns it to a dancer.
 
     Parameters
     ----------

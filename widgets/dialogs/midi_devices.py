@@ -184,7 +184,7 @@ class MidiDevicesDialog(QDialog):
         self.wiring_chosen.emit(wiring)
 
     def beep(self) -> None:
-        """Let a short sound be heard, or say why none is."""
+        """Play a short tone, or say why there is none."""
         volume, playback = self._session.listening.volume, self._playback
         playback.stop()
         playback.set_volume(volume)

@@ -21,7 +21,7 @@ _FULL = 1000
 
 
 class MidiMonitor(QWidget):
-    """Shows what `session.recording` hears."""
+    """Shows what `session.recording` receives."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -125,7 +125,7 @@ class MidiMonitor(QWidget):
                 item.setText(text)
 
     def _pitch(self, pitch: int) -> str:
-        """As the instrument of whoever is recorded is written, where pitches are shown so."""
+        """As the recorded player's instrument is written, where pitches are shown so."""
         recording, players = self._session.recording, self._session.project.players
         player = next((player for player in players if player.id == recording.armed), self._session.player)
         instrument = all_maps().get(player.instrument_id) if player is not None else None

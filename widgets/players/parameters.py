@@ -44,7 +44,7 @@ class ParameterSections(QWidget):
     Signals
     -------
     dice_thrown()
-        The user wants another seed.
+        The user requests another seed.
     """
 
     dice_thrown = Signal()

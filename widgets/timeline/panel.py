@@ -80,7 +80,7 @@ class TimelinePanel(QWidget):
     Signals
     -------
     sought(float)
-        Someone wants the playhead at this time (seconds); the shell hands it to the transport.
+        The playhead is requested at this time (seconds); the shell hands it to the transport.
     """
 
     sought = Signal(float)
@@ -126,7 +126,7 @@ class TimelinePanel(QWidget):
 
         self.flags.sought.connect(self.sought)
         self.ruler.sought.connect(self.sought)
-        # Whoever sounds hears of it there: a playhead that is set is sought.
+        # The playback is notified there: a playhead that is set is sought.
         self.sought.connect(session.set_playhead)
         self.setFocusProxy(self.roll.plot)
         self.axis.changed.connect(self._axis_changed)

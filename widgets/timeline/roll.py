@@ -185,7 +185,7 @@ class PianoRoll(Lane):
             self.keyboard.update()
 
     def pitch_text(self, pitch: int) -> str:
-        """A pitch as the user wants it named."""
+        """A pitch named by the user's settings."""
         instrument = self._instrument()
         return pitch_text(
             self.session.pitch_display, pitch, instrument.transposition_semitones if instrument is not None else 0

@@ -1,4 +1,4 @@
-"""The transport: play, stop, loop; where the playhead is; how it is heard; what edits snap to."""
+"""The transport: play, stop, loop; where the playhead is; what sounds; what edits snap to."""
 
 from __future__ import annotations
 

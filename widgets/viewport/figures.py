@@ -71,7 +71,7 @@ def same_figures(one: CastKey, other: CastKey) -> bool:
 
 
 def load(project: Project, before: Shapes | None, progress: Progress, stop_requested: StopRequested) -> Loaded:
-    """Load everybody. A player of whom something is missing is left out. Raises Cancelled."""
+    """Load all performers. A player with something missing is excluded. Raises Cancelled."""
     kits: dict[tuple[str, str], RenderAssets] = {}
     musicians: dict[str, str] = {}
     done = 0
@@ -99,8 +99,8 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
             kits[pair] = dancer_kit(dancer)
         return dancing_member(dancer, kits[pair])
 
-    everyone = [player for musician in project.bodies for player in project.played_by(musician)]
-    found, dancers = attempt(everyone, make), attempt(project.dancers, make_dancer)
+    all_players = [player for musician in project.bodies for player in project.played_by(musician)]
+    found, dancers = attempt(all_players, make), attempt(project.dancers, make_dancer)
     members = [*found.made.values(), *dancers.made.values()]
     stage = Stage(members)
     shapes = shapes_of(stage, before)
