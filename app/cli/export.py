@@ -45,7 +45,7 @@ def add_command(commands: Commands) -> None:
         "export",
         help="write the players and their instruments as FBX, BVH, GLB or USD",
         description="Writes per player a character that plays its part and its instrument, and a report.json that says "
-        "what the files hold. Either all files appear or none. Players who cannot be exported are left out and named; "
+        "what the files hold. Either all files appear or none. Players who cannot be exported are excluded and named; "
         "the exit status is 4 then.",
     )
     add_source_options(command)
@@ -125,7 +125,7 @@ def file_formats(text: str) -> list[Format]:
 
 
 def export(arguments: argparse.Namespace) -> int:
-    """Write the files, print what they hold and name the players who are left out; the exit status."""
+    """Write the files, print what they hold and name the excluded players; the exit status."""
     from app.export.request import Request
     from app.export.run import export as write
     from app.export.tree import clean_up

@@ -291,7 +291,7 @@ def tables(file: str, found: Table) -> list[str]:
         )
         lines += ["", *columns([titles, *rows])]
     if found["left_out"]:
-        lines += ["", "left out:", *(f"  {one['player']}: {one['reason']}" for one in found["left_out"])]
+        lines += ["", "excluded:", *(f"  {one['player']}: {one['reason']}" for one in found["left_out"])]
     if found["unplayed"]:
         lines += ["", "not played:"]
         lines += [

@@ -21,11 +21,11 @@ breath.preparation(rest_beats, prepare_beats): "A rest of {rest_beats} beats (fr
 breath.catch(after_note, phrase_s, lung_s, from_note_ms): "A catch breath after note {after_note}: {phrase_s} s
     without a breath in a rest need more than the {lung_s} s of air there are; {from_note_ms} ms come out of that
     note's tail."
-breath.catch_dropped(after_note, phrase_s, lung_s): "A catch breath instead of note {after_note}, which is left out:
+breath.catch_dropped(after_note, phrase_s, lung_s): "catch breath in place of note {after_note}, which is excluded:
     {phrase_s} s without a breath in a rest need more than the {lung_s} s of air there are, and no note is long enough
     to take it from."
-breath.catch_dropped_two(first_note, after_note, phrase_s, lung_s): "A catch breath instead of notes {first_note} and
-    {after_note}, which are left out: {phrase_s} s without a breath in a rest need more than the {lung_s} s of air
+breath.catch_dropped_two(first_note, after_note, phrase_s, lung_s): "catch breath in place of notes {first_note} and
+    {after_note}, which are excluded: {phrase_s} s without a breath in a rest need more than the {lung_s} s of air
     there are, and no note is long enough to take it from."
 breath.blown(gap_s): "from the recorded breath: {gap_s} s without blowing"
     Within a note too, which is blown on afterwards.

@@ -38,7 +38,7 @@ score.looks_written : part, map, outside, total, bar, beat, pitch
     "{part}: {outside} of {total} notes lie outside the range of {map}, the first at ..., but all fit as written
     pitches: the part looks untransposed; import its pitches as written"
 score.left_out : (a reason)
-    "left out on import"
+    "excluded on import"
 score.too_many_players : most (a reason)
     "the piece has {most} players already, and more cannot play"
 score.voices : part, voices, count, bar, beat, pitch
@@ -47,7 +47,7 @@ score.doubling : part, instrument, count, bar, beat, pitch
     "{part}: the player of this track changes to {instrument} for {count} notes, the first at ...; a player has one
     instrument here, so another one plays them"
 score.notes_left_out : part, most, count, bar, beat, pitch
-    "{part}: {most} players share it, and {count} notes that sound together with theirs are left out, the first at ..."
+    "{part}: {most} players share it, and {count} notes that sound together with theirs are excluded, the first at ..."
 score.slurred : part, count, bar, beat, pitch
     "{count} notes last into the next one and end there as slurred notes, the first in {part} at ..."
 """
