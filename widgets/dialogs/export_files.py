@@ -106,10 +106,10 @@ class ExportDialog(QDialog):
             item.setCheckState(Qt.CheckState.Checked)
             item.setSizeHint(QSize(0, LEAST_TARGET_PX))
             self._players.addItem(item)
-        self._everybody = QPushButton()
-        self._everybody.setObjectName("export_everyone")
-        self._everybody.setAutoDefault(False)
-        self._everybody.clicked.connect(self._toggle_everybody)
+        self._everyone = QPushButton()
+        self._everyone.setObjectName("export_everyone")
+        self._everyone.setAutoDefault(False)
+        self._everyone.clicked.connect(self._toggle_everyone)
         self._place = PlaceChooser(folder, unreal, destination)
         self._shown_folder = folder
         self._formats = FormatChooser()
@@ -179,7 +179,7 @@ class ExportDialog(QDialog):
         left = QVBoxLayout()
         top = QHBoxLayout()
         top.addWidget(self._labels["players"], 1)
-        top.addWidget(self._everybody)
+        top.addWidget(self._everyone)
         left.addLayout(top)
         left.addWidget(self._players, 1)
         self._form = form = QFormLayout()
@@ -310,12 +310,12 @@ class ExportDialog(QDialog):
 
     def _enable(self, enabled: bool) -> None:
         for widget in (
-            *(self._players, self._everybody, self._place, self._formats, self._bvh_names, self._skeleton),
+            *(self._players, self._everyone, self._place, self._formats, self._bvh_names, self._skeleton),
             *(self._range, self._preroll, self._rate, self._export),
         ):
             widget.setEnabled(enabled)
 
-    def _toggle_everybody(self) -> None:
+    def _toggle_everyone(self) -> None:
         state = Qt.CheckState.Unchecked if len(self.player_ids) == self._players.count() else Qt.CheckState.Checked
         for row in range(self._players.count()):
             self._players.item(row).setCheckState(state)
@@ -393,7 +393,7 @@ class ExportDialog(QDialog):
         }
         for name, text in texts.items():
             self._labels[name].setText(text)
-        self._everybody.setText(self.tr("export_dialog.all_or_none"))
+        self._everyone.setText(self.tr("export_dialog.all_or_none"))
         self._bvh_names.setItemText(0, self.tr("export_dialog.those_of_skeleton"))
         self._preroll.setSuffix(self.tr("export_dialog.beats"))
         self._range.retranslate()

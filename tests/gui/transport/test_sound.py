@@ -97,11 +97,11 @@ def test_scrubbing_can_be_silent(ready: Sound, session: Session, devices: FakeDe
     assert ready.playback.position_s() == 1.0
 
 
-def test_what_is_heard_is_what_films_get(ready: Sound, session: Session) -> None:
+def test_films_get_the_sound_of_playback(ready: Sound, session: Session) -> None:
     assert rendered(ready, 0.0, 3.0) == pytest.approx(mixdown(session.project, 0.0, 3.0), abs=1e-6)
 
 
-def test_mute_and_solo_are_heard_at_once(ready: Sound, session: Session, tasks: ImmediateTasks) -> None:
+def test_mute_and_solo_take_effect_at_once(ready: Sound, session: Session, tasks: ImmediateTasks) -> None:
     rendered = len(tasks.names)
     edit(session, with_players(session.project, p0={"muted": True}))
     assert loudness(ready, 0.2, 0.9) < 1e-4
@@ -145,7 +145,7 @@ def replace_parts(score: object, parts: object) -> object:
     return msgspec.structs.replace(score, parts=parts)
 
 
-def test_another_tempo_is_heard(ready: Sound, session: Session, qtbot: QtBot) -> None:
+def test_another_tempo_changes_the_sound(ready: Sound, session: Session, qtbot: QtBot) -> None:
     edit(session, set_tempo(session.project, 0, 60.0))
     qtbot.waitUntil(lambda: loudness(ready, 4.2, 5.0) > 0.01)
     assert rendered(ready, 0.0, 6.0) == pytest.approx(mixdown(session.project, 0.0, 6.0), abs=1e-6)
@@ -184,7 +184,7 @@ def add(session: Session, path: Path, qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: session.listening.waveform is not None)
 
 
-def test_a_recording_is_heard_at_its_place(
+def test_a_recording_sounds_at_its_offset(
     recording: Path, ready: Sound, session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Sound, "estimate", lambda self, **how: None)
@@ -339,7 +339,7 @@ def recorded(ready: Sound, session: Session, qtbot: QtBot) -> Sound:
     return ready
 
 
-def test_a_take_is_heard_in_the_place_of_the_part_until_the_sound_stops(
+def test_an_auditioned_take_replaces_the_part_until_playback_stops(
     recorded: Sound, session: Session, elapse: Elapse, qtbot: QtBot
 ) -> None:
     before, project = rendered(recorded, 0.0, 3.0), session.project
@@ -356,7 +356,7 @@ def test_a_take_is_heard_in_the_place_of_the_part_until_the_sound_stops(
     assert rendered(recorded, 0.0, 3.0) == pytest.approx(before, abs=1e-6)
 
 
-def test_a_take_alone_is_all_that_is_heard(recorded: Sound, session: Session, qtbot: QtBot) -> None:
+def test_a_take_auditioned_alone_is_the_only_sound(recorded: Sound, session: Session, qtbot: QtBot) -> None:
     edit(session, with_players(session.project, p0={"muted": True}, p1={"soloed": True}))
     recorded.listen(RecordedTake(first(session), "take:1", alone=True), 1.0)
     wait_ready(session, qtbot)
@@ -366,7 +366,7 @@ def test_a_take_alone_is_all_that_is_heard(recorded: Sound, session: Session, qt
     assert not session.playing
 
 
-def test_a_take_that_is_thrown_away_is_heard_no_more(recorded: Sound, session: Session, qtbot: QtBot) -> None:
+def test_a_deleted_take_sounds_no_more(recorded: Sound, session: Session, qtbot: QtBot) -> None:
     recorded.listen(RecordedTake(first(session), "take:1", alone=True), 1.0)
     wait_ready(session, qtbot)
     edit(session, remove_take(session.project, first(session), "take:1"))

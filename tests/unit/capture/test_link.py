@@ -113,7 +113,7 @@ def test_what_is_played_arrives_in_order_and_stamped(ear: Ear, tmp_path: Path) -
     assert 0 < taken.times_us[0] < taken.times_us[-1]
 
 
-def test_whoever_waits_is_called(tmp_path: Path) -> None:
+def test_a_waiting_reader_is_notified(tmp_path: Path) -> None:
     called = threading.Event()
     with RecorderLink(called.set) as link:
         assert called.wait(PATIENCE_S)

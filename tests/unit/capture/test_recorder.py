@@ -217,7 +217,7 @@ def test_a_system_that_goes_away_is_left_to_another_recorder(monkeypatch: pytest
     assert again.kinds() == [Ports, Back]
 
 
-def test_what_is_heard_goes_to_the_disk_and_to_the_editor(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_received_messages_go_to_the_disk_and_to_the_editor(monkeypatch: pytest.MonkeyPatch) -> None:
     system = System("EWI")
     bench = Bench(monkeypatch, system)
     bench.recorder.obey(Open("EWI"))

@@ -53,7 +53,7 @@ def test_melody_bass_and_leaps_have_their_sounds(tmp_path):
     assert [hit for hit in found if hit[1] == 49] == [(0.0, 49)]
 
 
-def test_a_voice_in_the_middle_is_not_heard(tmp_path):
+def test_a_middle_voice_gives_no_rhythm(tmp_path):
     outer = [(0, 4, 76, 80)], [(0, 4, 48, 80)]
     inner = [(1, 1, 60, 80), (2, 1, 62, 80), (3, 1, 64, 80)]
     assert {time for time, _ in rhythm_of(piece(tmp_path, *outer, inner))} == {0.0}
@@ -91,7 +91,7 @@ def test_notes_of_a_chord_that_is_not_quite_together_are_one_moment(tmp_path):
     assert rhythm.strengths == pytest.approx([100 / 127] * 3)
 
 
-def test_percussion_is_heard_where_there_is_any(tmp_path):
+def test_percussion_is_used_where_there_is_any(tmp_path):
     notes = [(0, 1, 60, 80)]
     with_drums = audible_rhythm(piece(tmp_path, notes, drums=(1.0,)))
     assert not with_drums.derived

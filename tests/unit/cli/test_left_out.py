@@ -176,12 +176,12 @@ def test_who_has_no_body_is_inspected_all_the_same(
     assert any(warning.startswith("trumpet: ") and reason in warning for warning in found["warnings"])
 
 
-def test_a_midi_file_has_everybody(own: OwnFolders, tmp_path: Path) -> None:
+def test_a_midi_file_has_all_players(own: OwnFolders, tmp_path: Path) -> None:
     project = with_instrument(with_character(small_project(), 0, "nobody"), 1, "ophicleide")
     assert main(["midi", saved(project, tmp_path), "--to", str(tmp_path / "out.mid")]) == 0
 
 
-def test_the_sound_has_everybody_who_has_notes(own: OwnFolders, tmp_path: Path) -> None:
+def test_the_sound_has_all_players_with_notes(own: OwnFolders, tmp_path: Path) -> None:
     project = with_instrument(small_project(), 0, "ophicleide")
     arguments = ["export", saved(project, tmp_path), "--to", str(tmp_path / "out"), *BVH, "--sound"]
     assert main(arguments) == PARTIAL

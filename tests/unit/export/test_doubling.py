@@ -46,7 +46,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Report]:
     return folder, exported(flutist(beside=False), folder, 1)
 
 
-def test_whoever_is_asked_for_one_character_and_both_instruments_are_written(written: tuple[Path, Report]) -> None:
+def test_for_either_player_one_character_and_both_instruments_are_written(written: tuple[Path, Report]) -> None:
     folder, report = written
     assert {path.name for path in folder.iterdir()} == {
         *(f"{stem}.{suffix}" for stem in ("Flute", "Flute_flute", "Flute_piccolo") for suffix in ("fbx", "glb")),

@@ -162,7 +162,7 @@ def test_who_never_stopped_blowing_takes_no_breath_and_is_reported() -> None:
     assert "breath.too_long" in [problem.message.id for problem in plan.problems]
 
 
-def test_a_curve_drawn_for_the_dynamics_tells_no_breaths() -> None:
+def test_a_curve_drawn_for_the_dynamics_has_no_breath_gaps() -> None:
     drawn = ControllerCurve("expression", (0, ticks(3.0), ticks(5.0)), (0.5, 0.9, 0.4))
     with_it, without = plan_of(take(NOTES, drawn)), plan_of(take(NOTES))
     places = [(event.id, event.start_s, event.end_s) for event in with_it.breaths]

@@ -340,7 +340,7 @@ def test_over_the_wire() -> None:
         assert [packet for _, packet in receiver.packets] == packets * 30
 
 
-def test_no_one_there_does_not_hurt_and_who_comes_later_hears() -> None:
+def test_a_missing_receiver_is_no_error_and_a_later_one_receives() -> None:
     character, pose = pose_of(0, 1.0)
     packets = Sent(character, "horn").datagrams(pose, 1.0)
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:

@@ -118,7 +118,7 @@ def test_the_synthesisers_sound_begins_with_frame_0(unreal: UnrealProject, expor
     assert 0 <= audible[0] - first < 0.1 * 48_000
 
 
-def test_the_recording_is_heard_at_its_place(unreal: UnrealProject, export: Export, tmp_path: Path) -> None:
+def test_the_recording_sounds_at_its_offset(unreal: UnrealProject, export: Export, tmp_path: Path) -> None:
     click = np.zeros(44_100, np.float32)
     click[4410] = 0.9
     soundfile.write(tmp_path / "take.flac", click, 44_100)
