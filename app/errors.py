@@ -1,6 +1,6 @@
 """The error family and the messages of the whole program.
 
-Below the command line and the shell nothing is worded: a message is an id plus arguments, and whoever
+Below the command line and the shell nothing is worded: a message is an id plus arguments, and the code that
 shows it words it (English templates in `app.messages`, which the editor translates).
 """
 

@@ -1,6 +1,6 @@
 """The vocabulary of instruments: what they are called in scores, and their General MIDI programs.
 
-The table itself is `vocabulary.toml` beside this module. An instrument here need not have a map; the vocabulary tells
+The table itself is `vocabulary.toml` beside this module. An instrument here need not have a map; the vocabulary says
 what a part is, and the maps tell who can play it.
 
 Messages

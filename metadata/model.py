@@ -75,7 +75,7 @@ class Expression(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class JointLimits(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Human range of one joint, and the largest angular acceleration a person gives it.
+    """Human range of one joint, and the largest angular acceleration that occurs in human motion.
 
     The joint's rotation is ``swing * twist``: twist about the profile's `JointAxes.twist`; the swing, as a rotation
     vector, has the components ``flexion`` and ``sideways`` on the axes of the same names. Both sides share an entry

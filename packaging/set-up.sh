@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 say() { printf '%s\n' "$*" >&2; }
 
-# Debian packages that are missing are installed when we may; otherwise the person is told.
+# Debian packages that are missing are installed when we may; otherwise they are reported.
 need_packages() {
     command -v dpkg-query >/dev/null || return 0
     local missing=() package

@@ -1,4 +1,4 @@
-"""A short sound by which someone knows that they hear something."""
+"""A short tone to test the audio output."""
 
 from __future__ import annotations
 

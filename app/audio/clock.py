@@ -21,7 +21,7 @@ _AHEAD_S: Final = 0.03
 
 
 class DeviceClock:
-    """Seconds of sound that were heard since the device was started.
+    """Seconds of sound that were played since the device was started.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class DeviceClock:
         self._offset_s += away_s / self._count
 
     def time_s(self) -> float:
-        """What is heard now; never goes back, and stands until the device begins to play."""
+        """The position that sounds now; never goes back, and stands until the device begins to play."""
         if self._offset_s is None:
             return 0.0
         time_s = min(self._now() + self._offset_s, self._processed_s + _AHEAD_S)

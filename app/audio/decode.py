@@ -71,7 +71,7 @@ def decode(
     path : str
     progress : callable
         Called with the share 0..1 that is read.
-    stop_wanted : callable
+    stop_requested : callable
         Asked now and then; true ends the work.
 
     Raises
@@ -134,7 +134,7 @@ def _read(
 
 
 def _stereo(block: Block) -> Block:
-    """Two channels: one is heard on both sides; what comes beside left and right is added to both."""
+    """Two channels: one is played on both sides; channels beside left and right are added to both."""
     if block.shape[1] == 1:
         return np.ascontiguousarray(np.repeat(block, 2, axis=1))
     if block.shape[1] == 2:

@@ -18,7 +18,7 @@ from instrument_maps.library import all_maps
 _LEVEL: Final = 4.5
 """The soundfont's tones are some 30 dB below full scale; an ensemble of any size comes to about -18."""
 _SIDE: Final = 0.6
-"""How far to the side the outermost player is heard; 1 is one channel alone."""
+"""How far to the side the outermost player is panned; 1 is one channel alone."""
 
 
 def player_phrases(project: Project, player: Player) -> tuple[Phrase, ...]:
@@ -28,7 +28,7 @@ def player_phrases(project: Project, player: Player) -> tuple[Phrase, ...]:
 
 
 def player_tracks(project: Project, pieces: Mapping[str, Iterable[Piece]]) -> tuple[Track, ...]:
-    """The players who are heard.
+    """The audible players.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def player_tracks(project: Project, pieces: Mapping[str, Iterable[Piece]]) -> tu
 
 
 def player_gains(project: Project) -> dict[str, tuple[float, float]]:
-    """Gains of left and right of the players who are heard: those soloed if any is, else those not muted."""
+    """Gains of left and right of the audible players: those soloed if any is, else those not muted."""
     players = project.players
     soloed = any(player.soloed for player in players)
     width_m = max((abs(player.stage.x_m) for player in players), default=0.0)
@@ -61,7 +61,7 @@ def recording_track(recording: Recording, offset_s: float) -> Track:
 
 
 def place_gains(x_m: float, width_m: float) -> tuple[float, float]:
-    """Gains of left and right for someone on the stage, at equal power; both 1 in the middle.
+    """Gains of left and right for a place on the stage, at equal power; both 1 in the middle.
 
     Parameters
     ----------
@@ -88,13 +88,13 @@ def mixdown(
     Parameters
     ----------
     project : Project
-        Muted players are not heard.
+        Muted players are silent.
     start_s, end_s : float
         Seconds of the performance; may be negative.
     rate_hz : int
     progress : callable
         Called with the share 0..1 that is done.
-    stop_wanted : callable
+    stop_requested : callable
         Asked now and then; true ends the work.
 
     Returns

@@ -62,7 +62,7 @@ class Estimate:
 
 
 @dataclass(frozen=True)
-class _ControllerInput:
+class _Features:
     """What a recording sounds like: chroma (12, frames), onset strength (frames,)."""
 
     chroma: Floats
@@ -95,7 +95,7 @@ def estimate_offset(
     score : Score
     progress : callable
         Called with the share 0..1 that is done.
-    stop_wanted : callable
+    stop_requested : callable
         Asked now and then; true ends the work.
 
     Raises
@@ -114,15 +114,15 @@ def estimate_offset(
     if not len(samples) or not samples.any() or not len(expected.onset_s):
         raise AppError("audio.nothing_to_compare")
     reached(0.0)
-    heard = _heard(samples, rate_hz, lambda share: reached(0.6 * share))
-    places = _by_chroma(heard, expected, lambda share: reached(0.6 + 0.3 * share))
+    recorded = _features(samples, rate_hz, lambda share: reached(0.6 * share))
+    places = _by_chroma(recorded, expected, lambda share: reached(0.6 + 0.3 * share))
     fits = []
     for index, (start_s, ratio) in enumerate(places):
-        fits.append(_by_onsets(heard, expected, start_s, ratio))
+        fits.append(_by_onsets(recorded, expected, start_s, ratio))
         reached(0.9 + 0.1 * (index + 1) / len(places))
     strengths = [strength for _, _, strength in fits]
     start_s, ratio, _ = fits[int(np.argmax(strengths))]
-    likeness = _likeness(heard, expected, start_s, ratio)
+    likeness = _likeness(recorded, expected, start_s, ratio)
     return Estimate(-(start_s + _EARLY_S), ratio, _confidence(likeness, max(strengths)))
 
 
@@ -137,7 +137,7 @@ def _expected(score: Score) -> _Expected:
     )
 
 
-def _heard(samples: Samples, rate_hz: int, progress: Callable[[float], None]) -> _ControllerInput:
+def _features(samples: Samples, rate_hz: int, progress: Callable[[float], None]) -> _Features:
     sound = soxr.resample(samples.astype(np.float32).mean(axis=1) / 32768.0, rate_hz, _RATE_HZ)
     sound = np.pad(sound, (0, max(_LEAST_SAMPLES - len(sound), 0)))
     progress(0.2)
@@ -150,7 +150,7 @@ def _heard(samples: Samples, rate_hz: int, progress: Callable[[float], None]) ->
     progress(0.5)
     onsets = onset_strength(sound, _RATE_HZ, 1024, _ONSET_HOP)
     progress(1.0)
-    return _ControllerInput(_shape(classes), _evened(onsets))
+    return _Features(_shape(classes), _evened(onsets))
 
 
 def _shape(chroma: Floats) -> Floats:
@@ -190,7 +190,7 @@ def _score_chroma(expected: _Expected, ratio: float) -> Floats:
 
 
 def _by_chroma(
-    heard: _ControllerInput, expected: _Expected, progress: Callable[[float], None]
+    recorded: _Features, expected: _Expected, progress: Callable[[float], None]
 ) -> list[tuple[float, float]]:
     """The likeliest places: (second of the recording at which the score's second 0 lies, tempo ratio)."""
     length_s = float(expected.end_s.max())
@@ -200,10 +200,10 @@ def _by_chroma(
     ratios = [1.0 + step * index for index in range(-half, half + 1)]
     found: list[tuple[float, float, float]] = []
     spectra: dict[int, Spectrum] = {}
-    energy = np.concatenate([[0.0], np.cumsum((heard.chroma**2).sum(axis=0))])
+    energy = np.concatenate([[0.0], np.cumsum((recorded.chroma**2).sum(axis=0))])
     for index, ratio in enumerate(ratios):
-        requested = _score_chroma(expected, ratio)
-        lags, values = _correlate(heard.chroma, requested, energy, spectra)
+        expected_chroma = _score_chroma(expected, ratio)
+        lags, values = _correlate(recorded.chroma, expected_chroma, energy, spectra)
         for at in _peaks(values):
             found.append((float(values[at]), float(lags[at]) * _CHROMA_S, ratio))
         progress((index + 1) / len(ratios))
@@ -218,20 +218,20 @@ def _by_chroma(
 
 
 def _correlate(
-    heard: Floats, requested: Floats, energy: Floats, spectra: dict[int, Spectrum]
+    recorded: Floats, expected_chroma: Floats, energy: Floats, spectra: dict[int, Spectrum]
 ) -> tuple[npt.NDArray[np.int64], Floats]:
     """Likeness of the two at every lag of the recording, -1..1, by how much of them overlaps."""
-    frames, length = heard.shape[1], requested.shape[1]
+    frames, length = recorded.shape[1], expected_chroma.shape[1]
     from scipy import fft  # heavy, and only here
 
     size = fft.next_fast_len(frames + length, real=True)
     if size not in spectra:
         spectra.clear()
-        spectra[size] = fft.rfft(heard, size, axis=1)
-    products = fft.irfft((spectra[size] * np.conj(fft.rfft(requested, size, axis=1))).sum(axis=0), size)
+        spectra[size] = fft.rfft(recorded, size, axis=1)
+    products = fft.irfft((spectra[size] * np.conj(fft.rfft(expected_chroma, size, axis=1))).sum(axis=0), size)
     lags = np.arange(-length + 1, frames)
     values = products[lags % size]
-    own = np.concatenate([[0.0], np.cumsum((requested**2).sum(axis=0))])
+    own = np.concatenate([[0.0], np.cumsum((expected_chroma**2).sum(axis=0))])
     begin, end = np.clip(lags, 0, frames), np.clip(lags + length, 0, frames)
     there = energy[end] - energy[begin]
     ours = own[np.clip(end - lags, 0, length)] - own[np.clip(begin - lags, 0, length)]
@@ -255,9 +255,7 @@ def _peaks(values: Floats) -> list[int]:
     return result
 
 
-def _by_onsets(
-    heard: _ControllerInput, expected: _Expected, start_s: float, ratio: float
-) -> tuple[float, float, float]:
+def _by_onsets(recorded: _Features, expected: _Expected, start_s: float, ratio: float) -> tuple[float, float, float]:
     """The exact place near a rough one: (start, ratio, mean onset strength there in spreads).
 
     Round by round the onsets may lie less and less beside the recording's.
@@ -273,7 +271,7 @@ def _by_onsets(
         (0.02, 0.02, 0.004),
         (0.02, 0.006, 0.001),
     ):
-        edges = _edges(heard.onsets, width_s)
+        edges = _edges(recorded.onsets, width_s)
         shifts = np.arange(-reach_s, reach_s + 1e-9, step_s)
         slants = np.arange(-reach_s, reach_s + 1e-9, 2 * step_s) / (length_s / 2) * ratio
         best = (-np.inf, centre_s, ratio)
@@ -305,14 +303,14 @@ def _edges(onsets: Floats, width_s: float) -> Floats:
     return result
 
 
-def _likeness(heard: _ControllerInput, expected: _Expected, start_s: float, ratio: float) -> float:
+def _likeness(recorded: _Features, expected: _Expected, start_s: float, ratio: float) -> float:
     """How alike the chroma of both are where the score now lies, against the score transposed: 0 for another piece."""
-    requested = _score_chroma(expected, ratio)
+    expected_chroma = _score_chroma(expected, ratio)
     lag = round(start_s / _CHROMA_S)
-    first, last = max(lag, 0), min(lag + requested.shape[1], heard.chroma.shape[1])
+    first, last = max(lag, 0), min(lag + expected_chroma.shape[1], recorded.chroma.shape[1])
     if last <= first:
         return 0.0
-    there, ours = heard.chroma[:, first:last], requested[:, first - lag : last - lag]
+    there, ours = recorded.chroma[:, first:last], expected_chroma[:, first - lag : last - lag]
     size = float(np.sqrt((there**2).sum() * (ours**2).sum()))
     if size <= 0.0:
         return 0.0

@@ -115,7 +115,7 @@ class Queue:
     ----------
     rate_hz : int
     delay_s : float
-        Time from when the device fetches sound until that begins to be heard.
+        Time from when the device fetches sound until that begins to sound.
     now : callable
         A monotonic clock in seconds.
 
@@ -135,7 +135,7 @@ class Queue:
         self._put = 0
         self._fetched_s = now()
         self._fetches: deque[tuple[float, int, int]] = deque([(now(), 0, 0)])
-        """When what was fetched begins to be heard, samples that were fetched before, and samples of this one."""
+        """When what was fetched begins to sound, samples that were fetched before, and samples of this one."""
 
     def put(self, block: Block) -> None:
         """Add sound at the end; shape (n, 2)."""
@@ -172,12 +172,12 @@ class Queue:
             count = yield self.fetch(count)
 
     def played_s(self) -> float:
-        """Seconds that were heard of what was put."""
+        """Seconds of the queued sound that were played."""
         with self._lock:
             return self._played() / self._rate_hz
 
     def waiting_s(self) -> float:
-        """Seconds that were put and not heard yet."""
+        """Seconds that were queued and not played yet."""
         with self._lock:
             return (self._put - self._played()) / self._rate_hz
 

@@ -18,7 +18,7 @@ from app.audio.track import RATE_HZ, Mix
 
 _FEED_MS: Final = 10
 _GRAIN_S: Final = 0.09
-"""What is heard of a moment when the playhead is moved by hand."""
+"""Length of the grain that sounds while scrubbing."""
 _GRAINS_REST_MS: Final = 3000
 """The device is kept open so long after a grain: opening one takes a while."""
 _LEAST_S: Final = 1e-3
@@ -162,7 +162,7 @@ class Playback(QObject):
         self.feed()
 
     def scrub(self, position_s: float) -> None:
-        """Go to a moment and let a grain of it be heard, if it does not play."""
+        """Go to a moment and play a grain of it, unless playing."""
         self.seek(position_s)
         if self._sink is not None:
             return
@@ -178,13 +178,13 @@ class Playback(QObject):
             self._grains.set_volume(self._gain)
         self._rest_timer.start()
         count = round(_GRAIN_S * RATE_HZ)
-        # One grain at a time: what waits in the device would be heard after the hand has gone on.
+        # One grain at a time: what waits in the device would sound after the hand has moved on.
         if self._grains.free() >= round(BUFFER_S * RATE_HZ) - count // 2:
             window = np.hanning(count).astype(np.float32)[:, None]
             self._grains.write(self._mix.read(round(position_s * RATE_HZ) - count // 2, count) * window)
 
     def position_s(self) -> float:
-        """The moment that is heard now; it never waits."""
+        """The moment that sounds now; it never waits."""
         if self._sink is None:
             return self._position_s
         self._clock.observe(self._sink.processed_s())

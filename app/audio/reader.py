@@ -10,7 +10,7 @@ from app.audio.stretch import HOP, Stretch
 from app.audio.track import RATE_HZ, Block, Mix
 
 Mark = tuple[int, float, float]
-"""(sample of the output, second of the performance that it is of, seconds of the performance per second heard)."""
+"""(sample of the output, second of the performance that it is of, seconds of the performance per second of output)."""
 
 _FADE: Final = 96
 """Samples over which a jump is faded, so that it does not crack."""
@@ -19,7 +19,7 @@ _LEAST_LOOP: Final = RATE_HZ // 50
 
 
 class Reader:
-    """What is heard next.
+    """The next sound.
 
     Parameters
     ----------
@@ -88,10 +88,10 @@ class Reader:
         return (np.concatenate(parts) if parts else self._waiting[:0]), marks
 
     def _begin(self, at: int) -> None:
-        """Read from a sample on; what was made ahead and is not read yet is not heard."""
+        """Read from a sample on; what was made ahead and is not read yet is dropped."""
         self._made -= len(self._waiting)
         self._waiting = self._waiting[:0]
-        # A frame of the stretch is heard around its middle: what the first one begins with lies as much earlier.
+        # A frame of the stretch sounds around its middle: what the first one begins with lies as much earlier.
         self._lead = 0 if self._speed == 1.0 or self.silent else round(HOP * (1.0 - self._speed))
         self._at = at - self._lead
         self._fade_in = True

@@ -23,7 +23,7 @@ from app.own_process import own_process
 
 _LENGTH: Final = struct.Struct("<I")
 _NICENESS: Final = 5
-"""Where the processor is short, whoever works with the window goes first."""
+"""The window has priority where the processor is busy."""
 
 
 class RenderProcess:

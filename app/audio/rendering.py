@@ -32,6 +32,6 @@ def rendered(midi: bytes) -> Samples:
     if rate_hz != RATE_HZ:
         raise RuntimeError(f"the synthesiser renders at {rate_hz} Hz")
     mono = (stereo.astype(np.int32).sum(axis=1) // 2).astype(np.int16)
-    heard = np.flatnonzero(np.abs(mono) > 1)
-    sound: Samples = mono[: int(heard[-1]) + 1 if len(heard) else 0].copy()
+    audible = np.flatnonzero(np.abs(mono) > 1)
+    sound: Samples = mono[: int(audible[-1]) + 1 if len(audible) else 0].copy()
     return sound

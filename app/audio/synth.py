@@ -1,6 +1,6 @@
 """The built-in synthesiser: a player's part as sound, phrase by phrase.
 
-A part is cut into phrases of some bars' length that sound independently of one another, so that a piece is heard as
+A part is cut into phrases of some bars' length that sound independently of one another, so that a piece sounds as
 soon as its first phrases are made, and only the phrases that an edit touched are made again: what a phrase is made from
 (its MIDI bytes) is its identity. midirenderer stops at the last event, so silence follows that lets the tail sound.
 
@@ -161,17 +161,17 @@ def programs() -> frozenset[int]:
 
 
 def _controls(part: Part, tempo_map: TempoMap) -> tuple[tuple[Integers, tuple[bytes, ...]], ...]:
-    """The curves that are heard, as samples and messages: the player's loudness as expression, volume, pitch bend."""
+    """The audible curves, as samples and messages: the player's loudness as expression, volume, pitch bend."""
     loudness = sounding_curve(part)
-    heard = [curve for curve in part.curves if curve.kind in ("volume", "pitch_bend")]
+    audible = [curve for curve in part.curves if curve.kind in ("volume", "pitch_bend")]
     if loudness is not None and loudness.kind != "volume":
-        heard.append(loudness)
+        audible.append(loudness)
     return tuple(
         (
             _samples(tempo_map, np.array(curve.ticks, np.int64)),
             tuple(_control(curve.kind, value) for value in curve.values),
         )
-        for curve in heard
+        for curve in audible
     )
 
 

@@ -75,7 +75,7 @@ class Track:
 
 
 class Mix:
-    """What is heard: the sum of tracks. Immutable, so that a player may read it while another is made."""
+    """The mix: the sum of tracks. Immutable, so that a player may read it while another is made."""
 
     def __init__(self, tracks: Iterable[Track] = ()) -> None:
         self.tracks = tuple(tracks)

@@ -24,7 +24,7 @@ def takes_of(
     ----------
     journal : Journal
     tempo_map : TempoMap
-        What was heard.
+        What was played back.
     wiring : ControllerMapping
         With what the device sends breath and bite.
     name : str

@@ -3,7 +3,7 @@
 Line 1 is a JSON object, the header. Then, with moments of `time.perf_counter_ns`::
 
     e <ns> <hex>                      what was played: the bytes of one message
-    s <ns> <position in s> <pass>     at this moment that place of the piece was heard
+    s <ns> <position in s> <pass>     at this moment that place of the piece sounded
     lost <ns>, back <ns>              the device had gone, and was listened to again
     end <ns>                          the take was ended, not torn off
 
@@ -77,7 +77,7 @@ _VERSIONS: Final = msgspec.json.Decoder(_Version)
 
 
 class SyncPoint(msgspec.Struct, frozen=True, gc=False):
-    """At a moment that place of the piece was heard, in this pass of a loop."""
+    """At a moment that place of the piece sounded, in this pass of a loop."""
 
     ns: int
     position_s: float
@@ -151,7 +151,7 @@ class JournalWriter:
         mode = "r+" if resumed and os.path.exists(path) else "x"
         try:
             self._file = FileIO(path, mode)
-            # For whoever finds the journal: someone still writes it.
+            # For a reader of the journal: it is still being written.
             lock(self._file)
             is_new = mode == "x" or self._cut() == 0
         except FileExistsError as error:
@@ -185,7 +185,7 @@ class JournalWriter:
         self.count += 1
 
     def sync(self, ns: int, position_s: float, pass_: int) -> None:
-        """Add what was heard. What no reader would take is put right: time never goes back."""
+        """Add received messages. Times are made monotonic, as readers require."""
         if not math.isfinite(position_s) or abs(position_s) > _LARGEST_S:
             return
         ns, pass_ = self._last_sync = max(ns, self._last_sync[0]), max(pass_, self._last_sync[1])
@@ -273,10 +273,10 @@ def read_journal(path: Path) -> Journal:
 
 
 def passes(journal: Journal) -> tuple[Pass, ...]:
-    """The passes of a take in the performance's time, the latency taken off; none where nothing was heard. What sounded
-    when the device went away ends there.
+    """The passes of a take in the performance's time, the latency taken off; none where nothing was played back.
+    Notes that sound when the device is disconnected end there.
 
-    Between two moments at which it is known what was heard the time is interpolated, outside them it goes on as a
+    Between two moments whose position is known the time is interpolated, outside them it goes on as a
     clock does. Between two passes the return lies where the first of the next is said to begin; where that is not said
     to the moment, in the middle.
     """
@@ -326,7 +326,7 @@ def _ended(journal: Journal) -> tuple[Sequence[int], Sequence[bytes]]:
 
 
 def _performance_us(times_ns: Iterable[int], latency_ns: int, points: Sequence[SyncPoint]) -> Iterator[int]:
-    """Ascending moments as microseconds of the performance, by what was heard in one pass."""
+    """Ascending moments as microseconds of the performance, by the positions played in one pass."""
     index = 0
     for time_ns in times_ns:
         played_ns = time_ns - latency_ns

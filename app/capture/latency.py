@@ -1,4 +1,4 @@
-"""How late a device comes, from someone who blows on every click."""
+"""How late a device comes, measured while the user blows on every click."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Measured(msgspec.Struct, frozen=True):
 
 
 def measured(clicks_s: Sequence[float], hits_s: Sequence[float]) -> Measured:
-    """The latency, from when clicks were heard and when hits came in; both on one clock, ascending.
+    """The latency, from when clicks sounded and when hits came in; both on one clock, ascending.
 
     Each click is given the hit that lies most like the others; missing and double ones do no harm.
     """
@@ -86,7 +86,7 @@ def _densest(offsets: Sequence[float]) -> float:
 
 
 def hits(events: Iterable[tuple[float, bytes]], breath: BreathSource) -> tuple[float, ...]:
-    """When someone began to blow: notes, or where a device sends none, the breath; what doubles a hit is left out.
+    """When the user began to blow: notes, or where a device sends none, the breath; double hits are excluded.
 
     Parameters
     ----------
@@ -113,23 +113,23 @@ def hits(events: Iterable[tuple[float, bytes]], breath: BreathSource) -> tuple[f
     return tuple(found)
 
 
-def placed(events: Iterable[tuple[int, bytes]], heard: Sequence[tuple[int, float]]) -> list[tuple[float, bytes]]:
-    """Events on the time line of what was heard.
+def placed(events: Iterable[tuple[int, bytes]], positions: Sequence[tuple[int, float]]) -> list[tuple[float, bytes]]:
+    """Events on the time line of playback.
 
     Parameters
     ----------
     events : iterable of (int, bytes)
         Moments of a clock, nanoseconds.
-    heard : sequence of (int, float)
-        At which moment of that clock which second was heard, ascending; outside them time goes on as a clock does.
+    positions : sequence of (int, float)
+        The second that sounded at a moment of that clock, ascending; outside them time goes on as a clock does.
     """
-    if not heard:
+    if not positions:
         return []
-    moments = np.array([moment for moment, _ in heard], np.float64)
-    seconds = np.array([second for _, second in heard], np.float64)
+    moments = np.array([moment for moment, _ in positions], np.float64)
+    seconds = np.array([second for _, second in positions], np.float64)
     result = []
     for moment, message in events:
         at_s = float(np.interp(moment, moments, seconds))
-        beyond_ns = min(moment - heard[0][0], 0) + max(moment - heard[-1][0], 0)
+        beyond_ns = min(moment - positions[0][0], 0) + max(moment - positions[-1][0], 0)
         result.append((at_s + beyond_ns / 1e9, message))
     return result

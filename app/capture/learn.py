@@ -61,12 +61,12 @@ def learned(events: Iterable[tuple[int, bytes]], trusted: Sequence[BreathSource]
 def learned_bite(
     bitten: Iterable[tuple[int, bytes]], blown: Iterable[tuple[int, bytes]], breath: Learned
 ) -> BiteSource | None:
-    """What moves most while someone bites; None where nothing does.
+    """What moves most while the user bites; None where nothing does.
 
     Parameters
     ----------
     bitten, blown : iterable of (int, bytes)
-        Moments and messages while someone bit, and while they blew before.
+        Moments and messages while the user bit, and while they blew before.
     breath : Learned
         What was found then. A pressure that moved with it doubles the breath.
     """
@@ -89,7 +89,7 @@ def _range(events: Iterable[tuple[int, bytes]], source: BiteSource, channel: int
 
 
 def breath_value(message: bytes, source: BreathSource) -> int | None:
-    """The breath that a message tells of, 0..127; None where it tells of something else."""
+    """The breath in a message, 0..127; None for other messages."""
     return message[-1] if _source(message) == source else None
 
 

@@ -115,7 +115,7 @@ class RecorderLink:
             self._is_begun = self._report(self._take)
 
     def sync(self, ns: int, position_s: float, pass_: int = 0) -> None:
-        """Say what place of the piece is heard at a moment of `time.perf_counter_ns`.
+        """Report which place of the piece sounds at a moment of `time.perf_counter_ns`.
 
         At the return of a loop say both at the same moment: its end in the pass that ends, its begin in the next.
         """

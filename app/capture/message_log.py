@@ -1,4 +1,4 @@
-"""What a device sent lately, as few lines as tell it: for whoever wants to see that something comes in."""
+"""What a device sent lately, in few lines, for a monitor of the input."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class MessageLog:
         self._lines.clear()
 
     def add(self, message: bytes) -> None:
-        """Something was heard: the bytes of one message of a channel."""
+        """Input was received: the bytes of one message of a channel."""
         line = _line(message)
         place = next((place for place, other in self._since_note() if _is_same(line, other)), None)
         if place is None or line.kind in _NOTES:

@@ -3,7 +3,7 @@
 Names stay the same when a device goes and comes back: the numbers that a system puts behind them are taken off, and of
 two devices of one kind the second gets a number of ours.
 
-Everything here is called from one thread: macOS tells of new devices only in it.
+Everything here is called from one thread: macOS reports new devices only in it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import msgspec
 from app.capture.jack import ServerWatch
 from app.errors import AppError
 
-Heard: TypeAlias = Callable[[tuple[list[int], float], object], None]
+MidiCallback: TypeAlias = Callable[[tuple[list[int], float], object], None]
 """Called in the driver's thread with (bytes, delta) and nothing of use."""
 
 CLIENT: Final = "Suisou"
@@ -50,7 +50,7 @@ class Port(msgspec.Struct, frozen=True):
 
 
 def named(found: Sequence[str], system: str) -> tuple[Port, ...]:
-    """The ports of a system's list, our own left out.
+    """The ports of a system's list, without our own.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ class MidiSystem:
         """What could be sent to now."""
         return named(self._outputs.get_ports(), self.name)
 
-    def open_input(self, port: Port, heard: Heard) -> Any:
+    def open_input(self, port: Port, callback: MidiCallback) -> Any:
         """Listen to a port, to messages of channels only.
 
         Raises
@@ -139,7 +139,7 @@ class MidiSystem:
             midi.open_port(port.index, "in")
             # Not before: rtmidi keeps Python's lock while it connects, and JACK waits meanwhile for its thread, which
             # waits for that lock with the first event.
-            midi.set_callback(heard)
+            midi.set_callback(callback)
         return midi
 
     @contextlib.contextmanager

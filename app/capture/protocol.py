@@ -27,7 +27,7 @@ class Open(_Report, frozen=True):
 
 
 class Start(_Report, frozen=True):
-    """Write what is heard into a journal, whose path is as `os.fsencode` has it: not all names are text.
+    """Write received messages into a journal, whose path is as `os.fsencode` has it: not all names are text.
     ``resumed_ns``: another recorder began it, and nothing was received since."""
 
     path: bytes
@@ -36,7 +36,7 @@ class Start(_Report, frozen=True):
 
 
 class Sync(_Report, frozen=True):
-    """At this moment that place of the piece is heard."""
+    """At this moment that place of the piece sounds."""
 
     ns: int
     position_s: float

@@ -1,9 +1,9 @@
-"""The recorder: a process of its own that listens to one MIDI port, stamps what it hears, and writes the journal.
+"""The recorder: a process of its own that listens to one MIDI port, stamps what it receives, and writes the journal.
 
 Neither the window's redrawing nor the editor's death reaches it. It is this module, run as a program: commands come in
 by its input, news go out by its output (`app.capture.protocol`), and it ends when its input does, the journal finished.
 
-Threads: the driver's calls `_heard`, which stamps and hands on and nothing else; one sends the news, one writes the
+Threads: the driver's calls `_receive`, which stamps and hands on and nothing else; one sends the news, one writes the
 journal, one reads the commands. The main thread opens the port and looks twice a second which are there.
 
 A recorder opens its port once. To listen to another the editor starts another recorder: a port from which events
@@ -62,7 +62,7 @@ _SWITCH_S: Final = 0.0005
 _PRIORITY: Final = -10
 """Where there is no real time: as Unix counts it, less is before others."""
 
-Heard: TypeAlias = tuple[int, bytes]
+StampedMessage: TypeAlias = tuple[int, bytes]
 """A moment of `time.perf_counter_ns` and a message."""
 
 
@@ -75,7 +75,7 @@ class Recorder:
         What is put into it is sent.
     journal : SimpleQueue
         What is put into it is written.
-    wanted_system : str
+    requested_system : str
     on_open : callable
         Called when a port was opened: the driver's threads are there.
 
@@ -87,7 +87,7 @@ class Recorder:
 
     def __init__(
         self,
-        news: SimpleQueue[News | Heard | None],
+        news: SimpleQueue[News | StampedMessage | None],
         journal: SimpleQueue[Any],
         requested_system: str = "",
         on_open: Callable[[], None] = lambda: None,
@@ -183,7 +183,7 @@ class Recorder:
                 self._refuse(Message("capture.port_not_here", {"port": name}))
             return
         try:
-            self._input = system.open_input(port, self._heard)
+            self._input = system.open_input(port, self._receive)
             self._on_open()
         except PortError as error:
             self._refuse(error.message)
@@ -195,11 +195,11 @@ class Recorder:
         self._was_open = True
         self._refused.clear()
 
-    def _heard(self, event: tuple[list[int], float], _: object) -> None:
+    def _receive(self, event: tuple[list[int], float], _: object) -> None:
         ns = time.perf_counter_ns()
-        heard = (ns, bytes(event[0]))
-        self._journal.put(heard)
-        self._news.put(heard)
+        received = (ns, bytes(event[0]))
+        self._journal.put(received)
+        self._news.put(received)
 
     def _report(self, ports: Ports) -> None:
         if ports != self._reported:
@@ -218,10 +218,10 @@ def _names(ports: tuple[Port, ...]) -> tuple[str, ...]:
 
 
 class JournalKeeper:
-    """Writes what comes into a queue: commands `Start`, `Sync`, `Stop`, `Leave`, what was heard, marks; None ends the
-    running journal and the keeping."""
+    """Writes what a queue holds: commands `Start`, `Sync`, `Stop`, `Leave`, received messages, marks; None ends the
+    journal and the thread."""
 
-    def __init__(self, queue: SimpleQueue[Any], news: SimpleQueue[News | Heard | None]) -> None:
+    def __init__(self, queue: SimpleQueue[Any], news: SimpleQueue[News | StampedMessage | None]) -> None:
         self._queue, self._news = queue, news
         self._writer: JournalWriter | None = None
         self._is_away = False
@@ -317,7 +317,7 @@ class JournalKeeper:
         self._news.put(Refused(Message(id, {"file": writer.path, "reason": error.strerror or str(error)})))
 
 
-def send_news(queue: SimpleQueue[News | Heard | None], stream: IO[bytes]) -> None:
+def send_news(queue: SimpleQueue[News | StampedMessage | None], stream: IO[bytes]) -> None:
     """Send what comes into a queue, events that have gathered together; None ends it, and that no one reads."""
     with contextlib.suppress(OSError):
         while True:
@@ -327,9 +327,9 @@ def send_news(queue: SimpleQueue[News | Heard | None], stream: IO[bytes]) -> Non
                     items.append(queue.get_nowait())
             for is_audible, group in groupby(items, lambda item: isinstance(item, tuple)):
                 if is_audible:
-                    heard = [item for item in group if isinstance(item, tuple) and is_whole(item[1])]
-                    if heard:
-                        times_ns, messages = zip(*heard, strict=True)
+                    received = [item for item in group if isinstance(item, tuple) and is_whole(item[1])]
+                    if received:
+                        times_ns, messages = zip(*received, strict=True)
                         stream.write(framed(Events(times_ns, messages)))
                     continue
                 for item in group:
@@ -371,7 +371,7 @@ def take_precedence() -> None:
 
     All of the process's threads: were only the driver's quick, it would wait for Python's lock while another that holds
     it waits for the processor. Those that a driver's library makes do not always take after ours, so this is called
-    again when a port was opened. On Windows whoever starts the process says so.
+    again when a port was opened. On Windows the parent process sets it.
     """
     with contextlib.suppress(PermissionError):
         if sys.platform == "linux":
@@ -386,7 +386,7 @@ def take_precedence() -> None:
 
 
 def main() -> None:
-    """Record for whoever started this process."""
+    """Record for the parent process."""
     sys.excepthook = _end_at_once
     threading.excepthook = lambda failed: _end_at_once(failed.exc_type, failed.exc_value, failed.exc_traceback)
     take_precedence()
@@ -394,7 +394,7 @@ def main() -> None:
     # What is loaded stays: no stamp waits until all of it was looked through for garbage.
     gc.freeze()
     output = _private_output()
-    news: SimpleQueue[News | Heard | None] = SimpleQueue()
+    news: SimpleQueue[News | StampedMessage | None] = SimpleQueue()
     journal: SimpleQueue[Any] = SimpleQueue()
     commands: SimpleQueue[Command | None] = SimpleQueue()
     writing = threading.Thread(target=JournalKeeper(journal, news).run, name="journal")

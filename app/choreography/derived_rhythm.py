@@ -47,13 +47,13 @@ LONGER: Final = 2.0
 
 
 def audible_rhythm(score: Score) -> Rhythm:
-    """What a dancer hears of a piece: its percussion, or without any what `derived_rhythm` finds."""
+    """The rhythm a dancer follows in a piece: its percussion, or without any what `derived_rhythm` finds."""
     rhythm = score_rhythm(score)
     return rhythm if len(rhythm.hits_s) else derived_rhythm(score)
 
 
 def derived_rhythm(score: Score) -> Rhythm:
-    """Beats of a piece, and hits that stand for melody, bass and accents of its parts; its percussion is not heard."""
+    """Beats of a piece, and hits that stand for melody, bass and accents of its parts; its percussion is not used."""
     beats = score_rhythm(score)
     moments = _Moments(score)
     hits: list[tuple[int, int]] = []

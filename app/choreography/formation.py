@@ -22,7 +22,7 @@ APART_M: Final[dict[Formation, float]] = {"unison": 2.0, "canon": 3.0, "mirror":
 """From dancer to dancer in the row: those who dance alike at a time do not meet however far they go, the others keep
 about `app.choreography.stitch.STAGE_M` near to their places."""
 ENDS_S: Final = 2.0
-"""All come to rest within this time after the last beat that any of them hears."""
+"""All come to rest within this time after the last beat that any of them follows."""
 
 
 @dataclass(frozen=True)
@@ -79,11 +79,11 @@ def dance_together(
     choreographer: Choreographer, rhythm: Rhythm, cast: tuple[Role, ...], fps: Fraction
 ) -> tuple[Dance, ...]:
     """The dances of some roles, each at its place, all of one length. The same arguments give the same to the bit."""
-    heard = [delayed(rhythm, role.delay_beats) if role.delay_beats else rhythm for role in cast]
-    end_s = max((float(one.beats_s[-1]) for one in heard if len(one.beats_s)), default=0.0) + ENDS_S
+    rhythms = [delayed(rhythm, role.delay_beats) if role.delay_beats else rhythm for role in cast]
+    end_s = max((float(one.beats_s[-1]) for one in rhythms if len(one.beats_s)), default=0.0) + ENDS_S
     return tuple(
         _at(choreographer.dance(one, role.manner, fps, end_s=end_s), role.x_m)
-        for one, role in zip(heard, cast, strict=True)
+        for one, role in zip(rhythms, cast, strict=True)
     )
 
 

@@ -45,7 +45,7 @@ def add_command(commands: Commands) -> None:
         "export",
         help="write the players and their instruments as FBX, BVH, GLB or USD",
         description="Writes per player a character that plays its part and its instrument, and a report.json that says "
-        "what the files hold. Either all files appear or none. Players who cannot be exported are left out and named; "
+        "what the files hold. Either all files appear or none. Players who cannot be exported are excluded and named; "
         "the exit status is 4 then.",
     )
     add_source_options(command)
@@ -125,7 +125,7 @@ def file_formats(text: str) -> list[Format]:
 
 
 def export(arguments: argparse.Namespace) -> int:
-    """Write the files, print what they hold and name the players who are left out; the exit status."""
+    """Write the files, print what they hold and name the excluded players; the exit status."""
     from app.export.request import Request
     from app.export.run import export as write
     from app.export.tree import clean_up
@@ -145,8 +145,8 @@ def export(arguments: argparse.Namespace) -> int:
     count = len(project.players)
     players = tuple(project.players[index] for index in chosen if index < count)
     # Before the plans, which say what a body does not reach.
-    persons = dict.fromkeys(project.person(player) for player in players)
-    find_holds(performance, [player for person in persons for player in project.played_by(person)])
+    musicians = dict.fromkeys(project.musician(player) for player in players)
+    find_holds(performance, [player for musician in musicians for player in project.played_by(musician)])
     progress = Progress(sys.stderr)
     request = Request(
         performance=performance,

@@ -21,7 +21,7 @@ from app.messages.pitches import pitch_name
 from app.performance.cast import attempt
 from app.performance.ensemble import Performance
 from app.performance.judged import all_problems
-from app.performance.loudness import heard
+from app.performance.loudness import controller_input
 from app.plan.bends import bends
 from app.plan.line import dynamic_mark, staccato
 from app.plan.model import (
@@ -160,13 +160,13 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
     fingerings = {event.note_id: event for event in plan.fingerings}
     played = [note for note in part.notes if note.id in fingerings]
     loudness = {event.note_id: event.air for event in plan.embouchures}
-    blown = heard(part)
+    blown = controller_input(part)
     articulation = _articulations(played, {event.note_id for event in plan.tongues}, clock.ticks_per_quarter)
     table = {
         "name": player.name,
         "instrument": player.instrument_id,
         "part": part.name,
-        "person": performance.project.person(player).name,
+        "musician": performance.project.musician(player).name,
         # Of notes struck together only one is played; the others are among what to look at.
         "notes": [
             _note(note, fingerings[note.id], instrument, clock)
@@ -284,7 +284,7 @@ def tables(file: str, found: Table) -> list[str]:
         )
         lines += ["", *columns([titles, *rows])]
     if found["left_out"]:
-        lines += ["", "left out:", *(f"  {one['player']}: {one['reason']}" for one in found["left_out"])]
+        lines += ["", "excluded:", *(f"  {one['player']}: {one['reason']}" for one in found["left_out"])]
     if found["unplayed"]:
         lines += ["", "not played:"]
         lines += [

@@ -183,7 +183,7 @@ def add_rate_option(command: argparse.ArgumentParser) -> None:
 
 def open_project(arguments: argparse.Namespace) -> Project:
     """The project that a file holds, or a MIDI file with its players cast; what the options say comes on top. What is
-    wrong with the user's own instruments is said, and those are left out.
+    wrong with the user's own instruments is reported, and those are excluded.
 
     Raises
     ------

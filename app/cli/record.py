@@ -70,7 +70,7 @@ def record(arguments: argparse.Namespace) -> None:
     Raises
     ------
     AppError
-        No device, nothing heard, nothing to be written to.
+        No device, nothing received, no writable file.
     """
     target: Path = arguments.to
     journal = target.with_name(f"{target.name}.take-journal")

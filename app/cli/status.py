@@ -1,4 +1,4 @@
-"""Exit statuses, and what is said of players who are left out."""
+"""Exit statuses, and the report of excluded players."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ BAD_USE: Final = 2
 NO_DISPLAY: Final = 3
 """The editor has nowhere to open."""
 PARTIAL: Final = 4
-"""Done, but players were left out."""
+"""Done, but players were excluded."""
 STOPPED: Final = 128 + signal.SIGINT
 """With Ctrl-C."""
 
 
 def report_left_out(left_out: Iterable[tuple[str, str]]) -> int:
-    """Name the players who are left out with the reasons, a line for each on stderr; the exit status."""
+    """Name the excluded players with the reasons, a line for each on stderr; the exit status."""
     status = DONE
     for player, reason in left_out:
         warn(text(Message("player.left_out", {"player": player, "reason": reason})))

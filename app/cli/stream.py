@@ -96,7 +96,7 @@ def _host(text: str) -> str:
 
 
 def stream(arguments: argparse.Namespace) -> int:
-    """Send the piece, in time, and name whoever is left out; the exit status.
+    """Send the piece, in time, and name who is excluded; the exit status.
 
     Raises
     ------
@@ -114,7 +114,7 @@ def stream(arguments: argparse.Namespace) -> int:
     performers = project.performers
     asked = [performers[at] for at in select_players(arguments.players, [one.name for one in performers])]
     # Whoever is asked for by any instrument is sent with all.
-    chosen = list(dict.fromkeys(project.person(one) if isinstance(one, Player) else one for one in asked))
+    chosen = list(dict.fromkeys(project.musician(one) if isinstance(one, Player) else one for one in asked))
     if not chosen:
         raise UsageError("stream.no_players")
     checked_port(arguments.port + len(chosen) - 1)
@@ -131,7 +131,7 @@ def stream(arguments: argparse.Namespace) -> int:
     if not made:
         require_players(left_out, str(arguments.file), text)
     status = report_left_out((one.player.name, text(one.reason)) for one in left_out)
-    # Whoever is left out keeps the port: the others have theirs whatever happens.
+    # An excluded player keeps its port, so that the ports of the others never change.
     ports = {one.id: arguments.port + place for place, one in enumerate(chosen)}
     sent = [one for one in chosen if one.id in made]
     senders = [Sender(address.port(ports[one.id]), arguments.broadcast) for one in sent]
@@ -156,7 +156,7 @@ def stream(arguments: argparse.Namespace) -> int:
 
 
 def _beside(performance: Performance, one: Player | Dancer, made: Mapping[str, Performer]) -> tuple[Performer, ...]:
-    """The other instruments of someone who is sent, as far as they can be seen."""
+    """The other visible instruments of a streamed musician."""
     if not isinstance(one, Player):
         return ()
     return tuple(
@@ -243,7 +243,7 @@ def _pose(motion: Motion, frame: int) -> Pose:
 
 
 def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: int, loop: bool) -> None:
-    """Every frame at its time; those that come too late are left out."""
+    """Every frame at its time; late ones are dropped."""
     fps, frames = float(span.fps), span.count
     began_s = time.perf_counter()
     sounding_s, inaudible, sent = began_s, False, 0
@@ -255,7 +255,7 @@ def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: 
         now_s = time.perf_counter()
         frame = (first + step) % frames
         for streamed, sender in zip(cast, senders, strict=True):
-            inaudible = sender.send(streamed.datagrams(frame, now_s - began_s)) is Outcome.UNHEARD or inaudible
+            inaudible = sender.send(streamed.datagrams(frame, now_s - began_s)) is Outcome.NO_RECEIVER or inaudible
         sent += 1
         if now_s - sounding_s >= _TELL_S:
             if inaudible and sys.stderr.isatty():

@@ -87,7 +87,7 @@ def _judgement(report: Report) -> list[str]:
         lines += ["", *columns([_DANCE_HEAD, *(_dance_row(dancer) for dancer in report.dancers)])]
         lines += ["(feet that stand, and bones, of the files read back; * beyond its bound)"]
     if report.left_out:
-        lines += ["", "left out:", *(f"  {one.player}: {one.reason}" for one in report.left_out)]
+        lines += ["", "excluded:", *(f"  {one.player}: {one.reason}" for one in report.left_out)]
     if report.unplayed:
         lines += ["", "not played:"]
         lines += [

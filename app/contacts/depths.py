@@ -108,7 +108,7 @@ class HandDepths:
 
 class _Blocks:
     """Places of points (n, G, 3), some frames at a time: hands hardly move on what they hold, so one look at the
-    middle of a point's places tells for a whole block that it is nowhere near."""
+    middle of a point's places rules out a whole block."""
 
     def __init__(self, places: AnyFloatArray) -> None:
         self._frames = len(places)

@@ -66,7 +66,7 @@ class Files(QObject):
     missing(Path)
         The recording of the project that was just opened is not where it was.
     overtaken(Path, Then or None)
-        The project was not saved: someone else wrote its file since it was opened. `save_over` would replace that.
+        The project was not saved: its file was changed outside since it was opened. `save_over` would replace that.
     """
 
     changed = Signal()
@@ -178,7 +178,7 @@ class Files(QObject):
             self.open(path, ask=False)
 
     def open_danced_example(self) -> None:
-        """The bundled piece with drums, and someone who dances the bundled choreography to it."""
+        """The bundled piece with drums, and a dancer with the bundled choreography."""
         name = tr("action.dancer")
 
         def danced(project: Project) -> Project:
@@ -335,7 +335,7 @@ class Files(QObject):
             self._save(self.path, then, over=(self._base, ""))
 
     def save_over(self, then: Then | None = None) -> None:
-        """Save to the project's file, whoever wrote it last."""
+        """Save to the project's file, even if it was changed outside."""
         if self.path is not None:
             self._save(self.path, then)
 

@@ -14,7 +14,7 @@ from app.errors import FileError
 from app.formats.files import files_in
 
 QUIET_MS = 250
-"""A program that writes a file touches it several times: it is reported when nothing was heard of it for so long."""
+"""A program that writes a file touches it several times: it is reported after so long without a change."""
 
 
 class FolderWatch(QObject):

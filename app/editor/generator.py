@@ -260,7 +260,7 @@ class Generator(QObject):
 
 
 class _MainThreadNotifier:
-    """Carries what the worker says into the window's thread, as long as there is a generator to hear it."""
+    """Passes reports of the worker to the window's thread, as long as the generator exists."""
 
     def __init__(self, generator: Generator) -> None:
         self._ask, self._generator = window_calls().ask, weakref.ref(generator)

@@ -19,8 +19,8 @@ from instrument_maps.library import LIBRARY as INSTRUMENTS
 class LibraryWatch(QObject):
     """Watches the folder of a kind for a session.
 
-    What became wrong is reported with its place in the file, and its last good version stays in use; everybody hears
-    the session's signal ``{name}_changed``, and ``{name}_saved`` says that the program itself wrote into the folder.
+    An invalid file is reported with the place of the error, and its last valid version stays in use. The session emits
+    ``{name}_changed``, and ``{name}_saved`` where the program itself wrote into the folder.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What is heard and how: state of the editor that the transport, the commands and the sound share."""
+"""What sounds and how: state of the editor that the transport, the commands and the sound share."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class RecordedTake:
     player_id, take_id : str
         ``take_id`` is empty for what was there before the first take.
     alone : bool
-        Whether no one else is heard.
+        Whether all others are silent.
     """
 
     player_id: str
@@ -42,11 +42,11 @@ class Listening(QObject):
     volume : float
         0..1 as the ear judges it.
     click : bool
-        Whether a metronome is heard.
+        Whether the metronome sounds.
     scrub_sound : bool
-        Whether moving the playhead by hand is heard.
+        Whether scrubbing sounds.
     source : str
-        What is heard where the project has a recording; without one it is the synthesiser.
+        The sound of a project that has a recording; without one it is the synthesiser.
     silent : bool
         There is no device for sound: the performance plays in time all the same.
     waveform : Peaks or None

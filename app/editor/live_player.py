@@ -1,4 +1,4 @@
-"""Whoever is recorded plays along in the viewport while someone plays the controller."""
+"""The recorded player plays along in the viewport while the user plays the controller."""
 
 from __future__ import annotations
 
@@ -53,11 +53,11 @@ class LivePlayer(QObject):
         """
         playing = self._ready()
         if playing is not None:
-            self._session.live_players.hear(playing.player_id, time_s, raw, wiring)
+            self._session.live_players.receive(playing.player_id, time_s, raw, wiring)
             self._rest.start()
 
     def silence(self) -> None:
-        """Nothing is heard from the device any more."""
+        """The device sends nothing any more."""
         if self._play_along is not None:
             self._play_along.all_off(time.perf_counter())
             self._rest.start()

@@ -37,16 +37,16 @@ class _Blend:
 class LivePlayers(QObject):
     """The players that are armed, each with what makes the pose of now.
 
-    Whoever listens to a controller makes a `PlayAlong` of the player, hands it over with `begin`, tells `hear` what is
-    played (stamped by ``time.perf_counter``) and takes it back with `end`. After a change of the player, the
-    instrument or the body another one is begun in its place.
+    The controller's listener makes a `PlayAlong` of the player, registers it with `begin`, passes each message (stamped
+    by ``time.perf_counter``) to `receive` and removes it with `end`. After a change of the player, the instrument or
+    the body another one replaces it.
 
     Signals
     -------
     changed()
-        Others are played now, or someone otherwise.
+        Other players are live, or one in another way.
     struck()
-        A note began or ended: whoever draws need not wait.
+        A note began or ended: redraw at once.
     """
 
     changed = Signal()
@@ -68,7 +68,7 @@ class LivePlayers(QObject):
 
     @property
     def is_shown(self) -> bool:
-        """Whether someone is played now, or has just ended and is on the way back to the performance."""
+        """Whether a player is live, or has just ended and is returning to the performance."""
         with self._lock:
             now_s = perf_counter()
             return bool(self._playing) or any(blend.at(now_s) > 0.0 for blend in self._blends.values())
@@ -90,18 +90,18 @@ class LivePlayers(QObject):
         if gone is not None:
             self.changed.emit()
 
-    def hear(self, player_id: str, time_s: float, raw: str, wiring: ControllerMapping) -> None:
-        """A player is played so: a MIDI message in hexadecimal, see `PlayAlong.hear`."""
+    def receive(self, player_id: str, time_s: float, raw: str, wiring: ControllerMapping) -> None:
+        """A player is played so: a MIDI message in hexadecimal, see `PlayAlong.receive`."""
         with self._lock:
             play_along = self._playing.get(player_id)
-            struck = play_along is not None and play_along.hear(time_s, raw, wiring)
+            struck = play_along is not None and play_along.receive(time_s, raw, wiring)
             if struck:
                 self._poses.pop(player_id, None)
         if struck:
             self.struck.emit()
 
     def lying(self, player_id: str, other_id: str) -> tuple[Floats, Floats] | None:
-        """Where another instrument of the person lies while this one is played: position (3,) and rotation (4,)."""
+        """Where another instrument of the musician lies while this one is played: position (3,) and rotation (4,)."""
         play_along = self._playing.get(player_id)
         return None if play_along is None else play_along.lying.get(other_id)
 

@@ -26,7 +26,7 @@ class LivePoses:
 
     @property
     def is_live(self) -> bool:
-        """Whether someone is played now, or has just been."""
+        """Whether a player is live, or has just been."""
         return self._session.live_players.is_shown
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Posed | None]:
@@ -45,7 +45,7 @@ class LivePoses:
         return live if performed is None or share >= 1.0 else blended(performed, live, share)
 
     def _beside(self, player_id: str, performed: Posed | None, time_s: float) -> Posed | None:
-        """An instrument that lies aside while the person plays another one now: the body is that of now."""
+        """An instrument that lies aside while the musician plays another one now: the body is that of now."""
         live, project = self._session.live_players, self._session.project
         own = next((player for player in project.players if player.id == player_id), None)
         for other in () if own is None or performed is None else project.played_by(own):

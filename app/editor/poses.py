@@ -1,4 +1,4 @@
-"""What the viewport asks of whoever makes motion."""
+"""The interface by which the viewport gets motion."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """Recording in the editor: the device, the running take, and what becomes of it.
 
-The events are stamped and written by a process of their own (`app.capture.recorder`), which is reported all the while
-what is heard. When it has finished its journal, the passes of it become takes of the project, in one edit; the journal
-stays until they are in a file.
+The events are stamped and written by a process of their own (`app.capture.recorder`), which continually gets the
+position of playback. When it has finished its journal, the passes of it become takes of the project, in one edit; the
+journal stays until they are in a file.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ from metadata.model import Controller
 EARLY_S: Final = 0.12
 """So much before the beginning of a take a note may be struck that is meant for it."""
 SYNC_MS: Final = 40
-"""How often the recorder is reported what is heard."""
+"""How often the recorder gets the position of playback."""
 _STILL_S: Final = 1e-6
 
 _JUMP_S: Final = 0.25
@@ -206,7 +206,7 @@ class Recorder(QObject):
             latency_s = float(self._settings.midi_device(port, "latency_s") or 0.0)
         except ValueError:
             latency_s = 0.0
-        # Also where someone wrote nan or an hour into the settings.
+        # Also where the settings were edited to nan or an hour.
         latency_s = latency_s if abs(latency_s) <= LARGEST_LATENCY_S else 0.0
         self._state.set(controller=controller, latency_s=latency_s, wiring=self._wiring(port, controllers[controller]))
 
@@ -216,13 +216,13 @@ class Recorder(QObject):
         try:
             return msgspec.convert({**said, "channel": int(said["channel"])}, ControllerMapping)
         except (ValueError, msgspec.ValidationError):
-            # Nothing was said, or someone edited the settings by hand.
+            # Nothing was set, or the settings were edited by hand.
             return ControllerMapping(controller.channel, controller.breath[0], controller.bite)
 
     # News
 
     def poll(self) -> None:
-        """Take what the recorder tells."""
+        """Take the events of the recorder."""
         if self._link is None:
             return
         for reported in self._link.poll():
@@ -255,7 +255,7 @@ class Recorder(QObject):
             case Restarted():
                 self._session.notice(reported.reason, Severity.WARNING)
             case Events():
-                self._hear(reported)
+                self._on_received(reported)
             case Written():
                 state.set(events=reported.count)
             case Finished():
@@ -275,11 +275,11 @@ class Recorder(QObject):
             if is_ours:
                 state.set(connection="refused" if state.port else "none", refusal=reason)
             if not state.port or is_reported:
-                # Or no one requested one yet: whoever looks for devices reads it there.
+                # Or none was requested yet: the list of devices shows it.
                 return
         self._session.notice(reason, Severity.ERROR)
 
-    def _hear(self, events: Events) -> None:
+    def _on_received(self, events: Events) -> None:
         wiring = self._state.wiring
         breath, pitch = self._state.breath, self._state.pitch
         for ns, raw in zip(events.times_ns, events.messages, strict=True):
@@ -293,7 +293,7 @@ class Recorder(QObject):
             breath = next((value for kind, value in said(message, wiring) if kind == "breath"), breath)
             self._live.report(ns / 1e9, raw.hex(), wiring)
         self._state.set_played(breath, pitch)
-        self._state.heard.emit(events)
+        self._state.received.emit(events)
 
     # A take
 
@@ -381,7 +381,7 @@ class Recorder(QObject):
         if running.first_s is None:
             running.first_s = running.last_s = position_s
             return
-        # The device plays nothing for a while at first: nothing is heard then.
+        # The device plays nothing for a while at first: it is silent then.
         if running.passes == 1 and abs(position_s - running.first_s) < _STILL_S:
             return
         speed = self._session.listening.speed
@@ -392,7 +392,7 @@ class Recorder(QObject):
         running.last_ns, running.last_s = ns, position_s
 
     def _turn(self, running: _Running, ns: int, position_s: float, speed: float) -> None:
-        """The loop has returned, or someone went elsewhere: a new pass begins."""
+        """The loop has restarted, or playback jumped: a new pass begins."""
         assert self._link is not None
         if running.loop_s is not None and position_s < running.last_s:
             begin_s, end_s = running.loop_s
@@ -406,7 +406,7 @@ class Recorder(QObject):
         running, self._running = self._running, None
         if running is not None and self._link is not None:
             if not running.last_ns and self._session.playback is not None:
-                # It was over before anybody asked where it was: the take must be somewhere.
+                # It ended before its position was known: the take needs one.
                 self._link.sync(self.now_ns(), self._session.playback.position_s(), 0)
             self._adopting[str(running.path)] = running
             self._link.stop()

@@ -59,13 +59,13 @@ class Recording(QObject):
         One of these is another, `breath` and `pitch` excepted.
     played()
         `breath` or `pitch` is another.
-    heard(object)
+    received(object)
         An `app.capture.protocol.Events` came in; for the monitor and the live pose.
     """
 
     changed = Signal()
     played = Signal()
-    heard = Signal(object)
+    received = Signal(object)
 
     def __init__(self) -> None:
         super().__init__()

@@ -88,7 +88,7 @@ class Session(QObject):
     preview_changed()
         The face that is being made is another.
     noticed(object, object)
-        Someone tells the user something: a `Message` and a `Severity`.
+        A notice for the user: a `Message` and a `Severity`.
     revealed(float)
         This time (seconds) should come into view.
     instruments_changed()
@@ -138,7 +138,7 @@ class Session(QObject):
         self.recording = Recording()
         self.streaming = Streaming()
         self.playback: Playback | None = None
-        """Plays the performance; None where nothing is heard, as in a picture made without a window."""
+        """Plays the performance; None without sound, as in a picture made without a window."""
         self.actions: Mapping[str, QAction] = {}
         """Every action of the table by id; filled by the shell before any panel shows a menu."""
         self.timeline_view: TimelineView | None = None

@@ -31,7 +31,7 @@ def in_pitches(name: str) -> SettingBinding:
 
 
 def in_listening(name: str) -> SettingBinding:
-    """How the person listens."""
+    """How the user listens."""
     return SettingBinding(
         lambda session: getattr(session.listening, name),
         lambda session, value: session.listening.set(**{name: value}),

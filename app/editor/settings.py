@@ -204,11 +204,11 @@ class Settings(QObject):
     volume = Setting("sound/volume", 0.8, Annotated[float, msgspec.Meta(ge=0.0, le=1.0)], held=in_listening("volume"))
     """0..1 as the ear judges it."""
     click = Setting("sound/click", False, held=in_listening("click"))
-    """Whether a metronome is heard."""
+    """Whether the metronome sounds."""
     scrub_sound = Setting("sound/scrub", True, held=in_listening("scrub_sound"))
-    """Whether moving the playhead by hand is heard."""
+    """Whether scrubbing sounds."""
     source = Setting("sound/source", "recording", Source, held=in_listening("source"))
-    """What is heard where a project has a recording."""
+    """The sound of a project that has a recording."""
 
     midi_port = Setting("midi/port", "")
     """The device that is recorded from; empty: none was chosen."""

@@ -1,4 +1,4 @@
-"""What is heard follows the project: recording, players and metronome are kept ready and given to the playback.
+"""The sound follows the project: recording, players and metronome are kept ready and given to the playback.
 
 While it plays, the playhead follows the sound.
 """
@@ -32,7 +32,7 @@ from app.project.model import Project
 
 _FRAME_MS = 16
 _TAKE_WAIT_MS = 1000
-"""A take that is listened to is waited for at most so long: what is heard first is rendered first."""
+"""The longest wait for the audition of a take: what sounds first is rendered first."""
 _TAKE_LOOK_MS = 50
 SURE = 0.5
 """An offset that was estimated with less confidence is not taken by itself."""
@@ -41,7 +41,7 @@ SAME_TEMPO = 0.002
 
 
 _CLICKS_ON_S = 1800.0
-"""Clicks beyond the end of the piece, while someone records there."""
+"""Clicks beyond the end of the piece, while recording there."""
 
 
 class Sound(QObject):
@@ -53,16 +53,16 @@ class Sound(QObject):
         Gets the playback, and becomes the parent.
     playback : Playback, optional
         One on the system's device, if None.
-    heard : bool
+    audible : bool
         Whether the performance can be played; else the recording is read to be seen, and nothing more.
     """
 
-    def __init__(self, session: Session, playback: Playback | None = None, heard: bool = True) -> None:
+    def __init__(self, session: Session, playback: Playback | None = None, audible: bool = True) -> None:
         super().__init__(session)
         self._session = session
         self.playback = playback if playback is not None else Playback(parent=self)
-        self._heard = heard
-        if heard:
+        self._audible = audible
+        if audible:
             session.playback = self.playback
         self._stems = Stems(session.tasks, self)
         self._recording: Recording | None = None
@@ -77,7 +77,7 @@ class Sound(QObject):
         """Source and metronome of the mix that was made last."""
         self._counted_s: tuple[float, float] | None = None
         """While a take is recorded: where counting in begins, and where the take does."""
-        self._as_heard: tuple[Project, RecordedTake, Project] | None = None
+        self._audition: tuple[Project, RecordedTake, Project] | None = None
         """The project with a take in the place of a part, and what it was made from."""
         self._take_waits_ms = 0
         self._own_move = False
@@ -102,7 +102,7 @@ class Sound(QObject):
 
     @property
     def is_busy(self) -> bool:
-        """Whether something that is to be heard is not made yet."""
+        """Whether some of the sound is not rendered yet."""
         return self._stems.is_busy
 
     # The playhead
@@ -116,9 +116,9 @@ class Sound(QObject):
 
     def _playhead_moved(self, playhead_s: float) -> None:
         project = self._sounding_project()
-        if self._synthesiser_heard(project) and not self._stems.covers(playhead_s):
+        if self._synthesiser_audible(project) and not self._stems.covers(playhead_s):
             self._stems.follow(project, playhead_s)
-        if self._own_move or not self._heard:
+        if self._own_move or not self._audible:
             return
         if self._session.listening.scrub_sound:
             self.playback.scrub(playhead_s)
@@ -166,26 +166,26 @@ class Sound(QObject):
             self.playback.play(self._session.playhead_s)
 
     def _sounding_project(self) -> Project:
-        """The project as it is heard: the take that is listened to stands in the place of the part."""
+        """The project as it sounds: the auditioned take replaces the part."""
         project, take = self._session.project, self._session.listening.take
         recorded = project.takes.get(take.player_id) if take is not None else None
         if take is None or recorded is None or (take.take_id and all(take.take_id != t.id for t in recorded.takes)):
             return project
-        known = self._as_heard
+        known = self._audition
         if known is None or known[0] is not project or known[1] is not take:
-            heard = comp_whole(project, take.player_id, take.take_id)
-            # In a recording of the piece the part is heard already: the take alone is added to it.
+            audition = comp_whole(project, take.player_id, take.take_id)
+            # In a recording of the piece the part sounds already: the take alone is added to it.
             over = project.audio is not None and self._session.listening.source == "recording"
             everyone = [player.id for player in project.players]
             if take.alone or over:
-                heard = change_players(heard, everyone, soloed=False)
-                heard = change_players(heard, [take.player_id], soloed=True)
+                audition = change_players(audition, everyone, soloed=False)
+                audition = change_players(audition, [take.player_id], soloed=True)
             else:
-                heard = change_players(heard, [take.player_id], muted=False)
-            self._as_heard = known = (project, take, heard)
+                audition = change_players(audition, [take.player_id], muted=False)
+            self._audition = known = (project, take, audition)
         return known[2]
 
-    # What is heard
+    # Sound
 
     def _changed(self, change: Change) -> None:
         if change.opened:
@@ -206,17 +206,17 @@ class Sound(QObject):
         chosen = (listening.source, listening.click, listening.take)
         if chosen != self._chosen:
             self._chosen = chosen
-            self._as_heard = None
+            self._audition = None
             self._take()
 
     def _take(self) -> None:
-        """Let the project be heard as it is now."""
+        """Play the project as it is now."""
         project = self._sounding_project()
         self._set_span(project)
         path = project.audio.path if project.audio is not None else ""
         if path != self._path:
             self._read(path)
-        if self._synthesiser_heard(project):
+        if self._synthesiser_audible(project):
             self._stems.follow(project, self._session.playhead_s)
         self._set_mix()
 
@@ -236,9 +236,11 @@ class Sound(QObject):
         self._session.listening.set(ready=self._stems.ready)
         self._set_mix()
 
-    def _synthesiser_heard(self, project: Project) -> bool:
+    def _synthesiser_audible(self, project: Project) -> bool:
         listening = self._session.listening
-        return self._heard and (project.audio is None or listening.source != "recording" or listening.take is not None)
+        return self._audible and (
+            project.audio is None or listening.source != "recording" or listening.take is not None
+        )
 
     def _set_mix(self) -> None:
         session = self._session
@@ -252,7 +254,7 @@ class Sound(QObject):
             and not alone
         ):
             tracks.append(recording_track(self._recording, project.audio.offset_s))
-        if self._synthesiser_heard(project):
+        if self._synthesiser_audible(project):
             tracks.extend(self._stems.tracks(project))
         if listening.click:
             tracks.append(self._clicks(project))
@@ -293,13 +295,13 @@ class Sound(QObject):
                 self._session.notice(warning, Severity.WARNING)
             self._session.listening.set_waveform(waveform)
             self._set_mix()
-            if self._heard and path == self._unplaced and self._session.project.score.end_tick:
+            if self._audible and path == self._unplaced and self._session.project.score.end_tick:
                 self.estimate(unasked=True)
 
         def failed(error: AppError) -> None:
             self._session.notice(error.message, Severity.ERROR)
 
-        # Later: whoever adds a recording is still being reported of it.
+        # Later: the edit that adds the recording is still being reported.
         QTimer.singleShot(
             0,
             self,
@@ -309,7 +311,7 @@ class Sound(QObject):
         )
 
     def estimate(self, unasked: bool = False, with_tempo: bool = False) -> None:
-        """Find the recording's offset from what is heard in it; set it as an edit.
+        """Estimate the recording's offset from its sound; set it as an edit.
 
         Parameters
         ----------

@@ -20,12 +20,12 @@ from app.project.model import Player, Project
 _SETTLE_MS = 120
 """Rendering waits until a drag rests for so long."""
 _LOOK_MS = 250
-"""How often what was rendered meanwhile is added to what is heard."""
+"""How often newly rendered sound is added to the mix."""
 _MOST_BYTES = 256 * 1024 * 1024
 """Of sound that is requested: four players for ten minutes, fifty for fifty seconds. Of what is longer, the part that
-is heard next is kept, and the window moves along."""
+sounds next is kept, and the window moves along."""
 _AHEAD_S = 20.0
-"""The next window is begun so long before the end of this one is heard."""
+"""The next window is begun so long before the end of this one is reached."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +66,7 @@ class Stems(QObject):
     Signals
     -------
     changed()
-        More can be heard than before.
+        More is rendered than before.
     """
 
     changed = Signal()
@@ -101,7 +101,7 @@ class Stems(QObject):
         ----------
         project : Project
         from_s : float
-            What is heard from here on comes first.
+            What sounds from here on is rendered first.
         """
         self._requested = (project, from_s)
         job = self._job
@@ -114,14 +114,14 @@ class Stems(QObject):
             self._settle_timer.start()
 
     def covers(self, at_s: float) -> bool:
-        """Whether what is heard next at a moment is rendered, or being rendered."""
+        """Whether what sounds next at a moment is rendered, or being rendered."""
         if self._job is None:
             return True
         start_s, end_s = self._job.window_s
         return start_s <= at_s and (at_s + _AHEAD_S < end_s or end_s == inf)
 
     def tracks(self, project: Project) -> list[Track]:
-        """The players who are heard, as far as they are rendered; a track is kept while nothing of it changes."""
+        """The audible players, as far as they are rendered; a track is kept while nothing of it changes."""
         tracks, kept = [], {}
         for player_id, gains in player_gains(project).items():
             made = self._made.get(player_id)
@@ -137,7 +137,7 @@ class Stems(QObject):
         return tracks
 
     def _render(self) -> None:
-        """Make what is missing, what is heard next first."""
+        """Render what is missing, what sounds next first."""
         if self._requested is None:
             return
         project, from_s = self._requested
@@ -152,7 +152,7 @@ class Stems(QObject):
                     if stop_requested():
                         raise Cancelled("work.stopped")
                 everything = [(player_id, phrase) for player_id, one in made.items() for phrase in one.phrases]
-                requested, job.window_s = _next_heard(everything, from_s)
+                requested, job.window_s = _next_phrases(everything, from_s)
                 gone = synthesiser.forget(phrase for _, phrase in requested)
                 stale.extend({player_id for player_id, phrase in everything if phrase.midi in gone} if gone else ())
                 missing = [item for item in requested if synthesiser.ready(item[1]) is None]
@@ -188,10 +188,10 @@ class Stems(QObject):
         self.changed.emit()
 
 
-def _next_heard(
+def _next_phrases(
     phrases: Sequence[tuple[str, Phrase]], from_s: float
 ) -> tuple[tuple[tuple[str, Phrase], ...], tuple[float, float]]:
-    """As many players' phrases as there is room for, what is heard next first, and the seconds that they cover."""
+    """As many players' phrases as there is room for, what sounds next first, and the seconds that they cover."""
     ordered = sorted(phrases, key=lambda item: (item[1].end < from_s * RATE_HZ, item[1].start))
     taken = 0
     for index, (_, phrase) in enumerate(ordered):

@@ -1,8 +1,8 @@
 """Streams the poses of players and dancers while the editor plays, is scrubbed, rests or records: see `app.stream`.
 
 A thread sends, so that neither waits for the other: the window says what is wished, where the sound is and that
-something moves. A frame that the network does not take at once is dropped. While nothing moves it goes on slowly, so
-that who receives knows that someone is there.
+something moves. A frame that the network does not take at once is dropped. While nothing moves it continues slowly, so
+that the receiver knows that the sender is there.
 """
 
 from __future__ import annotations
@@ -205,8 +205,8 @@ class Streamer(QObject):
 
     # How it goes
 
-    def _report(self, sent_hz: int, unheard: bool) -> None:
-        state: StreamState = "unheard" if unheard else "sending"
+    def _report(self, sent_hz: int, no_receiver: bool) -> None:
+        state: StreamState = "no_receiver" if no_receiver else "sending"
         self._state.set(state=state, sent_hz=sent_hz, trouble=None)
 
     def _fail(self, message: Message) -> None:
@@ -337,13 +337,13 @@ class _Thread:
             return due_s
         now_s = time.perf_counter()
         try:
-            unheard = self._send(request, anchor.position(now_s), now_s)
+            no_receiver = self._send(request, anchor.position(now_s), now_s)
         except AppError as error:
             message = error.message
             self._close_senders()
             self._notifier.report(self, lambda streamer: streamer._fail(message))
             return time.perf_counter() + RETRY_S
-        self._report(now_s, unheard)
+        self._report(now_s, no_receiver)
         if anchor.speed or self._poses.is_live:
             self._moved_s = max(self._moved_s, now_s)
         step_s = RESTING_S if self._rests(self._moved_s) else 1.0 / request.rate_hz
@@ -382,7 +382,7 @@ class _Thread:
                 outcomes.append(self._senders[port].send(datagrams))
         if outcomes and Outcome.DROPPED not in outcomes:
             self._frames.append(now_s)
-        return bool(outcomes) and all(outcome is Outcome.UNHEARD for outcome in outcomes)
+        return bool(outcomes) and all(outcome is Outcome.NO_RECEIVER for outcome in outcomes)
 
     def _sent_of(self, performer: Player | Dancer, faces: FaceNames, beside: Sequence[Player]) -> Sent:
         """How a performer is sent; made anew for another character, instrument or names."""
@@ -393,14 +393,14 @@ class _Thread:
             known = self._sent[performer.id] = (of, Sent(*of))
         return known[1]
 
-    def _report(self, now_s: float, unheard: bool) -> None:
+    def _report(self, now_s: float, no_receiver: bool) -> None:
         if now_s - self._reported_s < TELL_S:
             return
         self._reported_s = now_s
         while self._frames and now_s - self._frames[0] > _SECOND_S:
             self._frames.popleft()
         count = len(self._frames)
-        self._notifier.report(self, lambda streamer: streamer._report(count, unheard))
+        self._notifier.report(self, lambda streamer: streamer._report(count, no_receiver))
 
     def _close_senders(self) -> None:
         for sender in self._senders.values():

@@ -14,7 +14,7 @@ from app.project.model import Project
 from app.stream.faces import FaceNames
 from app.stream.sender import LOOPBACK, MOST_PORT, PORT
 
-StreamState = Literal["off", "looking", "sending", "unheard", "failed"]
+StreamState = Literal["off", "looking", "sending", "no_receiver", "failed"]
 """Nothing is sent; the computer is looked up; it is sent; it is sent, but no one listens; nothing can be sent."""
 
 RATES_HZ: Final = (24, 30, 60, 90)
@@ -88,8 +88,8 @@ class Streaming(QObject):
             Ids of those who are selected, the one in front first.
         """
         players = {player.id: player for player in project.players}
-        # A person who plays several instruments is sent once.
-        in_front = [project.person(players[id]).id if id in players else id for id in front[:1]]
+        # A musician who plays several instruments is sent once.
+        in_front = [project.musician(players[id]).id if id in players else id for id in front[:1]]
         ids = [performer.id for performer in project.seen] if self.everyone else in_front
         return tuple(
             StreamTarget(id, self.port + place) for place, id in enumerate(ids) if self.port + place <= MOST_PORT

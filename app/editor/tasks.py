@@ -46,7 +46,7 @@ class Tasks(Protocol):
         name : Message
             What is being done.
         work : callable
-            Gets progress and stop_wanted; it takes snapshots of values and touches no widget.
+            Gets progress and stop_requested; it takes snapshots of values and touches no widget.
         done : callable
             Gets the result. Not called after a cancel.
         failed : callable, optional

@@ -1,7 +1,7 @@
 """The skeleton of an export against the one of an asset, bone by bone.
 
 Unreal matches bones by name. A root of another name, a bone below another parent or a length in another unit spoils an
-animation; what a bone does that the asset lacks is dropped without a word. Those differences are grave, the others are
+animation; what a bone does that the asset lacks is dropped silently. Those differences are severe, the others are
 to be known.
 """
 
@@ -42,7 +42,7 @@ class Difference(msgspec.Struct, frozen=True):
     kind : DifferenceKind
     bone : str
         Empty where it is about all.
-    grave : bool
+    severe : bool
         The animation would be dropped or spoilt.
     ours, theirs : str
         The root or the parent on either side; empty for other kinds.
@@ -52,14 +52,14 @@ class Difference(msgspec.Struct, frozen=True):
 
     kind: DifferenceKind
     bone: str
-    grave: bool
+    severe: bool
     ours: str = ""
     theirs: str = ""
     amount: float = 0.0
 
 
 def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[Difference, ...]:
-    """What differs between the skeleton of an export and an asset's, the gravest first.
+    """What differs between the skeleton of an export and an asset's, the most severe first.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[Difference, .
     moved = {target.names[bone] for bone in target.moved}
     found = [*_roots(target, asset), *_unit(target, asset)]
     found += [Difference("additional", name, name in moved) for name in target.names if name not in theirs]
-    found += [Difference("missing", name, grave=False) for name in asset.bone_names if name not in ours]
+    found += [Difference("missing", name, severe=False) for name in asset.bone_names if name not in ours]
     for name in (name for name in target.names if name in theirs):
         bone, other = ours[name], theirs[name]
         above, other_above = target.parents[bone], asset.parents[other]
@@ -82,17 +82,17 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[Difference, .
         if our_parent != their_parent:
             # A matter of roots, or of parents that have other names, is reported there.
             if our_parent and their_parent and (our_parent in theirs or their_parent in ours):
-                found.append(Difference("parent", name, grave=True, ours=our_parent, theirs=their_parent))
+                found.append(Difference("parent", name, severe=True, ours=our_parent, theirs=their_parent))
             continue
         off_mm = 1000.0 * float(np.linalg.norm(target.offsets_m[bone] - asset.translations_m[other]))
         # The hips are where the motion has them, wherever they rest.
         if off_mm > POSITION_MM and bone != target.hips and bone not in target.tied:
-            found.append(Difference("position", name, grave=False, amount=round(off_mm, 2)))
+            found.append(Difference("position", name, severe=False, amount=round(off_mm, 2)))
         turn = quaternion.multiply(quaternion.conjugate(asset.rotations[other]), target.rest[bone])
         off_deg = float(np.degrees(np.linalg.norm(quaternion.to_rotation_vector(turn))))
         if off_deg > ROTATION_DEG:
-            found.append(Difference("rotation", name, grave=False, amount=round(off_deg, 2)))
-    return tuple(sorted(found, key=lambda difference: not difference.grave))
+            found.append(Difference("rotation", name, severe=False, amount=round(off_deg, 2)))
+    return tuple(sorted(found, key=lambda difference: not difference.severe))
 
 
 def without_armature(asset: Figure) -> Figure:
@@ -113,14 +113,14 @@ def without_armature(asset: Figure) -> Figure:
 
 
 def reported(differences: Sequence[Difference]) -> tuple[Message, ...]:
-    """The differences in words, the gravest first: how many there are of a kind, and which, or the largest."""
+    """The differences in words, the most severe first: how many there are of a kind, and which, or the largest."""
     messages = [
-        _grave(difference) for difference in differences if difference.grave and difference.kind != "additional"
+        _severe(difference) for difference in differences if difference.severe and difference.kind != "additional"
     ]
-    lost = [difference for difference in differences if difference.grave and difference.kind == "additional"]
+    lost = [difference for difference in differences if difference.severe and difference.kind == "additional"]
     if lost:
         messages.append(Message("skeleton.not_in_asset", {"count": len(lost), "bones": _listed(lost)}))
-    mild = [difference for difference in differences if not difference.grave]
+    mild = [difference for difference in differences if not difference.severe]
     for kind in dict.fromkeys(difference.kind for difference in mild):
         alike = [difference for difference in mild if difference.kind == kind]
         most = max(alike, key=lambda difference: difference.amount)
@@ -136,7 +136,7 @@ def _listed(differences: Sequence[Difference]) -> str:
     return ", ".join(names[:MOST_LISTED]) + (", ..." if len(names) > MOST_LISTED else "")
 
 
-def _grave(difference: Difference) -> Message:
+def _severe(difference: Difference) -> Message:
     if difference.kind == "unit":
         return Message("skeleton.other_unit", {"factor": difference.amount})
     if difference.kind == "parent":
@@ -151,7 +151,7 @@ def _roots(target: TargetSkeleton, asset: Figure) -> list[Difference]:
     roots = [name for name, parent in zip(asset.bone_names, asset.parents, strict=True) if parent < 0]
     if roots == [target.names[0]]:
         return []
-    return [Difference("root", target.names[0], grave=True, ours=target.names[0], theirs=", ".join(roots))]
+    return [Difference("root", target.names[0], severe=True, ours=target.names[0], theirs=", ".join(roots))]
 
 
 def _unit(target: TargetSkeleton, asset: Figure) -> list[Difference]:
@@ -171,4 +171,4 @@ def _unit(target: TargetSkeleton, asset: Figure) -> list[Difference]:
             factor *= float(note.arguments["factor"])
     if UNIT[0] < factor < UNIT[1]:
         return []
-    return [Difference("unit", "", grave=True, amount=float(f"{factor:.4g}"))]
+    return [Difference("unit", "", severe=True, amount=float(f"{factor:.4g}"))]

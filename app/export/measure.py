@@ -200,7 +200,7 @@ def measure_player(
 
 
 def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]:
-    """Largest correlation of each player's curve (F,) with any other player's; 0 where someone does not move."""
+    """Largest correlation of each player's curve (F,) with any other player's; 0 for a player who does not move."""
     greatest = dict.fromkeys(players, -1.0)
     for (name, curve), (other, others) in itertools.combinations(players.items(), 2):
         moves = np.ptp(curve) > 0.0 and np.ptp(others) > 0.0

@@ -1,4 +1,4 @@
-"""What to export, and who of the players asked for can be exported: the others are left out with the reason.
+"""What to export, and which requested players can be exported: the others are excluded with the reason.
 
 Messages: ``export.no one`` (file): "{file}: there is no one to export"; ``export.too_long`` (file, frames,
 most); ``work.stopped``; those of `app.performance.cast`.
@@ -36,7 +36,7 @@ class Request:
     ----------
     performance : Performance
     players : tuple of Player
-        Those to export, each with everything that the person plays; names of files come from all the players, so that
+        Those to export, each with everything that the musician plays; names of files come from all the players, so that
         they do not depend on the choice.
     folder : path
     formats : frozenset of str
@@ -49,7 +49,7 @@ class Request:
     skeleton : SkeletonChoice
         What the characters are written on; instruments have one skeleton only.
     sound : bool
-        Whether what is heard is written as a WAV file, from the first frame to the last.
+        Whether the sound is written as a WAV file, from the first frame to the last.
     bvh_names : str
         Table of bone names that BVH files have; empty: those of the skeleton.
     dancers : tuple of Dancer
@@ -80,13 +80,13 @@ class ExportCast:
     Attributes
     ----------
     performers : tuple of Performer
-        Persons, each as who plays the first instrument.
+        Musicians, each as the player of the first instrument.
     targets : dict of str to CheckedTarget
         What each is written on, by the id of the player or dancer.
     left_out : tuple of LeftOut
     dances : tuple of Dancing
     doubles : dict of str to tuple of Performer
-        What else a person plays, by the person's id; who plays one instrument is not there.
+        The other players of a musician, by the musician's id; without an entry for one who plays one instrument.
     """
 
     performers: tuple[Performer, ...]
@@ -118,7 +118,7 @@ def cast_of(
     UsageError
         ``usd.missing``.
     Cancelled
-        ``stop_wanted`` said so.
+        ``stop_requested`` said so.
     """
     if request.span.count > MOST_FRAMES:
         raise FileError("export.too_long", file=request.source, frames=request.span.count, most=MOST_FRAMES)
@@ -142,8 +142,8 @@ def cast_of(
         return dancing_of(request.performance, dancer)
 
     project = request.performance.project
-    persons = tuple(dict.fromkeys(project.person(player) for player in request.players))
-    found, dances = attempt(persons, make), attempt(request.dancers, make_dance)
+    musicians = tuple(dict.fromkeys(project.musician(player) for player in request.players))
+    found, dances = attempt(musicians, make), attempt(request.dancers, make_dance)
     beside = attempt((one for id in found.made for one in project.played_by(project.player(id))[1:]), make)
     characters = {id: performer.character for id, performer in found.made.items()}
     characters |= {id: dance.character for id, dance in dances.made.items()}
@@ -156,7 +156,7 @@ def cast_of(
         )
         left_out += spoilt(seen, targets, asset, wording)
     absent = {one.player.id for one in left_out}
-    if absent.issuperset([*(player.id for player in persons), *(dancer.id for dancer in request.dancers)]):
+    if absent.issuperset([*(player.id for player in musicians), *(dancer.id for dancer in request.dancers)]):
         require_players(left_out, request.source, wording)
     doubles: dict[str, list[Performer]] = {}
     for made in beside.made.values():

@@ -1,4 +1,4 @@
-"""A performance to files: characters, instruments, report. Players who cannot be exported are left out and named.
+"""A performance to files: characters, instruments, report. Players who cannot be exported are excluded and named.
 
 Messages: those of `app.export.request`.
 """
@@ -75,7 +75,7 @@ def export(
     request : Request
     wording : callable
         Words a message for the report.
-    stop_wanted, progress : callable
+    stop_requested, progress : callable
 
     Raises
     ------
@@ -84,7 +84,7 @@ def export(
     UsageError
         ``usd.missing``.
     Cancelled
-        ``stop_wanted`` said so.
+        ``stop_requested`` said so.
     """
     return write_cast(request, cast_of(request, wording, stop_requested), wording, stop_requested, progress)
 
@@ -160,12 +160,12 @@ def write_cast(
 
 def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str, dict[str, str]]:
     """Names of the files of every player and dancer: by id, then by what they hold. Who doubles has a file of the
-    instrument alone, named after the person."""
+    instrument alone, named after the musician."""
     names: dict[str, dict[str, str]] = {}
     stems = _stems(performance)
-    for person in performance.project.bodies:
-        stem, taken = stems[person.id], set[str]()
-        for player in performance.project.played_by(person):
+    for musician in performance.project.bodies:
+        stem, taken = stems[musician.id], set[str]()
+        for player in performance.project.played_by(musician):
             held_stem = f"{stem}_{player.instrument_id}"
             if held_stem in taken:
                 held_stem = f"{held_stem}_{stems[player.id]}"
@@ -176,7 +176,7 @@ def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str
                 for name, kind in FILE_FORMATS.items()
                 if name in formats
                 for held in kind.holds
-                if held == "instrument" or player is person
+                if held == "instrument" or player is musician
             }
     for dancer in performance.project.dancers:
         names[dancer.id] = {
@@ -260,7 +260,7 @@ def _part_of(reported: Callable[[float], None], begun: float, share: float) -> C
 
 @dataclass(frozen=True)
 class _Judging:
-    """What the files of a person are measured with; without an FBX file of the character nothing is."""
+    """What the files of a musician are measured with; without an FBX file of the character nothing is."""
 
     request: Request
     target: TargetSkeleton
@@ -271,7 +271,7 @@ class _Judging:
     def measured(
         self, performer: Performer, held: dict[str, str], reported: Callable[[float], None]
     ) -> Measured | None:
-        """What the files hold of someone's playing: the person's character and the instrument."""
+        """What the files hold of a player: the musician's character and the instrument."""
         if self.character is None:
             return None
         return measure_player(
@@ -361,7 +361,7 @@ def _scenes(
 
 
 def _stems(performance: Performance) -> dict[str, str]:
-    """File stems by the id of the player or dancer; the names are the same whoever is exported."""
+    """File stems by the id of the player or dancer; the same for any selection of players."""
     project = performance.project
     names = {one.id: one.name for one in project.players} | {one.id: one.name for one in project.dancers}
     return dict(zip(names, file_stems(list(names.values())), strict=True))

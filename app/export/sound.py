@@ -1,4 +1,4 @@
-"""The sound of an export as a WAV file, from the first frame to the last: what is heard in the editor."""
+"""The sound of an export as a WAV file, from the first frame to the last: the same as in the editor."""
 
 from __future__ import annotations
 

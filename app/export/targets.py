@@ -20,7 +20,7 @@ from app.rig.mesh import Mesh
 from app.rig.model import Character
 from app.rig.placements import local_placements
 
-MOST_TOLD = 5
+MOST_LISTED = 5
 """Grave differences that are reported one by one."""
 
 
@@ -33,7 +33,7 @@ class CheckedTarget:
 
     @property
     def messages(self) -> tuple[Message, ...]:
-        """What there is to know, the gravest first."""
+        """What there is to know, the most severe first."""
         return (*reported(self.differences), *self.target.messages)
 
 
@@ -96,9 +96,9 @@ def spoilt(
     detail)."""
     found = []
     for player in players:
-        grave = reported([difference for difference in checked[player.id].differences if difference.grave])
-        if grave:
-            detail = "; ".join(map(wording, grave[:MOST_TOLD])) + ("; ..." if len(grave) > MOST_TOLD else "")
+        severe = reported([difference for difference in checked[player.id].differences if difference.severe])
+        if severe:
+            detail = "; ".join(map(wording, severe[:MOST_LISTED])) + ("; ..." if len(severe) > MOST_LISTED else "")
             arguments: dict[str, Argument] = {"file": asset.file, "player": player.name, "detail": detail}
             found.append(LeftOut(player, Message("skeleton.differs", arguments)))
     return tuple(found)

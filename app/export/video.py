@@ -49,7 +49,7 @@ class VideoWriter:
         Raises
         ------
         BrokenPipeError
-            The encoder has gone; `video_into` tells why.
+            The encoder has ended; `video_into` reports why.
         """
         width, height = self._size
         if picture.shape[:2] != (height, width):

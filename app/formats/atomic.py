@@ -45,7 +45,7 @@ def atomic_write(
         What `path` held before is kept under this name, in the same folder; at every moment one of the two is whole.
     follow_link : bool
         Whether a symbolic link stays a link, and what it leads to is replaced: so for a file that the user names. A
-        file that only we name replaces the link, which someone else has put there.
+        file that only we name replaces the link, which another program has put there.
 
     Yields
     ------
@@ -100,7 +100,7 @@ def _new_partial(folder: Path) -> tuple[Path, BinaryIO]:
     """A new file that is locked, where the file system knows locks."""
     while True:
         partial = folder / f".{secrets.token_hex(8)}.partial"
-        # "x": never write into someone else's file; the mode follows the umask, as for any new file.
+        # "x": never write into another program's file; the mode follows the umask, as for any new file.
         stream = partial.open("xb")
         try:
             # Someone who sweeps may have taken it for a dead one's between the two steps.

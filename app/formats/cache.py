@@ -1,4 +1,4 @@
-"""Where results are kept that cost more to work out than to read: a folder that anybody may empty at any time."""
+"""A cache of results that cost more to compute than to read, in a folder that may be emptied at any time."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ def is_locked(path: Path) -> bool:
     except FileNotFoundError:
         return False
     except OSError:
-        # Not ours to open: whoever may be behind it is left alone.
+        # Not ours to open: its owner, if any, is left alone.
         return True
 
 

@@ -68,7 +68,7 @@ def abandoned_folders() -> Iterator[Path]:
                 with contextlib.suppress(OSError):
                     folder.rmdir()
             except OSError:
-                # No locks here: whoever may be behind it is left alone.
+                # No locks here: its owner, if any, is left alone.
                 continue
             else:
                 if is_abandoned:
@@ -76,7 +76,7 @@ def abandoned_folders() -> Iterator[Path]:
 
 
 def _is_ours(place: Path) -> bool:
-    """Whether a place is no other user's, who could have made it first where everybody may."""
+    """Whether a place is not another user's, made first in a folder that all may write."""
     found = place.stat(follow_symlinks=os.name != "posix")
     return os.name != "posix" or found.st_uid == os.getuid()
 

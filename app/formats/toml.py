@@ -1,7 +1,7 @@
 """TOML files, both ways: tables of texts, numbers, truth values, lists and tables of such.
 
 Reading is meant for files of any origin. What the format allows and no table of ours needs is refused: numbers beyond
-64 bits, nan and infinity, names and tables nested deeper than anybody writes. Besides being wrong, each of them makes
+64 bits, nan and infinity, names and tables nested deeper than any real file. Besides being wrong, each of them makes
 some step behind the parser fail, or take longer than the square of the file's size.
 
 Messages (`MapError`)

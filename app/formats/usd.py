@@ -89,8 +89,8 @@ def write_usd(path: str | os.PathLike[str], scene: Scene, sound: Sound | None = 
         # USD writes files of its own only.
         with scratch_folder() as folder:
             made = folder / f"scene{Path(path).suffix}"
-            # Without a listener USD tells the terminal that a sound's time needs a version of its binary files newer
-            # than the oldest; errors are raised all the same.
+            # Without a listener USD prints that a sound's time needs a version of its binary files newer than the
+            # oldest; errors are raised all the same.
             listener = UsdUtils.CoalescingDiagnosticDelegate()
             layer.Export(str(made))
             del listener

@@ -119,7 +119,7 @@ class UserFolder(Generic[V, S]):
         return self.last if self.last is not None else self.reload()
 
     def reload(self) -> S:
-        """Read the folder again if something in it changed, and return what everybody gets from now on."""
+        """Read the folder again if something in it changed, and return the values used from now on."""
         with self.lock:
             self.last = self.read(self.folder(), self.last)
             return self.last

@@ -234,13 +234,12 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "breath.catch_dropped_two": (
         (
-            "a catch breath instead of notes {first_note} and {after_note}, which are left out: {phrase_s:g} s "
-            "without a breath in a rest need more than the {lung_s:g} s of air there are, and no note is long "
-            "enough to take it from"
+            "catch breath in place of notes {first_note} and {after_note}, which are excluded: {phrase_s:g} s since "
+            "the last breath in a rest exceed the {lung_s:g} s of air, and no note is long enough to shorten"
         ),
         (
-            "音符 {first_note} と {after_note} を省いた素早いブレス: 休符でブレスしないまま {phrase_s:g} 秒続き、"
-            "{lung_s:g} 秒分の息では足りません。息継ぎできる長さの音もありません"
+            "音符 {first_note} と {after_note} を除外した息継ぎ: 休符でのブレスから {phrase_s:g} 秒続き、{lung_s:g} "
+            "秒分の息では足りません。短くできる長さの音もありません"
         ),
     ),
     "breath.staggered": (

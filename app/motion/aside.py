@@ -39,7 +39,7 @@ TURNS = {"spine": 0.09, "chest": 0.16, "upperChest": 0.12}
 
 @dataclass(frozen=True)
 class Aside:
-    """Where an instrument is put aside: by which hand, and as which one of the person's, from 0."""
+    """Where an instrument is put aside: by which hand, and as which one of the musician's, from 0."""
 
     side: Side
     number: int

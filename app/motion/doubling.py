@@ -1,8 +1,8 @@
-"""One body that plays several instruments in turn: what each asks of it, one after the other.
+"""One body that plays several instruments in turn.
 
-Of every instrument the whole motion is made as if the body had no other; at a change the instrument is lowered, put
-aside and left there. While nothing is in the hands the body goes over from one motion to the other, so nothing that is
-held or blown is ever blended.
+For each instrument the whole motion is made as if it were the only one; at a change the instrument is lowered, put
+aside and left there. The body blends from one motion to the other only while the hands are empty, so a held or played
+instrument is never blended.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ LOWERS = 0.85
 
 @dataclass(frozen=True, eq=False)
 class Doubling(PerformanceCurves):
-    """One of the instruments of a person who plays several.
+    """One of the instruments of a musician who plays several.
 
     Attributes
     ----------
     played : tuple of PerformanceCurves
-        All of the person's, each with its ways aside and back.
+        All of the musician's, each with its ways aside and back.
     shares : tuple of Curve
-        How much the body does what each of them asks: together 1.
+        The weight of each one's motion; the sum is 1.
     number : int
         Which of them this is.
     """
@@ -45,7 +45,7 @@ class Doubling(PerformanceCurves):
     number: int = 0
 
     def motion(self, fps: Fraction, first_frame: int, frames: int) -> Motion:
-        """Make some frames: the body as it plays whatever it does, and this instrument in the hands or aside."""
+        """Make some frames: the body as it plays the current instrument, and this instrument in the hands or aside."""
         times_s = frame_times(self.start_s, fps, first_frame, frames)
         shares = np.array([curve.sample(times_s) for curve in self.shares])
         made = {
@@ -78,9 +78,9 @@ class Doubling(PerformanceCurves):
         hips_m: npt.NDArray[np.float32],
         morphs: Mapping[str, npt.NDArray[np.float32]],
     ) -> None:
-        """Fill in the frames in which the body goes over from one to another."""
+        """Fill in the frames in which the body changes from one motion to another."""
         order = np.argsort(shares, axis=0)
-        # Always from the lower number to the higher one, so that the way does not turn round half way.
+        # Always from the lower number to the higher one, so that the direction does not reverse half way.
         pairs = np.sort(order[-2:], axis=0)
         for one, other in {tuple(pair) for pair in pairs.T.tolist()}:
             some = np.flatnonzero((pairs[0] == one) & (pairs[1] == other))
@@ -102,7 +102,7 @@ class Doubling(PerformanceCurves):
                 values[here] = first + (second - first) * share
 
     def changed_s(self, other: PerformanceCurves) -> FloatArray:
-        """As of `PerformanceCurves`, by all that the person plays."""
+        """As of `PerformanceCurves`, by all that the musician plays."""
         if not isinstance(other, Doubling):
             return EVERYWHERE
         if len(self.played) != len(other.played) or self.number != other.number:
@@ -113,12 +113,12 @@ class Doubling(PerformanceCurves):
 
 
 def doubled(played: Sequence[PerformanceCurves], first: str, found: Sequence[Change]) -> tuple[Doubling, ...]:
-    """What each instrument of a person does beside the others.
+    """The motion of each instrument of a musician, with the others put aside.
 
     Parameters
     ----------
     played : sequence of PerformanceCurves
-        Of one body; each as if it had no other.
+        All of one body; each made as if it were the only instrument.
     first : str
         Id of the player whose instrument is in the hands at first.
     found : sequence of Change
@@ -194,7 +194,7 @@ def _lowered(playing: PerformanceCurves, ways: Sequence[tuple[float, float, floa
 
 
 def _share(player_id: str, first: str, found: Sequence[Change]) -> Curve:
-    """How much a body does what one of its instruments asks."""
+    """The weight of one instrument's motion in the body's."""
     ways = [
         (change.put_s, change.taken_s, 1.0 if change.after == player_id else 0.0)
         for change in found

@@ -371,7 +371,7 @@ def _fingers(
 
 
 def _settled(parameters: PlayerParameters, carriage: Carriage) -> PlayerParameters:
-    """The parameters of someone whose instrument moves as little as its carriage says: the lips must stay with it."""
+    """Parameters with the motion of the instrument limited as its carriage says: the lips must stay with it."""
     share = SETTLED + (1.0 - SETTLED) * freedom(carriage)
     if share == 1.0:
         return parameters

@@ -55,7 +55,7 @@ class Player:
 
     ``still`` is the posture before any motion and ``base`` its trunk, one frame; ``grip_of_lips_m`` (3,) is how far
     playing lips bring the mouthpiece from where one lip alone would carry it, in the head's frame. ``stand`` is there
-    where the instrument stands on the floor, ``aside`` where the person plays others too.
+    where the instrument stands on the floor, ``aside`` where the musician plays others too.
     """
 
     skeleton: Skeleton

@@ -70,7 +70,7 @@ def model_of(instrument: InstrumentMap) -> InstrumentModel:
 def suited_to(player: Player, instrument: InstrumentMap) -> FittedInstrument:
     """An instrument as a player's body plays it: its size, and what touches it; found once for each pair."""
     if player.character_id in bundled_characters():
-        # Ours are grown-ups and lack nothing: plans are made before anybody is loaded.
+        # Ours are adult and complete: plans are made before any character is loaded.
         return FittedInstrument(instrument, ())
     character, body = character_of(player), body_of(player)
 
@@ -94,7 +94,7 @@ def hold_of(player: Player, instrument: InstrumentMap, progress: Progress = no_p
 
 
 def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[FloatArray, FloatArray] | None:
-    """Where an instrument lies in the player's frame while the person has another in the hands: position (3,) and
+    """Where an instrument lies in the player's frame while the musician has another in the hands: position (3,) and
     rotation (4,). None as long as it would take time to say how it is held.
 
     Parameters
@@ -103,7 +103,7 @@ def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[Flo
     instrument : InstrumentMap
         Of the library.
     number : int
-        Which of the person's instruments it is, from 0.
+        Which of the musician's instruments it is, from 0.
     """
     if not is_held(player, instrument):
         return None

@@ -19,7 +19,7 @@ from app.identity_cache import IdentityCache
 from app.motion.danced import BodyLayer
 from app.motion.perform import frame_count
 from app.performance.bodies import character_of
-from app.performance.dancers import Dancing, choreographer_of, heard_frame, rhythm_of
+from app.performance.dancers import Dancing, choreographer_of, dance_frame, rhythm_of
 from app.performance.ensemble import Performance
 from app.plan.model import TimeFrame
 from app.project.casting import StagePosition
@@ -79,7 +79,7 @@ def _keys(performance: Performance, player: Player) -> _Keys | None:
         choreographer_of(parameters.choreography),
         rhythm_of(performance),
         character_of(player),
-        heard_frame(performance),
+        dance_frame(performance),
     )
 
 

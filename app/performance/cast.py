@@ -1,10 +1,10 @@
-"""Who of some players can be seen: what each needs is found player by player, and whoever lacks something is left out
-with the reason, so that the others go on.
+"""Which players are visible: what each needs is found player by player, and one that lacks something is excluded with
+the reason, so that the others continue.
 
 Messages
 --------
 player.left_out : player, reason
-    "{player} is left out: {reason}"
+    "{player} is excluded: {reason}"
 player.not_seen : players
     "these players cannot be seen: {players}; the list of problems says why"
 player.all_left_out : file, reasons
@@ -84,7 +84,7 @@ class Performer:
 
 
 def attempt(players: Iterable[P], make: Callable[[P], T]) -> Attempt[T]:
-    """Make something of every player or dancer; those for whom that raises an `AppError` are left out with its message.
+    """Make something of every player or dancer; those that raise an `AppError` are excluded with its message.
 
     Raises
     ------

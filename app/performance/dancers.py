@@ -58,8 +58,8 @@ BLINKS_EVERY_S: Final = (1.8, 6.0)
 
 _DANCING: IdentityCache[Dancing] = IdentityCache(64)
 _RHYTHMS: IdentityCache[Rhythm] = IdentityCache(8)
-_heard: deque[Rhythm] = deque(maxlen=4)
-_heard_lock = Lock()
+_recent_rhythms: deque[Rhythm] = deque(maxlen=4)
+_recent_rhythms_lock = Lock()
 
 
 class Dancing:
@@ -72,7 +72,7 @@ class Dancing:
         The seed is the dancer's and the project's together.
     choreographer : Choreographer
     rhythm : Rhythm
-        As the dancer hears it.
+        As the dancer follows it.
     corrections : sequence of DanceCorrection
     tempo_map : TempoMap
         Of the piece: when the corrections' ticks are.
@@ -208,7 +208,7 @@ def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
     rhythm = delayed(rhythm_of(performance), dancer.delay_beats) if dancer.delay_beats else rhythm_of(performance)
     rhythm = _same_rhythm(rhythm)
     corrections = project.dance_corrections.get(dancer.id, ())
-    frame = heard_frame(performance)
+    frame = dance_frame(performance)
 
     def made() -> Dancing:
         return Dancing(dancer, choreographer, rhythm, corrections, project.score.tempo_map, character, frame)
@@ -232,12 +232,12 @@ def dancer_motion(
 
 
 def rhythm_of(performance: Performance) -> Rhythm:
-    """What all dancers hear of the piece."""
+    """The rhythm of the piece that all dancers follow."""
     score = performance.project.score
     return _RHYTHMS.get((score,), lambda: _same_rhythm(audible_rhythm(score)))
 
 
-def heard_frame(performance: Performance) -> TimeFrame:
+def dance_frame(performance: Performance) -> TimeFrame:
     """The span that all dances cover; one object as long as it is the same."""
     return _same_frame(performance.time_frame.first_frame_s, performance.time_frame.end_s)
 
@@ -351,12 +351,12 @@ def _interned(dancer: Dancer) -> Dancer:
 
 
 def _same_rhythm(rhythm: Rhythm) -> Rhythm:
-    """One object for equal rhythms: an edit of notes seldom changes what dancers hear."""
-    with _heard_lock:
-        for known in _heard:
+    """One object for equal rhythms: an edit of notes seldom changes the rhythm."""
+    with _recent_rhythms_lock:
+        for known in _recent_rhythms:
             if all(np.array_equal(getattr(known, name), getattr(rhythm, name)) for name in _RHYTHM_FIELDS):
                 return known
-        _heard.append(rhythm)
+        _recent_rhythms.append(rhythm)
         return rhythm
 
 

@@ -19,7 +19,7 @@ from app.contacts.breaks import by_time
 from app.errors import AppError, Cancelled, MapError, Message
 from app.performance.bodies import hold_now, is_held, suited_to
 from app.performance.body_problems import body_problems
-from app.performance.loudness import heard, note_loudness
+from app.performance.loudness import controller_input, note_loudness
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.doubling import Change, changes, first_played, held_plan
 from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
@@ -57,7 +57,7 @@ class Performance:
         Of the same document before an edit: what has not changed is taken from there, to the object. The result is
         the same without it.
     waiting : frozenset of str
-        Players who are not seen yet, because someone else finds out first how they hold their instruments (`hold`).
+        Players who are not seen yet, because another task first computes how they hold their instruments (`hold`).
 
     Raises
     ------
@@ -106,7 +106,7 @@ class Performance:
         part = self.project.part(player)
         corrections = self.project.corrections.get(player.id, ())
         loudness = self._memo.step(f"loudness:{player.id}", note_loudness, part)
-        blown = self._memo.step(f"heard:{player.id}", heard, part)
+        blown = self._memo.step(f"controller:{player.id}", controller_input, part)
         said = (player.parameters, corrections, loudness, blown, player.doubles)
         return self._memo.step(f"line:{player.id}", MonophonicPart, player.id, part.notes, instrument, *said)
 
@@ -118,7 +118,7 @@ class Performance:
         first_ticks = [part.notes[0].onset_tick for part in played]
         last_ticks = [part.end_tick for part in played]
         if self.project.dancers:
-            # They move to all that is heard.
+            # They move to all that sounds.
             first_ticks += [hit.tick for hit in self.project.score.percussion[:1]]
             last_ticks.append(self.project.score.sounding_end_tick)
         first_tick, last_tick = min(first_ticks, default=0), max(last_ticks, default=0)
@@ -140,7 +140,7 @@ class Performance:
         Raises
         ------
         Cancelled
-            ``stop_wanted`` said so; the next one begins again.
+            ``stop_requested`` said so; the next one begins again.
         """
         with self._lock:
             if self.planned:
@@ -310,7 +310,7 @@ class Performance:
 
         Parameters
         ----------
-        stop_wanted, progress : callable
+        stop_requested, progress : callable
             Asked and called often; ``progress`` is given the share 0..1 that is done.
         players : iterable of Player, optional
             Only these; all by default.
@@ -318,7 +318,7 @@ class Performance:
         Raises
         ------
         Cancelled
-            ``stop_wanted`` said so; holds that were finished stay.
+            ``stop_requested`` said so; holds that were finished stay.
         """
         chosen = None if players is None else {player.id for player in players}
         unheld = [player for player in self.unheld if chosen is None or player.id in chosen]
@@ -339,7 +339,7 @@ class Performance:
 
 
 def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str, tuple[Change, ...]]:
-    """Of a person who plays several instruments, whose is in the hands at first, and when they are changed."""
+    """For a musician who plays several instruments: which is in the hands first, and when they change."""
     plans = {player.id: performance.plan(player) for player in played}
     return first_played(plans), changes(plans)
 

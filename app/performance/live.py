@@ -1,7 +1,7 @@
 """The motion of all players as the viewport needs it: what is looked at first, the rest behind it, memory bounded.
 
 The performance is cut into chunks of frames. Whoever owns the worker thread calls `LiveMotion.work` as long as it
-makes something; whoever draws asks `LiveMotion.pose`, which never waits. After an edit only the chunks are made again
+makes something; the viewport calls `LiveMotion.pose`, which never waits. After an edit only the chunks are made again
 whose curves changed.
 
 Messages: those of `app.performance.ensemble`; ``character.hold_waiting``; ``player.fault`` (player, detail): "{player}
@@ -40,7 +40,7 @@ BUDGET_BYTES = 128 * 1024 * 1024
 """Four players for thirteen minutes, fifty for a minute around the playhead; it is made twenty times as fast as it is
 played."""
 SEEN_S = 4.0
-"""Looked at unless someone says otherwise."""
+"""Looked at by default."""
 BEHIND_COSTS = 3
 """What lies before the playhead is requested as much as what lies this many times as far after it."""
 
@@ -531,7 +531,7 @@ class LiveMotion:
         grid, player_ids = shown.grid, self._requested[2]
         asked = [player_id for player_id in player_ids if player_id in shown.tracks]
         everyone = asked + [player_id for player_id in shown.tracks if player_id not in asked]
-        # Who is in front first, then everybody at the playhead, then what is seen next.
+        # The active player first, then all at the playhead, then what is seen next.
         for index in (places := self._in_sight(grid)):
             yield from ((player_id, index) for player_id in everyone)
         for index in sorted(range(grid.chunks), key=lambda index: _distance(index, places[0])):
@@ -595,7 +595,7 @@ def _distance(index: int, here: int) -> int:
 
 
 def _played_before(shown: _Shown, player: Player) -> set[str]:
-    """Ids of all that the person played who played this before."""
+    """Ids of all that the musician played who played this before."""
     project = shown.performance.project
     return {one.id for one in project.played_by(project.player(player.id))}
 

@@ -1,4 +1,4 @@
-"""Lungs, lips and eyes of someone who plays now: they follow breath, bite and bend, and breathe in when the breath
+"""Lungs, lips and eyes of a live player: they follow breath, bite and bend, and breathe in when the breath
 pauses."""
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ SHUTS_S = 0.06
 OPENS_S = 0.16
 """The mouth opens for a breath."""
 EMPTY_PAUSE_S, FULL_PAUSE_S = 0.12, 0.45
-"""With empty lungs someone breathes in as soon as the breath pauses; with full ones only where it pauses longer."""
+"""With empty lungs the player breathes in as soon as the breath pauses; with full ones only where it pauses longer."""
 LEAST_SPENT = 0.08
 """No one breathes in who has hardly breathed out."""
 RELAXES_S = 2.0
@@ -102,7 +102,7 @@ class LiveBreath:
 
     @property
     def loudness(self) -> float:
-        """What the breath says, or how the note was struck where nothing tells the breath."""
+        """What the breath says, or how the note was struck where no breath is sent."""
         return self._struck if self._breath is None else self._breath
 
     def play(self, now_s: float, pitch: int, velocity: int, attacked: bool) -> None:

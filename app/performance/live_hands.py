@@ -1,4 +1,4 @@
-"""Fingers and slide of someone who plays now: the fingering of every note as it begins, and the way there.
+"""Fingers and slide of a live player: the fingering of every note as it begins, and the way there.
 
 Nothing is known beforehand: a control leaves its place with the onset and is in place as soon as a hand is there. A
 finger goes to its key with it and stays where it is until it is needed elsewhere, or home once it was not for a while

@@ -1,4 +1,4 @@
-"""How trunk and shoulders help the far hands of someone who plays now.
+"""How trunk and shoulders help the far hands of a live player.
 
 Where the notes are known a body begins to turn before its hand goes far (`app.motion.solve`). Here it turns as the hand
 goes: it has to be there before the hand needs it, so a hand that a control carries waits for it.

@@ -35,8 +35,8 @@ def note_loudness(part: Part) -> tuple[float, ...]:
     return () if curve is None else tuple(_loudness(part, curve).tolist())
 
 
-def heard(part: Part) -> ControllerInput | None:
-    """The curves that tell how a part was blown and what the lips did; None if none of them moves."""
+def controller_input(part: Part) -> ControllerInput | None:
+    """The recorded curves of breath and lips of a part; None if none of them moves."""
     breath = speaking_curve(part)
     span = _span(part)
     moving = {
@@ -64,7 +64,7 @@ def speaking_curve(part: Part) -> ControllerCurve | None:
 
 
 def sounding_curve(part: Part) -> ControllerCurve | None:
-    """The same as it is heard: a note that was not blown at all sounds as loud as its velocity says."""
+    """The same as it sounds: a note that was not blown at all sounds as loud as its velocity says."""
     curve = speaking_curve(part)
     if curve is None:
         return None

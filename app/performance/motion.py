@@ -54,7 +54,7 @@ def playing_of(
 def _alone(
     performance: Performance, performer: Performer, before: PerformanceCurves | None, danced: bool
 ) -> PerformanceCurves:
-    """A player's plan made ready to be seen, as if the person played nothing else."""
+    """A player's plan made ready to be seen, as if the musician played nothing else."""
     player, plan, felt_beats = (
         performer.player,
         performance.plan(performer.player),
@@ -97,7 +97,7 @@ def player_motion(
     Raises
     ------
     Cancelled
-        ``stop_wanted`` said so.
+        ``stop_requested`` said so.
     """
     playing = playing_of(performance, performer)
     pieces = []

@@ -1,4 +1,4 @@
-"""The pose of now of someone who plays: the chosen character fingers, breathes and moves its lips as one plays.
+"""The current pose of a live player: the character fingers, breathes and moves its lips as the user plays.
 
 `PlayAlong` takes what a controller says, as it says it, and gives the pose at any later moment. What is seen of a note
 begins with its onset; nothing is known beforehand. The layers of the body, the face and the contacts are those of
@@ -70,7 +70,7 @@ class PlayAlong:
 
     @property
     def lying(self) -> dict[str, tuple[Floats, Floats]]:
-        """Where the person's other instruments lie meanwhile, by player: position (3,) and rotation (4,)."""
+        """Where the musician's other instruments lie meanwhile, by player: position (3,) and rotation (4,)."""
         if not isinstance(self._whole, Doubling):
             return {}
         others = (
@@ -136,7 +136,7 @@ class PlayAlong:
         self._time(time_s)
         self._breath.bend(min(max(value, -1.0), 1.0))
 
-    def hear(self, time_s: float, raw: str, wiring: ControllerMapping) -> bool:
+    def receive(self, time_s: float, raw: str, wiring: ControllerMapping) -> bool:
         """Take a MIDI message, in hexadecimal, as takes keep them; what says nothing of notes, breath or lips is passed
         over. Whether a note began or ended.
 
@@ -166,7 +166,7 @@ class PlayAlong:
         return message.type in ("note_on", "note_off")
 
     def hold(self, poses: Sequence[PoseEvent]) -> None:
-        """Stand as an animator wants it, from now on."""
+        """Stand as the project says, from now on."""
         self._poses = Poses.of(poses)
 
     def pose(self, time_s: float, at_s: float | None = None) -> Pose:

@@ -21,16 +21,17 @@ breath.preparation(rest_beats, prepare_beats): "A rest of {rest_beats} beats (fr
 breath.catch(after_note, phrase_s, lung_s, from_note_ms): "A catch breath after note {after_note}: {phrase_s} s
     without a breath in a rest need more than the {lung_s} s of air there are; {from_note_ms} ms come out of that
     note's tail."
-breath.catch_dropped(after_note, phrase_s, lung_s): "A catch breath instead of note {after_note}, which is left out:
+breath.catch_dropped(after_note, phrase_s, lung_s): "catch breath in place of note {after_note}, which is excluded:
     {phrase_s} s without a breath in a rest need more than the {lung_s} s of air there are, and no note is long enough
     to take it from."
-breath.catch_dropped_two(first_note, after_note, phrase_s, lung_s): "A catch breath instead of notes {first_note} and
-    {after_note}, which are left out: {phrase_s} s without a breath in a rest need more than the {lung_s} s of air
+breath.catch_dropped_two(first_note, after_note, phrase_s, lung_s): "catch breath in place of notes {first_note} and
+    {after_note}, which are excluded: {phrase_s} s without a breath in a rest need more than the {lung_s} s of air
     there are, and no note is long enough to take it from."
-breath.blown(gap_s): "Heard in the breath: {gap_s} s without blowing."
+breath.blown(gap_s): "from the recorded breath: {gap_s} s without blowing"
     Within a note too, which is blown on afterwards.
-breath.blown_preparation(gap_s): "Heard in the breath: {gap_s} s without blowing; getting ready to breathe."
-breath.blown_short(gap_s): "Heard in the breath: {gap_s} s without blowing, where air was needed."
+breath.blown_preparation(gap_s): "from the recorded breath: {gap_s} s without blowing; breath preparation"
+breath.blown_short(gap_s): "from the recorded breath: {gap_s} s without blowing, used because air runs
+    out"
 """
 
 from __future__ import annotations
@@ -61,7 +62,7 @@ from app.plan.lungs import (
 from app.plan.model import BreathEvent, FloatArray, Problem, TimeFrame
 from app.plan.notation import at_score_tempo, notated
 from app.plan.parameters import PlayerParameters
-from app.plan.rest_breaths import blown_breaths, heard_catch, rest_breaths, within_note
+from app.plan.rest_breaths import blown_breaths, blown_catch, rest_breaths, within_note
 from app.plan.rests import rest_ticks
 from app.plan.stagger import ALONE, Shared, within_held
 from app.score.model import Note
@@ -100,7 +101,7 @@ def plan_breaths(
     shared: Shared = ALONE,
     seeds: Seeds = NO_SEEDS,
     air: Air | None = None,
-    heard: BreathEnvelope | None = None,
+    envelope: BreathEnvelope | None = None,
 ) -> BreathPlan:
     """Place every breath of a line.
 
@@ -111,14 +112,14 @@ def plan_breaths(
     shared : Shared
         Where others of a unison breathe.
     seeds : Seeds
-        What tells this player from others where places are equally good.
-    heard : BreathEnvelope or None
+        What distinguishes this player where places are equally good.
+    envelope : BreathEnvelope or None
         The breath that was blown. Where it shows breaths, they are where it has gaps and nowhere else.
     """
     if not notes:
         return BreathPlan((), (), frozenset(), {}, frozenset())
     line = _Breather(notes, times, piece, parameters, {note.id: index for index, note in enumerate(notes)})
-    score = _read(line, air, heard)
+    score = _read(line, air, envelope)
     given = _given(line, score, frame, corrections, shared)
     stock, spare = _stock(line, score, given)
     catches = _catches(line, score, stock, given.untouchable, shared, seeds)
@@ -168,7 +169,7 @@ class _Score(NamedTuple):
     lung_s : float
         `app.plan.lungs.lungful_s`.
     within : tuple of BreathEvent
-        Breaths that were heard within notes.
+        Breaths that were recorded within notes.
     """
 
     written: LineTimes
@@ -222,14 +223,14 @@ class _Stock(NamedTuple):
     room: Room
 
 
-def _read(line: _Breather, air: Air | None, heard: BreathEnvelope | None) -> _Score:
+def _read(line: _Breather, air: Air | None, envelope: BreathEnvelope | None) -> _Score:
     times, piece = line.times, line.piece
-    gaps = None if heard is None or not heard.tells_breaths(times) else silences(heard, times)
+    gaps = None if envelope is None or not envelope.has_breath_gaps(times) else silences(envelope, times)
     lung_s = lungful_s(line.parameters, air)
     if gaps is not None:
-        assert heard is not None
-        used = air_used_s(times, air, heard)
-        within = tuple(within_note(line.notes[index], piece, *gap_s) for index, *gap_s in gaps_within(heard, times))
+        assert envelope is not None
+        used = air_used_s(times, air, envelope)
+        within = tuple(within_note(line.notes[index], piece, *gap_s) for index, *gap_s in gaps_within(envelope, times))
         return _Score(times, times, _rests(times, times, piece), gaps, used, used, lung_s, within)
     written = notated(times, piece)
     steady = at_score_tempo(written, piece)
@@ -363,7 +364,7 @@ def _caught(line: _Breather, score: _Score, stock: _Stock, spare: dict[int, Brea
     if index in spare:
         return spare[index]
     if score.gaps is not None and score.gaps.played[index]:
-        return heard_catch(line.notes[index], line.piece, score.gaps, index)
+        return blown_catch(line.notes[index], line.piece, score.gaps, index)
     return _catch(line, stock, index)
 
 

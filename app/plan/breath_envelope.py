@@ -1,7 +1,7 @@
 """What a part's controllers say about how it was blown: when there was no breath, how strong it was, what the lips did.
 
 The curve of a wind controller's breath sensor goes to zero when the player stops blowing, and stays there while they
-breathe in. A curve that a sequencer or an engraver drew for the dynamics does not: it tells how loud, not where the
+breathe in. A curve that a sequencer or an engraver drew for the dynamics does not: it shows how loud, not where the
 breaths are. So gaps are believed only of a curve that is at zero in most of the rests.
 """
 
@@ -58,8 +58,8 @@ class BreathEnvelope:
         ends_s = np.where(lasts, times.played_end_s, times.onset_s + GASP_S)
         return np.asarray(self.mean(times.onset_s, ends_s) > STOPS_AT)
 
-    def tells_breaths(self, times: LineTimes) -> bool:
-        """Whether its gaps are those of someone who breathes."""
+    def has_breath_gaps(self, times: LineTimes) -> bool:
+        """Whether its gaps are breaths."""
         gaps_s = self.gaps_s[np.isfinite(self.gaps_s).all(axis=1)]
         gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= GASP_S]
         played = self.plays(times)
@@ -112,9 +112,9 @@ def find_gaps(at_s: FloatArray, values: FloatArray) -> FloatArray:
     return np.stack((starts_s, np.append(ends_s, np.inf)[: len(starts_s)]), axis=1)
 
 
-def gaps_within(heard: BreathEnvelope, times: LineTimes) -> list[tuple[int, float, float]]:
-    """Where someone stopped blowing for a breath and blew the same note on: note by note its longest gap."""
-    gaps_s = heard.gaps_s[np.isfinite(heard.gaps_s).all(axis=1)]
+def gaps_within(envelope: BreathEnvelope, times: LineTimes) -> list[tuple[int, float, float]]:
+    """Where blowing stops for a breath within a note: the longest gap of each note."""
+    gaps_s = envelope.gaps_s[np.isfinite(envelope.gaps_s).all(axis=1)]
     gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= BREATH_S]
     notes = np.searchsorted(times.onset_s + LEAST_PLAYED_S, gaps_s[:, 0]) - 1
     # What ends later is a breath for the next note: see `silences`.
@@ -126,7 +126,7 @@ def gaps_within(heard: BreathEnvelope, times: LineTimes) -> list[tuple[int, floa
     return [(note, *longest[note]) for note in sorted(longest)]
 
 
-def silences(heard: BreathEnvelope, times: LineTimes) -> Silences:
+def silences(envelope: BreathEnvelope, times: LineTimes) -> Silences:
     """Which gap comes before which note: the longest of those between the note before and this one.
 
     A gap in the middle of a note serves none (`gaps_within`); where the note before was not blown either, it begins
@@ -134,14 +134,14 @@ def silences(heard: BreathEnvelope, times: LineTimes) -> Silences:
     """
     count = len(times.onset_s)
     start_s, end_s = np.full(count, np.nan), np.full(count, np.nan)
-    gaps_s = heard.gaps_s[np.isfinite(heard.gaps_s).all(axis=1)]
+    gaps_s = envelope.gaps_s[np.isfinite(envelope.gaps_s).all(axis=1)]
     serves = np.searchsorted(times.onset_s + LATE_S, gaps_s[:, 1])
     inner = (serves > 0) & (serves < count)
     gaps_s, serves = gaps_s[inner], serves[inner]
     begun_s, ended_s = times.onset_s[serves - 1], times.played_end_s[serves - 1]
     starts_s = np.where(gaps_s[:, 0] > begun_s + LEAST_PLAYED_S, gaps_s[:, 0], ended_s)
     ends_s = np.minimum(gaps_s[:, 1], times.onset_s[serves])
-    played = heard.plays(times)
+    played = envelope.plays(times)
     kept = (ends_s - starts_s >= GASP_S) & (ends_s > ended_s - LATE_S) & played[serves]
     starts_s, ends_s, serves = starts_s[kept], ends_s[kept], serves[kept]
     # The longest comes last of a note's, and stays.

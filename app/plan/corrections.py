@@ -177,8 +177,8 @@ class PoseCorrection(_Correction, frozen=True, tag="pose"):
 
 
 class Vary(_Correction, frozen=True, tag="vary"):
-    """Let the player's chances fall differently from one tick to another: another performance of these bars. Where the
-    generator leaves nothing to chance nothing changes. ``name`` tells one from another; of several that overlap the
+    """Another random variation of the player between two ticks: another performance of these bars. Where the
+    generator leaves nothing to chance nothing changes. ``name`` distinguishes them; of several that overlap the
     last counts."""
 
     name: str

@@ -3,7 +3,7 @@
 Without a conductor the players give the entries themselves, by body and instrument, with a preparatory beat: the start,
 and the new start after a rest or a general pause of all; going on after a fermata; a new tempo, in which that beat is
 given; and a player or a section that comes in after a long rest, or as the next voice of a canon, while others play.
-What an accompaniment plays that is not on stage sounds too: whoever comes in with it needs no cue.
+What an accompaniment plays that is not on stage sounds too: an entry with it needs no cue.
 
 The nod's acceleration peak marks the preparatory beat and its duration the tempo (Bishop and Goebl 2017). It falls on a
 beat of the metre: before a pickup on the one before the beat that the pickup lies in.
@@ -64,7 +64,7 @@ LONG_REST_S, LONG_REST_BARS = 8.0, 4
 LONG_REST_LEAST_S, LONG_REST_LEAST_BARS = 4.0, 2
 """... which is at least so long in both."""
 MELODY_BARS = 2
-"""Who has the melody is heard in so many bars."""
+"""Bars over which the players of the melody are determined."""
 DOUBLED_SHARE = 0.8
 """Who plays so much of the melody, in any octave, has it too."""
 SMALLEST, LARGEST = 0.4, 1.2
@@ -97,10 +97,10 @@ class Entry(msgspec.Struct, frozen=True):
     players: tuple[tuple[int, int], ...]
 
 
-def entries(all_times: tuple[Rhythm, ...], piece: Piece, persons: tuple[str, ...] = ()) -> tuple[Entry, ...]:
+def entries(all_times: tuple[Rhythm, ...], piece: Piece, musicians: tuple[str, ...] = ()) -> tuple[Entry, ...]:
     """Every place that asks for a cue, in order: by the rhythm of the lines and the tempo alone.
 
-    ``persons`` says who plays each line, where someone plays several: whoever changes instruments has not rested.
+    ``musicians`` gives the musician of each line, where one plays several: changing instruments is no rest.
     """
     sounding = [(line, times) for line, times in enumerate(all_times) if len(times.onset_tick)]
     if not sounding:
@@ -113,7 +113,7 @@ def entries(all_times: tuple[Rhythm, ...], piece: Piece, persons: tuple[str, ...
         # A tempo that changes while they come in belongs to their entry.
         if not shared or entry.tick - shared[-1].tick >= _beat(piece, shared[-1].tick):
             shared.append(entry)
-    return tuple(sorted([*shared, *_joining(sounding, lines, shared, piece, persons)], key=lambda entry: entry.tick))
+    return tuple(sorted([*shared, *_joining(sounding, lines, shared, piece, musicians)], key=lambda entry: entry.tick))
 
 
 class _Spans(msgspec.Struct, frozen=True):
@@ -164,15 +164,15 @@ def _coming_in(sounding: list[tuple[int, Rhythm]], tick: int, ticks: int) -> tup
 
 
 def _common_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece) -> list[Entry]:
-    """The first entry, and those after silences of everybody, on stage or not."""
+    """The first entry, and those after silences of all, on stage or not."""
     accompaniment = np.array(piece.accompaniment, np.int64).reshape(-1, 2)
-    heard = _Spans.of([(lines.starts, lines.ends), (accompaniment[:, 0], accompaniment[:, 1])])
+    all_spans = _Spans.of([(lines.starts, lines.ends), (accompaniment[:, 0], accompaniment[:, 1])])
     first = int(lines.starts[0])
     found = []
-    if not heard.sounds_before(first, _beat(piece, first)):
+    if not all_spans.sounds_before(first, _beat(piece, first)):
         found.append(Entry(first, "cue.start", None, _coming_in(sounding, first, _together(piece, first))))
-    for gap in np.flatnonzero(heard.starts[1:] > heard.ends[:-1]).tolist():
-        end, begin = int(heard.ends[gap]), int(heard.starts[gap + 1])
+    for gap in np.flatnonzero(all_spans.starts[1:] > all_spans.ends[:-1]).tolist():
+        end, begin = int(all_spans.ends[gap]), int(all_spans.starts[gap + 1])
         index = int(np.searchsorted(lines.starts, begin))
         # What comes in later comes in with the accompaniment.
         if end <= first or index == len(lines.starts) or lines.starts[index] - begin >= _beat(piece, begin):
@@ -187,7 +187,7 @@ def _common_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Pi
 
 
 def _silence(sounding: list[tuple[int, Rhythm]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
-    """Why everybody needs a cue after a silence of all from ``end`` to ``tick``; None if no one does."""
+    """Why all need a cue after a silence of all from ``end`` to ``tick``; None if no one does."""
     bars, beats = (tick - end) / piece.metre_map.bar_ticks_at(end), (tick - end) / _beat(piece, tick)
     if beats >= LEAST_BEATS:
         if rest_s >= COMMON_REST_S or (bars >= COMMON_REST_BARS and rest_s >= COMMON_REST_LEAST_S):
@@ -251,7 +251,7 @@ def _joining(
     lines: _Spans,
     shared: list[Entry],
     piece: Piece,
-    persons: tuple[str, ...],
+    musicians: tuple[str, ...],
 ) -> list[Entry]:
     """Where players come in after long rests of their own while others play; those within a bar are one entry."""
     first = int(lines.starts[0])
@@ -261,7 +261,7 @@ def _joining(
         ends_s = np.insert(times.played_end_s[:-1], 0, piece.clock.seconds(float(first)))
         begins = np.arange(len(ends)) == 0
         for other, theirs in sounding:
-            if other != line and persons and persons[other] == persons[line]:
+            if other != line and musicians and musicians[other] == musicians[line]:
                 before = np.searchsorted(theirs.onset_tick, times.onset_tick) - 1
                 later = (before >= 0) & (theirs.played_end_tick[before] >= ends)
                 ends, ends_s = (
@@ -322,10 +322,10 @@ def leader_of(
 
 
 def _at_hand(leader: int, tick: int, lines: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...]) -> int:
-    """Of all lines of the leader's person the one whose instrument is in the hands: what begins there, or began last
+    """Of all lines of the leader's musician the one whose instrument is in the hands: what begins there, or began last
     before it."""
-    person = lines[leader].person or lines[leader].player_id
-    own = [index for index, line in enumerate(lines) if (line.person or line.player_id) == person]
+    musician = lines[leader].musician or lines[leader].player_id
+    own = [index for index, line in enumerate(lines) if (line.musician or line.player_id) == musician]
     if len(own) == 1:
         return leader
 

@@ -1,13 +1,13 @@
-"""When one person who plays several instruments changes from one to the other, and what is left of each one's plan.
+"""When one musician who plays several instruments changes from one to the other, and what remains of the plan for each.
 
 The change is in the middle of the rest between the last note of one and the first of the next: the first is put aside,
-the hand goes over, the second is taken up. That players need about two seconds for it is assumed; so long the three
-parts take here at an unhurried pace and a little more.
+the hand moves, the second is picked up. Players are assumed to need about two seconds: the three steps at an
+unhurried pace and a small margin.
 
 Messages
 --------
 doubling.rest_short(before, after, rest_s, needed_s): the rest is too short for the change.
-doubling.overlap(before, after, seconds): one still sounds when the other begins.
+doubling.overlap(before, after, seconds): the first still sounds when the second begins.
 """
 
 from __future__ import annotations
@@ -25,30 +25,30 @@ from app.plan.model import GestureEvent, PlayerPlan, Problem
 NEEDED_S: Final = 2.0
 """A shorter rest is reported; assumed."""
 USUAL_S: Final = 3.4
-"""A change that has the time takes so long; assumed."""
+"""How long a change takes where there is time; assumed."""
 LEAST_S: Final = 0.8
-"""None takes less, however short the rest: the notes around it suffer."""
+"""The shortest change, however short the rest: it then overlaps the notes around it."""
 AFTER_S, BEFORE_S = 0.12, 0.3
-"""From the end of the last note to the change, and from the change to the first one: the lips are there before."""
+"""From the end of the last note to the change, and from the change to the first note: the lips are in place by then."""
 BREATH_S: Final = 0.08
 """From the change to the breath."""
 PUT, TAKEN = 0.42, 0.58
-"""Shares of the change at which the first lies aside, and the hand has the second."""
+"""Shares of the change at which the first is put aside, and the hand reaches the second."""
 
 
 class Change(msgspec.Struct, frozen=True):
-    """A person changes instruments.
+    """A musician changes instruments.
 
     Attributes
     ----------
     before, after : str
         Ids of the players of the two.
     start_s, put_s, taken_s, end_s : float
-        When the first leaves its place, when it lies aside, when the hand has the second, and when that is there.
+        When the first leaves its place, when it is put aside, when the hand reaches the second, and when that is up.
     rest_s : float
-        From the last note's end to the first one's beginning; negative where they sound at once.
+        From the end of the last note to the start of the next; negative where they sound at once.
     note_id : str
-        Of that first one.
+        Of that next note.
     """
 
     before: str
@@ -62,12 +62,12 @@ class Change(msgspec.Struct, frozen=True):
 
 
 def changes(played: Mapping[str, PlayerPlan]) -> tuple[Change, ...]:
-    """When a person changes: after a note, and where there is the time before the breath for the next one.
+    """When a musician changes: after a note, and where there is the time before the breath for the next one.
 
     Parameters
     ----------
     played : mapping of str to PlayerPlan
-        By player, in order: everything the person plays.
+        By player, in order: everything the musician plays.
     """
     rows = [
         (event.start_s, event.end_s, place, player, event.note_id)
@@ -102,7 +102,7 @@ def changes(played: Mapping[str, PlayerPlan]) -> tuple[Change, ...]:
 
 
 def in_hands(player_id: str, first: str, found: Sequence[Change]) -> tuple[tuple[float, float], ...]:
-    """When a player's instrument is in the hands of a person who begins with that of ``first``."""
+    """When a player's instrument is in the hands of a musician who begins with that of ``first``."""
     spans, since_s = [], float("-inf") if player_id == first else None
     for change in found:
         if change.before == player_id and since_s is not None:
@@ -116,7 +116,7 @@ def in_hands(player_id: str, first: str, found: Sequence[Change]) -> tuple[tuple
 
 
 def first_played(played: Mapping[str, PlayerPlan]) -> str:
-    """Whose instrument a person has in the hands at first."""
+    """The player whose instrument a musician holds at the start."""
     begun = [
         (plan.fingerings[0].start_s, place, player)
         for place, (player, plan) in enumerate(played.items())
@@ -138,8 +138,7 @@ E = TypeVar("E", bound=_Event)
 
 
 def held_plan(plan: PlayerPlan, first: str, found: Sequence[Change], names: Mapping[str, str]) -> PlayerPlan:
-    """What is left of a player's plan: nothing is done with an instrument that lies aside, but what was corrected by
-    hand stays to be seen.
+    """What remains of a player's plan: events while the instrument is put aside are removed, except manual corrections.
 
     Parameters
     ----------
@@ -147,9 +146,9 @@ def held_plan(plan: PlayerPlan, first: str, found: Sequence[Change], names: Mapp
     first : str
         See `first_played`.
     found : sequence of Change
-        Of the person.
+        The musician's, in order.
     names : mapping of str to str
-        What players are called, by id.
+        Names of players, by id.
     """
     spans = in_hands(plan.player_id, first, found)
     lowered = [event for event in plan.gestures if event.kind == "lower_instrument"]

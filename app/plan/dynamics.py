@@ -60,7 +60,7 @@ class Dynamics:
     __hash__ = None  # type: ignore[assignment]
 
 
-def dynamics_of(times: LineTimes, heard: BreathEnvelope | None) -> Dynamics:
+def dynamics_of(times: LineTimes, envelope: BreathEnvelope | None) -> Dynamics:
     """The dynamics of a line, by its curve where one was recorded or drawn, else by its notes."""
     lasts_s = times.duration_s
     parts = np.maximum(np.ceil(lasts_s / HELD_S), 1.0).astype(np.int64)
@@ -68,10 +68,10 @@ def dynamics_of(times: LineTimes, heard: BreathEnvelope | None) -> Dynamics:
     step_s = np.repeat(lasts_s / parts, parts)
     starts_s = np.repeat(times.onset_s, parts) + within * step_s
     loudness = np.repeat(times.loudness, parts)
-    if heard is not None and len(starts_s):
-        blown = np.repeat(heard.plays(times), parts) & (step_s > 0.0)
+    if envelope is not None and len(starts_s):
+        blown = np.repeat(envelope.plays(times), parts) & (step_s > 0.0)
         loudness = loudness.copy()
-        loudness[blown] = heard.mean(starts_s[blown], (starts_s + step_s)[blown])
+        loudness[blown] = envelope.mean(starts_s[blown], (starts_s + step_s)[blown])
     at_s = starts_s + step_s / 2.0
     vigour = vigour_of(mean_around(starts_s, step_s, loudness, at_s, AROUND_S)) if len(at_s) else loudness
     return Dynamics(at_s, vigour, _accents(times.loudness))

@@ -4,8 +4,8 @@ tongue's stroke before each attack.
 Messages
 --------
 embouchure.register(pitch, low, high, loudness): "{pitch} in a range of {low}-{high}, loudness {loudness}."
-embouchure.controller(pitch, low, high, loudness): "{pitch} in a range of {low}-{high}; loudness, heard in the breath,
-    {loudness} on average."
+embouchure.controller(pitch, low, high, loudness): "{pitch} in a range of {low}-{high}; from the recorded breath:
+    average loudness {loudness}."
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def plan_embouchures(
     instrument: InstrumentMap,
     parameters: PlayerParameters,
     early_end_s: dict[int, float],
-    heard: bool = False,
+    from_breath: bool = False,
 ) -> tuple[EmbouchureEvent, ...]:
     """An embouchure for every note.
 
@@ -68,7 +68,7 @@ def plan_embouchures(
     ----------
     early_end_s : dict of int to float
         Notes whose lips leave early for a catch breath.
-    heard : bool
+    from_breath : bool
         Whether the loudness is the mean of a recorded curve, which the lips follow within the note
         (`app.plan.traces`).
     """
@@ -78,7 +78,7 @@ def plan_embouchures(
     tension, effort = strain_of(register, times.loudness, times.duration_s)
     tension = np.clip(tension * parameters.embouchure_tension, 0.0, 1.0)
     low, top = instrument.range.low, instrument.range.high
-    reported = "embouchure.controller" if heard else "embouchure.register"
+    reported = "embouchure.controller" if from_breath else "embouchure.register"
     reasons: dict[tuple[int, float], Message] = {}
     events = []
     rows = zip(

@@ -100,7 +100,7 @@ class EnsemblePlan:
     plans : dict of str to PlayerPlan
         By player id.
     shared : Memo
-        Steps that concern everybody.
+        Steps that concern all players.
     own : dict of str to Memo
         Steps of single players.
     """
@@ -143,13 +143,13 @@ def plan_ensemble(
         What may be named; at least the bundled ones, which are the default.
     before : EnsemblePlan, optional
         Of the same ensemble before an edit: what has not changed is taken from there, to the object.
-    stop_wanted, progress : callable
+    stop_requested, progress : callable
         Asked, and called with the share that is done, between two players.
 
     Raises
     ------
     Cancelled
-        ``stop_wanted`` said so.
+        ``stop_requested`` said so.
     """
     faces = load_expressions() if expressions is None else expressions
     shared = Memo(None if before is None else before.shared)
@@ -160,8 +160,8 @@ def plan_ensemble(
         playable.append(_playable(line, piece.clock, tuple(faces), frame.first_frame_s, own[line.player_id]))
     lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
     piece = shared.step("felt bars", with_felt_bars, piece, all_times)
-    persons = tuple(line.person or line.player_id for line in lines)
-    found = shared.step("entries", entries, tuple(times.rhythm for times in all_times), piece, persons)
+    musicians = tuple(line.musician or line.player_id for line in lines)
+    found = shared.step("entries", entries, tuple(times.rhythm for times in all_times), piece, musicians)
     leading = tuple(_leading(line) for line in lines)
     cues, cue_ids = shared.step("cues", plan_cues, found, leading, all_times, piece, frame)
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
@@ -220,7 +220,9 @@ def _leading(line: MonophonicPart) -> MonophonicPart:
     """The line as far as cues depend on it."""
     corrections = _of(line.corrections, SetCue, RemoveEvent, SetBreath)
     parameters = restricted(line.parameters, "cues")
-    return MonophonicPart(line.player_id, line.notes, line.instrument_map, parameters, corrections, person=line.person)
+    return MonophonicPart(
+        line.player_id, line.notes, line.instrument_map, parameters, corrections, musician=line.musician
+    )
 
 
 def _of(corrections: tuple[Correction, ...], *kinds: type[Correction]) -> tuple[Correction, ...]:
@@ -255,8 +257,8 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     seeds = Seeds((given.seed, parameters.seed, line.player_id), varied)
     pins = {item.note_id: item.label for item in corrections if isinstance(item, PinFingering)}
     fingerings, fingering_problems = memo.step("fingerings", plan_fingerings, notes, times, instrument, pins)
-    steps = None if line.heard is None else line.heard.breath
-    heard = None if steps is None else memo.step("blown", blown, steps, clock)
+    steps = None if line.controller is None else line.controller.breath
+    envelope = None if steps is None else memo.step("blown", blown, steps, clock)
     breaths = memo.step(
         "breaths",
         plan_breaths,
@@ -269,7 +271,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         given.shared,
         seeds,
         instrument.air,
-        heard,
+        envelope,
     )
     events = breaths.events
     lips, by_hand = restricted(parameters, "lips"), _of(corrections, SetEmbouchure)
@@ -284,8 +286,8 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         steps is not None,
     )
     embouchures = memo.step("embouchures", correct_embouchures, made_lips, by_hand)
-    traces = memo.step("traces", plan_traces, notes, times, clock, instrument, lips, line.heard, heard, by_hand)
-    dynamics = memo.step("dynamics", dynamics_of, times, heard)
+    traces = memo.step("traces", plan_traces, notes, times, clock, instrument, lips, line.controller, envelope, by_hand)
+    dynamics = memo.step("dynamics", dynamics_of, times, envelope)
     made_gestures = plan_gestures(notes, times, piece, frame, events, given.cues, seeds, given.pulse, dynamics, memo)
     moved = _of(corrections, ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
     gestures = memo.step("corrected gestures", correct_gestures, made_gestures, moved, clock)

@@ -68,7 +68,7 @@ class Steps:
 
 @dataclass(frozen=True)
 class ControllerInput:
-    """What a wind controller, or whoever drew the curves, says about how a line is played; None: nothing.
+    """What recorded or drawn controller curves say about how a line is played; None: nothing.
 
     Attributes
     ----------
@@ -94,9 +94,9 @@ class MonophonicPart(msgspec.Struct, frozen=True):
         Monophonic, ordered by onset; neighbours may overlap a little (legato).
     loudness : tuple of float
         Mean loudness 0..1 of every note where a breath, volume or expression curve says it; empty: the velocities do.
-    heard : ControllerInput or None
-        Those curves, and what else tells about the lips.
-    person : str
+    controller : ControllerInput or None
+        Those curves, and the other input for the lips.
+    musician : str
         Id of the player whose body plays it; empty: one of its own.
     """
 
@@ -106,8 +106,8 @@ class MonophonicPart(msgspec.Struct, frozen=True):
     parameters: PlayerParameters = PlayerParameters()
     corrections: tuple[Correction, ...] = ()
     loudness: tuple[float, ...] = ()
-    heard: ControllerInput | None = None
-    person: str = ""
+    controller: ControllerInput | None = None
+    musician: str = ""
 
 
 class Piece(msgspec.Struct, frozen=True):

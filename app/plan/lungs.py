@@ -35,26 +35,26 @@ EPSILON = 1e-6
 """Rounding of air summed over an hour of notes, seconds."""
 
 
-def air_used_s(times: LineTimes, air: Air | None = None, heard: BreathEnvelope | None = None) -> FloatArray:
+def air_used_s(times: LineTimes, air: Air | None = None, envelope: BreathEnvelope | None = None) -> FloatArray:
     """(N + 1,): air taken by all notes before each, and by all, in seconds of playing at mezzoforte.
 
     Parameters
     ----------
-    heard : BreathEnvelope or None
-        The breath, where it tells when air is blown: then all of it counts, also between the notes.
+    envelope : BreathEnvelope or None
+        The breath, where it shows when air is blown: then all of it counts, also between the notes.
     """
     lasts_s = times.duration_s
     # The dynamic of the phrases takes the air, not how each of their notes turned out.
     loudness = marked(mean_around(times.onset_s, lasts_s, times.loudness, times.onset_s + lasts_s / 2.0, PHRASE_S))
     noted_s = lasts_s * air_rate(loudness, air)
-    if heard is None:
+    if envelope is None:
         return np.concatenate(([0.0], np.cumsum(noted_s)))
-    rate = np.where(heard.values > STOPS_AT, air_rate(heard.values, air), 0.0)
+    rate = np.where(envelope.values > STOPS_AT, air_rate(envelope.values, air), 0.0)
     ends_s = np.append(times.onset_s[1:], times.played_end_s[-1])
     blown_s = np.maximum(ends_s - times.onset_s, EPSILON)
-    taken = step_means(heard.at_s, rate, times.onset_s, times.onset_s + blown_s) * blown_s
+    taken = step_means(envelope.at_s, rate, times.onset_s, times.onset_s + blown_s) * blown_s
     # Notes that were not blown take what their loudness says.
-    taken = np.where(heard.plays(times), taken, noted_s)
+    taken = np.where(envelope.plays(times), taken, noted_s)
     return np.concatenate(([0.0], np.cumsum(taken)))
 
 

@@ -36,7 +36,7 @@ class FingeringEvent(msgspec.Struct, frozen=True, gc=False):
     """The fingering of one note.
 
     ``controls`` holds 0..1 for every control of the map that is not at rest, ``fingers`` which finger works those that
-    another than the usual one does. ``vent`` tells which of the controls are let go once the note speaks.
+    another than the usual one does. ``vent`` names the controls that are released once the note speaks.
     """
 
     id: str

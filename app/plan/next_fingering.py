@@ -9,7 +9,7 @@ import numpy as np
 
 from app.plan.figures import TRILL_NOTES
 from app.plan.line import LineTimes
-from app.plan.search import HEARD_OUT_S, FingeringProblem, best_path, never_worse, pitch_controls, table_of
+from app.plan.search import FULLY_AUDIBLE_S, FingeringProblem, best_path, never_worse, pitch_controls, table_of
 from instrument_maps.model import Fingering, InstrumentMap
 
 REMEMBERED = TRILL_NOTES
@@ -54,7 +54,7 @@ class NextFingering:
         """
         if len(self._table.choices[pitch - self._low]) == 1:
             return 0
-        notes = [*before[-REMEMBERED:], Fingered(pitch, onset_s, onset_s + HEARD_OUT_S, loudness, 0)]
+        notes = [*before[-REMEMBERED:], Fingered(pitch, onset_s, onset_s + FULLY_AUDIBLE_S, loudness, 0)]
         rows = np.array([note.pitch - self._low for note in notes], dtype=np.int64)
         allowed = self._table.valid[rows]
         for index, note in enumerate(notes[:-1]):

@@ -1,4 +1,4 @@
-"""Where notes that someone played would stand in a score: a musician decides by that, not by how each turned out."""
+"""Where played notes would stand in a score: breathing and phrasing follow that, not the exact timing."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ SHORTEST_REST = 0.2
 def written_onsets(
     onsets: IntArray, quarter_ticks: int, bars: IntArray, reach_ticks: IntArray | None = None
 ) -> IntArray:
-    """(N,): where notes that someone played would stand in a score.
+    """(N,): where played notes would stand in a score.
 
     Onsets that mostly lie on fractions of a quarter are written ones, and are kept as they are.
 

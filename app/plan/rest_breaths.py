@@ -1,4 +1,4 @@
-"""The breaths that rests give, or the silences of someone who was heard to blow.
+"""The breaths in rests, or in the silences of a recorded breath.
 
 Their messages are those of `app.plan.breath`.
 """
@@ -49,7 +49,7 @@ def blown_breaths(
     frame: TimeFrame,
     gaps: Silences,
 ) -> tuple[BreathEvent, ...]:
-    """The breaths of someone who was heard to blow: in the gaps, each shaped by its length as in a rest.
+    """The breaths of a recorded breath curve: in the gaps, each shaped by its length as in a rest.
 
     What the rests of the score say counts only before the first note and before notes that were not blown.
     """
@@ -63,18 +63,18 @@ def blown_breaths(
     enough = (silence > 0) & (silence / piece.beat_ticks_at(times.onset_tick) >= parameters.breath_min_beats)
     guessed = ~gaps.played & enough
     guessed[0] = enough[0]
-    heard = np.zeros(len(notes), dtype=bool)
-    heard[known] = True
-    heard[0] = False
-    serving = np.flatnonzero(guessed | heard)
+    recorded = np.zeros(len(notes), dtype=bool)
+    recorded[known] = True
+    recorded[0] = False
+    serving = np.flatnonzero(guessed | recorded)
 
     def reason(index: int, rest: float, long: bool, prepared: bool) -> Message:
-        if heard[index]:
+        if recorded[index]:
             return _blown_reason("breath.blown", gaps, index)
         return _rest_reason(index, rest, long, prepared, parameters)
 
     def preparation(index: int, rest: float) -> Message:
-        if heard[index]:
+        if recorded[index]:
             return _blown_reason("breath.blown_preparation", gaps, index)
         return _preparation_reason(rest, parameters)
 
@@ -185,7 +185,7 @@ def _rest_reason(index: int, rest: float, long: bool, prepared: bool, parameters
     )
 
 
-def heard_catch(note: Note, piece: Piece, gaps: Silences, index: int) -> BreathEvent:
+def blown_catch(note: Note, piece: Piece, gaps: Silences, index: int) -> BreathEvent:
     start_s, end_s = float(gaps.start_s[index]), float(gaps.end_s[index])
     return BreathEvent(
         id=f"breath:{note.id}",

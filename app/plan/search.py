@@ -27,10 +27,10 @@ RANK_COST = 1.0
 MOST_RANKS = 3
 """Further down the list an alternate is no stranger: woodwinds have many, ordered by little."""
 CENTS_PER_UNIT = 20.0
-"""An alternate worse in tune than the first choice by this much costs one unit on a note that can be heard out: about
+"""An alternate worse in tune than the first choice by this much costs one unit on a fully audible note: about
 what a listener notices in a melody."""
-HEARD_OUT_S = 0.25
-"""Shorter notes do not let their intonation be heard; their cost falls in proportion."""
+FULLY_AUDIBLE_S = 0.25
+"""The intonation of shorter notes is less audible; their cost falls in proportion."""
 FORKED_COST = 0.5
 """A forked fingering sounds covered, beside its rank."""
 IN_PLACE_COST = {"trill": 0.5, "fast": 0.5, "forte": 0.5, "piano": 0.5, "chromatic": -0.5, "attack": -4.0}
@@ -130,7 +130,7 @@ class Table:
     register : (P,) int64
         How many breaks lie below the pitch.
     rare : (P, K) bool
-        Which hardly anybody takes.
+        Which are hardly ever used.
     leaves_down : bool
         Whether any fingering of the instrument leaves a key down that its note does not need (tag "held").
     places : FingerPlaces
@@ -199,7 +199,7 @@ class FingeringProblem:
         """(N, K): what a fingering costs by itself; inf where there is none or a correction forbids it."""
         table, index, times = self.table, self.pitch_index, self.times
         out_of_tune = np.maximum(np.abs(table.cents) - np.abs(table.cents[:, :1]), 0.0) / CENTS_PER_UNIT
-        heard = np.minimum(times.duration_s / HEARD_OUT_S, 1.0)[:, None]
+        audible = np.minimum(times.duration_s / FULLY_AUDIBLE_S, 1.0)[:, None]
         cost = table.cost[index]
         if table.meant_for:
             least = np.full(cost.shape, np.inf)
@@ -209,7 +209,7 @@ class FingeringProblem:
                 fits = which[index] & self._where(tag)[:, None]
                 least = np.where(fits, np.minimum(least, IN_PLACE_COST[tag]), least)
             cost = np.where(meant, np.where(np.isfinite(least), least, cost + OUT_OF_PLACE_COST), cost)
-        cost = cost + out_of_tune[index] * heard
+        cost = cost + out_of_tune[index] * audible
         if table.rare.any() and self.in_trill.any():
             cost += RARE_TRILL_COST * (table.rare[index] & self._where("trill")[:, None])
         return np.where(self.allowed, cost, np.inf)

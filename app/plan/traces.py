@@ -39,19 +39,19 @@ def plan_traces(
     clock: TempoMap,
     instrument: InstrumentMap,
     parameters: PlayerParameters,
-    heard: ControllerInput | None,
+    controller: ControllerInput | None,
     blown: BreathEnvelope | None,
     corrections: Iterable[Correction] = (),
 ) -> SampledCurves | None:
-    """The traces of a line; None where there are no notes or nothing was heard.
+    """The traces of a line; None where there are no notes or no controller input.
 
     Parameters
     ----------
-    heard : ControllerInput or None
+    controller : ControllerInput or None
     blown : BreathEnvelope or None
-        ``heard.breath`` in time.
+        ``controller.breath`` in time.
     """
-    if not notes or heard is None:
+    if not notes or controller is None:
         return None
     first = int(np.floor((times.onset_s[0] - AROUND_S) / STEP_S))
     count = int(np.ceil((times.played_end_s[-1] + AROUND_S) / STEP_S)) - first
@@ -67,7 +67,7 @@ def plan_traces(
     if blown is not None:
         curve = _clipped(blown.mean(at_s - STEP_S / 2.0, at_s + STEP_S / 2.0))
         loudness = np.where(sounds & ~blown.plays(times)[here], loudness, curve)
-        air = np.where(sounds | blown.tells_breaths(times), loudness, 0.0)
+        air = np.where(sounds | blown.has_breath_gaps(times), loudness, 0.0)
         effort = np.where(sounds, strain_of(register[here], loudness, times.duration_s[here])[1], 0.0)
         for item, span in set_spans:
             air[span] = air[span] if item.air is None else item.air
@@ -77,7 +77,7 @@ def plan_traces(
     coming = np.maximum(np.searchsorted(times.onset_s, at_s + SHIFT_S / 2.0, side="right") - 1, 0)
     tension, _ = strain_of(register[coming], loudness, times.duration_s[coming])
     tension = _clipped(tension * parameters.embouchure_tension)
-    lips = np.where(sounds, _pressed(heard, clock, at_s, sounds), 0.0)
+    lips = np.where(sounds, _pressed(controller, clock, at_s, sounds), 0.0)
     for item, span in set_spans:
         if item.tension is not None:
             tension[span], lips[span] = item.tension, 0.0
@@ -101,14 +101,16 @@ def _spans(
     return spans
 
 
-def _pressed(heard: ControllerInput, clock: TempoMap, at_s: FloatArray, sounds: npt.NDArray[np.bool_]) -> FloatArray:
+def _pressed(
+    controller: ControllerInput, clock: TempoMap, at_s: FloatArray, sounds: npt.NDArray[np.bool_]
+) -> FloatArray:
     """What bite and pitch bend add to the tension: the bite by how far it is from the usual one."""
     bite = bend = np.zeros(len(at_s))
-    if heard.bite is not None:
-        bite = _sampled(heard.bite, clock, at_s)
+    if controller.bite is not None:
+        bite = _sampled(controller.bite, clock, at_s)
         bite = bite - (np.median(bite[sounds]) if sounds.any() else 0.0)
-    if heard.bend is not None:
-        bend = _sampled(heard.bend, clock, at_s)
+    if controller.bend is not None:
+        bend = _sampled(controller.bend, clock, at_s)
     return pressed_by(bite, bend)
 
 

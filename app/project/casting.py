@@ -29,7 +29,7 @@ CLEAR_M = 0.12
 """Between what neighbours hold."""
 
 DANCER_ROOM_M = 2.4
-"""Between a dancer's place and anybody else: steps to a side, and an arm."""
+"""Between a dancer's place and any other performer: steps to a side, and an arm."""
 
 NATURAL_AMPLITUDE = 0.5
 AMPLITUDE_SPREAD = 0.12
@@ -70,7 +70,7 @@ class Footprint(msgspec.Struct, frozen=True):
 def stage_seats(footprints: Sequence[Footprint]) -> tuple[StagePosition, ...]:
     """Places for an ensemble, in its order: an arc for a few, the rows of a band for many.
 
-    Neighbours stand as far apart as what they hold asks for. In rows everybody sits with their section, the sections
+    Neighbours stand as far apart as what they hold asks for. In rows players sit with their section, the sections
     in the usual order; one that has too many for a row goes on in another behind it.
     """
     if len(footprints) <= MOST_IN_ARC:
@@ -135,7 +135,7 @@ def player_seed(seed: int, player_id: str) -> int:
 
 
 def choose_characters(travels_m: Sequence[float], arms_m: Mapping[str, float]) -> tuple[str, ...]:
-    """A character for every player: a far reach gets the longest arms, the others whoever is there least often.
+    """A character for every player: a far reach gets the longest arms, the others the least used character.
 
     Parameters
     ----------

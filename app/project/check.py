@@ -38,7 +38,7 @@ _MORPHS = frozenset(ARKIT_MORPHS)
 
 
 def faults(project: Project) -> Iterator[Fault]:
-    """Everything that is wrong, one by one as it is found; whoever needs the first one only stops there."""
+    """Everything that is wrong, one by one as it is found; a caller may stop at the first."""
     yield from within("score", _score_faults(project.score))
     yield from _player_faults(project)
     yield from _correction_faults(project)
@@ -84,11 +84,11 @@ def _score_faults(score: Score) -> Iterator[Fault]:
         yield from text_faults(f"unplayed[{index}].name", unplayed.name)
         yield from between(f"unplayed[{index}].end_tick", unplayed.end_tick, (0, limits.LAST_TICK))
         yield from between(f"unplayed[{index}].note_count", unplayed.note_count, (0, limits.LAST_TICK))
-        heard = f"unplayed[{index}].sounding"
+        spans = f"unplayed[{index}].sounding"
         free = 0
         for number, (start, end) in enumerate(unplayed.sounding):
-            yield from between(f"{heard}[{number}][0]", start, (free, limits.LAST_TICK))
-            yield from between(f"{heard}[{number}][1]", end, (start, limits.LAST_TICK))
+            yield from between(f"{spans}[{number}][0]", start, (free, limits.LAST_TICK))
+            yield from between(f"{spans}[{number}][1]", end, (start, limits.LAST_TICK))
             free = end
     long = too_long(score)
     if long is not None:
@@ -207,13 +207,13 @@ def _player_faults(project: Project) -> Iterator[Fault]:
     yield from unique("players", (player.id for player in players))
     yield from unique("players", (player.name.casefold() for player in players), "name")
     parts = {part.id for part in project.score.parts}
-    persons = {player.id: player for player in players}
+    musicians = {player.id: player for player in players}
     for index, player in enumerate(players):
         place = f"players[{index}]"
         if player.part_id not in parts:
             yield f"{place}.part_id", f"there is no part {player.part_id!r}"
-        person = persons.get(player.doubles)
-        if player.doubles and (person is None or person.doubles or person is player):
+        musician = musicians.get(player.doubles)
+        if player.doubles and (musician is None or musician.doubles or musician is player):
             yield f"{place}.doubles", f"there is no player {player.doubles!r} with a body"
         yield from about(player, _one_player_faults(player, place))
 

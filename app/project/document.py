@@ -33,7 +33,7 @@ class Step:
 class Change:
     """What observers receive: compare what you show by identity (``is``), and never write while notified.
 
-    ``origin`` is whoever asked for the edit, so that it can skip its own echo; None for undo, redo and opening.
+    ``origin`` is the object that requested the edit, so that it can skip its own echo; None for undo, redo and opening.
     ``opened`` says that another document has taken the place of the one before.
     """
 

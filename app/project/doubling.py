@@ -1,12 +1,12 @@
-"""Doublings: one person who plays several instruments in turn, as flutists change to the piccolo.
+"""Doublings: one musician who plays several instruments in turn, as flutists change to the piccolo.
 
-A `Player` is what someone plays on one instrument. Who doubles another shares that one's body: the first instrument's
-player is the person, and has what belongs to a person.
+A `Player` is one instrument part. A player who doubles another shares that player's body: the player of the first
+instrument stands for the musician, and has the character, the parameters and the place.
 
 Messages
 --------
 doubling.posture(player, other): no posture fits both instruments.
-doubling.together(player, other, seconds): both sound at once for so long.
+doubling.together(player, other, seconds): both sound at once for that many seconds.
 """
 
 from __future__ import annotations
@@ -25,36 +25,37 @@ if TYPE_CHECKING:
     from app.project.model import Player
 
 TOGETHER_S: Final = 1.0
-"""As long as this two instruments of one person may sound at once, all in all: a held last note, a pickup written
-early. More is another player's."""
+"""The longest total time for which two instruments of one musician may sound at once: a held last note, a pickup
+written early. More makes two musicians."""
 
 
 def embodied(players: tuple[Player, ...]) -> tuple[Player, ...]:
-    """The players, those who double with what belongs to the person; the same tuple where nothing is other."""
+    """The players, doubling ones with the character, parameters and place of their musician; the same tuple if nothing
+    changes."""
     if not any(player.doubles for player in players):
         return players
-    persons = {player.id: player for player in players if not player.doubles}
-    result = tuple(_of_person(player, persons.get(player.doubles)) for player in players)
+    musicians = {player.id: player for player in players if not player.doubles}
+    result = tuple(_of_musician(player, musicians.get(player.doubles)) for player in players)
     return players if all(one is other for one, other in zip(result, players, strict=True)) else result
 
 
-def _of_person(player: Player, person: Player | None) -> Player:
-    if person is None:
+def _of_musician(player: Player, musician: Player | None) -> Player:
+    if musician is None:
         return player
     same = (player.character_id, player.parameters, player.stage) == (
-        person.character_id,
-        person.parameters,
-        person.stage,
+        musician.character_id,
+        musician.parameters,
+        musician.stage,
     )
     if same:
         return player
     return msgspec.structs.replace(
-        player, character_id=person.character_id, parameters=person.parameters, stage=person.stage
+        player, character_id=musician.character_id, parameters=musician.parameters, stage=musician.stage
     )
 
 
-def without_persons(players: Iterable[Player]) -> tuple[Player, ...]:
-    """Players some of whose persons have gone: the first instrument that is left is the person's then."""
+def promote_remaining(players: Iterable[Player]) -> tuple[Player, ...]:
+    """Players after a removal: where a musician's first player was removed, the next one takes that role."""
     left = tuple(players)
     there = {player.id for player in left if not player.doubles}
     heirs: dict[str, str] = {}
@@ -68,8 +69,8 @@ def without_persons(players: Iterable[Player]) -> tuple[Player, ...]:
 
 
 def doubled_parts(parts: Sequence[Part], maps: Mapping[str, InstrumentMap], clock: TempoMap) -> dict[str, str]:
-    """Which parts are played by the player of another one, by part id: what a track's player has on a second
-    instrument, unless no posture fits both or they sound at once."""
+    """Which parts the musician of another part plays, by part id: a track's second instrument, unless no posture fits
+    both or they sound at once."""
     groups: dict[tuple[int, int, int], list[Part]] = {}
     for part in sorted(parts, key=lambda part: part.voice):
         groups.setdefault((part.track, part.channel, part.voice % MOST_VOICES), []).append(part)
@@ -86,7 +87,7 @@ def doubled_parts(parts: Sequence[Part], maps: Mapping[str, InstrumentMap], cloc
 
 
 def common_postures(instruments: Sequence[InstrumentMap]) -> tuple[Posture, ...]:
-    """In what all of some instruments are played."""
+    """The postures in which all of some instruments can be played."""
     postures: tuple[Posture, ...] = ("standing", "seated")
     return tuple(one for one in postures if all(one in instrument.hold.postures for instrument in instruments))
 

@@ -27,7 +27,7 @@ def footprint(instrument: InstrumentMap | None) -> Footprint:
 
 
 def together(footprints: Iterable[Footprint]) -> Footprint:
-    """The room of a person who plays several instruments in turn, in the section of the first."""
+    """The room of a musician who plays several instruments in turn, in the section of the first."""
     first, *others = footprints
     if not others:
         return first

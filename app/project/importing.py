@@ -80,7 +80,7 @@ class Outcome(msgspec.Struct, frozen=True):
     Attributes
     ----------
     players : int
-        Persons: who plays several instruments in turn is one.
+        Musicians: one who plays several instruments counts once.
     warnings : tuple of Message
     unplayed : tuple of UnplayedPart
     instruments : dict of PartAssignment to tuple of str
@@ -110,7 +110,7 @@ def outcome_of(
     ----------
     before : Outcome, optional
         Of the same file: rows that are the same are not looked at again.
-    stop_wanted : callable
+    stop_requested : callable
         Raises Cancelled when it says so.
     """
     score = score_of_rows(contents, rows, maps, stop_requested)
@@ -154,7 +154,7 @@ def score_of_rows(
     maps: Mapping[str, InstrumentMap],
     stop_requested: Callable[[], bool] = lambda: False,
 ) -> Score:
-    """The score with the parts of the selected rows. Raises Cancelled when ``stop_wanted`` says so."""
+    """The score with the parts of the selected rows. Raises Cancelled when ``stop_requested`` says so."""
     return assigned_score(
         contents, [row.assignment for row in rows if row.requested], map_choices(maps.values()), stop_requested
     )
@@ -173,7 +173,7 @@ def import_project(
     ----------
     source : str
         Absolute path of the MIDI file.
-    stop_wanted : callable
+    stop_requested : callable
         Raises Cancelled when it says so.
     """
     project = project_from_score(score_of_rows(contents, rows, maps, stop_requested), maps)

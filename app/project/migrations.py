@@ -66,7 +66,7 @@ def _with_parameters(raw: Raw, version: int) -> Raw:
 
 
 def _with_doublings(raw: Raw) -> Raw:
-    """8 to 9: a player may share the body of another; before, everybody had one of their own."""
+    """8 to 9: a player may share the body of another; before, each player had one."""
     return {**raw, "players": [{**player, "doubles": ""} for player in raw["players"]]}
 
 

@@ -49,10 +49,10 @@ class Player(msgspec.Struct, frozen=True):
     colour : str
         ``"#rrggbb"``; empty: the theme's, by the player's place in the project.
     muted, soloed : bool
-        Whether the player is heard; who is muted still plays in the picture and in exports.
+        Whether the player sounds; a muted player is still shown and exported.
     doubles : str
         Id of the player whose body plays this instrument too, as a flutist's plays the piccolo; empty: a body of its
-        own. What belongs to the person (character, parameters, place) is that player's.
+        own. The character, parameters and place of the musician are stored with that player.
     """
 
     id: str
@@ -174,7 +174,7 @@ class PlayerTakes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class AudioTrack(msgspec.Struct, frozen=True):
-    """The recording that the piece is heard with.
+    """The recording that plays with the piece.
 
     Attributes
     ----------
@@ -199,7 +199,7 @@ class Project:
     ----------
     score : Score
     players : tuple of Player
-        In the order of the score. Who doubles has the character, the parameters and the place of the person.
+        In the order of the score. Players of one musician have the same character, parameters and place.
     corrections : mapping of str to tuple of Correction
         By player id.
     seed : int
@@ -249,24 +249,24 @@ class Project:
 
     @cached_property
     def bodies(self) -> tuple[Player, ...]:
-        """The players who have a body, in order: one for each person."""
-        return tuple(player for player in self.players if self.person(player) is player)
+        """The players who have a body, in order: one for each musician."""
+        return tuple(player for player in self.players if self.musician(player) is player)
 
-    def person(self, player: Player) -> Player:
+    def musician(self, player: Player) -> Player:
         """The player whose body plays; of who doubles no one, the player."""
         return self._players.get(player.doubles, player) if player.doubles else player
 
     def played_by(self, player: Player) -> tuple[Player, ...]:
-        """Everything that a player's person plays: first the one who has the body, then what doubles it, in order."""
-        return self._persons[self.person(player).id]
+        """Everything that a player's musician plays: first the one who has the body, then what doubles it, in order."""
+        return self._musicians[self.musician(player).id]
 
     @cached_property
-    def _persons(self) -> dict[str, tuple[Player, ...]]:
+    def _musicians(self) -> dict[str, tuple[Player, ...]]:
         found = {player.id: [player] for player in self.bodies}
         for player in self.players:
-            person = self.person(player)
-            if person is not player:
-                found[person.id].append(player)
+            musician = self.musician(player)
+            if musician is not player:
+                found[musician.id].append(player)
         return {id: tuple(players) for id, players in found.items()}
 
     @cached_property
@@ -331,7 +331,7 @@ def project_from_score(
     seed: int = 0,
 ) -> Project:
     """Cast a score: a player for every part, with a name, a character, a place and a size of motion of their own, which
-    the parts of one person share.
+    the parts of one musician share.
 
     Parameters
     ----------
@@ -344,20 +344,21 @@ def project_from_score(
     instruments = [maps[part.map_id] for part in parts]
     names = unique_names(part.name for part in parts)
     doubled = doubled_parts(parts, maps, score.tempo_map)
-    persons = [part for part in parts if part.id not in doubled]
-    played = {part.id: [part] for part in persons}
+    musicians = [part for part in parts if part.id not in doubled]
+    played = {part.id: [part] for part in musicians}
     for part in parts:
         if part.id in doubled:
             played[doubled[part.id]].append(part)
-    cast = characters_for([max((maps[one.map_id] for one in played[part.id]), key=_hand_travel_m) for part in persons])
-    places = stage_seats([together(footprint(maps[one.map_id]) for one in played[part.id]) for part in persons])
-    bodies = {part.id: (body, place) for part, body, place in zip(persons, cast, places, strict=True)}
+    mapped = [[maps[one.map_id] for one in played[part.id]] for part in musicians]
+    cast = characters_for([max(each, key=_hand_travel_m) for each in mapped])
+    places = stage_seats([together(footprint(one) for one in each) for each in mapped])
+    bodies = {part.id: (body, place) for part, body, place in zip(musicians, cast, places, strict=True)}
     players = []
     for part, name, instrument in zip(parts, names, instruments, strict=True):
-        person = doubled.get(part.id, part.id)
-        character, place = bodies[person]
-        possible = common_postures([maps[one.map_id] for one in played[person]])
-        usual = usual_posture(len(persons))
+        musician = doubled.get(part.id, part.id)
+        character, place = bodies[musician]
+        possible = common_postures([maps[one.map_id] for one in played[musician]])
+        usual = usual_posture(len(musicians))
         players.append(
             Player(
                 id=part.id,
@@ -366,12 +367,12 @@ def project_from_score(
                 instrument_id=instrument.id,
                 character_id=character,
                 parameters=PlayerParameters(
-                    amplitude=amplitude(seed, person),
-                    seed=player_seed(seed, person),
+                    amplitude=amplitude(seed, musician),
+                    seed=player_seed(seed, musician),
                     posture=usual if usual in possible else possible[0],
                 ),
                 stage=place,
-                doubles="" if person == part.id else person,
+                doubles="" if musician == part.id else musician,
             )
         )
     return Project(
@@ -383,7 +384,7 @@ def project_from_score(
 
 
 def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:
-    """What the maps can be chosen for, as the score's reader wants to know it."""
+    """What the maps can be chosen for, in the form that the score's reader takes."""
     return tuple(
         MapChoice(
             map_id=instrument.id,
@@ -409,13 +410,13 @@ def with_settings(project: Project, settings: Sequence[Setting], maps: Mapping[s
     """
     players = list(project.players)
     places = {player.id: index for index, player in enumerate(players)}
-    persons = [places[project.person(player).id] for player in players]
+    musicians = [places[project.musician(player).id] for player in players]
     for index in range(len(players)):
-        # What is set of an instrument that someone doubles is, but for the instrument, set of the person.
+        # Except for the instrument, a setting of one player applies to the musician.
         own = [
             setting
             for setting in settings
-            if (setting.player if setting.parameter == "instrument" else persons[setting.player]) == index
+            if (setting.player if setting.parameter == "instrument" else musicians[setting.player]) == index
         ]
         chosen = {setting.parameter: setting.value for setting in own}
         player = msgspec.structs.replace(players[index], parameters=parameters_with(players[index].parameters, own))

@@ -38,7 +38,7 @@ from app.errors import UsageError
 from app.plan.corrections import Correction, kind
 from app.project.alignment import AlignmentPart, Floats, align
 from app.project.anchors import moved, note_of
-from app.project.doubling import doubled_parts, without_persons
+from app.project.doubling import doubled_parts, promote_remaining
 from app.project.edit.corrections import put, take_back
 from app.project.edit.length import with_score
 from app.project.edit.players import free_name, newcomer, with_newcomers
@@ -481,7 +481,7 @@ def _with_players(
         for dancer, own in project.dance_corrections.items()
     }
     result = replace(
-        scored, players=without_persons(staying), corrections=corrections, takes=takes, dance_corrections=danced
+        scored, players=promote_remaining(staying), corrections=corrections, takes=takes, dance_corrections=danced
     )
     former = {part.id for part in project.score.parts}
     fresh = [part for part in parts if part.id not in former]
@@ -500,15 +500,15 @@ def _with_new_players(project: Project, parts: Sequence[Part], maps: Mapping[str
     for player_id, part in zip(ids, parts, strict=True):
         names.append(free_name(part.name, names))
         playing.append(maps[part.map_id])
-        doubles = _person(project, players.get(doubled.get(part.id, ""), ""))
+        doubles = _musician(project, players.get(doubled.get(part.id, ""), ""))
         newcomers.append(newcomer(project, player_id, part, names[-1], playing, doubles))
     return with_newcomers(project, tuple(newcomers))
 
 
-def _person(project: Project, player_id: str) -> str:
+def _musician(project: Project, player_id: str) -> str:
     """Whose body a player has, by id; who is new has one of their own."""
     known = next((player for player in project.players if player.id == player_id), None)
-    return player_id if known is None else project.person(known).id
+    return player_id if known is None else project.musician(known).id
 
 
 def _place_map(pairs: Iterable[tuple[int, int]], scale: Fraction) -> Callable[[int], int]:

@@ -1,4 +1,4 @@
-"""Loading characters: our own glTF binaries as they are, everybody else's as figures (`app.rig.figure_character`).
+"""Loading characters: our own glTF binaries as they are, others as figures (`app.rig.figure_character`).
 
 Messages
 --------
@@ -28,7 +28,7 @@ from app.rig.t_pose import facing_ahead, upright
 from metadata.model import REQUIRED_JOINTS
 
 OURS: Final = "Suisou build_characters"
-"""What writes our own. What someone has changed, another program has written: vertices are others then."""
+"""The generator of our own files. A changed file names another program, and its vertices differ."""
 
 
 @dataclass(frozen=True, eq=False)

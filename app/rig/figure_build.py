@@ -324,7 +324,7 @@ def _in_metres(figure: Figure) -> Figure:
 
 
 def unit_factor(height_m: float) -> float | None:
-    """What makes a person of such a height; None where no unit, or more than one, does."""
+    """The factor to metres that gives a human height; None where no unit, or more than one, does."""
     if not height_m > 0.0:
         return None
     found = [10.0**power for power in range(-5, 6) if PERSON_M[0] <= height_m * 10.0**power <= PERSON_M[1]]

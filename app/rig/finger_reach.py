@@ -36,7 +36,7 @@ class Asked:
         The joint, of the finger's, whose point ...
     tip_m : (3,) float64
         ... in its frame ...
-    wanted_m : (K, 3) float64
+    requested_m : (K, 3) float64
         ... comes here, in the wrist's frame.
     stay_m : float
         How much each angle is kept where it is: 0 where the place counts, more where only about the way there does.

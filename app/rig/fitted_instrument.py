@@ -203,7 +203,7 @@ def _asked(
 ) -> FloatArray:
     """How much of what an arm can do each size (S,) asks of it; where it is beyond 1 the hand is not reached.
 
-    The palm lies where a grown-up's does, if someone's hold is known, else where its seed is.
+    The palm lies where an adult's does, if any character's hold is known, else where its seed is.
     """
     skeleton, side = character.skeleton, seed.hand
     rim_m = np.asarray(instrument.mouthpiece.position_m)

@@ -41,7 +41,7 @@ TILTS = (
 
 
 def no_progress(share: float) -> None:
-    """No one wants to know."""
+    """Ignores the progress."""
 
 
 def starts(problem: Problem, progress: Progress = no_progress) -> list[FloatArray]:

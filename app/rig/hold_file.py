@@ -37,7 +37,7 @@ from metadata.model import Body
 MOST_BYTES = 2**22
 """Of a file; those that come with the program have a twentieth of it."""
 DIGITS = 6
-"""A millionth of a radian or of a metre is far below what anybody sees, and keeps the files small."""
+"""A millionth of a radian or of a metre is far below what is visible, and keeps the files small."""
 
 
 class _StoredHold(msgspec.Struct, frozen=True):

@@ -272,7 +272,7 @@ def candidates(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> Ca
 
 
 def refusal(stream: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
-    """Why no one plays a track; None if someone does."""
+    """Why a track has no player; None if it has one."""
     instrument = _said(stream)
     found = candidates([stream], maps)
     if instrument is not None and not instrument.any_pitch:

@@ -1,8 +1,8 @@
-"""The notes of a take without what no one meant to play.
+"""The notes of a take without unintended ones.
 
 A wind controller sends a note for whatever the fingers and the breath do: for a finger that is late a note between two
-others, for a key that springs back the same note twice, for a breath that fades a note that no one hears. Legato
-notes overlap. What is left out is reported, so that it can be shown.
+others, for a key that springs back the same note twice, for a fading breath an inaudible note. Legato
+notes overlap. Excluded notes are reported, so that they can be shown.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ import numpy.typing as npt
 from app.score.take import Cleaning, Controlled, Played, Take
 
 Fault: TypeAlias = Literal["", "ghost", "silent", "slip", "double"]
-"""Why a note is left out: short and soft; no breath to hear it by; a finger that was late; struck twice. Empty: it is
+"""Why a note is excluded: short and soft; no audible breath; a finger that was late; struck twice. Empty: it is
 kept."""
 
 SILENT_SHARE: Final = 0.4
-"""Hysteresis: a note whose breath stays below this share of `Cleaning.ghost_loudness` is not heard, however long it
-is; above the whole of it it is heard, however short."""
+"""Hysteresis: a note whose breath stays below this share of `Cleaning.ghost_loudness` is inaudible, however long it
+is; above the whole of it it is audible, however short."""
 _TOUCHING_S: Final = 0.012
 """Notes this near to one another are legato."""
 
@@ -35,7 +35,7 @@ class Cleaned:
     Attributes
     ----------
     onsets_s, ends_s : float64
-        Of a note that stays; of one that is left out, as it was played.
+        Of a note that is kept; of an excluded one, as it was played.
     pitches, velocities : int64
     faults : tuple of Fault
     """
@@ -53,7 +53,7 @@ class Cleaned:
 
 
 def cleaned(take: Take) -> Cleaned:
-    """The notes of a take as its cleaning wants them; kept for the takes that are looked at."""
+    """The notes of a take, cleaned by its settings; kept for the takes that are looked at."""
     return _cleaned(take.played, take.cleaning)
 
 

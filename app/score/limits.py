@@ -34,7 +34,7 @@ def too_long(score: Score, end_tick: int | None = None) -> dict[str, Argument] |
     ----------
     score : Score
     end_tick : int, optional
-        Where it ends, by default where its last note does, whether anybody plays it or not.
+        Where it ends, by default where its last note does, whether it has a player or not.
 
     Returns
     -------

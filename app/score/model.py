@@ -155,7 +155,7 @@ class Part(msgspec.Struct, frozen=True, dict=True):
 class UnplayedPart(msgspec.Struct, frozen=True):
     """A part that no one plays, and why. Its last note ends at ``end_tick``.
 
-    ``sounding`` are the spans of ticks, in order, in which it is heard; pauses shorter than a quarter are not counted
+    ``sounding`` are the spans of ticks, in order, in which it sounds; pauses shorter than a quarter are not counted
     apart. Empty where nothing accompanies (key switches, stray notes), or where an old project did not keep it.
     """
 
@@ -222,7 +222,7 @@ class Score(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def sounding_end_tick(self) -> int:
-        """Where the last note of the piece ends, whether anybody plays it or not; 0 without notes. Of percussion hits
+        """Where the last note of the piece ends, whether it has a player or not; 0 without notes. Of percussion hits
         alone it is known where they begin."""
         last_hit_end = self.percussion[-1].tick + 1 if self.percussion else 0
         return max((self.end_tick, last_hit_end, *(part.end_tick for part in self.unplayed)))

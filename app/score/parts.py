@@ -38,7 +38,7 @@ score.looks_written : part, map, outside, total, bar, beat, pitch
     "{part}: {outside} of {total} notes lie outside the range of {map}, the first at ..., but all fit as written
     pitches: the part looks untransposed; import its pitches as written"
 score.left_out : (a reason)
-    "left out on import"
+    "excluded on import"
 score.too_many_players : most (a reason)
     "the piece has {most} players already, and more cannot play"
 score.voices : part, voices, count, bar, beat, pitch
@@ -47,7 +47,7 @@ score.doubling : part, instrument, count, bar, beat, pitch
     "{part}: the player of this track changes to {instrument} for {count} notes, the first at ...; a player has one
     instrument here, so another one plays them"
 score.notes_left_out : part, most, count, bar, beat, pitch
-    "{part}: {most} players share it, and {count} notes that sound together with theirs are left out, the first at ..."
+    "{part}: {most} players share it, and {count} notes that sound together with theirs are excluded, the first at ..."
 score.slurred : part, count, bar, beat, pitch
     "{count} notes last into the next one and end there as slurred notes, the first in {part} at ..."
 """
@@ -103,7 +103,7 @@ Split: TypeAlias = Literal["sustained", "every", "never"]
 
 
 class PartAssignment(msgspec.Struct, frozen=True):
-    """What the user wants of some tracks.
+    """The user's choices for some tracks.
 
     Attributes
     ----------
@@ -127,7 +127,7 @@ class PartAssignment(msgspec.Struct, frozen=True):
 
 
 def usual_wishes(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> tuple[PartAssignment, ...]:
-    """What names, programs and ranges say: a wish, which the user may change, for every stream someone can play."""
+    """Suggested assignments by names, programs and ranges, for the user to change: one for every playable stream."""
     return tuple(PartAssignment((index,)) for index, stream in enumerate(streams) if refusal(stream, maps) is None)
 
 
@@ -138,7 +138,7 @@ def assigned_parts(
     piece: Score,
     stop_requested: Callable[[], bool] = lambda: False,
 ) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
-    """Sort tracks into the parts that the user wants and those no one plays, and say what was guessed.
+    """Sort tracks into requested parts and unplayed ones, and report what was guessed.
 
     Parameters
     ----------
@@ -148,13 +148,13 @@ def assigned_parts(
     maps : sequence of MapChoice
     piece : Score
         Its tempo and metres.
-    stop_wanted : callable
+    stop_requested : callable
         Asked before each part.
 
     Raises
     ------
     Cancelled
-        ``stop_wanted`` said so.
+        ``stop_requested`` said so.
     """
     parts: list[Part] = []
     warnings: list[Message] = []
@@ -265,8 +265,8 @@ def _switches(streams: Sequence[TrackChannel], own: Sequence[int], places: Seque
 
 
 def _silent(id_: str, part: str, notes: Sequence[Note], piece: Score) -> list[UnplayedPart]:
-    """The notes of a part that its players leave out, as something that no one plays or hears: few stray notes and key
-    switches accompany no one."""
+    """The notes of a part that its players do not play, as a silent part: a few stray notes and key switches are no
+    accompaniment."""
     if not notes:
         return []
     return [UnplayedPart(part, _about(id_, part, notes, piece), len(notes), max(note.end_tick for note in notes))]
@@ -307,7 +307,7 @@ def _found(chosen: Sequence[TrackChannel], map_id: str | None, maps: Sequence[Ma
         by_id = {choice.map_id: choice for choice in maps}
         return Candidates(How.SAID, found.instrument, (by_id[require_map(map_id, by_id)],))
     if not found.maps:
-        # The user wants it played though no map is for it, and must say what plays it.
+        # The user requests a player though no map fits, and must select the instrument.
         return Candidates(How.RANGE, None, tuple(maps), unknown=True)
     return found
 

@@ -91,7 +91,7 @@ _LONGEST_MARKER = 1000
 
 
 class MidiContents(msgspec.Struct, frozen=True):
-    """What a MIDI file holds, before anybody is chosen to play it.
+    """What a MIDI file holds, before players are assigned.
 
     Attributes
     ----------
@@ -102,7 +102,7 @@ class MidiContents(msgspec.Struct, frozen=True):
     streams : tuple of TrackChannel
         The notes of each track, by channel.
     warnings : tuple of Message
-        What was repaired or left out.
+        What was repaired or skipped.
     markers : tuple of Marker
     """
 
@@ -148,8 +148,8 @@ def assigned_score(
 
 
 def uncast_score(contents: MidiContents) -> Score:
-    """The score in which every track but the percussion is a part as it stands, whoever might play it, for those who
-    only listen. No part has an instrument map."""
+    """The score in which every track but the percussion is a part as it stands, without players, for
+    listening only. No part has an instrument map."""
     parts = tuple(
         Part(
             id=f"{stream.track + 1}.{stream.channel + 1}.{stream.change + 1}",

@@ -1,6 +1,6 @@
-"""Key switches: notes far from an instrument's range with which a sequencer tells a sampler how to play.
+"""Key switches: notes far from an instrument's range by which a sequencer selects the articulation of a sampler.
 
-They choose an articulation, sound nothing, and no one plays them: short notes before a phrase, or held below it.
+They are silent, and are not played: short notes before a phrase, or held below it.
 """
 
 from __future__ import annotations

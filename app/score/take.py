@@ -1,7 +1,7 @@
-"""A take: what a wind controller sent while someone played, kept as it came, and what was played in it.
+"""A take: the unchanged input of a wind controller during a pass, and the notes played in it.
 
-A take is never changed: it is cleaned, quantised and cut anew from the same events whenever someone wants it
-otherwise.
+A take is never changed: it is cleaned, quantised and cut anew from the same events after a change of
+settings.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True):
     wiring : ControllerMapping
     cleaning : Cleaning
     tempo_map : TempoMap
-        What was heard while it was played: the events keep their places in the music when the piece's tempo changes.
+        The tempo map during the recording: the events keep their places in the music when the piece's tempo changes.
     start_us, end_us : int
         Performance time of its beginning and end, microseconds; tick 0 of ``tempo_map`` is 0, the pre-roll negative.
     times_us : tuple of int

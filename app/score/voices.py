@@ -1,10 +1,10 @@
 """Who plays what in one track: how many players share its notes, and which notes are whose.
 
 Notes that overlap are legato: a player of keys or of a wind controller holds a note some way into the next. Only where
-notes go on sounding together beyond that, over several notes and for a while, or in much of the track, someone else
-plays too (`_players`). A note that lasts into the next of its player is shortened to a legato overlap that planning
-accepts (`LEGATO_OVERLAP_S`), so that the slur can still be seen. What no one can play is left out: the notes struck
-together with those of the players there are, the lowest first. `split_voices` tells both.
+notes go on sounding together beyond that, over several notes and for a while, or in much of the track, there is another
+player (`_players`). A note that lasts into the next of its player is shortened to a legato overlap that planning
+accepts (`LEGATO_OVERLAP_S`), so that the slur can still be seen. Unplayable notes are excluded: the notes struck
+together with those of the players there are, the lowest first. `split_voices` returns both.
 
 Voice 0 is the highest. Notes struck together go to voices in their order, so player 1 has the upper note of a chord of
 two; a line stays with its player until a chord forces otherwise (the least movement in all). A line that goes on
@@ -432,15 +432,15 @@ def _assign(
 
     A beam search over the onsets: what a choice costs shows only when the next chord forces the voices apart.
     """
-    everybody = tuple(range(count))
+    everyone = tuple(range(count))
     beam = [_Hypothesis(0.0, (_Voice(-1, -1.0, -1.0),) * count, None)]
     for onset, sounding, rest_s in zip(onsets, groups, rests_s, strict=True):
         if len(sounding) == count and len(beam) == 1:  # no choice, no rival: nothing to weigh
-            beam = [_Hypothesis(0.0, tuple(sounding), (beam[0].history, everybody))]
+            beam = [_Hypothesis(0.0, tuple(sounding), (beam[0].history, everyone))]
             continue
         candidates: list[tuple[float, int, tuple[int, ...]]] = []
         for number, (so_far, voices, _) in enumerate(beam):
-            free = [place for place in everybody if voices[place].free_s <= onset]
+            free = [place for place in everyone if voices[place].free_s <= onset]
             costs = _costs(voices, free, sounding, onset, rest_s)
             for places in _choices(len(free), costs):
                 cost = so_far + sum(map(getitem, costs, places))

@@ -100,7 +100,7 @@ class Program(QObject):
     tasks : Tasks
     questions : Questions
     autosave : Autosave or None
-    heard : bool
+    audible : bool
         Whether the performance can be played.
     playback : Playback, optional
         One on the system's device, if None.
@@ -114,7 +114,7 @@ class Program(QObject):
         tasks: Tasks | None = None,
         questions: Questions | None = None,
         autosave: Autosave | None = None,
-        heard: bool = True,
+        audible: bool = True,
         playback: Playback | None = None,
         recorder: Callable[[Session, Files, Settings, Sound], Recorder] | None = None,
     ) -> None:
@@ -140,7 +140,7 @@ class Program(QObject):
         self._apply_theme()
         self.generator = Generator(self.session, self.tasks)
         # Children of the session: they stay.
-        sound = Sound(self.session, playback, heard)
+        sound = Sound(self.session, playback, audible)
         watch_instruments(self.session)
         watch_characters(self.session)
         self.recorder = (Recorder if recorder is None else recorder)(self.session, files, settings, sound)
@@ -253,7 +253,7 @@ def picture(start: Start, target: Path) -> int:
         settings = Settings(folder / "editor.toml")
         settings.language = start.language or "en"
         settings.theme = start.theme or "dark"
-        program = Program(settings, heard=False)
+        program = Program(settings, audible=False)
         failure: list[AppError] = []
         if isinstance(program.tasks, ThreadTasks):
             program.tasks.failed.connect(failure.append)

@@ -29,7 +29,7 @@ class LicencesDialog(QDialog):
         self._list.setTextElideMode(Qt.TextElideMode.ElideRight)
         try:
             packages = installed()
-        except PackageNotFoundError:  # Run from its sources, beside packages that someone else put there.
+        except PackageNotFoundError:  # Run from its sources, beside packages installed otherwise.
             packages = ()
         for package in packages:
             item = _row(package.name, package.version, package.licence, package.source)

@@ -35,9 +35,9 @@ POLL_MS = 100
 NAME_PX = 48
 """The name of work may become this narrow."""
 MOTION_PX = 64
-"""Width of the bar that tells how much motion is made."""
+"""Width of the progress bar of the motion."""
 QUIET_S = 0.25
-"""Work that is done sooner is not shown: a flash tells nothing."""
+"""Shorter work is not shown: it would only flash."""
 INFORMATION_S = 6.0
 """How long an information stays; warnings and errors stay until they are closed or another comes."""
 MOST_NOTICES = 100
@@ -273,7 +273,7 @@ class StatusLine(QStatusBar):
             "off": ("", tokens.text_dim),
             "looking": (self.tr("status_line.looking_for"), tokens.text_dim),
             "sending": (self.tr("status_line.vmc_to_s"), tokens.good),
-            "unheard": (self.tr("status_line.vmc_nobody_listens_at"), tokens.warning),
+            "no_receiver": (self.tr("status_line.vmc_no_receiver_at"), tokens.warning),
             "failed": (self.tr("status_line.vmc_cannot_be_reached"), tokens.error),
         }[streaming.state]
         room_px = max(self.width() // 8, 100)

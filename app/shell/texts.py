@@ -405,7 +405,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "未保存の変更が失われる恐れがあります: 名前を付けて保存...",
     ),
     "status_line.vmc_cannot_be_reached": ("VMC: cannot reach {host}", "VMC: {host} に接続できません"),
-    "status_line.vmc_nobody_listens_at": (
+    "status_line.vmc_no_receiver_at": (
         "VMC: no receiver at {host}:{ports}",
         "VMC: {host}:{ports} に受信側がありません",
     ),
@@ -437,7 +437,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "このプロジェクトには未保存の変更があります。",
     ),
     "window.timeline": ("Timeline", "タイムライン"),
-    "window.was_changed_by_somebody_else": (
+    "window.was_changed_outside": (
         "{name} was changed outside this window after it was opened, so it was not saved.",
         "{name} は開いた後に別の場所で変更されたため、保存していません。",
     ),

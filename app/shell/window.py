@@ -239,7 +239,7 @@ class Window(QMainWindow):
                 self._layout = self._default_layout
                 self.restoreState(self._layout, LAYOUT_VERSION)
             if self._layout == self._default_layout:
-                # It was made before anyone knew how large the window would be.
+                # It was made before the size of the window was known.
                 self._size_docks()
         elif not is_open:
             if shown:
@@ -352,7 +352,7 @@ class Window(QMainWindow):
     def _ask_to_save_over(self, path: Path, then: Callable[[], None] | None) -> None:
         self.banner.ask(
             lambda: (
-                self.tr("window.was_changed_by_somebody_else").format(name=shown(path.name)),
+                self.tr("window.was_changed_outside").format(name=shown(path.name)),
                 (self.tr("window.save_as"), self.tr("window.replace_it")),
             ),
             (partial(self._files.save_as, then), partial(self._files.save_over, then)),

@@ -66,7 +66,7 @@ class Outcome(Enum):
     SENT = "sent"
     DROPPED = "dropped"
     """The system has no room: this frame is not sent, and not kept either."""
-    UNHEARD = "unheard"
+    NO_RECEIVER = "no_receiver"
     """It went out, but no one listens there."""
 
 
@@ -163,8 +163,8 @@ class Sender:
             except BlockingIOError:
                 return Outcome.DROPPED
             except (ConnectionRefusedError, ConnectionResetError):
-                # Of a packet before this one; whoever comes later hears the next.
-                outcome = Outcome.UNHEARD
+                # Of a packet before this one; a later receiver gets the next.
+                outcome = Outcome.NO_RECEIVER
             except OSError as error:
                 raise self._not_sent(error) from error
         return outcome

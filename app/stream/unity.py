@@ -1,4 +1,4 @@
-"""Our world as Unity sees it: left-handed, Y up, +X to the right of whoever faces +Z; bones by `HumanBodyBones`."""
+"""Our world as Unity sees it: left-handed, Y up, +X to the right when facing +Z; bones by `HumanBodyBones`."""
 
 from __future__ import annotations
 

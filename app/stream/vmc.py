@@ -1,8 +1,8 @@
 """A performer's pose as messages of the VMC protocol (https://protocol.vmc.info), the performer's part of it.
 
 A receiver shows one character for each port. It gets the local rotation of every bone that the character has, as from
-a T-pose in which all bones are unturned; the face; and of a player the instrument as a tracker, for whoever hangs a
-model on it.
+a T-pose in which all bones are unturned; the face; and of a player the instrument as a tracker, for a
+model to be attached.
 """
 
 from __future__ import annotations

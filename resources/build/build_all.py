@@ -3,7 +3,7 @@
     python -m resources.build.build_all [STEP ...] [--characters-python PYTHON] [--soundfont FluidR3_GM.sf2]
 
 Run from the repository, in the environment of the tests. Without steps: all of them. A step that lacks what it needs
-is left out and said to be: the characters want a Python with anny, the soundfont its source (`README.md` tells how to
+is left out and said to be: the characters need a Python with anny, the soundfont its source (`README.md` says how to
 get both), the pictures a display or ``xvfb-run``.
 """
 

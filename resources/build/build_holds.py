@@ -21,7 +21,7 @@ from metadata.load import load_body
 
 
 def main(requested: list[str]) -> None:
-    """Fit what is not up to date: of everybody and everything, or of those named."""
+    """Fit what is not up to date: all of it, or what is named."""
     body, maps = load_body(), bundled_maps()
     unknown = set(requested) - set(bundled_characters()) - set(maps)
     if unknown:

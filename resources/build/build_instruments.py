@@ -2,8 +2,8 @@
 
     python -m resources.build.build_instruments [trumpet_Bb | trombone_tenor_F_attachment ...]
 
-Every module of `FAMILIES` has a table ``INSTRUMENTS``: id -> (what builds the model, what tells its contacts), of an
-instrument with keys also what tells the tables of its keys (`instrument_keys.entry`).
+Every module of `FAMILIES` has a table ``INSTRUMENTS``: id -> (what builds the model, what gives its contacts), of an
+instrument with keys also what gives the tables of its keys (`instrument_keys.entry`).
 
 The model goes to ``resources/instruments/<id>.glb``. In ``instrument_maps/<id>.toml`` everything below the line
 ``# --- from the model`` (keys, contacts and collision bodies) is written anew, so that map and model cannot drift

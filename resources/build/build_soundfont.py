@@ -196,7 +196,7 @@ def _shortened(sample: Sample) -> Sample:
         products = np.correlate(field_, pattern, "valid")
         energies = np.convolve(field_**2, np.ones(window), "valid")
         likeness = products / np.sqrt(np.maximum(energies, 1e-9) * max(float((pattern**2).sum()), 1e-9))
-        # Loudness must match too: a swell in a loop is heard as a throb.
+        # Loudness must match too: a swell in a loop sounds as a throb.
         ratio = np.sqrt(np.maximum(energies, 1e-9) / max(float((pattern**2).sum()), 1e-9))
         score = likeness - np.abs(np.log(ratio))
         at = int(score.argmax())
@@ -205,7 +205,7 @@ def _shortened(sample: Sample) -> Sample:
     _, loop_start, loop_end = best
     blend = np.linspace(0.0, 1.0, fade)
     out = audio[: loop_end + fade].copy()
-    # Towards the loop's end the tone becomes what comes before the loop's start, so that the jump is not heard.
+    # Towards the loop's end the tone becomes what comes before the loop's start, so that the jump is inaudible.
     out[loop_end - fade : loop_end] = (
         audio[loop_end - fade : loop_end] * (1 - blend) + audio[loop_start - fade : loop_start] * blend
     )

@@ -9,7 +9,7 @@ of the first trumpet, joined by the second in thirds; the trombone's answer; the
 the clave. The rhythms are those of the style in general: the son clave (two strokes in one bar, three in the next), a
 bass that comes before the bar (tumbao), a figure between the beats (guajeo). Nothing is quoted.
 
-The drums use the sounds of a drum kit, which the bundled choreography has heard; the clave is struck on the rim.
+The drums use the sounds of a drum kit, which the bundled choreography was trained on; the clave is struck on the rim.
 Onsets and lengths are in quarters, bars are counted from 0, pitches are MIDI's.
 """
 

@@ -41,7 +41,7 @@ X, Y, Z = np.eye(3)
 
 @dataclass(frozen=True)
 class Sizes:
-    """What tells the straight clarinets apart: distances along the body, its thickness, and the size of the keys."""
+    """What distinguishes the straight clarinets: distances along the body, its thickness, and the size of the keys."""
 
     reed: SingleReed = field(default_factory=SingleReed)
     barrel: float = 0.066

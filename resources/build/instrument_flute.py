@@ -49,7 +49,7 @@ FOOT = 56.0
 
 @dataclass(frozen=True)
 class Sizes:
-    """What tells flute and piccolo apart, in metres."""
+    """What distinguishes flute and piccolo, in metres."""
 
     column: float = 0.6633
     """Acoustic length of the lowest C."""

@@ -40,7 +40,7 @@ X, Y, Z = np.eye(3)
 
 @dataclass(frozen=True)
 class Sizes:
-    """What tells the oboe and the English horn apart.
+    """What distinguishes the oboe and the English horn.
 
     Attributes
     ----------

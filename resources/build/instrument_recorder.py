@@ -25,7 +25,7 @@ TIP_M = 0.010
 
 @dataclass(frozen=True)
 class Sizes:
-    """What tells the recorders apart; distances from the tip, in metres."""
+    """What distinguishes the recorders; distances from the tip, in metres."""
 
     length: float
     head: float

@@ -72,7 +72,7 @@ HOLES = {  # along of the alto's holes, radius of their cups
 
 @dataclass(frozen=True)
 class Layout:
-    """What tells the saxophones apart, metres.
+    """What distinguishes the saxophones, metres.
 
     Attributes
     ----------

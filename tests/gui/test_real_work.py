@@ -20,7 +20,7 @@ HANG_S = 900.0
 """A program that takes longer hangs, however busy the machine."""
 
 
-def person(phase: str, folder: Path) -> subprocess.Popen[str]:
+def run_editor(phase: str, folder: Path) -> subprocess.Popen[str]:
     with (folder / f"{phase}.log").open("w") as log:
         return subprocess.Popen(
             [sys.executable, "-m", "tests.support.real_work", phase, str(folder)],
@@ -34,7 +34,7 @@ def person(phase: str, folder: Path) -> subprocess.Popen[str]:
 @pytest.mark.usefixtures("qapp")
 def test_killed_in_mid_edit_nothing_done_by_hand_is_lost(tmp_path: Path) -> None:
     assert QGuiApplication.platformName() != "offscreen"
-    with person("work", tmp_path) as at_work:
+    with run_editor("work", tmp_path) as at_work:
         assert at_work.stdout is not None
         reported = at_work.stdout.readline()
         at_work.send_signal(signal.SIGKILL)
@@ -49,7 +49,7 @@ def test_killed_in_mid_edit_nothing_done_by_hand_is_lost(tmp_path: Path) -> None
     assert saved.audio.offset_s == pytest.approx(OFFSET_S, abs=0.02)
     assert saved.source == str(LUTKIN)
 
-    with person("recover", tmp_path) as back:
+    with run_editor("recover", tmp_path) as back:
         back.wait(timeout=HANG_S)
     assert back.returncode == 0, (tmp_path / "recover.log").read_text()
     recovered = storage.load(tmp_path / "work.suisou")

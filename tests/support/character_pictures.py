@@ -41,7 +41,7 @@ class Studio:
         self.application = application
         settings = Settings(folder / "editor.toml")
         settings.language, settings.theme = language, theme
-        self.program = Program(settings, heard=False)
+        self.program = Program(settings, audible=False)
         self.window = self.program.window
         self.window.resize(1500, 900)
         self.window.show()

@@ -1,4 +1,4 @@
-"""A small piece in which one person changes from one instrument to another and back."""
+"""A small piece in which one musician changes from one instrument to another and back."""
 
 from __future__ import annotations
 

@@ -75,11 +75,11 @@ class Ear:
         return [reported for reported in self.reported if isinstance(reported, kinds)]
 
 
-def assert_mostly_in_order(heard: Sequence[bytes], played: Sequence[bytes]) -> None:
+def assert_mostly_in_order(received: Sequence[bytes], played: Sequence[bytes]) -> None:
     """What was heard is what was played, but for what JACK lost: a busy machine loses some before we hear them.
 
     That we lose nothing is tested where JACK waits for its clients: `test_burst`.
     """
-    assert len(heard) > len(played) / 2
+    assert len(received) > len(played) / 2
     rest = iter(played)
-    assert all(message in rest for message in heard), "in the order in which they were played"
+    assert all(message in rest for message in received), "in the order in which they were played"

@@ -145,7 +145,7 @@ class Look:
         answers = Answers()
         answers.answer = "discard"
         autosave = Autosave(Presence(folder / "recovery"))
-        self.program = Program(settings, ImmediateTasks(), answers, autosave, heard=False)
+        self.program = Program(settings, ImmediateTasks(), answers, autosave, audible=False)
         self.session, self.window = self.program.session, self.program.window
         self.folder, self.pictures = folder, pictures
         self.found: dict[str, str] = {}

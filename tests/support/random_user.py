@@ -152,7 +152,7 @@ def file_name(chance: random.Random) -> str:
 
 
 class RandomUser(Restless):
-    """A restless person who opens, saves, names, undoes and imports again as well.
+    """A restless user who opens, saves, names, undoes and imports again as well.
 
     Parameters
     ----------
@@ -286,7 +286,7 @@ class SessionRun:
         answers = RandomAnswers(self.chance, folder / "files", self.log)
         autosave = Autosave(Presence(folder / "recovery"))
         patch("app.editor.files.time", self.clock).start()
-        self.program = Program(settings, questions=answers, autosave=autosave, heard=False)
+        self.program = Program(settings, questions=answers, autosave=autosave, audible=False)
         assert isinstance(self.program.tasks, ThreadTasks)
         self.tasks = self.program.tasks
         self.tasks.unexpected.connect(self.complaints.take)

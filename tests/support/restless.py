@@ -1,4 +1,4 @@
-"""A restless person: clicks, drags, turns the wheel and presses keys all over the whole editor, by a seed."""
+"""A restless user: clicks, drags, turns the wheel and presses keys all over the whole editor, by a seed."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ from tests.support.takes import take_of
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
 
 LEFT_ALONE = frozenset(("file.quit",))
-"""The one thing this person never does."""
+"""The one thing this user never does."""
 ASKS_THE_SYSTEM = frozenset(("export_browse", "playblast_browse", "swatch"))
 """Buttons that open a dialog of the system, which no test can close."""
 KEYS = (

@@ -76,10 +76,10 @@ class NumberSlider(QWidget):
     Signals
     -------
     changed(float, object)
-        The user wants this value. The object is a token shared by all the values of one drag, None for a value in
+        The user sets this value. The object is a token shared by all the values of one drag, None for a value in
         one go.
     reset(float)
-        The user wants the default; emitted instead of `changed` where something is connected that knows better than
+        The user resets to the default; emitted instead of `changed` where something is connected that knows better than
         to store the default's value.
     released()
         A drag or turn of the wheel is over: end the gesture.

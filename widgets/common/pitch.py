@@ -15,7 +15,7 @@ def syllables() -> tuple[str, ...]:
 
 
 def pitch_text(display: PitchDisplay, concert_pitch: int, transposition_semitones: int = 0) -> str:
-    """A sounding pitch as the user wants it named.
+    """A sounding pitch named by the user's settings.
 
     Parameters
     ----------

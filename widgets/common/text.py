@@ -27,7 +27,7 @@ def message_text(message: Message, session: Session | None = None, player_id: st
     ----------
     message : Message
     session : Session or None
-        With it notes are reported by pitch and place, as the user wants pitches named; without it notes by their ids.
+        With it notes are reported by pitch and place, named by the user's settings; without it notes by their ids.
     player_id : str or None
         Whose message it is; None: that of the player in front.
     """

@@ -95,7 +95,7 @@ class BodyMap(QWidget):
     chosen(str)
         The user chose a joint.
     opened(str)
-        The user wants to give it another bone.
+        The user requests another bone for it.
     """
 
     chosen = Signal(str)

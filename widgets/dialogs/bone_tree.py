@@ -25,7 +25,7 @@ class BoneTree(QWidget):
     Signals
     -------
     chosen(str)
-        The user wants this bone.
+        The user selects this bone.
     """
 
     chosen = Signal(str)

@@ -70,7 +70,7 @@ class CharacterDialog(Retranslated, QDialog):
     Signals
     -------
     agreed(object, bool)
-        The user wants the character of this `Draft`; and whether the selected players become it.
+        The user accepts the character of this `Draft`; and whether the selected players become it.
     """
 
     agreed = Signal(object, bool)

@@ -150,7 +150,7 @@ class Steps:
 
 
 def not_played(made: Mapped) -> tuple[str, ...]:
-    """What a character will not do, in words, the gravest first."""
+    """What a character will not do, in words, the most severe first."""
     _translate, reported = QCoreApplication.translate, list[str]()
     bones, faces = made.joints.bones, made.faces.morphs
     if made.lacking:

@@ -71,7 +71,7 @@ class CutPlot(QWidget):
     Signals
     -------
     edited(tuple of Cut, object)
-        The user wants other cuts; those of one drag come with one token, others with None.
+        The user changes the cuts; those of one drag come with one token, others with None.
     pointed(int)
         The mouse is over this frame, or a line was moved there.
 

@@ -45,7 +45,7 @@ class Foreseen:
 
 @dataclass(frozen=True)
 class Done:
-    """What an export has done: how many files, the folder to show, who is left out, what to look at; whether Unreal
+    """What an export has done: how many files, the folder to show, who is excluded, what to look at; whether Unreal
     has a plug-in now that it loads when its editor starts."""
 
     count: int
@@ -74,12 +74,12 @@ def foresee(
     source : str
         Name of the piece's file.
     sound : bool
-        Whether a folder gets what is heard; an Unreal project always does.
+        Whether a folder gets the sound; an Unreal project always does.
 
     Raises
     ------
     FileError
-        There is no project, or something of someone else's is in the way.
+        There is no project, or files of another program are in the way.
     """
     if destination == "unreal":
         unreal = find_project(place)
@@ -93,10 +93,10 @@ def foresee(
         )
     names = file_names(performance, formats)
     project = performance.project
-    # Of a person also the other instruments.
+    # Of a musician also the other instruments.
     everything = [
         *player_ids,
-        *(one.id for one in project.players if one.doubles in player_ids and project.person(one) is not one),
+        *(one.id for one in project.players if one.doubles in player_ids and project.musician(one) is not one),
     ]
     requested = [name for player_id in everything for name in names[player_id].values()] + [REPORT]
     if sound:

@@ -86,7 +86,7 @@ class ExportDialog(WorkingDialog):
         self._project = session.project
         self._players = named(QListWidget(), "export_players")
         self._list_players()
-        self._everybody = Button("export_dialog.all_or_none", self._toggle_everybody, "export_everybody")
+        self._everyone = Button("export_dialog.all_or_none", self._toggle_everyone, "export_everyone")
         self._place = PlaceChooser(folder, unreal, destination)
         self._shown_folder = folder
         self._formats = FormatChooser()
@@ -111,7 +111,7 @@ class ExportDialog(WorkingDialog):
         self._files = named(Label(), "export_outcome")
         self._files.setWordWrap(True)
         self._files.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
-        # Whoever is left out of an orchestra may take more lines than there is room for.
+        # The excluded players of an orchestra may take more lines than there is room for.
         self._outcome = QScrollArea()
         self._outcome.setFrameShape(QScrollArea.Shape.NoFrame)
         self._outcome.setWidgetResizable(True)
@@ -142,7 +142,7 @@ class ExportDialog(WorkingDialog):
 
     def _lay_out(self) -> None:
         title = Caption("export_dialog.performers" if self._project.dancers else "export_dialog.players")
-        left = in_column(in_row((title, 1), self._everybody), (self._players, 1))
+        left = in_column(in_row((title, 1), self._everyone), (self._players, 1))
         self._form = in_form(
             {
                 "export_dialog.into": self._place,
@@ -155,7 +155,7 @@ class ExportDialog(WorkingDialog):
             }
         )
         self._form.addRow(Label(), self._outcome)
-        self.fields = (self._players, self._everybody, self._place, self._formats, self._bvh_names, self._skeleton)
+        self.fields = (self._players, self._everyone, self._place, self._formats, self._bvh_names, self._skeleton)
         self.fields += (self._range, self._preroll, self._rate)
         columns = in_row((left, 1), (self._form, 2), spacing=18)
         buttons = self._box("export_dialog.export", self.start, self._show_folder)
@@ -235,7 +235,7 @@ class ExportDialog(WorkingDialog):
             if done.new_plugin:
                 text += "\n" + self.tr("export_dialog.if_unreal_has_project_open")
             reported = Message("unreal.done", {"count": done.count, "project": done.project.name})
-        # Whoever is left out comes first, all of them.
+        # Excluded players come first, all of them.
         lines = [sentence(message) for message in done.left_out] + list(done.warnings[:6])
         self._files.setText(text + "".join(f"\n⚠ {line}" for line in lines))
         self._shown_folder = done.folder
@@ -252,7 +252,7 @@ class ExportDialog(WorkingDialog):
         self._timer.stop()
         self._set_running(False)
 
-    def _toggle_everybody(self) -> None:
+    def _toggle_everyone(self) -> None:
         state = Qt.CheckState.Unchecked if len(self.player_ids) == self._players.count() else Qt.CheckState.Checked
         for row in range(self._players.count()):
             self._players.item(row).setCheckState(state)
@@ -300,7 +300,7 @@ class ExportDialog(WorkingDialog):
         )
         lines = []
         if seen.project is not None:
-            engine = self.tr("export_dialog.version_not_told") if seen.project.version is None else seen.project.engine
+            engine = self.tr("export_dialog.version_unknown") if seen.project.version is None else seen.project.engine
             lines.append(self.tr("export_dialog.unreal_engine").format(name=seen.project.name, engine=engine))
         lines.append(self.tr("export_dialog.files_that_will_be_written").format(count=seen.count))
         if seen.replaced:

@@ -1,4 +1,4 @@
-"""Which kinds of file an export writes into a folder, and whether what is heard is among them."""
+"""Which kinds of file an export writes into a folder, and whether the sound is among them."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class FormatChooser(Retranslated, QWidget):
 
     @property
     def sound(self) -> bool:
-        """Whether what is heard is written too."""
+        """Whether the sound is written too."""
         return self._sound.isChecked()
 
     def retranslate(self) -> None:

@@ -100,7 +100,7 @@ class SkeletonChooser(Retranslated, QWidget):
     def compare(self) -> None:
         """Compare what is chosen with the asset's file, in the background."""
         players, choice, asset = self._players(), self.choice, self.asset
-        # Typing a path gives many that are none; reading what was read already tells nothing new.
+        # Typing a path gives many that are none; what was read already is not read again.
         requested = (choice, asset, tuple(player.character_id for player in players))
         if requested == self._requested:
             return
@@ -150,11 +150,11 @@ class SkeletonChooser(Retranslated, QWidget):
         spoilt = not all(map(_fits, self._checked.values()))
         for player, checked in self._checked.items():
             # What has to be put right comes alone.
-            grave = reported([difference for difference in checked.differences if difference.grave])
-            for message in grave if spoilt else checked.messages:
+            severe = reported([difference for difference in checked.differences if difference.severe])
+            for message in severe if spoilt else checked.messages:
                 said.setdefault(sentence(message), []).append(names.get(player, ""))
-        everybody = len(self._checked)
-        return [f"⚠ {text}" if len(who) == everybody else f"⚠ {', '.join(who)}: {text}" for text, who in said.items()]
+        everyone = len(self._checked)
+        return [f"⚠ {text}" if len(who) == everyone else f"⚠ {', '.join(who)}: {text}" for text, who in said.items()]
 
     def _choose_asset(self) -> None:
         patterns = " ".join(f"*{suffix}" for suffix in SUFFIXES)
@@ -180,8 +180,8 @@ class SkeletonChooser(Retranslated, QWidget):
 
 
 def _fits(checked: CheckedTarget) -> bool:
-    """Whether a player is exported for the asset; one whose animation it would lose or spoil is left out."""
-    return not any(difference.grave for difference in checked.differences)
+    """Whether a player is exported for the asset; one whose animation it would lose or spoil is excluded."""
+    return not any(difference.severe for difference in checked.differences)
 
 
 def _comparison(
@@ -191,7 +191,7 @@ def _comparison(
 
     def work(progress: Progress, stop_requested: StopRequested) -> Found:
         try:
-            # Who has no character is left out of the export, and among the problems.
+            # A player without a character is excluded from the export, and among the problems.
             characters = attempt(players, character_of).made
             return requested, checked_targets(characters, choice, read_figure(asset)), None
         except AppError as error:

@@ -417,7 +417,7 @@ class ImportDialog(Retranslated, QDialog):
             elif outcome.players:
                 self._summary.setText(self.tr("import_dialog.players").format(count=outcome.players))
             else:
-                self._summary.setText(self.tr("import_dialog.nobody_plays_tick_track_or"))
+                self._summary.setText(self.tr("import_dialog.no_tracks_selected"))
             self._warnings.addItems([message_text(message) for message in outcome.warnings])
             self._warnings.addItems([self._unplayed(part) for part in outcome.unplayed])
         self._warning_title.setText(self.tr("import_dialog.what_reader_noticed"))

@@ -197,7 +197,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         return self._drafts[id]
 
     def _library_changed(self) -> None:
-        """Files changed: what no one edits here is read anew, what someone edits stays."""
+        """Files changed: what is not edited here is read again, what is edited stays."""
         now, shown = library(), self.draft
         for id, draft in list(self._drafts.items()):
             instrument = now.maps.get(id)

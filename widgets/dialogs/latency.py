@@ -1,4 +1,4 @@
-"""Finds out how late a device comes: clicks are heard, and someone blows on each of them."""
+"""Finds out how late a device comes: clicks sound, and the user blows on each of them."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class LatencyDialog(Retranslated, QDialog):
     ----------
     session : Session
     playback : Playback
-        Plays the clicks; becomes the dialog's. Its device and its clock are those that a take is heard by.
+        Plays the clicks; becomes the dialog's. Its device and its clock are those of the playback of a take.
     now_ns : callable
         The clock of the events.
     parent : QWidget, optional
@@ -62,7 +62,7 @@ class LatencyDialog(Retranslated, QDialog):
         playback.setParent(self)
         self._running = False
         self._events: list[tuple[int, bytes]] = []
-        self._heard: list[tuple[int, float]] = []
+        self._positions: list[tuple[int, float]] = []
         self._found: Measured | None = None
         self._stopped_why = ""
         self._explained, self._reported, self._value_name = (
@@ -86,7 +86,7 @@ class LatencyDialog(Retranslated, QDialog):
         self._start.clicked.connect(self.toggle)
         self.value.valueChanged.connect(self._show)
         self.finished.connect(self._stop)
-        session.recording.heard.connect(self._hear)
+        session.recording.received.connect(self._on_received)
         session.recording.changed.connect(self._changed)
         session.theme_changed.connect(self._show)
         self._port = ""
@@ -111,7 +111,7 @@ class LatencyDialog(Retranslated, QDialog):
         return self._running
 
     def sounding_s(self) -> float:
-        """The moment of the clicks that is heard now."""
+        """The moment of the clicks that sounds now."""
         return self._playback.position_s()
 
     def toggle(self) -> None:
@@ -126,7 +126,7 @@ class LatencyDialog(Retranslated, QDialog):
         if session.playback is not None:
             session.playback.stop()
         self._events.clear()
-        self._heard.clear()
+        self._positions.clear()
         self._found, self._stopped_why = None, ""
         self.chart.show_measured(None)
         playback.set_volume(session.listening.volume)
@@ -144,7 +144,7 @@ class LatencyDialog(Retranslated, QDialog):
         self.chart.show_click(-1, False)
         self._show()
 
-    def _hear(self, events: Events) -> None:
+    def _on_received(self, events: Events) -> None:
         if self._running:
             channel = self._session.recording.wiring.channel
             self._events += [
@@ -154,14 +154,14 @@ class LatencyDialog(Retranslated, QDialog):
             ]
 
     def _look(self) -> None:
-        """Note down what is heard now, and show what came in."""
+        """Record the position that sounds now, and show the input."""
         ns, position_s = self._now_ns(), self._playback.position_s()
         # The device plays nothing for a while at first: the clock does not run yet.
-        if not self._heard or position_s > self._heard[-1][1]:
-            self._heard.append((ns, position_s))
+        if not self._positions or position_s > self._positions[-1][1]:
+            self._positions.append((ns, position_s))
         last = sum(click_s <= position_s for click_s in CLICKS_S) - 1
         self.chart.show_click(last - LEAD, last >= 0 and position_s - CLICKS_S[last] < _FLASH_S)
-        found = hits(placed(self._events, self._heard), self._session.recording.wiring.breath)
+        found = hits(placed(self._events, self._positions), self._session.recording.wiring.breath)
         # A click that may still be hit is not missed.
         over = sum(click_s + LATEST_S <= position_s for click_s in CLICKS_S)
         self.chart.show_measured(measured(CLICKS_S[LEAD : max(over, LEAD)], found))

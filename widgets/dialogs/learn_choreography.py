@@ -103,7 +103,7 @@ class LearnDialog(WorkingDialog):
     Signals
     -------
     used(Path)
-        The user wants it danced.
+        The user assigns it to a dancer.
 
     Parameters
     ----------

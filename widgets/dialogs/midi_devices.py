@@ -80,7 +80,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._list = ColumnList("midi_device_list", "midi_devices_dialog.device", "midi_devices_dialog.state")
         self._hint = named(wrapped(Label()), "midi_hint")
         self._reported = named(wrapped(Label()), "midi_learned")
-        self._heard = named(wrapped(Label()), "midi_beep_told")
+        self._audio_status = named(wrapped(Label()), "midi_beep_status")
         self._late = named(Label(), "midi_latency")
         self._kind, self._channel = named(Combo(), "midi_kind"), named(Combo(), "midi_wired_channel")
         self._breath, self._bite = named(Combo(), "midi_breath_source"), named(Combo(), "midi_bite_source")
@@ -120,7 +120,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         columns = in_row((left, 1), (self._incoming, 1))
         self._device.setMinimumWidth(_SIDE_PX)
         self._incoming.setMinimumWidth(_SIDE_PX)
-        bottom = in_row(self._beep, (self._heard, 1), self._close)
+        bottom = in_row(self._beep, (self._audio_status, 1), self._close)
         in_column((columns, 1), bottom, of=self)
 
     def _connect(self) -> None:
@@ -135,7 +135,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         # However it is closed.
         self.finished.connect(self._playback.stop)
         recording.changed.connect(self._show)
-        recording.heard.connect(self._hear)
+        recording.received.connect(self._on_received)
         session.theme_changed.connect(self._show)
 
     # What the user does
@@ -156,7 +156,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self.wiring_chosen.emit(wiring)
 
     def beep(self) -> None:
-        """Let a short sound be heard, or say why none is."""
+        """Play a short tone, or say why there is none."""
         volume, playback = self._session.listening.volume, self._playback
         playback.stop()
         playback.set_volume(volume)
@@ -164,11 +164,11 @@ class MidiDevicesDialog(Retranslated, QDialog):
         playback.set_span(0.0, BEEP_S)
         playback.play(0.0)
         if playback.is_silent:
-            self._report(self._heard, self.tr("midi_devices_dialog.there_is_no_audio_device"), wrong=True)
+            self._report(self._audio_status, self.tr("midi_devices_dialog.there_is_no_audio_device"), wrong=True)
         elif volume == 0.0:
-            self._report(self._heard, self.tr("midi_devices_dialog.volume_of_transport_is_0"), wrong=True)
+            self._report(self._audio_status, self.tr("midi_devices_dialog.volume_of_transport_is_0"), wrong=True)
         else:
-            self._report(self._heard, self.tr("midi_devices_dialog.you_should_hear_short_tone"))
+            self._report(self._audio_status, self.tr("midi_devices_dialog.you_should_hear_short_tone"))
 
     # Learning
 
@@ -189,7 +189,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._second.stop()
         self._show()
 
-    def _hear(self, events: Events) -> None:
+    def _on_received(self, events: Events) -> None:
         if self._learning is not None:
             self._learning += zip(events.times_ns, events.messages, strict=True)
 

@@ -57,7 +57,7 @@ class MidiMonitor(Retranslated, QWidget):
         self._soon = QTimer(self, singleShot=True, interval=SHOW_MS)
         self._soon.timeout.connect(self._show)
         recording = session.recording
-        recording.heard.connect(self._hear)
+        recording.received.connect(self._on_received)
         recording.played.connect(self._show_soon)
         recording.changed.connect(self._changed)
         session.pitch_display.changed.connect(self._show)
@@ -65,7 +65,7 @@ class MidiMonitor(Retranslated, QWidget):
         self._port, self._bite_source = recording.port, recording.wiring.bite
         self.retranslate()
 
-    def _hear(self, events: Events) -> None:
+    def _on_received(self, events: Events) -> None:
         for raw in events.messages:
             self._log.add(raw)
             self._channel = (raw[0] & 0x0F) + 1
@@ -121,7 +121,7 @@ class MidiMonitor(Retranslated, QWidget):
                 item.setText(text)
 
     def _pitch(self, pitch: int) -> str:
-        """As the instrument of whoever is recorded is written, where pitches are shown so."""
+        """As the recorded player's instrument is written, where pitches are shown so."""
         recording, players = self._session.recording, self._session.project.players
         player = next((player for player in players if player.id == recording.armed), self._session.player)
         instrument = all_maps().get(player.instrument_id) if player is not None else None

@@ -35,7 +35,7 @@ Pictures = npt.NDArray[np.uint8]
 Render = Callable[[int, int, float, View | None], Pictures]
 """Width, height, time in seconds, view (None: as the viewport shows it now) to a picture (H, W, 3 or 4)."""
 Sound = Callable[[float, float, int], npt.NDArray[np.float32]]
-"""Start, end in seconds and samples per second to (N, 2) of what is heard; runs beside the window."""
+"""Start, end in seconds and samples per second to (N, 2) samples of the sound; runs beside the window."""
 
 SIZES: Final = ((1280, 720), (1920, 1080), (2560, 1440), (3840, 2160), (1080, 1920))
 _WHOLE, _LOOP, _SELECTION = "whole", "loop", "selection"
@@ -130,8 +130,8 @@ class PlayblastDialog(WorkingDialog):
         with_sound, sound = self._with_sound.isChecked(), self._sound
 
         def work(progress: Progress, stop_requested: StopRequested) -> Path:
-            heard = sound(span.first_frame_s, span.end_s, _SOUND_RATE) if with_sound else None
-            with video_into(path, (size[0], size[1]), span.fps, heard, _SOUND_RATE) as film:
+            samples = sound(span.first_frame_s, span.end_s, _SOUND_RATE) if with_sound else None
+            with video_into(path, (size[0], size[1]), span.fps, samples, _SOUND_RATE) as film:
                 for index in range(span.count):
                     film.write(_next(pictures, lambda: stop.is_set() or stop_requested()))
                     progress((index + 1) / span.count)

@@ -178,9 +178,9 @@ class StreamDialog(Retranslated, QDialog):
             return sentence(state.trouble, self._session), tokens.error
         if state.state == "looking":
             return self.tr("stream_dialog.looking_for").format(host=state.host), tokens.text_dim
-        if state.state == "unheard":
+        if state.state == "no_receiver":
             return (
-                self.tr("stream_dialog.nobody_listens_there_yet_start"),
+                self.tr("stream_dialog.no_receiver_there_yet_start"),
                 tokens.warning,
             )
         if state.state == "sending":

@@ -229,7 +229,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     ),
     "export_dialog.tick_at_least_one_player": ("Select at least one player.", "奏者を 1 人以上選んでください。"),
     "export_dialog.unreal_engine": ("{name} (Unreal Engine {engine})", "{name}（Unreal Engine {engine}）"),
-    "export_dialog.version_not_told": ("unknown version", "バージョン不明"),
+    "export_dialog.version_unknown": ("unknown version", "バージョン不明"),
     "face_map_page.add_morph_of_file": ("Add Morph...", "モーフを追加..."),
     "face_map_page.automatic": ("Automatic", "自動"),
     "face_map_page.face": ("Face", "顔"),
@@ -289,7 +289,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     ),
     "import_dialog.merge_into_one_part": ("Merge into One Part", "1 つのパートにまとめる"),
     "import_dialog.name": ("Name", "名前"),
-    "import_dialog.nobody_plays_tick_track_or": (
+    "import_dialog.no_tracks_selected": (
         "No tracks selected. Select a track, or import an empty stage.",
         "トラックが選択されていません。トラックを選ぶか、空のステージとして読み込んでください。",
     ),
@@ -781,7 +781,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "playblast_dialog.top": ("Top", "上面"),
     "playblast_dialog.view": ("View", "ビュー"),
     "playblast_dialog.whole_piece": ("Whole piece", "曲全体"),
-    "playblast_dialog.with_what_is_heard": ("Include Audio", "オーディオを含める"),
+    "playblast_dialog.include_audio": ("Include Audio", "オーディオを含める"),
     "preferences_dialog.general": ("General", "一般"),
     "preferences_dialog.instruments": ("Instruments", "楽器"),
     "preferences_dialog.keyboard_shortcuts": ("Keyboard Shortcuts", "キーボードショートカット"),
@@ -905,7 +905,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "stream_dialog.live_stream": ("Live Stream", "ライブ配信"),
     "stream_dialog.looking_for": ("Resolving {host}…", "{host} を検索中…"),
     "stream_dialog.names_of_face": ("Blendshape naming", "ブレンドシェイプの命名"),
-    "stream_dialog.nobody_listens_there_yet_start": (
+    "stream_dialog.no_receiver_there_yet_start": (
         "No receiver found at the destination. Start receiving in the other program, on the same port.",
         "送信先に受信側が見つかりません。受信側のプログラムで、同じポートの受信を開始してください。",
     ),

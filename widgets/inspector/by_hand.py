@@ -19,7 +19,7 @@ class ByHandLine(QWidget):
     Signals
     -------
     reverted()
-        The user wants the generator's again.
+        The user reverts to the generated value.
     """
 
     reverted = Signal()

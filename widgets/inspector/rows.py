@@ -24,7 +24,7 @@ class ListRow:
     Attributes
     ----------
     key : object
-        What it is about, for whoever is reported of a click.
+        What it is about, for the receiver of a click.
     title, place, detail : str
         The place stands at the right; the detail below.
     colour : str

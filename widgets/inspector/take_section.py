@@ -185,7 +185,7 @@ class TakeSection(Retranslated, QWidget):
         kept = len(clean.faults) - sum(found.values())
         names = {
             "ghost": self.tr("take_section.ghost_notes"),
-            "silent": self.tr("take_section.unheard"),
+            "silent": self.tr("take_section.inaudible"),
             "slip": self.tr("take_section.late_fingers"),
             "double": self.tr("take_section.struck_twice"),
         }

@@ -259,5 +259,5 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     ),
     "take_section.struck_twice": ("double-triggered: {count}", "二度打ち: {count}"),
     "take_section.take": ("Take", "テイク"),
-    "take_section.unheard": ("inaudible: {count}", "聞こえない音: {count}"),
+    "take_section.inaudible": ("inaudible: {count}", "聞こえない音: {count}"),
 }

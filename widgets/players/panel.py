@@ -190,9 +190,9 @@ class PlayersPanel(Retranslated, QWidget):
         for player in project.players:
             instrument, unseen = maps.get(player.instrument_id), performance.unseen.get(player.id)
             played = instrument_name(instrument) if instrument is not None else player.instrument_id
-            person = project.person(player)
-            if person is not player:
-                played = self.tr("players_panel.played_by").format(instrument=played, name=person.name)
+            musician = project.musician(player)
+            if musician is not player:
+                played = self.tr("players_panel.played_by").format(instrument=played, name=musician.name)
             rows.append(
                 Row(
                     player,
@@ -210,11 +210,11 @@ class PlayersPanel(Retranslated, QWidget):
 
     def _show_buttons(self) -> None:
         chosen, everyone = self._session.players, self._session.project.players
-        persons = len(self._session.project.bodies)
+        musicians = len(self._session.project.bodies)
         self._count.setText(
             self.tr("players_panel.of_selected").format(chosen=len(chosen), count=len(everyone))
             if len(chosen) > 1
-            else self.tr("players_panel.players").format(count=persons)
+            else self.tr("players_panel.players").format(count=musicians)
         )
         for name in ("duplicate", "remove"):
             self._tools[name].setEnabled(bool(chosen))

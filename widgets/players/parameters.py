@@ -45,7 +45,7 @@ class ParameterSections(Retranslated, QWidget):
     Signals
     -------
     dice_thrown()
-        The user wants another seed.
+        The user requests another seed.
     """
 
     dice_thrown = Signal()
@@ -163,7 +163,7 @@ class ParameterSections(Retranslated, QWidget):
         }
         for id, word in posture.parameter.choices:
             barred = [
-                player.name for player in players if id not in edit.postures_of_person(self._session.project, player)
+                player.name for player in players if id not in edit.postures_of_musician(self._session.project, player)
             ]
             reason = reasons[str(id)].format(players=", ".join(barred)) if barred else ""
             options.append(Option(str(id), parameter_text(word), reason=reason))

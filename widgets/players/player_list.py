@@ -271,14 +271,14 @@ class _RowDelegate(QStyledItemDelegate):
         row: Row = index.data(_ROW)
         mute, solo = self.buttons(option.rect)
         if mute.contains(event.pos()):
-            text = self.tr("row_delegate.mute_not_heard_but_still")
+            text = self.tr("row_delegate.mute_silent_but_still")
         elif solo.contains(event.pos()):
-            text = self.tr("row_delegate.solo_only_these_are_heard")
+            text = self.tr("row_delegate.solo_only_these_sound")
         elif self.arm_button(option.rect).contains(event.pos()):
             armed = self._session.recording.armed == row.player.id
-            text = self.tr("row_delegate.is_recorded_whoever_is_in")
+            text = self.tr("row_delegate.is_armed")
             if not armed:
-                text = self.tr("row_delegate.record_this_player_whoever_is")
+                text = self.tr("row_delegate.arm_for_recording")
         else:
             lines = [row.player.name, row.instrument]
             if row.leads:

@@ -261,8 +261,8 @@ class StageView(QWidget):
         self._paint_floor(painter)
         project = self._session.project
         numbered: list[tuple[int, Player | Dancer]] = [*enumerate(project.players, 1), *enumerate(project.dancers, 1)]
-        # A person who plays several instruments stands there once, with the number of the first.
-        numbered = [(number, one) for number, one in numbered if isinstance(one, Dancer) or project.person(one) is one]
+        # A musician who plays several instruments stands there once, with the number of the first.
+        numbered = [item for item in numbered if isinstance(item[1], Dancer) or project.musician(item[1]) is item[1]]
         # The selected lie on top.
         for number, player in sorted(numbered, key=lambda item: self._is_selected(item[1])):
             self._paint_performer(painter, number, player)

@@ -47,7 +47,7 @@ class StageSection(Retranslated, QWidget):
         self.retranslate()
 
     def show_places(self) -> None:
-        """Show where everybody stands."""
+        """Show where all stand."""
         self.view.update()
         project = self._session.project
         stages = [project.player(player_id).stage for player_id in self._session.players]

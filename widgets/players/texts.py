@@ -71,7 +71,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         ),
         "動きの大きさ、揺れ、重心移動、ベルの高さ、一息の長さ、唇の緊張、シードを、現在の平均を中心にランダム化",
     ),
-    "players_panel.duplicate_somebody_else_plays_same": (
+    "players_panel.duplicate_same_part": (
         "Duplicate: adds a player with a copy of the part",
         "複製: パートのコピーを演奏する奏者を追加",
     ),
@@ -79,7 +79,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "How much the players differ: 0 identical, 1 the most that is sensible",
         "奏者同士の違い: 0 で全員同じ、1 で無理のない最大",
     ),
-    "players_panel.nobody_plays_yet_add_player": (
+    "players_panel.no_players_yet_add_player": (
         "No players. Add a player with ＋, or drop a MIDI file onto the window.",
         "奏者がいません。＋ で奏者を追加するか、MIDI ファイルをウィンドウにドロップしてください。",
     ),
@@ -110,17 +110,17 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     ),
     "row_delegate.cannot_be_seen": ("Cannot be displayed", "表示できません"),
     "row_delegate.gives_entries": ("Gives cues", "合図を出す"),
-    "row_delegate.is_recorded_whoever_is_in": (
+    "row_delegate.is_armed": (
         "Armed for recording. Click to disarm; the active player is then recorded.",
         "録音待機中。クリックで解除すると、アクティブな奏者を録音します。",
     ),
-    "row_delegate.mute_not_heard_but_still": (
+    "row_delegate.mute_silent_but_still": (
         "Mute: silent, but still shown and exported",
         "ミュート: 音は出ませんが、表示と書き出しの対象です",
     ),
     "row_delegate.problems": ("Problems: {count}", "問題: {count} 件"),
-    "row_delegate.record_this_player_whoever_is": ("Arm for recording", "録音待機にする"),
-    "row_delegate.solo_only_these_are_heard": ("Solo: only soloed players sound", "ソロ: ソロにした奏者だけが鳴ります"),
+    "row_delegate.arm_for_recording": ("Arm for recording", "録音待機にする"),
+    "row_delegate.solo_only_these_sound": ("Solo: only soloed players sound", "ソロ: ソロにした奏者だけが鳴ります"),
     "stage_section.automatic_arc_everyone_in_order": (
         "Arrange in arc: all players in order, open to the audience",
         "弧状に配置: 全奏者を順番に、客席に開いた弧に並べます",

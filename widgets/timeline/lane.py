@@ -50,7 +50,7 @@ class Lane(QWidget):
     Signals
     -------
     sought(float)
-        Someone wants the playhead at this time (seconds); the panel passes it on.
+        The playhead is requested at this time (seconds); the panel passes it on.
     fold_changed()
     height_asked()
         The lane would have another height now.

@@ -82,7 +82,7 @@ class TimelinePanel(Retranslated, QWidget):
     Signals
     -------
     sought(float)
-        Someone wants the playhead at this time (seconds); the shell hands it to the transport.
+        The playhead is requested at this time (seconds); the shell hands it to the transport.
     """
 
     sought = Signal(float)
@@ -123,7 +123,7 @@ class TimelinePanel(Retranslated, QWidget):
 
         self.flags.sought.connect(self.sought)
         self.ruler.sought.connect(self.sought)
-        # Whoever sounds hears of it there: a playhead that is set is sought.
+        # The playback is notified there: a playhead that is set is sought.
         self.sought.connect(session.set_playhead)
         self.setFocusProxy(self.roll.plot)
         self.axis.changed.connect(self._axis_changed)

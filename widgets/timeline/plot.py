@@ -126,7 +126,7 @@ class Background(LaneItem):
 class Plot(Pictured):
     """The drawing area of a lane, and its mouse and keys.
 
-    A plain widget: views of graphics scenes hear of changes one after another, and each round of theirs painted all
+    A plain widget: views of graphics scenes get changes one after another, and each round of theirs painted all
     lanes again.
     """
 

@@ -125,7 +125,7 @@ class PianoRoll(Lane):
         """What to do where nothing is yet; empty where there are notes."""
         front = self.model.front()
         if front is None:
-            return self.tr("piano_roll.nobody_plays_yet_open_midi")
+            return self.tr("piano_roll.no_players_yet_open_midi")
         if len(front[0]):
             return ""
         return self.tr("piano_roll.no_notes_yet_take_pencil")
@@ -186,7 +186,7 @@ class PianoRoll(Lane):
             self.keyboard.update()
 
     def pitch_text(self, pitch: int) -> str:
-        """A pitch as the user wants it named."""
+        """A pitch named by the user's settings."""
         instrument = self._instrument()
         return pitch_text(
             self.session.pitch_display, pitch, instrument.transposition_semitones if instrument is not None else 0

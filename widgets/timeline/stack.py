@@ -1,4 +1,4 @@
-"""Lanes one under another, each as tall as the user wants it; what does not fit is scrolled to."""
+"""Lanes one under another, each as tall as the user sets it; what does not fit is scrolled to."""
 
 from __future__ import annotations
 

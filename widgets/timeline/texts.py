@@ -111,7 +111,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "No notes. Draw with the pencil, double-click, or paste.",
         "音符がありません。鉛筆で描くか、ダブルクリックまたは貼り付けで入力してください。",
     ),
-    "piano_roll.nobody_plays_yet_open_midi": (
+    "piano_roll.no_players_yet_open_midi": (
         "No players. Open a MIDI file or add a player.",
         "奏者がいません。MIDI ファイルを開くか、奏者を追加してください。",
     ),

@@ -1,4 +1,4 @@
-"""The transport: play, stop, loop; where the playhead is; how it is heard; what edits snap to."""
+"""The transport: play, stop, loop; where the playhead is; what sounds; what edits snap to."""
 
 from __future__ import annotations
 
@@ -294,8 +294,8 @@ class TransportBar(Retranslated, QWidget):
         self.speed.set_texts(
             self.tr("transport_bar.speed"), "%", self.tr("transport_bar.speed_pitch_stays_double_click")
         )
-        self.source.setToolTip(self.tr("transport_bar.what_is_heard"))
-        self.source.setAccessibleName(self.tr("transport_bar.what_is_heard"))
+        self.source.setToolTip(self.tr("transport_bar.playback_source"))
+        self.source.setAccessibleName(self.tr("transport_bar.playback_source"))
         self.source.set_options(
             (
                 Option("recording", self.tr("transport_bar.recording")),

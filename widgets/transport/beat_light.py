@@ -1,4 +1,4 @@
-"""A light that flashes with the metronome, for whoever plays along and must not hear it."""
+"""A light that flashes with the metronome, for playing along without hearing it."""
 
 from __future__ import annotations
 

@@ -70,5 +70,5 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Volume. Double-click for 80 %.",
         "音量。ダブルクリックで 80 % に戻します。",
     ),
-    "transport_bar.what_is_heard": ("Playback source", "再生する音"),
+    "transport_bar.playback_source": ("Playback source", "再生する音"),
 }

@@ -69,24 +69,24 @@ class Member:
     world_from_player : (3, 4) float64
     seat_m : (3,) float64 or None
         Middle of the seat's top in the player's frame; None: standing.
-    person_id : str
+    musician_id : str
         Who has the body, which is drawn once: of who doubles an instrument nothing else is seen.
     stand_m : (3,) float64 or None
-        Top of the stand on which the instrument lies while the person plays another, in the player's frame; None: there
-        is none.
+        Top of the stand on which the instrument lies while the musician plays another, in the player's frame; None: no
+        stand.
     """
 
     player_id: str
     kit: RenderAssets
     world_from_player: Floats
     seat_m: Floats | None
-    person_id: str
+    musician_id: str
     stand_m: Floats | None = None
 
     @property
     def has_body(self) -> bool:
         """Whether the body is drawn."""
-        return self.person_id == self.player_id
+        return self.musician_id == self.player_id
 
 
 def kit_of(player: Player) -> RenderAssets:
@@ -108,7 +108,7 @@ def dancing_member(dancer: Dancer, kit: RenderAssets) -> Member:
 
 
 def stand_of(player: Player, kit: RenderAssets, number: int) -> Floats | None:
-    """Top of the stand for one of the instruments of a person, counted from 0; None as long as no one knows."""
+    """Top of the stand for one of the instruments of a musician, counted from 0; None as long as no one knows."""
     found = lies_at(player, find_map(player.instrument_id), number)
     if found is None:
         return None
@@ -120,12 +120,12 @@ def stand_of(player: Player, kit: RenderAssets, number: int) -> Floats | None:
     return top_m
 
 
-def member_of(player: Player, kit: RenderAssets, person_id: str = "", stand_m: Floats | None = None) -> Member:
-    """A player at their place, with the body of a person; empty: one of their own."""
-    person_id = person_id or player.id
+def member_of(player: Player, kit: RenderAssets, musician_id: str = "", stand_m: Floats | None = None) -> Member:
+    """A player at their place, with the body of a musician; empty: one of their own."""
+    musician_id = musician_id or player.id
     posture = body_of(player).postures[kit.map.hold.possible(player.parameters.posture)]
-    seat_m = seat(kit.character.skeleton, posture) if person_id == player.id else None
-    return Member(player.id, kit, placed(player.stage), seat_m, person_id, stand_m)
+    seat_m = seat(kit.character.skeleton, posture) if musician_id == player.id else None
+    return Member(player.id, kit, placed(player.stage), seat_m, musician_id, stand_m)
 
 
 def placed(stage: StagePosition) -> Floats:

@@ -27,7 +27,7 @@ class Touch:
     ----------
     part : str
         Landmark of the hand.
-    wanted_m, found_m : (3,) float64
+    requested_m, found_m : (3,) float64
         The place on the instrument and the middle of the landmark's skin, in the world.
     firm : bool
         Whether it carries or works the instrument.

@@ -38,7 +38,7 @@ def cast_key(project: Project) -> CastKey:
     return tuple(
         (
             player.id,
-            project.person(player).id,
+            project.musician(player).id,
             player.character_id,
             player.instrument_id,
             player.parameters.posture,
@@ -71,9 +71,9 @@ def same_figures(one: CastKey, other: CastKey) -> bool:
 
 
 def load(project: Project, before: Shapes | None, progress: Progress, stop_requested: StopRequested) -> Loaded:
-    """Load everybody. A player of whom something is missing is left out. Raises Cancelled."""
+    """Load all performers. A player with something missing is excluded. Raises Cancelled."""
     kits: dict[tuple[str, str], RenderAssets] = {}
-    persons: dict[str, str] = {}
+    musicians: dict[str, str] = {}
     done = 0
 
     def make(player: Player) -> Member:
@@ -85,11 +85,11 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
         pair = (player.character_id, player.instrument_id)
         if pair not in kits:
             kits[pair] = kit_of(player)
-        # Where what the person plays first cannot be seen, the next has the body.
-        person = persons.setdefault(project.person(player).id, player.id)
+        # Where what the musician plays first cannot be seen, the next has the body.
+        musician = musicians.setdefault(project.musician(player).id, player.id)
         played = project.played_by(player)
         stand_m = stand_of(player, kits[pair], played.index(player)) if len(played) > 1 else None
-        return member_of(player, kits[pair], person, stand_m)
+        return member_of(player, kits[pair], musician, stand_m)
 
     def make_dancer(dancer: Dancer) -> Member:
         if stop_requested():
@@ -99,8 +99,8 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
             kits[pair] = dancer_kit(dancer)
         return dancing_member(dancer, kits[pair])
 
-    everybody = [player for person in project.bodies for player in project.played_by(person)]
-    found, dancers = attempt(everybody, make), attempt(project.dancers, make_dancer)
+    all_players = [player for musician in project.bodies for player in project.played_by(musician)]
+    found, dancers = attempt(all_players, make), attempt(project.dancers, make_dancer)
     members = [*found.made.values(), *dancers.made.values()]
     stage = Stage(members)
     shapes = shapes_of(stage, before)
@@ -117,7 +117,7 @@ def moved(project: Project, loaded: Loaded) -> Loaded:
     members = [
         dancing_member(dancers[member.player_id], member.kit)
         if member.player_id in dancers
-        else member_of(players[member.player_id], member.kit, member.person_id, member.stand_m)
+        else member_of(players[member.player_id], member.kit, member.musician_id, member.stand_m)
         for member in loaded.stage.members
     ]
     stage = Stage(members)

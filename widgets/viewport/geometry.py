@@ -319,7 +319,7 @@ class _Whole:
         count = int(moved[kept].sum())
         shape = self._shape[order]
         face = self._face(names, shape, place, count) if count else None
-        # Vertices of different materials are never one, so that the first corner tells for the triangle.
+        # Vertices of different materials are never one, so that the first corner decides for the triangle.
         last = self._two_sided[triangles[:, 0]]
         sorted_triangles = np.concatenate([triangles[~last], triangles[last]])
         return Geometry(

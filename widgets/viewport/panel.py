@@ -406,7 +406,7 @@ class ViewportPanel(Retranslated, QWidget):
         self.refresh()
 
     def _live_changed(self) -> None:
-        """Draw all the time while someone is played now."""
+        """Draw continuously while a player is live."""
         if self._session.live_players.is_shown and self._canvas is not None:
             self._live.start()
         else:
@@ -424,7 +424,7 @@ class ViewportPanel(Retranslated, QWidget):
             # Whoever was played is back in the performance.
             self._live.stop()
             self.refresh()
-        # While the performance is heard the playhead's changes draw already.
+        # While the performance plays the playhead's changes draw already.
         if not self._session.playing:
             self.refresh()
 

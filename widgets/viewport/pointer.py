@@ -34,7 +34,7 @@ class Pointer(QObject):
     Signals
     -------
     moved()
-        The picture is another one: the camera moved, or someone else is under the pointer.
+        The picture is another one: the camera moved, or another performer is under the pointer.
     posed()
         A handle was dragged.
     released()

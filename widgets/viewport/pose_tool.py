@@ -81,7 +81,7 @@ class PoseTool:
         return frozenset(target for target in targets if self._at(player_id, target) is not None)
 
     def grasp(self, handle: Handle) -> bool:
-        """Begin a drag; whether there is someone to hold."""
+        """Begin a drag; whether there is a performer to hold."""
         player_id = self._player_id()
         if player_id is None:
             return False

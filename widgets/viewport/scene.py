@@ -57,7 +57,7 @@ class Scene(QObject):
         self._tool = tool
         self._loaded: Loaded | None = None
         self.missing = False
-        """Whether someone's pose was not there when it was last asked for."""
+        """Whether a pose was missing when it was last requested."""
 
     @property
     def loaded(self) -> Loaded | None:
@@ -144,7 +144,7 @@ class Scene(QObject):
                 self.shown.emit()
 
     def is_outdated(self, time_s: float) -> bool:
-        """Whether someone has another pose now than is shown."""
+        """Whether any pose differs from the one shown."""
         shown = self.poses()
         found = self._poses.poses(tuple(shown), time_s)
         # A pose that is not there yet leaves the one before it.

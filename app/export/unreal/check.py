@@ -47,7 +47,7 @@ class Expected:
     bones : sequence of str
         All of them, the root first.
     low_cm, high_cm : ndarray, shape (3,)
-        The box around the mesh, which tells its scale and its axes.
+        The box around the mesh, which shows its scale and axes.
     morphs : frozenset of str
     """
 

@@ -1,4 +1,4 @@
-"""``performance.json``: everything that whoever builds a scene of an export has to know, for scripts to read.
+"""``performance.json``: everything that a script needs to build a scene from an export.
 
 Times are seconds of the animation, whose frame 0 is at 0, and frames of it where a frame is meant. A performer's
 ``stage`` is in metres as in ``report.json``, the ``place`` in Unreal's centimetres and degrees.
@@ -91,7 +91,7 @@ class CastDancer(msgspec.Struct, frozen=True):
 
 
 class Sound(msgspec.Struct, frozen=True):
-    """What is heard. ``offset_s`` is the time of the animation at which the file begins."""
+    """The sound. ``offset_s`` is the time of the animation at which the file begins."""
 
     file: str
     asset: str
@@ -140,7 +140,7 @@ class Marker(msgspec.Struct, frozen=True):
 
 
 class Cue(msgspec.Struct, frozen=True):
-    """A lead-in that a player gives: the nod begins at ``start_s``, everybody enters at ``entry_s``."""
+    """A lead-in that a player gives: the nod begins at ``start_s``, all enter at ``entry_s``."""
 
     player: str
     start_s: float

@@ -53,7 +53,7 @@ class Layout:
     sound, sequence : str
         Paths of the assets.
     doubles : mapping of str to tuple of str
-        Ids of the players whose instruments someone plays besides, by the id of the person.
+        Ids of a musician's other players, by the id of the musician.
     """
 
     piece: str
@@ -76,7 +76,7 @@ class Layout:
 
     def files(self, performer_ids: tuple[str, ...], left_out: tuple[str, ...] = ()) -> tuple[PurePosixPath, ...]:
         """Everything that an export of some players and dancers writes, relative to the piece's sources, in order;
-        without the instruments of those left out."""
+        without the instruments of those excluded."""
         own = (PurePosixPath(name) for name in (DESCRIPTION, REPORT, MANIFEST))
         without = {self.instruments[one].file for one in left_out if one in self.instruments}
         places = (place.file for performer_id in performer_ids for place in self.figures(performer_id))
@@ -111,11 +111,11 @@ def layout_of(project: Project, piece: str) -> Layout:
     count = len(players)
     own = unique(asset_name(player.name, "Player") for player in players)
     named = dict(zip((player.id for player in players), own, strict=True))
-    held = [f"{named[project.person(player).id]}_{asset_name(player.instrument_id, 'held')}" for player in players]
-    # Dancers come last: whoever joins the players renames nothing of theirs.
+    held = [f"{named[project.musician(player).id]}_{asset_name(player.instrument_id, 'held')}" for player in players]
+    # Dancers come last, so that a new player does not rename theirs.
     names = unique([*own, *held, *(asset_name(dancer.name, "Dancer") for dancer in dancers)])
     content = f"{CONTENT}/{piece}"
-    doubling = {player.id for player in players} - {person.id for person in project.bodies}
+    doubling = {player.id for player in players} - {musician.id for musician in project.bodies}
 
     def places(kind: str, performers: Sequence[Player | Dancer], names: tuple[str, ...]) -> dict[str, FigurePlace]:
         return {
@@ -138,8 +138,8 @@ def layout_of(project: Project, piece: str) -> Layout:
         sound=f"{content}/Audio/S_{piece}",
         sequence=f"{content}/LS_{piece}",
         doubles={
-            person.id: tuple(player.id for player in played[1:])
-            for person in project.bodies
-            if len(played := project.played_by(person)) > 1
+            musician.id: tuple(player.id for player in played[1:])
+            for musician in project.bodies
+            if len(played := project.played_by(musician)) > 1
         },
     )

@@ -51,7 +51,7 @@ class Changes:
     replaced, removed : tuple of path
         In the folder.
     kept : tuple of Message
-        Leftovers that someone has changed.
+        Leftovers that were changed by hand.
     staying : dict of path to OwnFile
         In the folder: what was asked to stay, as it was when we wrote it.
     """

@@ -2,9 +2,9 @@
 
 Sources of the piece (FBX, sound, description, report, manifest) go to ``SuisouSource/<Piece>``, the plug-in that
 imports them to ``Plugins/Suisou``. Exporting again updates in place and takes away what of ours is not needed any more;
-what someone else made or changed is never touched.
+files that others made or changed are never touched.
 
-Who cannot be exported is left out; what an earlier export holds of them stays, in the sources and in Unreal.
+Players who cannot be exported are excluded; what an earlier export holds of them stays, in the sources and in Unreal.
 
 Messages: those of `app.export.request`, `app.export.tree` and the other modules here.
 """
@@ -66,11 +66,11 @@ class Plan:
     replaced, removed : tuple of path
         Of those that are there.
     kept : tuple of Message
-        Leftovers that someone has changed.
+        Leftovers that were changed by hand.
     plugin : mapping of path to bytes
         The plug-in's files, by path in its folder; none if the project has it.
     staying : mapping of path to OwnFile
-        Files of the piece, by path in its folder, of players and dancers who are left out: they stay as they are, and
+        Files of the piece, by path in its folder, of players and dancers who are excluded: they stay as they are, and
         ours.
     """
 
@@ -158,11 +158,11 @@ def export_into(
     Parameters
     ----------
     request : Request
-        Its folder, its formats and whether it wants the sound do not count.
+        Its folder, its formats and whether it includes the sound do not count.
     project : UnrealProject
     wording : callable
         Words a message for the report.
-    stop_wanted, progress : callable
+    stop_requested, progress : callable
 
     Raises
     ------
@@ -282,7 +282,7 @@ def _dancers(request: Request, cast: ExportCast) -> tuple[tuple[Dancer, str], ..
 def _sound(
     request: Request, layout: Layout, sources: Path, stop_requested: Callable[[], bool], progress: Progress
 ) -> Sound:
-    """Write what is heard from the first frame to the last."""
+    """Write the sound from the first frame to the last."""
     project, span = request.performance.project, request.span
     file = sources / layout.sound_file
     file.parent.mkdir(parents=True, exist_ok=True)

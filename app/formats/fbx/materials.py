@@ -44,7 +44,7 @@ def phong(material: Material) -> Phong:
 
 
 def metallic_roughness(name: str, surface: Phong) -> Material:
-    """The surface whose `phong` this is, as far as that tells: a roughness beyond the exponent's bounds is lost, and
+    """The surface whose `phong` this is, as far as that shows: a roughness beyond the exponent's bounds is lost, and
     so is whether both sides show. Of two metallic values that look alike it is the smaller."""
     # Summed over the channels, specular = 0.04 (1 - m) + m diffuse / (1 - 0.6 m): a quadratic equation for m.
     lost, plain = 1.0 - _METAL_DIFFUSE, 3.0 * DIELECTRIC_REFLECTANCE

@@ -80,7 +80,7 @@ def _primitive(mesh: SkinnedMesh, material: int, triangles: IntArray) -> Primiti
     return Primitive(
         material=material,
         vertices=vertices[kept],
-        # A degenerate triangle may have no normal; glTF wants one all the same.
+        # A degenerate triangle may have no normal; glTF requires one all the same.
         normals=np.where(lengths > 0, normals / np.where(lengths > 0, lengths, 1.0), [0.0, 1.0, 0.0]),
         uvs=uvs,
         triangles=indices.reshape(-1, 3),

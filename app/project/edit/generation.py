@@ -10,7 +10,7 @@ import msgspec
 from app.chance import next_seed
 from app.plan.corrections import Correction, Vary
 from app.project.edit.corrections import put, take_back
-from app.project.edit.players import persons_of
+from app.project.edit.players import musicians_of
 from app.project.model import Player, Project
 
 NAME = "varied-"
@@ -23,7 +23,7 @@ def vary_everyone(project: Project) -> Project:
 
 def vary_players(project: Project, player_ids: Iterable[str]) -> Project:
     """Another performance by some, with all that they play; the others play as they did."""
-    chosen = persons_of(project, frozenset(player_ids))
+    chosen = musicians_of(project, frozenset(player_ids))
 
     def varied(player: Player) -> Player:
         seed = next_seed(player.id, player.parameters.seed)

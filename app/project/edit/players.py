@@ -28,7 +28,7 @@ from app.project.casting import (
     stage_seats,
     usual_posture,
 )
-from app.project.doubling import TOGETHER_S, together_s, without_persons
+from app.project.doubling import TOGETHER_S, promote_remaining, together_s
 from app.project.footprint import footprint, together
 from app.project.ids import MADE_PART, fresh_note_ids, fresh_part_ids, fresh_player_ids
 from app.project.model import Player, Project, characters_for
@@ -40,7 +40,7 @@ from instrument_maps.model import InstrumentMap, Posture
 
 
 def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap | None = None) -> PlayerParameters:
-    """The parameters a player has before anybody changes them; with an instrument, in a posture it is played in."""
+    """The parameters a player has before any change; with an instrument, in a posture it is played in."""
     usual = usual_posture(len(project.bodies))
     return PlayerParameters(
         amplitude=amplitude(project.seed, player_id),
@@ -72,15 +72,15 @@ def posture_of(player: Player) -> Posture:
 def change(project: Project, player_ids: Collection[str], **fields: object) -> Project:
     """Set fields of `Player` (``instrument_id``, ``muted`` ...) for several players; see `rename` for names.
 
-    A character is that of the whole person.
+    A character belongs to the musician.
 
     Raises
     ------
     AppError
-        ``doubling.posture``: one person would play instruments that no posture fits.
+        ``doubling.posture``: one musician would play instruments that no posture fits.
     """
     if "character_id" in fields:
-        player_ids = {*player_ids, *persons_of(project, player_ids)}
+        player_ids = {*player_ids, *musicians_of(project, player_ids)}
     result = _with_players(
         project,
         (
@@ -92,15 +92,15 @@ def change(project: Project, player_ids: Collection[str], **fields: object) -> P
 
 
 def _in_one_posture(project: Project, player_ids: Collection[str]) -> Project:
-    """The persons of some players in a posture in which they can play everything they do."""
-    for person_id in sorted(persons_of(project, player_ids)):
-        first, *others = project.played_by(project.player(person_id))
+    """The musicians of some players in a posture in which they can play everything they do."""
+    for musician_id in sorted(musicians_of(project, player_ids)):
+        first, *others = project.played_by(project.player(musician_id))
         for other in others:
             if not set(postures_of(first)) & set(postures_of(other)):
                 raise AppError("doubling.posture", player=other.name, other=first.name)
-        possible = postures_of_person(project, first)
+        possible = postures_of_musician(project, first)
         if others and first.parameters.posture not in possible:
-            project = set_parameters(project, (person_id,), posture=possible[0])
+            project = set_parameters(project, (musician_id,), posture=possible[0])
     return project
 
 
@@ -113,9 +113,9 @@ def rename(project: Project, player_id: str, name: str) -> Project:
 
 
 def set_parameters(project: Project, player_ids: Collection[str], **values: Value) -> Project:
-    """Set parameters for several players, and with them for the whole persons; numbers are held within their
+    """Set parameters for several players, and so for their musicians; numbers are held within their
     bounds."""
-    player_ids = persons_of(project, player_ids)
+    player_ids = musicians_of(project, player_ids)
     held = {name: PARAMETERS[name].held(value) for name, value in values.items()}
     return _with_players(
         project,
@@ -129,13 +129,13 @@ def set_parameters(project: Project, player_ids: Collection[str], **values: Valu
 
 
 def reset_parameters(project: Project, player_ids: Collection[str], names: Collection[str] | None = None) -> Project:
-    """Return parameters to what each person was cast with; all of them where no names are given."""
-    player_ids = persons_of(project, player_ids)
+    """Return parameters to what each musician was cast with; all of them where no names are given."""
+    player_ids = musicians_of(project, player_ids)
     result = []
     for player in project.players:
         if player.id in player_ids:
             cast = cast_parameters(project, player.id, instrument_of(player))
-            possible = postures_of_person(project, player)
+            possible = postures_of_musician(project, player)
             if cast.posture not in possible:
                 cast = msgspec.structs.replace(cast, posture=possible[0])
             requested = cast.__struct_fields__ if names is None else names
@@ -153,7 +153,7 @@ def randomise(project: Project, player_ids: Collection[str], spread: float) -> P
     spread : float
         0: everyone the same; 1: as far apart as is sensible.
     """
-    player_ids = persons_of(project, player_ids)
+    player_ids = musicians_of(project, player_ids)
     chosen = [player for player in project.bodies if player.id in player_ids]
     if not chosen:
         return project
@@ -181,8 +181,8 @@ def parameter_edit(parameter: str, count: int) -> Message:
 
 
 def place(project: Project, places: Mapping[str, StagePosition]) -> Project:
-    """Put players somewhere on the stage, and with them the whole persons."""
-    places = {project.person(player).id: places[player.id] for player in project.players if player.id in places}
+    """Put players somewhere on the stage, and with them their musicians."""
+    places = {project.musician(player).id: places[player.id] for player in project.players if player.id in places}
     return _with_players(
         project,
         (
@@ -196,9 +196,9 @@ def place(project: Project, places: Mapping[str, StagePosition]) -> Project:
 
 def arc_of(project: Project) -> tuple[StagePosition, ...]:
     """The places of the usual seating, in the order of the players."""
-    rooms = [together(footprint(instrument_of(one)) for one in project.played_by(person)) for person in project.bodies]
-    seats = dict(zip((person.id for person in project.bodies), stage_seats(rooms), strict=True))
-    return tuple(seats[project.person(player).id] for player in project.players)
+    rooms = [together(footprint(instrument_of(one)) for one in project.played_by(body)) for body in project.bodies]
+    seats = dict(zip((body.id for body in project.bodies), stage_seats(rooms), strict=True))
+    return tuple(seats[project.musician(player).id] for player in project.players)
 
 
 def arrange(project: Project) -> Project:
@@ -325,11 +325,11 @@ def newcomer(
 
 
 def remove_players(project: Project, player_ids: Collection[str]) -> Project:
-    """Send players away, with their corrections. A file's part that no one plays any more stays in the score, so that
-    someone else may be given it; one that is empty or was made here goes too. The next instrument of a person whose
-    first one is gone is the person's first."""
+    """Remove players, with their corrections. A file's part without a player stays in the score, so that it can be
+    assigned to another player; one that is empty or was made here is removed too. The next instrument of a musician
+    whose first one is removed becomes the first."""
     on_arc = _on_arc(project)
-    kept = without_persons(player for player in project.players if player.id not in player_ids)
+    kept = promote_remaining(player for player in project.players if player.id not in player_ids)
     played = {player.part_id for player in kept}
     left = {player.part_id for player in project.players if player.id in player_ids} - played
     parts = tuple(
@@ -363,18 +363,18 @@ def _with_players(project: Project, players: Iterable[Player]) -> Project:
     return project if new == project.players else replace(project, players=new)
 
 
-def persons_of(project: Project, player_ids: Collection[str]) -> frozenset[str]:
-    """The persons who play for these players, by id."""
-    return frozenset(project.person(player).id for player in project.players if player.id in player_ids)
+def musicians_of(project: Project, player_ids: Collection[str]) -> frozenset[str]:
+    """The musicians who play for these players, by id."""
+    return frozenset(project.musician(player).id for player in project.players if player.id in player_ids)
 
 
-def postures_of_person(project: Project, player: Player) -> tuple[Posture, ...]:
-    """In what everything is played that a player's person plays; where nothing fits all, what fits the first."""
+def postures_of_musician(project: Project, player: Player) -> tuple[Posture, ...]:
+    """The postures in which a musician can play everything; where none fits all, those of the first instrument."""
     played = [postures_of(one) for one in project.played_by(player)]
     return tuple(one for one in played[0] if all(one in postures for postures in played)) or played[0]
 
 
-def join(project: Project, player_id: str, person_id: str) -> Project:
+def join(project: Project, player_id: str, musician_id: str) -> Project:
     """Let the body of another player play this instrument too, and what this custom body plays besides.
 
     Raises
@@ -382,11 +382,11 @@ def join(project: Project, player_id: str, person_id: str) -> Project:
     AppError
         ``doubling.posture``, ``doubling.together`` (see `app.project.doubling`).
     """
-    joining, person = project.player(player_id), project.person(project.player(person_id))
-    coming = project.played_by(joining) if project.person(joining) is joining else (joining,)
-    if project.person(joining) is person:
+    joining, musician = project.player(player_id), project.musician(project.player(musician_id))
+    coming = project.played_by(joining) if project.musician(joining) is joining else (joining,)
+    if project.musician(joining) is musician:
         return project
-    for other in project.played_by(person):
+    for other in project.played_by(musician):
         for player in coming:
             if not set(postures_of(other)) & set(postures_of(player)):
                 raise AppError("doubling.posture", player=player.name, other=other.name)
@@ -398,13 +398,13 @@ def join(project: Project, player_id: str, person_id: str) -> Project:
     result = _with_players(
         project,
         (
-            msgspec.structs.replace(player, doubles=person.id) if player.id in ids else player
+            msgspec.structs.replace(player, doubles=musician.id) if player.id in ids else player
             for player in project.players
         ),
     )
-    possible = postures_of_person(result, result.player(person.id))
-    if person.parameters.posture not in possible:
-        result = set_parameters(result, (person.id,), posture=possible[0])
+    possible = postures_of_musician(result, result.player(musician.id))
+    if musician.parameters.posture not in possible:
+        result = set_parameters(result, (musician.id,), posture=possible[0])
     return arrange(result) if on_arc else result
 
 

@@ -71,7 +71,7 @@ def remove_tempo(project: Project, tick: int) -> Project:
 def scale_tempo(project: Project, ratio: float) -> Project:
     """Play everything this much faster (1.02: two percent), as a recording does whose tempo is slightly another.
 
-    The recording's offset stays: whoever scales to a recording sets both.
+    The recording's offset stays: scaling to a recording sets both.
     """
     low, high = limits.TEMPO_RATIO
     changes = tuple(

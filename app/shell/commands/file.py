@@ -28,7 +28,7 @@ def import_midi(editor: Editor) -> None:
 
 
 def add_audio(editor: Editor) -> None:
-    """Ask for the recording that the piece is heard with."""
+    """Ask for the recording that the piece plays with."""
     kinds = ((tr("files.sound_files"), AUDIO_SUFFIXES), (tr("files.all_files"), ("",)))
     path = editor.questions.open_file(tr("files.add_recording"), editor.files.folder, _filters(kinds))
     if path is not None:

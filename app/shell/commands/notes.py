@@ -42,11 +42,11 @@ def _has_player(session: Session) -> bool:
 
 
 def select_all(session: Session) -> None:
-    """Every note of the players that are selected; where all are already: of everybody."""
+    """Select every note of the selected players; where all are selected already: of all players."""
     project = session.project
     mine = _notes_of(session, session.players)
-    everybody = _notes_of(session, tuple(player.id for player in project.players))
-    session.select(Selection(everybody if session.selection.notes == mine else mine))
+    everyone = _notes_of(session, tuple(player.id for player in project.players))
+    session.select(Selection(everyone if session.selection.notes == mine else mine))
 
 
 def _notes_of(session: Session, player_ids: tuple[str, ...]) -> frozenset[str]:

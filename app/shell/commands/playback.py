@@ -1,4 +1,4 @@
-"""Playing: from here, in a loop, step by step; how it is heard; where the recording stands."""
+"""Playing: from here, in a loop, step by step; what sounds; where the recording stands."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Players: who is there, who is heard, who is in front."""
+"""Players: add, remove, mute, solo, activate."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def _count(id: str, players: int) -> Message:
 
 
 def add(session: Session) -> None:
-    """Add someone who plays what the player in front plays; the first instrument there is in an empty project."""
+    """Add a player with the instrument of the active player; in an empty project with the first instrument."""
     front = session.player
     known = all_maps()
     instrument_id = front.instrument_id if front is not None and front.instrument_id in known else next(iter(known))
@@ -40,7 +40,7 @@ def remove(session: Session) -> None:
 
 
 def join(session: Session) -> None:
-    """Let one person play what the selected players play, in turn: the first of them in the list."""
+    """Let one musician play what the selected players play, in turn: the first of them in the list."""
     chosen = [player for player in session.project.players if player.id in session.players]
     first, *others = chosen
 
@@ -53,19 +53,19 @@ def join(session: Session) -> None:
 
 
 def separate(session: Session) -> None:
-    """Give those of the selected who double someone a body of their own."""
+    """Make the selected doubling players musicians with their own bodies."""
     chosen = session.players
     count = sum(bool(player.doubles) for player in _chosen(session))
     session.attempt(_count("edit.separate_players", count), lambda project: edit.separate(project, chosen))
 
 
 def mute(session: Session, on: bool) -> None:
-    """Let the selected players be silent, or heard again."""
+    """Mute or unmute the selected players."""
     _change(session, "muted", on, "edit.mute" if on else "edit.unmute")
 
 
 def solo(session: Session, on: bool) -> None:
-    """Let only these be heard."""
+    """Solo or unsolo the selected players."""
     _change(session, "soloed", on, "edit.solo" if on else "edit.unsolo")
 
 
@@ -104,7 +104,7 @@ def _step(session: Session, by: int) -> None:
 def toggle_posture(session: Session) -> None:
     """Let the selected players sit down, those whose instruments are played so; stand up where all of them sit."""
     project = session.project
-    free = [player for player in _chosen(session) if len(edit.postures_of_person(project, player)) > 1]
+    free = [player for player in _chosen(session) if len(edit.postures_of_musician(project, player)) > 1]
     chosen = tuple(player.id for player in free)
     seated = all(player.parameters.posture == "seated" for player in free)
     session.attempt(
@@ -147,11 +147,11 @@ def _has_players(session: Session) -> bool:
 
 
 def _may_sit_or_stand(session: Session) -> bool:
-    return any(len(edit.postures_of_person(session.project, player)) > 1 for player in _chosen(session))
+    return any(len(edit.postures_of_musician(session.project, player)) > 1 for player in _chosen(session))
 
 
 def _are_several(session: Session) -> bool:
-    return len({session.project.person(player).id for player in _chosen(session)}) > 1
+    return len({session.project.musician(player).id for player in _chosen(session)}) > 1
 
 
 def _double(session: Session) -> bool:

@@ -24,7 +24,7 @@ def latency(editor: Editor) -> None:
 
 
 def arm(session: Session, on: bool = True) -> None:
-    """Record the player in front whoever is in front later, or whoever is in front then."""
+    """Arm the active player for recording, or disarm it."""
     player = session.player
     if player is not None:
         session.recording.set(armed="" if session.recording.armed == player.id else player.id)

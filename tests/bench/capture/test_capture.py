@@ -95,7 +95,7 @@ class Calibration:
         assert self._process.stdout is not None
         self._process.stdout.readline()
 
-    def heard(self) -> list[tuple[int, bytes]]:
+    def received(self) -> list[tuple[int, bytes]]:
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         self._process.stdin.write("\n")
@@ -159,7 +159,7 @@ def bursts(path: Path, seconds: float, rate_hz: float, *, busy: bool, is_realtim
                 time.sleep(0.05)
         done.set()
         waking.join()
-        calibrated = calibration.heard()
+        calibrated = calibration.received()
         link.stop()
         ear.wait(Finished)
     journal = read_journal(path)

@@ -109,7 +109,7 @@ class WatchedWindow:
         self.answers = ImportAnswers()
         self.answers.answer = "discard"
         self.program = Program(
-            settings, questions=self.answers, autosave=Autosave(Presence(folder / "recovery")), heard=False
+            settings, questions=self.answers, autosave=Autosave(Presence(folder / "recovery")), audible=False
         )
         assert isinstance(self.program.tasks, ThreadTasks)
         self.tasks = self.program.tasks

@@ -44,7 +44,7 @@ def test_from_event_to_pose(instrument_id: str) -> None:
     player = PlayAlong(playing_alone(instrument_id, [(4 * QUARTER, QUARTER, limits.low)]))
     random = np.random.default_rng(1)
     pitch, before, now_s = limits.easy_low, None, 0.0
-    heard: list[float] = []
+    durations_s: list[float] = []
     shown: list[float] = []
     unit_s = calibration_s()
     for number in range(EVENTS):
@@ -56,7 +56,7 @@ def test_from_event_to_pose(instrument_id: str) -> None:
             player.note_off(now_s, before)
         player.pose(now_s + 0.004)
         if number > 10:
-            heard.append(time.thread_time() - start_s)
+            durations_s.append(time.thread_time() - start_s)
         before = pitch
         for frame in range(1, FRAMES_AFTER):
             start_s = time.thread_time()
@@ -64,7 +64,7 @@ def test_from_event_to_pose(instrument_id: str) -> None:
             if number > 10:
                 shown.append(time.thread_time() - start_s)
         now_s += FRAMES_AFTER / 60.0
-    reported(f"{instrument_id}, from event to pose", heard, unit_s)
+    reported(f"{instrument_id}, from event to pose", durations_s, unit_s)
     reported(f"{instrument_id}, a pose on the way", shown, unit_s)
 
 
@@ -88,7 +88,7 @@ def test_twenty_minutes(instrument_id: str) -> None:
     wiring, spent_s, blocks = ControllerMapping(0, "cc2", "pitch_bend"), np.zeros(LONG_S), list[int]()
     for number in range(LONG_S):
         for at_s, raw in second(number, limits.low, limits.high):
-            player.hear(number + at_s, raw, wiring)
+            player.receive(number + at_s, raw, wiring)
         start_s = time.thread_time()
         player.note_on(number + 0.99, limits.easy_low + number % 7)
         player.pose(number + 0.994)

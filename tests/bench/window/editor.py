@@ -77,7 +77,7 @@ class LargeEditor:
         self._drawing_s = self._drawing_wall_s = 0.0
         self._time_drawing()
         self.program = Program(
-            settings, questions=Answers(), autosave=Autosave(Presence(self.folder / "recovery")), heard=True
+            settings, questions=Answers(), autosave=Autosave(Presence(self.folder / "recovery")), audible=True
         )
         self.garbage = Garbage()
         self.session = self.program.session

@@ -1,4 +1,4 @@
-"""Whatever bytes and words a person gives, the command line ends with a status and a sentence."""
+"""Whatever bytes and words a user gives, the command line ends with a status and a sentence."""
 
 from __future__ import annotations
 

@@ -81,7 +81,7 @@ def _channels(size: int) -> bytes:
     return midi(*[track] * max((size - 14) // (8 + len(track)), 1), division=96)
 
 
-def _everybody(size: int, quarter_us: int, quarters: int, *first: bytes, division: int = 96) -> bytes:
+def _everyone(size: int, quarter_us: int, quarters: int, *first: bytes, division: int = 96) -> bytes:
     """As many players as there may be, from the beginning to the end."""
     tempo = b"\0\xff\x51\x03" + quarter_us.to_bytes(3, "big")
     track = b"\0\x90\x40\x50\x60\x40\0" + note(64, 96, (quarters - 2) * division) + END
@@ -89,7 +89,7 @@ def _everybody(size: int, quarter_us: int, quarters: int, *first: bytes, divisio
     return midi(tempo + b"".join(first) + END, *[track] * count, division=division)
 
 
-def _everybody_often(size: int) -> bytes:
+def _everyone_often(size: int) -> bytes:
     """Notes of all players that are apart so far that everything between them counts."""
     tempo = b"\0\xff\x51\x03" + (216_000).to_bytes(3, "big")
     count = max(size // 128 // 7, 1)
@@ -123,11 +123,11 @@ COSTLY: Final[dict[str, Callable[[int], bytes]]] = {
         FASTEST + note() + END, b"\0\xff\x03\x04Drum" + note(36, delta=43_000_000, channel=9) + END, division=10
     ),
     "the first note in hours": lambda size: midi(FASTEST + note(delta=43_000_000) + END, division=10),
-    "everybody for twelve hours": lambda size: _everybody(size, 1_000_000, 43_000),
-    "everybody for twelve hours of 216 ms": lambda size: _everybody(size, 215_000, 199_000),
-    "everybody for twelve hours of bars of 1/4": lambda size: _everybody(size, 215_000, 199_000, metre(1, 2)),
-    "everybody for 200,000 quarters at 10 ms": lambda size: _everybody(size, 10_000, 199_000, metre(1, 2)),
-    "everybody often for twelve hours": _everybody_often,
+    "everyone for twelve hours": lambda size: _everyone(size, 1_000_000, 43_000),
+    "everyone for twelve hours of 216 ms": lambda size: _everyone(size, 215_000, 199_000),
+    "everyone for twelve hours of bars of 1/4": lambda size: _everyone(size, 215_000, 199_000, metre(1, 2)),
+    "everyone for 200,000 quarters at 10 ms": lambda size: _everyone(size, 10_000, 199_000, metre(1, 2)),
+    "everyone often for twelve hours": _everyone_often,
     "a rest of six seconds after every note": lambda size: midi(
         b"\0\x90\x3c\x50\x10\x3c\0" + b"\x89\x10\x3c\x50\x10\x3c\0" * min(size // 7, 7000) + END, division=96
     ),
@@ -220,7 +220,7 @@ COSTLY: Final[dict[str, Callable[[int], bytes]]] = {
 """By what each does: from a size in bytes, which those that cannot grow pass over, to the file's bytes."""
 
 WORST: Final = {
-    "everybody often for twelve hours": 40_000,
+    "everyone often for twelve hours": 40_000,
     "lost note-offs, all pitches": 30_000,
     "lines of 40": 30_000,
     "tracks of sixteen channels": 100_000,

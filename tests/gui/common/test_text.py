@@ -43,7 +43,7 @@ def test_a_note_is_reported_by_pitch_and_place(session: Session, note: Note) -> 
     assert note.id not in reported
 
 
-def test_pitches_are_named_as_the_person_wants(session: Session, note: Note) -> None:
+def test_pitches_are_named_as_the_user_prefers(session: Session, note: Note) -> None:
     message = Message("fingering.out_of_range", {"note": note.id, **OUTSIDE})
     assert "F4 (bar 2, beat 2) is outside this instrument's range (F♯3 to B♭5)" in message_text(message, session)
     session.pitch_display.set(middle_c_octave=3)

@@ -101,7 +101,7 @@ def test_it_says_what_will_be_replaced_and_what_is_missing(dialog: ExportDialog,
     assert not button.isEnabled()
     QTest.mouseClick(box, Qt.MouseButton.LeftButton)
     assert button.isEnabled()
-    QTest.mouseClick(dialog.findChild(QPushButton, "export_everybody"), Qt.MouseButton.LeftButton)
+    QTest.mouseClick(dialog.findChild(QPushButton, "export_everyone"), Qt.MouseButton.LeftButton)
     assert dialog.player_ids == ()
     assert not button.isEnabled()
 

@@ -80,7 +80,7 @@ def test_posture_dice_arc_and_reset(session: Session) -> None:
     assert tuple(player.stage for player in session.project.players) == stage_arc(4)
 
 
-def test_one_person_plays_several_and_is_taken_apart_again(session: Session) -> None:
+def test_one_musician_plays_several_and_is_taken_apart_again(session: Session) -> None:
     session.document.open(flutist())
     before = session.project
     flute, piccolo, oboe = ids(session)

@@ -220,7 +220,7 @@ def test_several_players_at_once(panel: PlayersPanel, session: Session) -> None:
         assert session.project.player(id).parameters.amplitude == cast_parameters(session.project, id).amplitude
 
 
-def test_escape_gives_everybody_their_own_value_back(panel: PlayersPanel, session: Session) -> None:
+def test_escape_restores_the_value_of_each_player(panel: PlayersPanel, session: Session) -> None:
     first, second = ids(session)[:2]
     session.set_players((second, first))
     control = slider(panel, "parameter_amplitude")

@@ -107,7 +107,7 @@ def start(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answe
     started: list[Program] = []
 
     def begin() -> Program:
-        program = Program(settings, ImmediateTasks(), answers, Autosave(Presence(tmp_path / "recovery")), heard=False)
+        program = Program(settings, ImmediateTasks(), answers, Autosave(Presence(tmp_path / "recovery")), audible=False)
         show_in_front(program.window)
         started.append(program)
         return program
@@ -167,7 +167,7 @@ def studio(
         ImmediateTasks(),
         answers,
         Autosave(Presence(tmp_path / "recovery")),
-        heard=False,
+        audible=False,
         playback=Playback(now=clock.now_s),
         recorder=recorder,
     )

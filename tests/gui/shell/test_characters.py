@@ -139,7 +139,7 @@ def test_without_what_playing_needs_it_cannot_be_kept(program: Program) -> None:
     assert ok(dialog).isEnabled()
     dialog.choose("leftHand")
     QTest.mouseClick(button(dialog, "joint_none"), Qt.MouseButton.LeftButton)
-    reported = dialog.findChild(QLabel, "character_told")
+    reported = dialog.findChild(QLabel, "character_status")
     assert reported is not None
     assert "Hand L" in reported.text()
     assert not ok(dialog).isEnabled()
@@ -150,7 +150,7 @@ def test_without_what_playing_needs_it_cannot_be_kept(program: Program) -> None:
 
 
 def test_a_mitten_is_reported(program: Program) -> None:
-    reported = opened(program, MITTENS).findChild(QLabel, "character_told")
+    reported = opened(program, MITTENS).findChild(QLabel, "character_status")
     assert reported is not None
     assert "Fingers that do not move" in reported.text()
     assert "Blinking is not available" in reported.text()

@@ -85,7 +85,7 @@ def walked(
         ImmediateTasks(),
         answers,
         Autosave(Presence(tmp_path / "recovery")),
-        heard=False,
+        audible=False,
         recorder=lambda session, files, settings, sound: Recorder(
             session, files, settings, sound, lambda on_news: Spoken(on_news, settings.midi_port)
         ),
@@ -182,7 +182,7 @@ def menus(program: Program, judge: Judge) -> None:
 def notices(program: Program, judge: Judge) -> None:
     """What is said and what can be undone."""
     session = program.session
-    session.streaming.set(state="unheard", lines=session.streaming.planned(session.project, session.players))
+    session.streaming.set(state="no_receiver", lines=session.streaming.planned(session.project, session.players))
     session.notice(Message("midi.empty", {"file": judge.canary.name("notice")}), Severity.ERROR)
     judge.look("notice")
     session.streaming.set(state="off")

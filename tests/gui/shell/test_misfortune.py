@@ -273,7 +273,7 @@ def test_work_of_others_is_not_written_over(
     assert not program.window.banner.isVisible()
 
 
-def test_work_of_others_is_replaced_where_the_person_says_so(program: Program, overtaken: Path, qtbot: QtBot) -> None:
+def test_work_of_others_is_replaced_where_the_user_confirms(program: Program, overtaken: Path, qtbot: QtBot) -> None:
     trigger(program, "file.save")
     click(program, "banner_answer_1", qtbot)
     assert storage.load(overtaken).score.title == "Corrections"

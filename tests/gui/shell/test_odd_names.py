@@ -54,7 +54,7 @@ def drop(program: Program, path: Path) -> None:
     QApplication.sendEvent(program.window, QDropEvent(QPointF(50, 50), action, mime, left, none))
 
 
-def test_a_piece_is_dropped_heard_saved_and_opened_again(
+def test_a_piece_is_dropped_played_saved_and_opened_again(
     empty: Program, start: Start, folder: Path, answers: Answers
 ) -> None:
     drop(empty, odd(folder, ".mid"))

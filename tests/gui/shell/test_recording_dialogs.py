@@ -254,7 +254,7 @@ def test_a_bite_that_is_sent_otherwise_now_is_not_shown_as_it_was(studio: Studio
 def test_a_beep_without_an_audio_device_says_so(studio: Studio) -> None:
     dialog = devices(studio)
     click(part(dialog, QPushButton, "midi_beep"))
-    assert "No audio output device" in reported(dialog, "midi_beep_told")
+    assert "No audio output device" in reported(dialog, "midi_beep_status")
 
 
 def test_the_status_line_says_how_the_device_stands_and_opens_the_dialog(studio: Studio) -> None:
@@ -354,7 +354,7 @@ def test_the_latency_is_measured_and_taken_off_from_then_on(studio: Studio) -> N
     click(part(dialog, QPushButton, "latency_take"))
     assert studio.session.recording.latency_s == pytest.approx(value.value() / 1000.0)
     assert studio.program.editor.settings.midi_device(EWI, "latency_s")
-    assert "compensated from now on" in reported(dialog, "latency_told")
+    assert "compensated from now on" in reported(dialog, "latency_status")
     assert "your own timing" in " ".join(label.text() for label in dialog.findChildren(QLabel))
 
 
@@ -362,7 +362,7 @@ def test_too_few_hits_are_refused(studio: Studio) -> None:
     dialog = latency(studio)
     click(part(dialog, QPushButton, "latency_start"))
     blow_on_clicks(studio, dialog, 0.08, 0.004, every=4)
-    assert "Only 3 of 12" in reported(dialog, "latency_told")
+    assert "Only 3 of 12" in reported(dialog, "latency_status")
     assert not part(dialog, QPushButton, "latency_take").isEnabled()
 
 
@@ -379,7 +379,7 @@ def test_a_number_is_typed_instead(studio: Studio) -> None:
 def test_escape_ends_measuring_first(studio: Studio) -> None:
     dialog = latency(studio)
     click(part(dialog, QPushButton, "latency_start"))
-    studio.wait(lambda: "light" in reported(dialog, "latency_told"))
+    studio.wait(lambda: "light" in reported(dialog, "latency_status"))
     QTest.keyClick(dialog, Qt.Key.Key_Escape)
     assert dialog.isVisible()
     assert part(dialog, QPushButton, "latency_start").text() == "Start"
@@ -391,5 +391,5 @@ def test_a_device_that_goes_ends_measuring(studio: Studio) -> None:
     dialog = latency(studio)
     click(part(dialog, QPushButton, "latency_start"))
     studio.link.say(Lost(EWI, 0))
-    studio.wait(lambda: "Measurement stopped" in reported(dialog, "latency_told"))
+    studio.wait(lambda: "Measurement stopped" in reported(dialog, "latency_status"))
     assert not part(dialog, QPushButton, "latency_start").isEnabled()

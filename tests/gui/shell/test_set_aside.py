@@ -94,7 +94,7 @@ def test_everything_bad_at_once(homes: Path, qtbot: QtBot, qt_app: object) -> No
 
     settings = Settings(settings_path())
     reported: list[Message] = []
-    program = Program(settings, ImmediateTasks(), Answers(), Autosave(Presence(recovery)), heard=False)
+    program = Program(settings, ImmediateTasks(), Answers(), Autosave(Presence(recovery)), audible=False)
     program.session.noticed.connect(lambda message, severity: reported.append(message))
     program.window.show()
     qtbot.waitUntil(lambda: len({file_of(message) for message in reported}) >= 2 * len(BAD) + 4)

@@ -46,7 +46,7 @@ def stream_to(program: Program, port: int) -> None:
     trigger(program, "stream.toggle")
 
 
-def heard(receiver: Receiver, qtbot: QtBot, count: int = 1) -> list[Frame]:
+def received(receiver: Receiver, qtbot: QtBot, count: int = 1) -> list[Frame]:
     before = len(receiver.frames)
     qtbot.waitUntil(lambda: len(receiver.frames) >= before + count)
     return receiver.frames
@@ -60,7 +60,7 @@ def test_nothing_is_sent_until_it_is_asked_for_and_no_more_afterwards(program: P
         qtbot.wait(300)
         assert not receiver.packets
         trigger(program, "stream.toggle")
-        heard(receiver, qtbot, 3)
+        received(receiver, qtbot, 3)
         assert program.session.actions["stream.toggle"].isChecked()
         trigger(program, "stream.toggle")
         qtbot.wait(50)
@@ -75,7 +75,7 @@ def test_it_follows_the_playhead_and_rests_slowly(program: Program, qtbot: QtBot
     ready(program, qtbot)
     with Receiver() as receiver:
         stream_to(program, receiver.port)
-        first = heard(receiver, qtbot)[-1]
+        first = received(receiver, qtbot)[-1]
         # Somewhere the trumpet is played, not rested.
         note = program.session.project.part(program.session.project.players[0]).notes[2]
         time_s = program.session.project.score.tempo_map.seconds(note.onset_tick) + 0.05
@@ -90,7 +90,7 @@ def test_it_follows_the_playhead_and_rests_slowly(program: Program, qtbot: QtBot
         expected = np.asarray(pose.rotations[joint], float) * (1, -1, -1, 1)
         np.testing.assert_allclose(receiver.frames[-1].bones[ARM][3:], expected, atol=2e-6)
         # At rest: alive, but seldom.
-        frames = heard(receiver, qtbot, 5)[-5:]
+        frames = received(receiver, qtbot, 5)[-5:]
         assert frames[-1].at_s - frames[0].at_s > 4 / 8.0
 
 
@@ -101,7 +101,7 @@ def test_while_it_plays_every_frame_is_another_and_no_more_than_the_rate(program
     with Receiver() as receiver:
         program.session.streaming.set(rate_hz=30)
         stream_to(program, receiver.port)
-        first = len(heard(receiver, qtbot))
+        first = len(received(receiver, qtbot))
         program.session.playback.play(1.0)
         qtbot.waitUntil(lambda: len({frame.bones[ARM] for frame in receiver.frames[first:]}) > 40)
         frames = receiver.frames[first:]
@@ -115,12 +115,12 @@ def test_who_is_played_from_a_controller_is_sent_as_they_play(program: Program, 
     player = session.project.players[0]
     with Receiver() as receiver:
         stream_to(program, receiver.port)
-        rested = heard(receiver, qtbot)[-1]
+        rested = received(receiver, qtbot)[-1]
         live = PlayAlong(playing_of(session.performance, player))
         session.live_players.begin(live)
-        session.live_players.hear(player.id, time.perf_counter(), "b0027f", ControllerMapping())
+        session.live_players.receive(player.id, time.perf_counter(), "b0027f", ControllerMapping())
         low = session.performance.instrument(player).range.low
-        session.live_players.hear(player.id, time.perf_counter(), f"90{low + 8:02x}64", ControllerMapping())
+        session.live_players.receive(player.id, time.perf_counter(), f"90{low + 8:02x}64", ControllerMapping())
 
         def moved() -> list[Frame]:
             return [frame for frame in receiver.frames if frame.face != rested.face and frame.bones != rested.bones]
@@ -161,7 +161,7 @@ def test_a_dancer_is_sent_on_the_port_after_the_players(program: Program, qtbot:
         session.streaming.set(everyone=True)
         stream_to(program, 39831)
         assert session.streaming.lines[-1] == StreamTarget(dancer.id, 39835)
-        heard(receiver, qtbot, 2)
+        received(receiver, qtbot, 2)
         chip = program.window.status.findChild(QPushButton, "stream_state")
         assert chip is not None
         assert "Ana: 39835" in chip.toolTip()
@@ -189,7 +189,7 @@ def test_where_no_one_plays_the_selected_dancer_is_sent(program: Program, qtbot:
         assert [line.player_id for line in session.streaming.lines] == ids[-1:]
         session.set_dancer(ids[0])
         assert [line.player_id for line in session.streaming.lines] == ids[:1]
-        assert heard(receiver, qtbot)[-1].root[:3] == (0.0, 0.0, 0.0)
+        assert received(receiver, qtbot)[-1].root[:3] == (0.0, 0.0, 0.0)
 
 
 def test_no_one_there_is_said_and_hurts_no_one(program: Program, qtbot: QtBot) -> None:
@@ -200,11 +200,11 @@ def test_no_one_there_is_said_and_hurts_no_one(program: Program, qtbot: QtBot) -
     stream_to(program, port)
     chip = program.window.status.findChild(QPushButton, "stream_state")
     assert chip is not None
-    qtbot.waitUntil(lambda: program.session.streaming.state == "unheard")
+    qtbot.waitUntil(lambda: program.session.streaming.state == "no_receiver")
     assert "no receiver" in chip.text()
     assert program.session.streaming.trouble is None
     with Receiver(port) as receiver:
-        heard(receiver, qtbot, 2)
+        received(receiver, qtbot, 2)
         qtbot.waitUntil(lambda: program.session.streaming.state == "sending")
         assert f"127.0.0.1:{port}" in chip.text()
 
@@ -233,7 +233,7 @@ def test_what_is_in_the_way_is_said_once_and_tried_again(
         assert reported == ["stream.host_unknown", "stream.not_sent"]
         assert program.session.streaming.state == "failed"
         monkeypatch.setattr(Sender, "send", send)
-        heard(receiver, qtbot)
+        received(receiver, qtbot)
         qtbot.waitUntil(lambda: program.session.streaming.state == "sending")
         assert program.session.streaming.trouble is None
 
@@ -245,7 +245,7 @@ def test_the_dialog_by_mouse_and_keys(program: Program, qtbot: QtBot) -> None:
     assert dialog is not None
     qtbot.waitUntil(dialog.isActiveWindow)
     host = dialog.findChild(QLineEdit, "stream_host")
-    warning, reported = dialog.findChild(QLabel, "stream_warning"), dialog.findChild(QLabel, "stream_told")
+    warning, reported = dialog.findChild(QLabel, "stream_warning"), dialog.findChild(QLabel, "stream_status")
     toggle, here = dialog.findChild(QPushButton, "stream_toggle"), dialog.findChild(QPushButton, "stream_here")
     assert host is not None
     assert warning is not None
@@ -266,7 +266,7 @@ def test_the_dialog_by_mouse_and_keys(program: Program, qtbot: QtBot) -> None:
     with Receiver() as receiver:
         program.session.streaming.set(port=receiver.port)
         QTest.mouseClick(toggle, Qt.MouseButton.LeftButton)
-        heard(receiver, qtbot, 2)
+        received(receiver, qtbot, 2)
         qtbot.waitUntil(lambda: "frames per second" in reported.text())
         QTest.mouseClick(toggle, Qt.MouseButton.LeftButton)
         assert reported.text() == "Not streaming."
@@ -281,7 +281,7 @@ def test_many_computers_are_sent_to_only_after_a_confirmation(
     trigger(program, "stream.settings")
     dialog = program.window.findChild(StreamDialog)
     assert dialog is not None
-    reported, anyway = dialog.findChild(QLabel, "stream_told"), dialog.findChild(QPushButton, "stream_anyway")
+    reported, anyway = dialog.findChild(QLabel, "stream_status"), dialog.findChild(QPushButton, "stream_anyway")
     assert reported is not None
     assert anyway is not None
     assert anyway.isHidden()
@@ -294,7 +294,7 @@ def test_many_computers_are_sent_to_only_after_a_confirmation(
         qtbot.wait(300)
         assert not receiver.packets
         QTest.mouseClick(anyway, Qt.MouseButton.LeftButton)
-        heard(receiver, qtbot, 2)
+        received(receiver, qtbot, 2)
         assert anyway.isHidden()
         # For this address and this session only.
         streaming.set(host="127.0.0.1")
@@ -330,7 +330,7 @@ def test_a_fault_of_sending_is_reported_and_the_stream_is_off(
 
     with Receiver() as receiver, qtbot.captureExceptions() as caught:
         stream_to(program, receiver.port)
-        heard(receiver, qtbot)
+        received(receiver, qtbot)
         monkeypatch.setattr("app.stream.vmc.Sent.datagrams", fail)
         program.session.set_playhead(2.0)
         qtbot.waitUntil(lambda: program.session.streaming.state == "off")
@@ -339,7 +339,7 @@ def test_a_fault_of_sending_is_reported_and_the_stream_is_off(
         # Asked again, it sends again.
         monkeypatch.undo()
         trigger(program, "stream.toggle")
-        heard(receiver, qtbot)
+        received(receiver, qtbot)
 
 
 def test_who_cannot_be_seen_is_named_and_everyone_else_is_sent(program: Program, qtbot: QtBot) -> None:
@@ -350,7 +350,7 @@ def test_who_cannot_be_seen_is_named_and_everyone_else_is_sent(program: Program,
     qtbot.waitUntil(lambda: program.generator.live.pose(first_id, session.playhead_s) is None)
     with Receiver(39821) as first, Receiver(39822) as second:
         stream_to(program, 39821)
-        heard(second, qtbot)
+        received(second, qtbot)
         assert not first.frames
         dialog = StreamDialog(session)
         named = [dialog._list.topLevelItem(row).text(0) for row in range(4)]

@@ -415,10 +415,10 @@ def lanes(desk: Desk) -> list[str]:
 
 def recorded_take(desk: Desk) -> RecordedTake | None:
     """The take that is listened to; it is over when the sound stops."""
-    heard = desk.session.listening.take
+    take = desk.session.listening.take
     assert playing(desk)
     assert desk.session.listening.take is None
-    return heard
+    return take
 
 
 def higher_by(desk: Desk, count: int) -> bool:
@@ -467,8 +467,8 @@ def onset_s(desk: Desk, index: int) -> float:
 def reads_back(desk: Desk, path: Path) -> bool:
     """Whether a MIDI file holds what the players play."""
     score = read_midi(path, maps=map_choices(bundled_maps().values()))
-    heard = [(part.name, [(n.onset_tick, n.duration_tick, n.pitch) for n in part.notes]) for part in score.parts]
-    return heard == [
+    played = [(part.name, [(n.onset_tick, n.duration_tick, n.pitch) for n in part.notes]) for part in score.parts]
+    return played == [
         (player.name, [(n.onset_tick, n.duration_tick, n.pitch) for n in desk.project.part(player).notes])
         for player in desk.project.players
     ]
@@ -904,7 +904,7 @@ def desk(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answer
         ImmediateTasks(),
         answers,
         Autosave(Presence(tmp_path / "recovery")),
-        heard=False,
+        audible=False,
         recorder=lambda session, files, settings, sound: Recorder(
             session, files, settings, sound, lambda on_news: SpokenFor(on_news, RunningClock())
         ),

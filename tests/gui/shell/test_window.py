@@ -244,7 +244,7 @@ def test_a_new_window_gives_half_its_height_to_the_timeline(start: Start, width:
     assert window.timeline.lanes["audio"].height() <= 30
 
 
-def test_how_a_person_listens_is_remembered(start: Start, settings: Settings) -> None:
+def test_how_a_user_listens_is_remembered(start: Start, settings: Settings) -> None:
     first = start()
     first.session.actions["play.click"].trigger()
     volume = first.window.findChild(NumberSlider, "volume")

@@ -137,7 +137,7 @@ def test_x_offers_expressions(panel: TimelinePanel, session: Session) -> None:
     assert (item.expression, item.start_tick, item.end_tick) == ("strained", 960, 2880)
 
 
-def test_at_the_end_the_person_is_reported_why_not(panel: TimelinePanel, session: Session) -> None:
+def test_at_the_end_the_user_is_shown_why_not(panel: TimelinePanel, session: Session) -> None:
     reported: list[Message] = []
     session.noticed.connect(lambda message, severity: reported.append(message))
     session.set_playhead(session.performance.time_frame.end_s)

@@ -114,7 +114,7 @@ def test_the_volume_is_as_the_ear_judges_it(playback: Playback, devices: FakeDev
     assert devices.sink.gain == 1.0
 
 
-def test_scrubbing_lets_a_grain_be_heard(playback: Playback, devices: FakeDevices, time: Time) -> None:
+def test_scrubbing_plays_a_grain(playback: Playback, devices: FakeDevices, time: Time) -> None:
     playback.scrub(5.0)
     assert playback.position_s() == 5.0
     assert not playback.is_playing

@@ -43,13 +43,13 @@ def wait_ready(sound: Sound, qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: not sound.is_busy)
 
 
-def heard(sound: Sound, start_s: float, end_s: float) -> np.ndarray:
+def rendered(sound: Sound, start_s: float, end_s: float) -> np.ndarray:
     """What the playback would play."""
     return sound.playback.mix.read(round(start_s * RATE_HZ), round((end_s - start_s) * RATE_HZ))
 
 
 def loudness(sound: Sound, start_s: float, end_s: float) -> float:
-    return float(np.sqrt((heard(sound, start_s, end_s) ** 2).mean()))
+    return float(np.sqrt((rendered(sound, start_s, end_s) ** 2).mean()))
 
 
 def edit(session: Session, project: Project) -> None:
@@ -91,11 +91,11 @@ def test_scrubbing_can_be_silent(ready: Sound, session: Session, devices: FakeDe
     assert ready.playback.position_s() == 1.0
 
 
-def test_what_is_heard_is_what_films_get(ready: Sound, session: Session) -> None:
-    assert heard(ready, 0.0, 3.0) == pytest.approx(mixdown(session.project, 0.0, 3.0), abs=1e-6)
+def test_films_get_the_sound_of_playback(ready: Sound, session: Session) -> None:
+    assert rendered(ready, 0.0, 3.0) == pytest.approx(mixdown(session.project, 0.0, 3.0), abs=1e-6)
 
 
-def test_mute_and_solo_are_heard_at_once(ready: Sound, session: Session, tasks: ImmediateTasks) -> None:
+def test_mute_and_solo_take_effect_at_once(ready: Sound, session: Session, tasks: ImmediateTasks) -> None:
     rendered = len(tasks.names)
     edit(session, with_players(session.project, p0={"muted": True}))
     assert loudness(ready, 0.2, 0.9) < 1e-4
@@ -112,7 +112,7 @@ def test_after_an_edit_only_what_changed_is_rendered(
     rendered = []
     real = RenderProcess.__call__
     monkeypatch.setattr(RenderProcess, "__call__", lambda self, midi: rendered.append(midi) or real(self, midi))
-    before = heard(ready, 0.0, 1.0)
+    before = rendered(ready, 0.0, 1.0)
     project = session.project
     other = melody((1920, 960, 60))
     score = project.score
@@ -121,7 +121,7 @@ def test_after_an_edit_only_what_changed_is_rendered(
     qtbot.waitUntil(lambda: len(rendered) == 1)
     wait_ready(ready, qtbot)
     assert len(rendered) == 1
-    assert (heard(ready, 0.0, 1.0) == before).all()
+    assert (rendered(ready, 0.0, 1.0) == before).all()
     session.document.undo()
     wait_ready(ready, qtbot)
     assert len(rendered) == 1, "undo finds what was made before"
@@ -139,10 +139,10 @@ def replace_parts(score: object, parts: object) -> object:
     return msgspec.structs.replace(score, parts=parts)
 
 
-def test_another_tempo_is_heard(ready: Sound, session: Session, qtbot: QtBot) -> None:
+def test_another_tempo_changes_the_sound(ready: Sound, session: Session, qtbot: QtBot) -> None:
     edit(session, set_tempo(session.project, 0, 60.0))
     qtbot.waitUntil(lambda: loudness(ready, 4.2, 5.0) > 0.01)
-    assert heard(ready, 0.0, 6.0) == pytest.approx(mixdown(session.project, 0.0, 6.0), abs=1e-6)
+    assert rendered(ready, 0.0, 6.0) == pytest.approx(mixdown(session.project, 0.0, 6.0), abs=1e-6)
 
 
 def test_the_click(ready: Sound, session: Session) -> None:
@@ -178,7 +178,7 @@ def add(session: Session, path: Path, qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: session.listening.waveform is not None)
 
 
-def test_a_recording_is_heard_at_its_place(
+def test_a_recording_sounds_at_its_offset(
     recording: Path, ready: Sound, session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Sound, "estimate", lambda self, **how: None)
@@ -302,7 +302,7 @@ def test_opening_stops_the_sound(ready: Sound, session: Session, elapse: Elapse)
 def test_for_a_picture_the_recording_is_only_seen(
     session: Session, playback: Playback, qtbot: QtBot, tmp_path: Path, tasks: ImmediateTasks
 ) -> None:
-    sound = Sound(session, playback, heard=False)
+    sound = Sound(session, playback, audible=False)
     assert session.playback is None
     soundfile.write(tmp_path / "r.wav", mixdown(session.project, -2.0, 5.0), RATE_HZ)
     add(session, tmp_path / "r.wav", qtbot)
@@ -314,7 +314,7 @@ def test_for_a_picture_the_recording_is_only_seen(
 def test_an_empty_piece_is_silent(sound: Sound, session: Session, qtbot: QtBot) -> None:
     session.document.open(piece())
     wait_ready(sound, qtbot)
-    assert not heard(sound, -1.0, 2.0).any()
+    assert not rendered(sound, -1.0, 2.0).any()
 
 
 # Takes
@@ -333,24 +333,24 @@ def recorded(ready: Sound, session: Session, qtbot: QtBot) -> Sound:
     return ready
 
 
-def test_a_take_is_heard_in_the_place_of_the_part_until_the_sound_stops(
+def test_an_auditioned_take_replaces_the_part_until_playback_stops(
     recorded: Sound, session: Session, elapse: Elapse, qtbot: QtBot
 ) -> None:
-    before, project = heard(recorded, 0.0, 3.0), session.project
+    before, project = rendered(recorded, 0.0, 3.0), session.project
     recorded.listen(RecordedTake(first(session), "take:1", alone=False), 0.5)
     qtbot.waitUntil(lambda: session.playing)
     assert session.playhead_s == pytest.approx(0.5, abs=0.02)
     wait_ready(recorded, qtbot)
-    assert np.abs(heard(recorded, 1.0, 1.9) - before[RATE_HZ : round(1.9 * RATE_HZ)]).max() > 0.01
+    assert np.abs(rendered(recorded, 1.0, 1.9) - before[RATE_HZ : round(1.9 * RATE_HZ)]).max() > 0.01
     assert loudness(recorded, 2.2, 2.9) > 0.01, "the others play on"
     assert session.project is project, "nothing was taken"
     session.playback.stop()  # type: ignore[union-attr]
     assert session.listening.take is None
     wait_ready(recorded, qtbot)
-    assert heard(recorded, 0.0, 3.0) == pytest.approx(before, abs=1e-6)
+    assert rendered(recorded, 0.0, 3.0) == pytest.approx(before, abs=1e-6)
 
 
-def test_a_take_alone_is_all_that_is_heard(recorded: Sound, session: Session, qtbot: QtBot) -> None:
+def test_a_take_auditioned_alone_is_the_only_sound(recorded: Sound, session: Session, qtbot: QtBot) -> None:
     edit(session, with_players(session.project, p0={"muted": True}, p1={"soloed": True}))
     recorded.listen(RecordedTake(first(session), "take:1", alone=True), 1.0)
     wait_ready(recorded, qtbot)
@@ -360,7 +360,7 @@ def test_a_take_alone_is_all_that_is_heard(recorded: Sound, session: Session, qt
     assert not session.playing
 
 
-def test_a_take_that_is_thrown_away_is_heard_no_more(recorded: Sound, session: Session, qtbot: QtBot) -> None:
+def test_a_deleted_take_sounds_no_more(recorded: Sound, session: Session, qtbot: QtBot) -> None:
     recorded.listen(RecordedTake(first(session), "take:1", alone=True), 1.0)
     wait_ready(recorded, qtbot)
     edit(session, remove_take(session.project, first(session), "take:1"))

@@ -67,7 +67,7 @@ def settle(stems: Stems, qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: not stems._settle_timer.isActive())
 
 
-def test_what_is_heard_next_comes_first(owner: QObject, qtbot: QtBot) -> None:
+def test_what_sounds_next_is_rendered_first(owner: QObject, qtbot: QtBot) -> None:
     tasks = HeldTasks()
     stems = Stems(tasks, owner)
     stems.follow(LONG, 100.0)

@@ -67,10 +67,10 @@ def test_a_key_that_goes_down_is_seen_at_once(qtbot: QtBot, session: Session, vi
     )
     own = live.player_id
     asked = live.asked
-    session.live_players.hear(own, perf_counter(), f"90{pitch:02x}5a", ControllerMapping())
+    session.live_players.receive(own, perf_counter(), f"90{pitch:02x}5a", ControllerMapping())
     assert live.asked == asked + 1
-    session.live_players.hear(own, perf_counter(), "b0027f", ControllerMapping())
-    session.live_players.hear("nobody", perf_counter(), "903c5a", ControllerMapping())
+    session.live_players.receive(own, perf_counter(), "b0027f", ControllerMapping())
+    session.live_players.receive("nobody", perf_counter(), "903c5a", ControllerMapping())
     assert live.asked == asked + 1
 
     def pressed() -> bool:

@@ -157,6 +157,6 @@ def test_no_stretch_outlasts_the_lungs_without_a_word(durations: list[int], lung
             assert re.search(
                 r"catch breath after note .*; the note is shortened by "
                 r"|catch breath in place of note \S+, which is excluded: "
-                r"|catch breath instead of notes \S+ and \S+, which are left out: ",
+                r"|catch breath in place of notes \S+ and \S+, which are excluded: ",
                 said,
             ), said

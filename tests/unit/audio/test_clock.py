@@ -27,7 +27,7 @@ class Device:
         return float(np.searchsorted(self._reported_at, time_s, side="right")) * self._step_s
 
 
-def heard(device: Device, poll_s: float, end_s: float, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
+def sampled(device: Device, poll_s: float, end_s: float, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
     """(times, what the clock says) at polls that are uneven too."""
     rng = np.random.default_rng(seed)
     times = np.cumsum(rng.uniform(0.5 * poll_s, 1.5 * poll_s, int(end_s / poll_s)))
@@ -50,7 +50,7 @@ def heard(device: Device, poll_s: float, end_s: float, seed: int = 0) -> tuple[n
     poll_s=st.floats(0.004, 0.016),
 )
 def test_after_a_second_it_runs_evenly(seed: int, step_s: float, jitter_s: float, drift: float, poll_s: float) -> None:
-    times, said = heard(Device(seed, step_s, jitter_s, drift, None), poll_s, 6.0, seed)
+    times, said = sampled(Device(seed, step_s, jitter_s, drift, None), poll_s, 6.0, seed)
     assert (np.diff(said) >= 0.0).all()
     late = times * (1.0 + drift) - said
     settled = late[times > 1.0]
@@ -63,7 +63,7 @@ def test_after_a_second_it_runs_evenly(seed: int, step_s: float, jitter_s: float
 @settings(deadline=None, max_examples=40)
 @given(seed=st.integers(0, 10_000), stands_s=st.floats(0.02, 1.5))
 def test_a_device_that_stands_still_is_waited_for(seed: int, stands_s: float) -> None:
-    times, said = heard(Device(seed, 0.005, 0.0065, 0.0, (2.0, stands_s)), 0.01, 7.0, seed)
+    times, said = sampled(Device(seed, 0.005, 0.0065, 0.0, (2.0, stands_s)), 0.01, 7.0, seed)
     assert (np.diff(said) >= 0.0).all()
     standing = (times > 2.1) & (times < 2.0 + stands_s)
     assert (said[standing] <= 2.0 + 0.04).all()

@@ -57,7 +57,7 @@ def test_mute_and_solo_are_obeyed_as_on_a_desk() -> None:
     assert player_tracks(both, pieces) == ()
 
 
-def test_players_are_heard_from_their_places() -> None:
+def test_players_are_panned_by_their_places() -> None:
     left, right = place_gains(-1.0, 1.0)
     assert left > right > 0
     assert place_gains(1.0, 1.0) == pytest.approx((right, left))
@@ -91,7 +91,7 @@ def test_any_rate(rate_hz: int) -> None:
     assert np.abs(sound).max() > 0.05
 
 
-def test_a_muted_player_is_not_heard() -> None:
+def test_a_muted_player_is_silent() -> None:
     alone = mixdown(with_players(DUET, p0={"muted": True}), 0.0, 0.9)
     assert np.abs(alone).max() < 1e-4
 

@@ -43,10 +43,10 @@ def test_before_the_beginning_it_is_silent() -> None:
 
 def test_a_loop_goes_round_and_its_marks_say_so() -> None:
     block, marks = read_all(Reader(MIX, 3.5, loop_s=(3.0, 4.0)), 3.0, chunk=777)
-    heard = times_s(block)
+    found_s = times_s(block)
     for at_s, expected_s in ((0.25, 3.75), (0.6, 3.1), (1.3, 3.8), (1.6, 3.1), (2.9, 3.4)):
         sample = round(at_s * RATE_HZ)
-        assert heard[sample] == pytest.approx(expected_s, abs=2e-3)
+        assert found_s[sample] == pytest.approx(expected_s, abs=2e-3)
         assert said_s(marks, sample) == pytest.approx(expected_s, abs=1e-6)
     assert [mark[0] / RATE_HZ for mark in marks[1:]] == pytest.approx([0.5, 1.5, 2.5], abs=1e-6)
 
@@ -65,15 +65,15 @@ def test_a_loop_of_no_length_is_none(loop_s: tuple[float, float]) -> None:
 
 @settings(deadline=None, max_examples=15)
 @given(speed=st.floats(0.25, 2.0), chunk=st.integers(64, 9000), loops=st.booleans())
-def test_at_any_speed_the_marks_say_what_is_heard(speed: float, chunk: int, loops: bool) -> None:
+def test_at_any_speed_the_marks_give_the_sounding_position(speed: float, chunk: int, loops: bool) -> None:
     reader = Reader(MIX, 2.0, speed, loop_s=(2.0, 3.0) if loops else None)
     block, marks = read_all(reader, 3.0, chunk)
-    heard = times_s(block)
+    found_s = times_s(block)
     for sample in range(RATE_HZ // 2, len(block) - 1, RATE_HZ // 7):
         said = said_s(marks, sample)
         if loops and min(abs(said - 2.0), abs(said - 3.0)) < 0.15:
             continue
-        assert heard[sample] == pytest.approx(said, abs=0.045)
+        assert found_s[sample] == pytest.approx(said, abs=0.045)
     if not loops and speed != 1.0:
         assert said_s(marks, 2 * RATE_HZ) == pytest.approx(2.0 + 2.0 * speed, abs=0.035 * max(speed, 1.0))
 
@@ -94,7 +94,7 @@ def test_the_pitch_and_the_loudness_stay(speed: float) -> None:
 
 
 @pytest.mark.parametrize("speed", [0.25, 0.5, 0.8, 1.25, 2.0])
-def test_a_click_is_heard_at_the_moment_that_is_said(speed: float) -> None:
+def test_a_click_sounds_at_the_reported_moment(speed: float) -> None:
     click = np.zeros(6 * RATE_HZ, np.int16)
     times = np.arange(2400) / RATE_HZ
     click[2 * RATE_HZ : 2 * RATE_HZ + 2400] = 20000 * np.sin(2 * np.pi * 880 * times) * np.exp(-times / 0.01)
@@ -130,7 +130,7 @@ def test_silence_walks_the_same_way() -> None:
         assert said_s(marks, round(1.7 * RATE_HZ)) == pytest.approx(expected, abs=0.035 * speed)
 
 
-def test_a_new_mix_is_heard_from_the_next_sample_on() -> None:
+def test_a_new_mix_sounds_from_the_next_sample_on() -> None:
     reader = Reader(Mix(), 0.0)
     assert not reader.read(1000)[0].any()
     reader.mix = MIX

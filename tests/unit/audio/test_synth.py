@@ -96,7 +96,7 @@ def test_an_edit_changes_the_phrase_it_is_in_and_no_other() -> None:
     assert [one == other for one, other in zip(before[1:], without[1:], strict=True)] == [True, True]
 
 
-def test_a_note_is_heard_once_however_the_part_is_cut() -> None:
+def test_a_note_sounds_once_however_the_part_is_cut() -> None:
     """Phrases overlap by their tails; their sum has no gap and no doubled note where one ends and the next begins."""
     synthesiser = Synthesiser()
     part = melody(*((480 * i, 480, 67) for i in range(24)))
@@ -141,7 +141,7 @@ def test_memory_has_a_bound(monkeypatch: pytest.MonkeyPatch) -> None:
     assert sum(synthesiser.ready(phrase) is not None for phrase in made) < 4
 
 
-def test_breath_is_heard_and_a_mixers_level_is_one_level() -> None:
+def test_breath_shapes_the_sound_and_a_mixers_level_is_constant() -> None:
     swell = ControllerCurve("breath", (0, 480, 960), (0.2, 0.6, 1.0))
     part = melody((0, 480, 69), (480, 480, 69), (960, 480, 69), curves=(swell,))
     sound = Synthesiser().render(phrases(part, TEMPO, 56)[0]).samples.astype(float)

@@ -258,5 +258,5 @@ def test_a_return_that_is_not_said_to_the_moment_lies_in_the_middle() -> None:
     assert second.times_us == (3_951_000,)
 
 
-def test_nothing_heard_is_no_pass() -> None:
+def test_without_playback_there_is_no_pass() -> None:
     assert passes(of(syncs=[], events_s=[1.0], gaps_s=[])) == ()

@@ -59,7 +59,7 @@ def test_a_hit_far_off_is_shown_but_does_not_count() -> None:
     assert sum(found.used) == 11
 
 
-def test_whoever_blows_anyhow_or_hardly_ever_is_refused() -> None:
+def test_irregular_or_sparse_hits_are_refused() -> None:
     faults = []
     for seed in range(20):
         chance = random.Random(seed)
@@ -89,9 +89,9 @@ def test_without_notes_a_hit_is_where_the_breath_begins() -> None:
     assert hits(events, "cc11") == ()
 
 
-def test_events_lie_where_that_was_heard() -> None:
-    heard = [(1_000_000_000, 0.0), (2_000_000_000, 1.0), (3_000_000_000, 2.5)]
+def test_events_lie_at_the_position_that_sounded() -> None:
+    positions = [(1_000_000_000, 0.0), (2_000_000_000, 1.0), (3_000_000_000, 2.5)]
     moments = (500_000_000, 1_500_000_000, 2_500_000_000, 3_250_000_000)
-    found = placed([(moment, b"") for moment in moments], heard)
+    found = placed([(moment, b"") for moment in moments], positions)
     assert [at_s for at_s, _ in found] == pytest.approx([-0.5, 0.5, 1.75, 2.75])
     assert placed([(1, b"")], []) == []

@@ -64,7 +64,7 @@ def started(ear: Ear, path: Path) -> Ear:
     return ear
 
 
-def heard_one(ear: Ear, player: WindPlayer, message: bytes) -> int:
+def receive_one(ear: Ear, player: WindPlayer, message: bytes) -> int:
     """Play a message until one arrives, for JACK may lose some on a busy machine; how many have arrived."""
     before = len(ear.messages)
     end_s = time.monotonic() + PATIENCE_S
@@ -113,7 +113,7 @@ def test_what_is_played_arrives_in_order_and_stamped(ear: Ear, tmp_path: Path) -
     assert 0 < taken.times_us[0] < taken.times_us[-1]
 
 
-def test_whoever_waits_is_called(tmp_path: Path) -> None:
+def test_a_waiting_reader_is_notified(tmp_path: Path) -> None:
     called = threading.Event()
     with RecorderLink(called.set) as link:
         assert called.wait(PATIENCE_S)
@@ -167,14 +167,14 @@ def test_a_take_goes_on_when_another_port_is_opened(ear: Ear, tmp_path: Path) ->
     path = tmp_path / "take"
     with WindPlayer("First") as first, WindPlayer("Second") as second:
         started(opened(ear, first.name), path)
-        before = heard_one(ear, first, b"\x90\x3c\x40")
+        before = receive_one(ear, first, b"\x90\x3c\x40")
         place = len(ear.reported)
         ear.link.open(second.name)
         for number in range(5):
             # Told while one recorder takes over from the other.
             ear.link.sync(time.perf_counter_ns(), float(number))
         ear.wait(Opened, after=place)
-        heard_one(ear, second, b"\x80\x3c\x40")
+        receive_one(ear, second, b"\x80\x3c\x40")
         journal = finished(ear, path)
     assert list(zip(journal.times_ns, journal.messages, strict=True)) == ear.messages
     assert set(journal.messages[:before]) == {b"\x90\x3c\x40"}
@@ -265,14 +265,14 @@ def test_a_killed_editor_loses_nothing(tmp_path: Path) -> None:
         time.sleep(4 * PATIENT_FRAMES / RATE_HZ)
         editor.kill()
         # A line may be torn off.
-        heard = [line.strip() for line in editor.communicate()[0].splitlines(keepends=True) if line.endswith("\n")]
+        received = [line.strip() for line in editor.communicate()[0].splitlines(keepends=True) if line.endswith("\n")]
         end_s = time.monotonic() + PATIENCE_S
         while is_locked(path) and time.monotonic() < end_s:
             time.sleep(0.02)
     journal = read_journal(path)
     assert journal.complete
     kept = [message.hex() for message in journal.messages]
-    assert kept[: len(heard)] == heard
+    assert kept[: len(received)] == received
     assert_mostly_in_order(journal.messages, sent)
 
 
@@ -294,7 +294,7 @@ def test_a_take_that_waits_for_its_device(ear: Ear, tmp_path: Path) -> None:
     started(ear, path)
     with WindPlayer() as player:
         ear.wait(Opened)
-        heard_one(ear, player, b"\x90\x3c\x40")
+        receive_one(ear, player, b"\x90\x3c\x40")
         journal = finished(ear, path)
     assert set(journal.messages) == {b"\x90\x3c\x40"}
     ((_, back_ns),) = journal.gaps

@@ -57,7 +57,7 @@ class System:
         self.listed_outputs: tuple[str, ...] = ()
         self.busy: set[str] = set()
         self.opened: list[Device] = []
-        self.heard: Any = None
+        self.callback: Any = None
 
     def inputs(self) -> tuple[Port, ...]:
         return tuple(Port(name, identity, index) for index, (name, identity) in enumerate(self.listed.items()))
@@ -65,10 +65,10 @@ class System:
     def outputs(self) -> tuple[Port, ...]:
         return tuple(Port(name, name, index) for index, name in enumerate(self.listed_outputs))
 
-    def open_input(self, port: Port, heard: Any) -> Device:
+    def open_input(self, port: Port, callback: Any) -> Device:
         if port.name in self.busy:
             raise PortError("capture.port_refused", port=port.name, detail="in use")
-        self.heard = heard
+        self.callback = callback
         self.opened.append(Device())
         return self.opened[-1]
 
@@ -217,13 +217,13 @@ def test_a_system_that_goes_away_is_left_to_another_recorder(monkeypatch: pytest
     assert again.kinds() == [Ports, Back]
 
 
-def test_what_is_heard_goes_to_the_disk_and_to_the_editor(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_received_messages_go_to_the_disk_and_to_the_editor(monkeypatch: pytest.MonkeyPatch) -> None:
     system = System("EWI")
     bench = Bench(monkeypatch, system)
     bench.recorder.obey(Open("EWI"))
     bench.reported()
     bench.marks()
-    system.heard(([0x90, 60, 80], 0.1), None)
+    system.callback(([0x90, 60, 80], 0.1), None)
     assert bench.journal.get() == bench.news.get()
 
 
@@ -257,6 +257,6 @@ def test_a_disk_that_stays_full_is_reported_once_and_again_at_the_end(
     for item in (Start(str(journal), Header("", "", "EWI", "ewi_usb", 0.0, "")), (1, b"\x90\x3c\x50"), Stop(), None):
         queue.put(item)
     JournalKeeper(queue, news).run()
-    heard = [news.get_nowait() for _ in range(news.qsize())]
-    assert [one.reason.id for one in heard if isinstance(one, Refused)] == ["capture.not_written", "capture.cut_short"]
-    assert heard[-1] == Finished(os.fsencode(journal), 1)
+    sent = [news.get_nowait() for _ in range(news.qsize())]
+    assert [one.reason.id for one in sent if isinstance(one, Refused)] == ["capture.not_written", "capture.cut_short"]
+    assert sent[-1] == Finished(os.fsencode(journal), 1)

@@ -37,7 +37,7 @@ def piece(tmp_path: Path, *voices: list[tuple[float, float, int, int]], drums: t
     return uncast_score(read_contents(path))
 
 
-def heard(score: Score) -> list[tuple[float, int]]:
+def rhythm_of(score: Score) -> list[tuple[float, int]]:
     rhythm = derived_rhythm(score)
     assert rhythm.derived
     return [(2.0 * time_s, SYMBOLS[symbol]) for time_s, symbol in zip(rhythm.hits_s, rhythm.symbols, strict=True)]
@@ -46,17 +46,17 @@ def heard(score: Score) -> list[tuple[float, int]]:
 def test_melody_bass_and_leaps_have_their_sounds(tmp_path):
     melody = [(0, 0.5, 72, 80), (0.5, 0.5, 74, 80), (1, 1, 79, 80), (2, 1, 77, 80), (3, 1, 70, 80)]
     bass = [(0, 2, 48, 80), (2, 2, 50, 80)]
-    found = heard(piece(tmp_path, melody, bass))
+    found = rhythm_of(piece(tmp_path, melody, bass))
     assert [hit for hit in found if hit[1] not in (38, 49)] == [
         *[(0.0, 36), (0.0, 42), (0.5, 42), (1.0, 50), (2.0, 36), (2.0, 46), (3.0, 45)],
     ]
     assert [hit for hit in found if hit[1] == 49] == [(0.0, 49)]
 
 
-def test_a_voice_in_the_middle_is_not_heard(tmp_path):
+def test_a_middle_voice_gives_no_rhythm(tmp_path):
     outer = [(0, 4, 76, 80)], [(0, 4, 48, 80)]
     inner = [(1, 1, 60, 80), (2, 1, 62, 80), (3, 1, 64, 80)]
-    assert {time for time, _ in heard(piece(tmp_path, *outer, inner))} == {0.0}
+    assert {time for time, _ in rhythm_of(piece(tmp_path, *outer, inner))} == {0.0}
 
 
 @pytest.mark.parametrize(
@@ -69,29 +69,29 @@ def test_a_voice_in_the_middle_is_not_heard(tmp_path):
 )
 def test_what_is_louder_fuller_or_longer_is_an_accent(tmp_path, accented):
     even = [(at, 0.5, 72, 80) for at in range(8) if at != 4]
-    found = heard(piece(tmp_path, [*even, *accented]))
+    found = rhythm_of(piece(tmp_path, [*even, *accented]))
     assert [time for time, sound in found if sound == 38] == [4.0]
-    assert not [sound for _, sound in heard(piece(tmp_path, [*even, (4, 0.5, 72, 80)])) if sound == 38]
+    assert not [sound for _, sound in rhythm_of(piece(tmp_path, [*even, (4, 0.5, 72, 80)])) if sound == 38]
 
 
 def test_a_phrase_begins_after_a_beat_of_silence(tmp_path):
     notes = [(at, 0.5, 72, 80) for at in (0, 1, 3, 4, 4.5, 6)]
-    assert [time for time, sound in heard(piece(tmp_path, notes)) if sound == 49] == [0.0, 3.0, 6.0]
+    assert [time for time, sound in rhythm_of(piece(tmp_path, notes)) if sound == 49] == [0.0, 3.0, 6.0]
 
 
 def test_a_low_note_of_one_voice_is_its_bass(tmp_path):
     notes = [(at, 0.5, pitch, 80) for at, pitch in zip(np.arange(8) / 2.0, [60, 67, 72, 67] * 2, strict=True)]
-    assert [time for time, sound in heard(piece(tmp_path, notes)) if sound == 36] == [0.0, 2.0]
+    assert [time for time, sound in rhythm_of(piece(tmp_path, notes)) if sound == 36] == [0.0, 2.0]
 
 
 def test_notes_of_a_chord_that_is_not_quite_together_are_one_moment(tmp_path):
-    found = heard(piece(tmp_path, [(0, 1, 60, 60), (0.03, 1, 64, 100), (0.05, 1, 72, 50)]))
+    found = rhythm_of(piece(tmp_path, [(0, 1, 60, 60), (0.03, 1, 64, 100), (0.05, 1, 72, 50)]))
     assert found == [(0.0, 36), (0.0, 46), (0.0, 49)]
     rhythm = derived_rhythm(uncast_score(read_contents(tmp_path / "piece.mid")))
     assert rhythm.strengths == pytest.approx([100 / 127] * 3)
 
 
-def test_percussion_is_heard_where_there_is_any(tmp_path):
+def test_percussion_is_used_where_there_is_any(tmp_path):
     notes = [(0, 1, 60, 80)]
     with_drums = audible_rhythm(piece(tmp_path, notes, drums=(1.0,)))
     assert not with_drums.derived

@@ -20,7 +20,7 @@ def test_count_is_the_slow_count():
     transition, emission, initial = count(states, symbols, n_states, smoothing=0.7)
 
     pairs = [pair for clip in states for pair in pairwise(clip.tolist())]
-    heard = [
+    observed = [
         (state, symbol)
         for clip, its_symbols in zip(states, symbols, strict=True)
         for state, some in zip(clip.tolist(), its_symbols, strict=True)
@@ -32,9 +32,9 @@ def test_count_is_the_slow_count():
         for j in range(n_states):
             expected = (pairs.count((i, j)) + 0.7 / n_states) / (left + 0.7)
             assert transition[i, j] == pytest.approx(expected, rel=1e-12)
-        sounding = sum(a == i for a, _ in heard)
+        sounding = sum(a == i for a, _ in observed)
         for o in range(len(SYMBOLS)):
-            expected = (heard.count((i, o)) + 0.7 / len(SYMBOLS)) / (sounding + 0.7)
+            expected = (observed.count((i, o)) + 0.7 / len(SYMBOLS)) / (sounding + 0.7)
             assert emission[i, o] == pytest.approx(expected, rel=1e-12)
         assert initial[i] == pytest.approx((first.count(i) + 0.7 / n_states) / (len(first) + 0.7), rel=1e-12)
 

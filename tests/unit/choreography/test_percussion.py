@@ -89,7 +89,7 @@ def test_a_pickup_has_the_last_beats_of_its_bar(tmp_path):
 
 
 @pytest.mark.skipif(not DRUMS.is_dir(), reason="no drum recordings here")
-def test_recorded_drums_are_heard_whole():
+def test_recorded_drums_are_used_whole():
     """Every note of these recordings is a sound of General MIDI or an edge of the hi-hat."""
     files = sorted(DRUMS.glob("*.mid"), key=lambda path: path.stat().st_size)[:3]
     assert files

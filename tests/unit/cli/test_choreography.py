@@ -108,8 +108,8 @@ def test_a_pair_is_learned(swings: Path, drums: Path, tmp_path: Path, capsys: py
     model = read_model(target)
     assert (model.name, model.sources[0].credits) == ("swings", "Danced by nobody, public domain")
     # Bass and snare drum in turn, as setting off and arriving.
-    heard = model.emission[:, [36 - 35, 38 - 35]]
-    assert heard.argmax(axis=1).tolist() == [0, 1, 0, 1]
+    emission = model.emission[:, [36 - 35, 38 - 35]]
+    assert emission.argmax(axis=1).tolist() == [0, 1, 0, 1]
     # The file of the motion is the motion again.
     assert np.abs(model.clips[0].rotations - arm_swings(60).rotations).max() < 1e-5
 

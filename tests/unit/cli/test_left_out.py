@@ -122,7 +122,6 @@ def test_everyone_bad_is_one_error_that_names_them_all(
 def test_a_complete_export_says_so(own: OwnFolders, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["export", saved(small_project(), tmp_path), "--to", str(tmp_path / "out"), *BVH]) == 0
     reported = "".join(capsys.readouterr())
-    assert "left out" not in reported
     assert "excluded" not in reported
     assert json.loads((tmp_path / "out" / "report.json").read_text("utf-8"))["left_out"] == []
 
@@ -162,7 +161,7 @@ def test_the_others_are_inspected(
     assert main(["inspect", path]) == PARTIAL
     printed = capsys.readouterr().out
     assert "trombone " in printed
-    assert "left out:" in printed
+    assert "excluded:" in printed
     assert reason in printed
 
 
@@ -177,12 +176,12 @@ def test_who_has_no_body_is_inspected_all_the_same(
     assert any(warning.startswith("trumpet: ") and reason in warning for warning in found["warnings"])
 
 
-def test_a_midi_file_has_everybody(own: OwnFolders, tmp_path: Path) -> None:
+def test_a_midi_file_has_all_players(own: OwnFolders, tmp_path: Path) -> None:
     project = with_instrument(with_character(small_project(), 0, "nobody"), 1, "ophicleide")
     assert main(["midi", saved(project, tmp_path), "--to", str(tmp_path / "out.mid")]) == 0
 
 
-def test_the_sound_has_everybody_who_has_notes(own: OwnFolders, tmp_path: Path) -> None:
+def test_the_sound_has_all_players_with_notes(own: OwnFolders, tmp_path: Path) -> None:
     project = with_instrument(small_project(), 0, "ophicleide")
     arguments = ["export", saved(project, tmp_path), "--to", str(tmp_path / "out"), *BVH, "--sound"]
     assert main(arguments) == PARTIAL

@@ -135,7 +135,7 @@ def test_an_unknown_player_is_reported_who_there_is(run: Run) -> None:
     assert all(name in err for name in names)
 
 
-def test_inspect_tells_the_markers(run: Run, tmp_path: Path) -> None:
+def test_inspect_lists_the_markers(run: Run, tmp_path: Path) -> None:
     file = mido.MidiFile(QUARTET)
     file.tracks.append(mido.MidiTrack([mido.MetaMessage("marker", text="A", time=file.ticks_per_beat)]))
     file.save(tmp_path / "marked.mid")
@@ -158,7 +158,7 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
             "name",
             "instrument",
             "part",
-            "person",
+            "musician",
             "notes",
             "breaths",
             "cues",
@@ -187,7 +187,7 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
     assert [len(player["cues"]) > 0 for player in found["players"]].count(True) >= 1
 
 
-def test_inspect_tells_articulation_bends_and_dynamics(run: Run, tmp_path: Path) -> None:
+def test_inspect_lists_articulation_bends_and_dynamics(run: Run, tmp_path: Path) -> None:
     track = mido.MidiTrack([mido.MetaMessage("track_name", name="Trumpet")])
     # Tongued, slurred into the next, staccato, and one that is soft and falls.
     for pitch, velocity, lasts, pause in (

@@ -49,7 +49,7 @@ def test_inspect_shows_the_corrections_of_a_project(run: Run, project: Path) -> 
     assert json.loads(out)["players"][0]["notes"][2]["fingering"] == "3"
 
 
-def test_inspect_tells_of_dancers(run: Run, tmp_path: Path) -> None:
+def test_inspect_lists_dancers(run: Run, tmp_path: Path) -> None:
     danced, _ = add_dancer(small_project(), tmp_path / "salsa.choreography", "Ana", "woman_adult")
     danced = place_dancers(danced, {"dancer:1": StagePosition(1.5, 3.0, math.pi / 2.0)})
     save(danced, tmp_path / "danced.suisou")

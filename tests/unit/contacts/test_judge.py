@@ -172,7 +172,7 @@ def all_made(live: LiveMotion) -> None:
 
 
 @pytest.mark.parametrize("budget_bytes", [1 << 28, 1 << 20], ids=["room for all", "hardly any room"])
-def test_live_motion_tells_as_it_is_made_and_again_after_an_edit(budget_bytes: int) -> None:
+def test_live_motion_reports_as_it_is_made_and_again_after_an_edit(budget_bytes: int) -> None:
     project = project_of(LUTKIN)
     player = project.players[0]
     first = Performance(project)

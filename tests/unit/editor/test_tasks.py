@@ -162,7 +162,7 @@ def test_what_the_work_knew_dies_in_the_window_s_thread_alone(qtbot: QtBot) -> N
     assert set(died) == {threading.get_ident()}
 
 
-def test_whoever_was_closed_meanwhile_is_reported_nothing(tasks: ThreadTasks, qtbot: QtBot) -> None:
+def test_a_closed_owner_gets_no_reports(tasks: ThreadTasks, qtbot: QtBot) -> None:
     faults: list[BaseException] = []
     tasks.unexpected.connect(faults.append)
 

@@ -65,16 +65,16 @@ def test_the_same_file_differs_in_nothing() -> None:
 @pytest.mark.parametrize(
     ("change", "expected"),
     [
-        (lambda f: renamed(f, HAND, "Hand_L"), Difference("additional", HAND, grave=True)),
-        (lambda f: renamed(f, "hair_2", "Braid"), Difference("additional", "hair_2", grave=False)),
-        (lambda f: renamed(f, "hair_2", "Braid"), Difference("missing", "Braid", grave=False)),
+        (lambda f: renamed(f, HAND, "Hand_L"), Difference("additional", HAND, severe=True)),
+        (lambda f: renamed(f, "hair_2", "Braid"), Difference("additional", "hair_2", severe=False)),
+        (lambda f: renamed(f, "hair_2", "Braid"), Difference("missing", "Braid", severe=False)),
         (lambda f: renamed(f, "Reference", "Rig"), Difference("root", "Reference", True, "Reference", "Rig")),
         (lambda f: hung(f, HAIR, PREFIX + "neck"), Difference("parent", HAIR, True, "hair_0", PREFIX + "neck")),
-        (lambda f: shifted(f, HEAD, 0.004), Difference("position", HEAD, grave=False, amount=4.0)),
-        (lambda f: turned(f, HEAD, 2.5), Difference("rotation", HEAD, grave=False, amount=2.5)),
+        (lambda f: shifted(f, HEAD, 0.004), Difference("position", HEAD, severe=False, amount=4.0)),
+        (lambda f: turned(f, HEAD, 2.5), Difference("rotation", HEAD, severe=False, amount=2.5)),
         (
             lambda f: replace(f, translations_m=f.translations_m / 100.0),
-            Difference("unit", "", grave=True, amount=100.0),
+            Difference("unit", "", severe=True, amount=100.0),
         ),
     ],
 )
@@ -82,13 +82,13 @@ def test_what_differs_is_found(change: Callable[[Figure], Figure], expected: Dif
     target, figure = exported()
     found = check_skeleton(target, change(figure))
     assert expected in found
-    assert [difference.grave for difference in found] == sorted((d.grave for d in found), reverse=True)
+    assert [difference.severe for difference in found] == sorted((d.severe for d in found), reverse=True)
 
 
 def test_a_unit_that_the_reader_corrected_is_still_the_assets() -> None:
     target, figure = exported()
     corrected = replace(figure, notes=(Message("figure.scaled", {"file": "x", "height_m": 0.017, "factor": 100.0}),))
-    assert check_skeleton(target, corrected)[0] == Difference("unit", "", grave=True, amount=100.0)
+    assert check_skeleton(target, corrected)[0] == Difference("unit", "", severe=True, amount=100.0)
 
 
 def test_a_little_is_nothing() -> None:
@@ -100,7 +100,7 @@ def test_an_asset_with_several_roots_is_not_ours() -> None:
     character = foreign(character_named("woman_adult"), roots=2)
     assert character.own is not None
     found = check_skeleton(own_target(character), character.own.figure)
-    assert found[0] == Difference("root", "root", grave=True, ours="root", theirs="Reference, prop_1")
+    assert found[0] == Difference("root", "root", severe=True, ours="root", theirs="Reference, prop_1")
 
 
 def test_it_is_reported_in_words() -> None:

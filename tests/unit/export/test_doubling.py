@@ -1,4 +1,4 @@
-"""Files of one person who plays two instruments, read back."""
+"""Files of one musician who plays two instruments, read back."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Report]:
     return folder, exported(flutist(beside=False), folder, 1)
 
 
-def test_whoever_is_asked_for_one_character_and_both_instruments_are_written(written: tuple[Path, Report]) -> None:
+def test_for_either_player_one_character_and_both_instruments_are_written(written: tuple[Path, Report]) -> None:
     folder, report = written
     assert {path.name for path in folder.iterdir()} == {
         *(f"{stem}.{suffix}" for stem in ("Flute", "Flute_flute", "Flute_piccolo") for suffix in ("fbx", "glb")),
@@ -94,7 +94,7 @@ def test_what_is_not_played_lies_still_in_the_files(written: tuple[Path, Report]
         assert np.ptp(place_cm, axis=0).max() > 20.0
 
 
-def test_an_instrument_that_is_not_there_is_left_out_and_the_person_plays_on(tmp_path: Path) -> None:
+def test_an_instrument_that_is_not_there_is_left_out_and_the_musician_plays_on(tmp_path: Path) -> None:
     project = flutist(beside=False)
     project = edit.change(project, (project.players[1].id,), instrument_id="no_such_thing")
     report = exported(project, tmp_path / "out", 0, frozenset(("glb",)))

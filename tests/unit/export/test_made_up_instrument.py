@@ -77,7 +77,7 @@ def test_it_is_held_as_the_map_says(played: Played) -> None:
         assert hand.penetration_m <= 0.0035
 
 
-def test_every_finger_is_where_its_note_wants_it(played: Played) -> None:
+def test_every_finger_is_on_its_control(played: Played) -> None:
     for name, spread in played.measures.contacts.items():
         assert spread.frames, name
         assert spread.kept, (name, spread)

@@ -36,7 +36,7 @@ def test_nothing_is_left_of_a_write_that_failed(error: type[BaseException], tmp_
     assert list(tmp_path.iterdir()) == [target]
 
 
-def test_a_full_disk_is_an_error_a_person_can_act_on(tmp_path: Path) -> None:
+def test_a_full_disk_is_an_error_a_user_can_act_on(tmp_path: Path) -> None:
     with pytest.raises(FileError) as raised, atomic_write(tmp_path / "take.fbx"):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
     assert raised.value.message.id == "file.cannot_write"

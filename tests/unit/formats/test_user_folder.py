@@ -1,4 +1,4 @@
-"""A person's folder laid over what is bundled: after any edits of its files the last good version of each is in use."""
+"""A user's folder laid over what is bundled: after any edits of its files the last good version of each is in use."""
 
 from __future__ import annotations
 

@@ -124,7 +124,7 @@ ja = "私の"
 """
 
 
-def test_the_other_lines_of_a_persons_file_stay(tmp_path: Path) -> None:
+def test_the_other_lines_of_a_users_file_stay(tmp_path: Path) -> None:
     path = tmp_path / "trumpet_Bb.toml"
     path.write_text(OWN, "utf-8")
     mine = load_map(path)

@@ -89,7 +89,7 @@ def test_a_setting_of_the_piece_costs_what_it_changes(
         assert np.array_equal(one.rotations, other.rotations)
 
 
-def test_everybody_is_right_at_the_playhead_before_anything_else_is_made(performance: Performance) -> None:
+def test_all_players_are_made_at_the_playhead_first(performance: Performance) -> None:
     live = LiveMotion(performance)
     players = [player.id for player in performance.project.players]
     live.want(8.0, 4.0, (players[2],))

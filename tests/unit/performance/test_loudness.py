@@ -56,9 +56,9 @@ def test_expression_scales_what_the_velocities_say() -> None:
 def test_what_was_not_blown_sounds_by_its_velocity_and_the_rest_as_it_was_blown() -> None:
     breath = ControllerCurve("breath", (0, 10, 20, 45, 60), (0.4, 0.6, 0.0, 0.01, 0.5))
     made = part([(0, 20), (20, 10), (30, 10), (40, 10), (60, 10)], breath)
-    heard_as = sounding_curve(made)
-    assert heard_as is not None
-    ticks, values = np.array(heard_as.ticks), np.array(heard_as.values)
+    sounding = sounding_curve(made)
+    assert sounding is not None
+    ticks, values = np.array(sounding.ticks), np.array(sounding.values)
     each = [values[max(int(np.searchsorted(ticks, tick, side="right")) - 1, 0)] for tick in range(70)]
     assert each == [0.4] * 10 + [0.6] * 10 + [0.63] * 30 + [0.01] * 10 + [0.5] * 10
     assert note_loudness(made) == pytest.approx((0.5, 0.63, 0.63, 0.63, 0.5))

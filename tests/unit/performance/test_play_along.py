@@ -178,28 +178,28 @@ def test_where_the_breath_pauses_long_enough_one_breathes_in_and_shuts_the_mouth
 
 
 def test_midi_messages_say_the_same() -> None:
-    reported, heard = along(), along()
+    by_calls, by_messages = along(), along()
     wiring = ControllerMapping(channel=1, breath="cc2", bite="cc1")
-    reported.breath(1.0, 100 / 127)
-    reported.note_on(1.0, 61, 90)
-    reported.bite(1.1, 40 / 127)
-    reported.bend(1.1, 0.25)
-    reported.note_on(1.2, 63, 90)
-    reported.note_off(1.2, 61)
+    by_calls.breath(1.0, 100 / 127)
+    by_calls.note_on(1.0, 61, 90)
+    by_calls.bite(1.1, 40 / 127)
+    by_calls.bend(1.1, 0.25)
+    by_calls.note_on(1.2, 63, 90)
+    by_calls.note_off(1.2, 61)
     messages = [
         (1.0, "b00264"), (1.0, "903d5a"), (1.1, "b00128"), (1.1, "e00050"), (1.2, "903f5a"), (1.2, "903d00"),
         # Another channel's, a clock, a broken one, and one that says nothing here.
         (1.2, "914050"), (1.2, "f8"), (1.2, "90"), (1.2, "b04000"),
     ]  # fmt: skip
     for time_s, raw in messages:
-        heard.hear(time_s, raw, wiring)
-    one, other = reported.pose(1.3), heard.pose(1.3)
+        by_messages.receive(time_s, raw, wiring)
+    one, other = by_calls.pose(1.3), by_messages.pose(1.3)
     np.testing.assert_array_equal(one.rotations, other.rotations)
     assert one.morphs == other.morphs
     assert one.controls == other.controls
-    heard.hear(2.0, "b07b00", wiring)
-    looked(heard, 2.0, 1.2)
-    assert heard.fingering is None
+    by_messages.receive(2.0, "b07b00", wiring)
+    looked(by_messages, 2.0, 1.2)
+    assert by_messages.fingering is None
 
 
 def test_time_does_not_run_backwards() -> None:

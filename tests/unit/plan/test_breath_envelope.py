@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.performance.loudness import heard, note_loudness
+from app.performance.loudness import controller_input, note_loudness
 from app.plan.breath_envelope import BLOWS_FROM, STOPS_AT, blown, find_gaps, silences
 from app.plan.corrections import RemoveEvent, SetBreath
 from app.plan.generate import MonophonicPart, make_plans, time_frame
@@ -32,7 +32,7 @@ def plan_of(part: Part, corrections: tuple[object, ...] = (), **parameters: floa
         PlayerParameters(**parameters),  # type: ignore[arg-type]
         corrections,  # type: ignore[arg-type]
         note_loudness(part),
-        heard(part),
+        controller_input(part),
     )
     return make_plans(piece_of(TEMPO), (line,), time_frame((line,), TEMPO))["p"]
 
@@ -162,7 +162,7 @@ def test_who_never_stopped_blowing_takes_no_breath_and_is_reported() -> None:
     assert "breath.too_long" in [problem.message.id for problem in plan.problems]
 
 
-def test_a_curve_drawn_for_the_dynamics_tells_no_breaths() -> None:
+def test_a_curve_drawn_for_the_dynamics_has_no_breath_gaps() -> None:
     drawn = ControllerCurve("expression", (0, ticks(3.0), ticks(5.0)), (0.5, 0.9, 0.4))
     with_it, without = plan_of(take(NOTES, drawn)), plan_of(take(NOTES))
     places = [(event.id, event.start_s, event.end_s) for event in with_it.breaths]
@@ -177,7 +177,7 @@ def test_curves_that_do_not_move_change_nothing() -> None:
         ControllerCurve("bite", (5,), (0.5,)),
     ]
     part = take(NOTES, *levels)
-    assert heard(part) is None
+    assert controller_input(part) is None
     assert plan_of(part) == plan_of(take(NOTES))
 
 
@@ -190,10 +190,10 @@ def test_corrections_win() -> None:
 
 def test_air_is_what_the_curve_took() -> None:
     part = take(NOTES, breath_curve(BLOWS, noise=0))
-    line = MonophonicPart("p", part.notes, TRUMPET, loudness=note_loudness(part), heard=heard(part))
-    assert line.heard is not None
-    assert line.heard.breath is not None
-    breath, times = blown(line.heard.breath, TEMPO), line_times(line, TEMPO)
+    line = MonophonicPart("p", part.notes, TRUMPET, loudness=note_loudness(part), controller=controller_input(part))
+    assert line.controller is not None
+    assert line.controller.breath is not None
+    breath, times = blown(line.controller.breath, TEMPO), line_times(line, TEMPO)
     used = air_used_s(times, None, breath)
     # Millisecond by millisecond, from the same curve.
     at = np.arange(0.0, 9.0, 0.001)
@@ -205,11 +205,11 @@ def test_air_is_what_the_curve_took() -> None:
 
 def test_gaps_serve_the_note_they_come_before() -> None:
     part = take(NOTES, breath_curve(BLOWS))
-    line = MonophonicPart("p", part.notes, TRUMPET, heard=heard(part))
-    assert line.heard is not None
-    assert line.heard.breath is not None
+    line = MonophonicPart("p", part.notes, TRUMPET, controller=controller_input(part))
+    assert line.controller is not None
+    assert line.controller.breath is not None
     times = line_times(line, TEMPO)
-    gaps = silences(blown(line.heard.breath, TEMPO), times)
+    gaps = silences(blown(line.controller.breath, TEMPO), times)
     assert np.flatnonzero(gaps.length_s > 0).tolist() == [4, 5, 6, 7]
     assert (gaps.end_s[4:] <= times.onset_s[4:]).all()
 

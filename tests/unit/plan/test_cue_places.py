@@ -223,8 +223,8 @@ def cues_of(row: Row) -> list[tuple[float, str, float]]:
             for number, (onset, length, pitch) in enumerate(notes, 1)
         )
         lines.append(MonophonicPart(name, tuple(made), MAPS[map_id]))
-    heard = sounding_spans(((round(at * Q), round((at + length) * Q)) for at, length, _ in row.unplayed), Q)
-    piece = piece_of(clock, metres, felt, bool(first), heard)
+    spans = sounding_spans(((round(at * Q), round((at + length) * Q)) for at, length, _ in row.unplayed), Q)
+    piece = piece_of(clock, metres, felt, bool(first), spans)
     plans = make_plans(piece, tuple(lines), time_frame(tuple(lines), clock))
     cues = sorted((cue for plan in plans.values() for cue in plan.cues), key=lambda cue: cue.end_tick)
     return [(cue.end_tick / Q, cue.player_id, cue.end_s - cue.peak_s) for cue in cues]

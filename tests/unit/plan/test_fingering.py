@@ -65,7 +65,7 @@ def test_a_trill_shares_valves() -> None:
     assert {event.rank for event in slow} == {1}
 
 
-def test_no_trill_is_fast_enough_for_what_hardly_anybody_takes() -> None:
+def test_no_trill_is_fast_enough_for_a_rare_fingering() -> None:
     # 63 on 1 and 64 on 2: 64 on 123 would be as few fingers, and none in contrary motion.
     for step_tick in (60, 120):
         events, _ = plan(even([63, 64] * 6, step_tick, start_tick=480), TRUMPET, bpm=120.0)

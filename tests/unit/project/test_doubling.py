@@ -1,4 +1,4 @@
-"""One person who plays several instruments: what belongs to the person, joining, separating and what is refused."""
+"""One musician who plays several instruments: what belongs to the musician, joining, separating and what is refused."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def body(player: Player) -> tuple[object, ...]:
     return player.character_id, player.parameters, player.stage
 
 
-def test_a_track_that_changes_instruments_is_cast_as_one_person() -> None:
+def test_a_track_that_changes_instruments_is_cast_as_one_musician() -> None:
     project = flutist()
     flute, piccolo, oboe = project.players
     assert [player.doubles for player in project.players] == ["", flute.id, ""]
@@ -41,7 +41,7 @@ def test_a_track_that_changes_instruments_is_cast_as_one_person() -> None:
     assert [player.character_id for player in project.bodies] == [player.character_id for player in alone.players]
 
 
-def test_parts_that_sound_at_once_or_ask_for_other_postures_are_two_persons() -> None:
+def test_parts_that_sound_at_once_or_ask_for_other_postures_are_two_musicians() -> None:
     at_once = (
         part("flute", "Flute", 0, notes(1, 1, (0, 1), (72,))),
         part("piccolo", "Piccolo", 1, notes(1, 9, (1, 2), (86,))),
@@ -66,7 +66,7 @@ def test_how_long_lines_sound_at_once_counts_every_moment_once() -> None:
     assert together_s([short], long, clock) == together_s([long], short, clock)
 
 
-def test_what_is_changed_of_one_instrument_is_changed_of_the_person() -> None:
+def test_what_is_changed_of_one_instrument_is_changed_of_the_musician() -> None:
     project = flutist()
     flute, piccolo, oboe = (player.id for player in project.players)
     changes = [
@@ -102,7 +102,7 @@ def test_joining_is_refused_where_both_sound() -> None:
     assert edit.join(project, "2.1.17", "2.1.1").player("2.1.17").doubles == "2.1.1"
 
 
-def test_a_person_whose_first_instrument_goes_keeps_the_next() -> None:
+def test_a_musician_whose_first_instrument_goes_keeps_the_next() -> None:
     project = flutist()
     flute, piccolo, _ = (player.id for player in project.players)
     left = edit.remove_players(project, (flute,))
@@ -110,7 +110,7 @@ def test_a_person_whose_first_instrument_goes_keeps_the_next() -> None:
     assert len(left.bodies) == 2
 
 
-def test_a_copy_of_both_is_another_person_and_a_copy_of_one_has_a_body() -> None:
+def test_a_copy_of_both_is_another_musician_and_a_copy_of_one_has_a_body() -> None:
     project = flutist()
     flute, piccolo, _ = (player.id for player in project.players)
     both, (first, second) = edit.duplicate_players(project, (flute, piccolo))
@@ -140,18 +140,18 @@ def test_a_reimport_keeps_it_and_casts_a_new_change_so() -> None:
     assert len(fresh.bodies) == 2
 
 
-def test_a_setting_of_one_instrument_is_one_of_the_person() -> None:
+def test_a_setting_of_one_instrument_is_one_of_the_musician() -> None:
 
     project = flutist()
     changed = with_settings(project, [Setting(1, "amplitude", 0.77)], MAPS)
     assert [player.parameters.amplitude for player in changed.players[:2]] == [0.77, 0.77]
 
 
-def test_a_posture_fits_everything_that_one_person_plays() -> None:
+def test_a_posture_fits_everything_that_one_musician_plays() -> None:
     seated_only = next(id for id, one in MAPS.items() if one.hold.postures == ("seated",))
     project = flutist()
     flute, piccolo, _ = (player.id for player in project.players)
     assert project.player(flute).parameters.posture == "standing"
     changed = edit.change(project, (piccolo,), instrument_id=seated_only)
     assert [changed.player(id).parameters.posture for id in (flute, piccolo)] == ["seated", "seated"]
-    assert edit.postures_of_person(changed, changed.player(flute)) == ("seated",)
+    assert edit.postures_of_musician(changed, changed.player(flute)) == ("seated",)

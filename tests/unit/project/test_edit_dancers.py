@@ -43,7 +43,7 @@ def test_a_dancer_is_cast_beside_the_players(pair: Project) -> None:
 
 
 @pytest.mark.parametrize("instruments", [[], ["trombone_tenor_F_attachment"], sorted(MAPS)[:20]])
-def test_dancers_have_room_whoever_plays(instruments: list[str]) -> None:
+def test_dancers_have_room_beside_any_instruments(instruments: list[str]) -> None:
     project = replace(small_project(), players=())
     for instrument in instruments:
         project, _ = edit_players.add_player(project, MAPS[instrument], MAPS, "")

@@ -192,10 +192,10 @@ def test_settings_at_once_are_those_one_by_one(project: Project) -> None:
 
 
 def test_recordings_and_their_offset(project: Project, tmp_path: Path) -> None:
-    heard = edit.set_audio(project, tmp_path / "sub" / ".." / "take.wav")
-    assert heard.audio is not None
-    assert heard.audio.path == str(tmp_path / "take.wav")
-    estimated = edit.set_offset(heard, -0.5, 0.9)
+    with_audio = edit.set_audio(project, tmp_path / "sub" / ".." / "take.wav")
+    assert with_audio.audio is not None
+    assert with_audio.audio.path == str(tmp_path / "take.wav")
+    estimated = edit.set_offset(with_audio, -0.5, 0.9)
     assert estimated.audio is not None
     assert (estimated.audio.offset_s, estimated.audio.confidence) == (-0.5, 0.9)
     by_hand = edit.set_offset(estimated, -0.5)

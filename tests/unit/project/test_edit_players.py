@@ -163,7 +163,7 @@ def test_who_leaves_takes_the_corrections_along_but_not_the_music(trio: Project)
     assert edit.remove_players(more, (player_id,)) == trio
 
 
-def test_the_order_is_the_persons_and_the_arc_follows(trio: Project) -> None:
+def test_the_order_is_the_users_and_the_arc_follows(trio: Project) -> None:
     first, second, low = (player.id for player in trio.players)
     turned = edit.move_players(trio, (first, second), 3)
     assert names(turned) == ["Low", "First", "Second"]

@@ -30,7 +30,7 @@ def test_what_is_typed(typed: str, rate: Fraction) -> None:
     assert frame_rate(typed) == rate
 
 
-def test_usual_rates_are_shown_as_everybody_writes_them() -> None:
+def test_usual_rates_are_shown_as_usually_written() -> None:
     shown = [frame_rate_text(rate) for rate in USUAL_RATES]
     assert shown == ["23.976", "24", "25", "29.97", "30", "48", "50", "59.94", "60", "120"]
 

@@ -36,7 +36,7 @@ def apart(one: np.ndarray, other: np.ndarray) -> bool:
 
 
 @pytest.mark.parametrize("count", [2, 3, 5, 12, 13, 28, 30, 50])
-def test_no_one_is_in_anybodys_way(count: int) -> None:
+def test_no_seats_overlap(count: int) -> None:
     taken = [footprint(MAPS[index * 7 % len(MAPS)]) for index in range(count)]
     boxes = [corners(place, own) for place, own in zip(stage_seats(taken), taken, strict=True)]
     for (place, one), (index, other) in combinations(enumerate(boxes), 2):

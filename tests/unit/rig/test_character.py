@@ -44,7 +44,7 @@ def test_an_unknown_character_is_refused() -> None:
         character_named("nobody")
 
 
-def test_one_of_ours_that_another_program_has_written_is_read_as_anybodys(tmp_path: Path) -> None:
+def test_our_file_rewritten_by_another_program_is_read_as_any_file(tmp_path: Path) -> None:
     """Its landmarks came along, but vertices may be others."""
     data = bundled_characters()["man_adult"].read_bytes()
     changed = tmp_path / "changed.glb"

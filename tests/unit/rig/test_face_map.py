@@ -200,7 +200,7 @@ def test_order_prefixes_and_other_morphs_change_nothing(table: str, seed: int, p
     }
 
 
-def test_a_person_has_the_last_word() -> None:
+def test_the_users_choice_wins() -> None:
     figure = face_of(["Mouth_A", "Mouth_O", "Blink"])
     mapping = map_morphs(figure, {"jawOpen": {"Mouth_O": 0.5, "Mouth_A": 0.25}, "eyeBlinkLeft": {}})
     assert mapping.morphs["jawOpen"] == {"Mouth_O": 0.5, "Mouth_A": 0.25}

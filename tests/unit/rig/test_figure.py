@@ -331,7 +331,7 @@ def test_every_required_joint_is_asked_for_by_name(ours: Character, tmp_path: Pa
 
 
 @pytest.mark.parametrize("turn", [(0, 180, 0), (0, 90, 0), (90, 0, 0), (-90, 0, 180), (0, 37, 0)])
-def test_whoever_lies_or_looks_aside_is_stood_up(
+def test_a_lying_or_turned_figure_is_stood_up(
     ours: Character, tmp_path: Path, turn: tuple[float, float, float]
 ) -> None:
     made = foreign(ours)
@@ -359,7 +359,7 @@ def mixamo(name: str) -> str:
     return f"mixamorig:{side.capitalize()}{known.get(part, part[:1].upper() + part[1:])}"
 
 
-def test_whoever_faces_away_is_turned_and_keeps_the_sides(ours: Character, tmp_path: Path) -> None:
+def test_a_figure_that_faces_away_is_turned_and_keeps_its_sides(ours: Character, tmp_path: Path) -> None:
     made = foreign(ours, rename=mixamo)
     about = np.diag([-1.0, 1.0, -1.0, 1.0])
     turned = [

@@ -320,7 +320,7 @@ def test_what_the_file_says_wins_over_names() -> None:
     assert names["rightEye"] == "eye.R"
 
 
-def test_a_person_has_the_last_word() -> None:
+def test_the_users_choice_wins() -> None:
     bones = listed("unreal5")
     requested = {"chest": "spine_02", "leftThumbDistal": "", "jaw": "neck_02"}
     mapping = map_joints(figure_of(bones), requested)

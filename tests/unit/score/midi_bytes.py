@@ -48,7 +48,7 @@ def one_track(events: bytes, *, format_: int = 1, division: int = 96) -> Score:
     return score_of(header(format_, 1, division) + chunk(b"MTrk", events + END))
 
 
-def heard(score: Score) -> list[tuple[int, int, int]]:
+def notes_of(score: Score) -> list[tuple[int, int, int]]:
     """All notes of all parts as (onset, duration, pitch), sorted."""
     return sorted((n.onset_tick, n.duration_tick, n.pitch) for part in score.parts for n in part.notes)
 

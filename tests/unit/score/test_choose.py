@@ -161,7 +161,7 @@ def test_a_track_without_any_name_is_what_the_file_is_called() -> None:
     assert [part.map_id for part in mixed.parts] == ["cornet_Bb", "cornet_Bb", "trombone_tenor_F_attachment"]
 
 
-def test_the_files_name_is_not_heard_where_a_track_says_something_or_does_not_fit() -> None:
+def test_the_files_name_is_ignored_where_a_track_says_something_or_does_not_fit() -> None:
     assert [part.map_id for part in score(("Oboe", (60, 70)), stem="trumpet").parts] == ["oboe"]
     (part,) = score(("", (36, 50)), stem="trumpet tune").parts
     assert (part.map_id == "trumpet_Bb", part.instrument) == (False, None)

@@ -114,6 +114,6 @@ def test_a_row_of_the_import_is_one_instruments(tmp_path: Path) -> None:
     rows = usual_rows(contents, bundled_maps())
     other = ImportRow(rows[1].assignment, character_id="somebody")
     project = import_project(contents, [rows[0], other], bundled_maps())
-    # One person plays both, and so is who was chosen for either.
+    # One musician plays both, and so is who was chosen for either.
     assert [player.character_id == "somebody" for player in project.players] == [True, True]
     assert len(project.bodies) == 1

@@ -11,7 +11,7 @@ from app.score.limits import LAST_TICK, MOST_NAME, MOST_PARTS, MOST_STREAMS
 from app.score.metre_map import Metre
 from app.score.model import MOST_VOICES, Marker, PercussionHit
 from app.score.read import read_contents, read_midi, uncast_score
-from tests.unit.score.midi_bytes import END, MAPS, chunk, header, heard, ids, meta, note, one_track, score_of
+from tests.unit.score.midi_bytes import END, MAPS, chunk, header, ids, meta, note, notes_of, one_track, score_of
 
 SCALE = [60, 62, 64, 65]
 SCALE_NOTES = [(48 * index, 48, pitch) for index, pitch in enumerate(SCALE)]
@@ -30,35 +30,35 @@ def error_of(data: bytes) -> FileError:
 
 def test_a_scale() -> None:
     score = one_track(SCALE_BYTES)
-    assert heard(score) == SCALE_NOTES
+    assert notes_of(score) == SCALE_NOTES
     assert [n.id for n in score.parts[0].notes] == ["1:1", "1:2", "1:3", "1:4"]
     assert [n.velocity for n in score.parts[0].notes] == [64] * 4
 
 
 def test_note_on_without_velocity_is_a_note_off_and_running_status_holds() -> None:
-    assert heard(one_track(bytes([0, 0x90, 60, 64, 48, 60, 0, 0, 62, 64, 48, 62, 0]))) == SCALE_NOTES[:2]
+    assert notes_of(one_track(bytes([0, 0x90, 60, 64, 48, 60, 0, 0, 62, 64, 48, 62, 0]))) == SCALE_NOTES[:2]
 
 
 def test_off_and_on_at_one_tick_are_two_notes_in_either_order() -> None:
     off_first = bytes([0, 0x90, 60, 64, 48, 60, 0, 0, 60, 64, 48, 60, 0])
     on_first = bytes([0, 0x90, 60, 64, 48, 60, 64, 0, 60, 0, 48, 60, 0])
-    assert heard(one_track(off_first)) == heard(one_track(on_first)) == [(0, 48, 60), (48, 48, 60)]
+    assert notes_of(one_track(off_first)) == notes_of(one_track(on_first)) == [(0, 48, 60), (48, 48, 60)]
 
 
 def test_overlapping_notes_of_one_pitch_end_first_in_first_out() -> None:
     score = one_track(bytes([0, 0x90, 60, 64, 24, 60, 64, 24, 60, 0, 24, 60, 0]))
-    assert heard(score) == [(0, 48, 60), (24, 48, 60)]
+    assert notes_of(score) == [(0, 48, 60), (24, 48, 60)]
 
 
 def test_notes_without_end_end_with_the_track_and_notes_without_length_last_a_tick() -> None:
     score = one_track(bytes([0, 0x90, 60, 64, 0, 62, 64, 0, 62, 0]) + meta(1, b"", 96))
-    assert heard(score) == [(0, 1, 62), (0, 96, 60)]
+    assert notes_of(score) == [(0, 1, 62), (0, 96, 60)]
     assert {"midi.hanging_notes", "midi.zero_length_notes"} <= set(ids(score))
 
 
 def test_all_notes_off_ends_what_sounds_on_its_channel_only() -> None:
     score = one_track(bytes([0, 0x90, 60, 64, 0, 0x91, 64, 64, 48, 0xB0, 123, 0, 48, 0x81, 64, 0]))
-    assert heard(score) == [(0, 48, 60), (0, 96, 64)]
+    assert notes_of(score) == [(0, 48, 60), (0, 96, 64)]
 
 
 # --- controllers ------------------------------------------------------------------------------------------------------
@@ -124,7 +124,7 @@ def test_impossible_tempi_and_metres_are_left_out_with_a_warning() -> None:
 def test_smpte_division_is_ticks_per_second(rate: int, ticks: int, seconds: float) -> None:
     score = one_track(SCALE_BYTES, division=(256 - rate) << 8 | ticks)
     assert score.tempo_map.seconds(seconds * 10) == pytest.approx(10)
-    assert heard(score) == SCALE_NOTES
+    assert notes_of(score) == SCALE_NOTES
 
 
 # --- formats ----------------------------------------------------------------------------------------------------------
@@ -132,7 +132,7 @@ def test_smpte_division_is_ticks_per_second(rate: int, ticks: int, seconds: floa
 
 def test_the_patterns_of_format_2_follow_one_another() -> None:
     score = score_of(header(2, 2) + 2 * chunk(b"MTrk", SCALE_BYTES + END))
-    assert heard(score) == SCALE_NOTES + [(onset + 192, length, pitch) for onset, length, pitch in SCALE_NOTES]
+    assert notes_of(score) == SCALE_NOTES + [(onset + 192, length, pitch) for onset, length, pitch in SCALE_NOTES]
     assert "midi.patterns" in ids(score)
 
 
@@ -143,7 +143,7 @@ def test_format_0_is_split_by_channel() -> None:
 
 def test_format_0_with_two_tracks_sounds_together_with_a_warning() -> None:
     score = score_of(header(0, 2) + 2 * chunk(b"MTrk", SCALE_BYTES + END))
-    assert heard(score) == sorted(2 * SCALE_NOTES)
+    assert notes_of(score) == sorted(2 * SCALE_NOTES)
     assert ids(score)[0] == "midi.format_0_tracks"
 
 
@@ -169,38 +169,38 @@ def test_format_0_with_two_tracks_sounds_together_with_a_warning() -> None:
 def test_events_between_notes_do_not_disturb_them(inserted: bytes, warns: bool, running: bool) -> None:
     second = bytes([0, 62, 64, 48, 62, 0]) if running else note(62)
     score = one_track(bytes([0, 0x90, 60, 64, 48, 60, 0]) + inserted + second)
-    assert heard(score) == SCALE_NOTES[:2]
+    assert notes_of(score) == SCALE_NOTES[:2]
     assert ("midi.bytes_not_understood" in ids(score)) == warns
 
 
 def test_the_time_before_a_dropped_event_is_kept() -> None:
     score = one_track(note(60) + bytes([48, 0xF0, 1, 0xF7, 48, 0x90, 62, 64, 48, 62, 0]))
-    assert heard(score) == [(0, 48, 60), (144, 48, 62)]
+    assert notes_of(score) == [(0, 48, 60), (144, 48, 62)]
 
 
 def test_bytes_of_system_messages_in_texts_and_deltas_are_nothing_special() -> None:
     long_delta = bytes([0xF0, 0x00, 0x90, 62, 64, 48, 62, 0])
     score = one_track(meta(1, bytes(range(0xF0, 0x100))) + note(60) + long_delta)
-    assert heard(score) == [(0, 48, 60), (48 + (0x70 << 7), 48, 62)]
+    assert notes_of(score) == [(0, 48, 60), (48 + (0x70 << 7), 48, 62)]
     assert "midi.bytes_not_understood" not in ids(score)
 
 
 def test_alien_chunks_are_passed_over() -> None:
     score = score_of(header() + chunk(b"XFIH", b"abc") + chunk(b"MTrk", SCALE_BYTES + END) + chunk(b"XFKM", b""))
-    assert heard(score) == SCALE_NOTES
+    assert notes_of(score) == SCALE_NOTES
     assert all(warning.id.startswith("score.") for warning in score.warnings)
 
 
 def test_a_riff_wrapper_is_passed_over() -> None:
     inner = header() + chunk(b"MTrk", SCALE_BYTES + END)
     riff = b"RIFF" + (len(inner) + 12).to_bytes(4, "little") + b"RMIDdata" + len(inner).to_bytes(4, "little")
-    assert heard(score_of(riff + inner)) == SCALE_NOTES
+    assert notes_of(score_of(riff + inner)) == SCALE_NOTES
 
 
 def test_a_longer_header_is_read_by_its_length() -> None:
     long_header = chunk(b"MThd", bytes([0, 1, 0, 1, 0, 96, 1, 2, 3, 4]))
     score = score_of(long_header + chunk(b"MTrk", SCALE_BYTES + END))
-    assert heard(score) == SCALE_NOTES
+    assert notes_of(score) == SCALE_NOTES
     assert "midi.header_length" not in ids(score)
 
 
@@ -208,7 +208,7 @@ def test_a_longer_header_is_read_by_its_length() -> None:
 def test_a_track_whose_length_is_wrong_is_read_to_its_real_end(length: int) -> None:
     data = header(1, 2) + chunk(b"MTrk", SCALE_BYTES + END, length) + chunk(b"MTrk", SCALE_BYTES + END)
     score = score_of(data)
-    assert heard(score) == sorted(2 * SCALE_NOTES)
+    assert notes_of(score) == sorted(2 * SCALE_NOTES)
     assert "midi.track_length" in ids(score)
 
 
@@ -217,7 +217,7 @@ def test_a_track_that_breaks_off_keeps_what_came_before(cut: int) -> None:
     data = header() + chunk(b"MTrk", SCALE_BYTES + END)
     score = score_of(data[:-cut])
     whole = (len(SCALE_BYTES + END) - cut) // 8
-    assert heard(score)[:whole] == SCALE_NOTES[:whole]
+    assert notes_of(score)[:whole] == SCALE_NOTES[:whole]
     assert "midi.track_length" in ids(score)
     if cut not in (4, 8, 12):
         truncated = next(warning for warning in score.warnings if warning.id == "midi.track_truncated")
@@ -232,7 +232,7 @@ def test_a_value_above_127_is_127_whether_or_not_the_track_needs_repair(repaired
 
 def test_bytes_that_are_no_events_are_counted_and_placed() -> None:
     score = one_track(bytes([0, 0xF4, 0, 60]) + note(60) + bytes([0, 0xF2, 1, 2]))
-    assert heard(score) == SCALE_NOTES[:1]
+    assert notes_of(score) == SCALE_NOTES[:1]
     warning = next(warning for warning in score.warnings if warning.id == "midi.bytes_not_understood")
     assert warning.arguments == {"track": 1, "byte": 22, "count": 7}
 
@@ -340,27 +340,27 @@ def test_a_lost_note_off_makes_neither_a_second_player_nor_a_drone() -> None:
     # 62 is never ended; the end of the track is hours away.
     events = note(60) + bytes([0, 0x90, 62, 64]) + note(64, delta=48) + meta(1, b"", 48) + b"\xbf\xff\xff\x7f"
     score = score_of(header() + chunk(b"MTrk", events + b"\xff\x2f\x00"))
-    assert heard(score) == [(0, 48, 60), (48, 48, 62), (96, 48, 64)]
+    assert notes_of(score) == [(0, 48, 60), (48, 48, 62), (96, 48, 64)]
     assert len(score.parts) == 1
     assert [warning.arguments["count"] for warning in score.warnings if warning.id == "midi.hanging_notes"] == [1]
 
 
 def test_the_last_note_of_a_track_that_never_ends_lasts_four_quarters() -> None:
     score = one_track(note(60) + bytes([0, 0x90, 62, 64]) + meta(1, b"", 0) + b"\x90\x00\xff\x01\x00")
-    assert heard(score) == [(0, 48, 60), (48, 4 * 96, 62)]
+    assert notes_of(score) == [(0, 48, 60), (48, 4 * 96, 62)]
 
 
 def test_a_pitch_that_has_lost_a_note_off_is_struck_again_and_not_held() -> None:
     # First in, first out would give each note the end of the next.
     repeated = b"".join(bytes([0, 0x90, 60, 64, 48, *([60, 0] if number != 1 else [61, 0])]) for number in range(4))
     score = one_track(repeated)
-    assert heard(score) == [(48 * number, 48, 60) for number in range(4)]
+    assert notes_of(score) == [(48 * number, 48, 60) for number in range(4)]
     assert len(score.parts) == 1
 
 
 def test_a_note_struck_twice_at_once_and_ended_once_is_one() -> None:
     score = one_track(bytes([0, 0x90, 60, 64, 0, 60, 64, 48, 60, 0]) + note(62))
-    assert heard(score) == [(0, 48, 60), (48, 48, 62)]
+    assert notes_of(score) == [(0, 48, 60), (48, 48, 62)]
     # Ended twice, they are two players in unison.
     assert len(one_track(bytes([0, 0x90, 60, 64, 0, 60, 64, 48, 60, 0, 0, 60, 0]) + note(62)).parts) == 2
 
@@ -368,7 +368,7 @@ def test_a_note_struck_twice_at_once_and_ended_once_is_one() -> None:
 def test_all_notes_off_does_not_hold_notes_until_then() -> None:
     line = b"".join(bytes([48, 0x90, pitch, 64]) for pitch in range(60, 70))
     score = one_track(line + bytes([96, 0xB0, 123, 0]))
-    assert heard(score) == [(48 * number, 48, 59 + number) for number in range(1, 10)] + [(480, 96, 69)]
+    assert notes_of(score) == [(48 * number, 48, 59 + number) for number in range(1, 10)] + [(480, 96, 69)]
     assert len(score.parts) == 1
 
 
@@ -415,7 +415,7 @@ def test_a_delta_of_many_bytes_is_no_huge_number() -> None:
     # Beyond any float (OverflowError).
     score = one_track(note(60) + b"\xff" * 160 + bytes([0x7F, 0x90, 60, 64, 1, 60, 0]))
     assert "midi.track_truncated" in ids(score)
-    assert heard(score) == [(0, 48, 60)]
+    assert notes_of(score) == [(0, 48, 60)]
 
 
 def test_more_parts_than_any_score_has_are_refused() -> None:
@@ -471,5 +471,5 @@ def test_every_note_of_the_percussion_is_a_hit_and_no_part(tmp_path: Path) -> No
     assert one_track(SCALE_BYTES).percussion == ()
     (tmp_path / "piece.mid").write_bytes(data)
     uncast = uncast_score(read_contents(tmp_path / "piece.mid"))
-    assert heard(uncast) == SCALE_NOTES
+    assert notes_of(uncast) == SCALE_NOTES
     assert uncast.percussion == score.percussion

@@ -35,7 +35,7 @@ def test_velocity_0_and_all_notes_off_end_notes() -> None:
     assert take.played.ends_s.tolist() == [2.0, 4.0]
 
 
-def test_only_the_wired_channel_is_heard() -> None:
+def test_only_the_wired_channel_is_received() -> None:
     more = [(0.0, "903c40"), (1.0, "803c00"), (1.0, "923e40"), (2.0, "823e00")]
     assert take_of([], more=more, wiring=ControllerMapping(channel=3)).played.pitches.tolist() == [62]
     assert take_of([], more=more).played.pitches.tolist() == [60, 62]
@@ -75,7 +75,7 @@ def test_a_short_soft_note_is_a_ghost_and_a_short_loud_one_is_not() -> None:
     assert faults([(0.0, 1.0, 60, 0.6), (1.5, 1.52, 64, 0.1)], RAW) == ("", "")
 
 
-def test_a_note_that_no_breath_was_blown_for_is_not_heard() -> None:
+def test_a_note_without_breath_is_silent() -> None:
     assert faults([(0.0, 1.0, 60, 0.6), (1.5, 2.5, 64, 0.03)]) == ("", "silent")
     # A keyboard has no breath.
     assert faults([(0.0, 1.0, 60, 0.6), (1.5, 2.5, 64, 0.0)], breathes=False) == ("", "")

@@ -17,7 +17,7 @@ from pathlib import Path
 from app.shell.app import Program, make_application
 from app.editor.settings import Settings
 application = make_application()
-program = Program(Settings(Path(sys.argv[1])), heard=False)
+program = Program(Settings(Path(sys.argv[1])), audible=False)
 program.window.show()
 application.processEvents()
 print(" ".join(sys.modules))

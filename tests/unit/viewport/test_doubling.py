@@ -1,4 +1,4 @@
-"""A person who changes instruments has one body on the stage, and stands for the instruments."""
+"""A musician who changes instruments has one body on the stage, and stands for the instruments."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def test_the_body_is_drawn_once_and_both_instruments_have_a_stand() -> None:
     assert len(crowd_of(stage, found.shapes).shape) == sum(bodies) + sum(held) + 2 * len(found.shapes.stand.shape)
 
 
-def test_a_click_on_the_body_finds_the_person_and_the_shadow_of_the_other_is_its_own() -> None:
+def test_a_click_on_the_body_finds_the_musician_and_the_shadow_of_the_other_is_its_own() -> None:
     stage: Stage = loaded(flutist()).stage
     stage.shown[:] = True
     capsules = Limbs(stage).capsules()

@@ -66,7 +66,7 @@ class DanceLane(RowLane):
         self.update_items()
 
     def empty_text(self) -> str:
-        """How there comes to be a dance; empty where someone dances."""
+        """How to add a dance; empty where there is a dancer."""
         return "" if self.dancers else self.tr("dance_lane.no_dancers_yet_add_one")
 
     def reason(self, dance: DanceSteps) -> str:

@@ -167,7 +167,7 @@ class TakesItem(LaneItem):
         return tops, height
 
     def _paint_selected(self, painter: QPainter) -> None:
-        """The selected span, in the row that the part has it from; while someone swipes, what is swiped over."""
+        """The selected span, in the row that the part has it from; during a swipe, what is swiped over."""
         lane = self._lane
         outlined = lane.model.outlined()
         number = lane.model.number_of(outlined.take_id) if outlined is not None else None

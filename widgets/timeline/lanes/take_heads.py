@@ -155,7 +155,7 @@ class TakeHeads(QWidget):
         if lane.folded:
             return
         tokens, painter = lane.session.tokens, QPainter(self)
-        heard = lane.session.listening.take
+        audition = lane.session.listening.take
         for number, row in enumerate(lane.model.rows):
             box = self._row_box(number)
             box.setWidth(float(self.width()))
@@ -168,7 +168,7 @@ class TakeHeads(QWidget):
             painter.fillRect(
                 QRectF(0.0, box.top() + 1.0, BAR_PX, box.height() - 2.0), QColor(lane.model.colour_of(row.take_id))
             )
-            is_audible = heard is not None and heard.take_id == row.take_id
+            is_audible = audition is not None and audition.take_id == row.take_id
             shows_button = hovered or chosen or is_audible
             right = self.width() - (BUTTON_PX + 4.0 if shows_button else 4.0)
             self._paint_words(painter, row, QRectF(BAR_PX + 5.0, box.top(), right - BAR_PX - 5.0, box.height()))

@@ -26,7 +26,7 @@ from widgets.timeline.model.takes import Swipe, TakesModel
 
 ROW_PX, LEAST_ROW_PX, MOST_ROW_PX = 38, 24, 72
 SHOWN_ROWS, LEAST_SHOWN_ROWS = 6, 3
-"""As many rows as a lane wants to show, and as it shows at least; what does not fit is scrolled to."""
+"""The most rows of a lane, and the least; what does not fit is scrolled to."""
 EMPTY_PX = 62
 
 
@@ -99,7 +99,7 @@ class TakesLane(RowLane):
         if change.before.takes is not change.after.takes and player is not None and not change.opened:
             before, after = change.before.takes.get(player.id), change.after.takes.get(player.id)
             if after is not None and len(after.takes) > (len(before.takes) if before is not None else 0):
-                # Who has recorded wants to see it.
+                # Show the new recording.
                 self.set_folded(False)
         self.refresh()
 

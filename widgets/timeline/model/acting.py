@@ -31,7 +31,7 @@ BASE = "expression:neutral"
 
 
 class Names(NamedTuple):
-    """What things are called in the language of the person."""
+    """What things are called in the language of the user."""
 
     expression: Callable[[str], str]
     kind: Callable[[str], str]
@@ -54,12 +54,12 @@ def packed_group(members: Sequence[Region], clock: TempoMap) -> tuple[list[int],
     return rows, count
 
 
-def entry_near(onset_ticks: Floats, wanted_tick: float, clock: TempoMap, reach_s: float) -> int | None:
+def entry_near(onset_ticks: Floats, near_tick: float, clock: TempoMap, reach_s: float) -> int | None:
     """The onset next to a tick, where it is no further than ``reach_s``."""
     if not len(onset_ticks):
         return None
-    nearest = float(onset_ticks[np.argmin(np.abs(onset_ticks - wanted_tick))])
-    return int(nearest) if abs(clock.seconds(nearest) - clock.seconds(wanted_tick)) <= reach_s else None
+    nearest = float(onset_ticks[np.argmin(np.abs(onset_ticks - near_tick))])
+    return int(nearest) if abs(clock.seconds(nearest) - clock.seconds(near_tick)) <= reach_s else None
 
 
 def extent(region: Region, clock: TempoMap) -> tuple[float, float]:

@@ -119,7 +119,7 @@ class Step:
         return True
 
     def attempt(self, name: Message, edit: Edit) -> bool:
-        """As `edit`, but the person is reported why it could not be done."""
+        """As `edit`, but the user is shown why it could not be done."""
         if not self._session.attempt(name, lambda _: edit(self.base), self._token, self._origin):
             return False
         self._name, self._ours = name, self._session.project

@@ -85,7 +85,7 @@ def spans_of(regions: Sequence[Region]) -> Spans:
 
 
 def place_of(event_id: str, onsets: Mapping[str, int]) -> int | None:
-    """The tick that an event's id tells: of its note, or after an @."""
+    """The tick in an event's id: of its note, or after an @."""
     parts = event_id.split(":")
     for first in range(1, len(parts)):
         rest = ":".join(parts[first:])

@@ -1,4 +1,4 @@
-"""A person who changes instruments, in an Unreal project: one character, and an actor for each instrument."""
+"""A musician who changes instruments, in an Unreal project: one character, and an actor for each instrument."""
 
 from __future__ import annotations
 

@@ -238,7 +238,7 @@ def test_what_the_reader_does_not_understand_it_refuses(name: str) -> None:
     assert raised.value.message.arguments["file"] == "odd.fbx"
 
 
-def test_a_missing_file_is_an_error_a_person_can_act_on(tmp_path: Path) -> None:
+def test_a_missing_file_is_an_error_a_user_can_act_on(tmp_path: Path) -> None:
     with pytest.raises(FileError) as raised:
         read_scene(tmp_path / "missing.fbx")
     assert raised.value.message.id == "file.cannot_read"

@@ -352,7 +352,7 @@ def test_many_views_of_one_buffer_do_not_fill_the_memory(monkeypatch: pytest.Mon
     assert raised.value.message.id == "gltf.too_large"
 
 
-def test_a_missing_file_is_an_error_a_person_can_act_on(tmp_path: Path) -> None:
+def test_a_missing_file_is_an_error_a_user_can_act_on(tmp_path: Path) -> None:
     with pytest.raises(FileError) as raised:
         read_glb(tmp_path / "missing.glb")
     assert raised.value.message.id == "file.cannot_read"

@@ -84,7 +84,7 @@ def test_a_dancer_who_is_left_out_stays_as_imported(editor: Editor, danced: Proj
     gone = msgspec.structs.replace(danced.dancers[0], choreography=str(editor.folder / "gone.choreography"))
     exported(editor.folder, replace(danced, dancers=(gone,)), WHO)
     reported = editor.update_performance()
-    assert "Left out" in reported
+    assert "Excluded" in reported
     assert "gone.choreography" in reported
     assert {path: id(asset) for path, asset in editor.studio.assets.items() if "/Ana/" in path} == before
     assert bindings(editor)["Ana"] is ana

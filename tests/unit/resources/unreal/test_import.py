@@ -134,7 +134,7 @@ def test_what_the_importer_is_asked(editor: Editor) -> None:
             assert data["delete_existing_morph_target_curves"] is True
 
 
-def test_everybody_stands_where_they_stand(editor: Editor) -> None:
+def test_performers_stand_at_their_places(editor: Editor) -> None:
     editor.import_performance()
     there = bindings(editor)
     assert len(there) == 8
@@ -158,7 +158,7 @@ def test_everybody_stands_where_they_stand(editor: Editor) -> None:
     assert first["place"]["yaw_deg"] < 0
 
 
-def test_everybody_plays_from_the_first_frame_to_the_last(editor: Editor) -> None:
+def test_all_play_from_the_first_frame_to_the_last(editor: Editor) -> None:
     editor.import_performance()
     reported, sequence = description(editor), editor.sequence()
     last = reported["frames"] - 1

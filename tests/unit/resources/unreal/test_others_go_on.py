@@ -110,7 +110,7 @@ def test_who_is_left_out_of_a_later_export_stays_as_imported(
     assert not (sources / "Characters" / "SK_Trumpet_2.fbx").exists()
 
     reported = editor.update_performance()
-    assert all(words in reported for words in ("Left out", "Trumpet 1", "mori.glb"))
+    assert all(words in reported for words in ("Excluded", "Trumpet 1", "mori.glb"))
     assert {path: id(asset) for path, asset in editor.studio.assets.items() if "/Trumpet_1" in path} == before
     assert bindings(editor)["Trumpet 1"] is trumpet
     assert "Trumpet 2" not in bindings(editor)

@@ -78,7 +78,7 @@ class Performance(NamedTuple):
 
     @property
     def staying(self) -> set[str]:
-        """Paths of assets of whoever is left out: an update leaves them as they are."""
+        """Paths of assets of excluded performers: an update leaves them as they are."""
         return {path for one in self.left_out for path in one.assets}
 
     @property

@@ -46,7 +46,7 @@ TEXTS = {
         "以下はインポートできません。ほかの演奏はインポートできます。",
     ),
     "left_out": (
-        "Left out of the export; what was imported before stays as it was: {name}. {reason}",
+        "Excluded from the export; what was imported before stays as it was: {name}. {reason}",
         "書き出しから除外されています。以前にインポートしたものはそのまま残ります: {name}。{reason}",
     ),
     "unreadable": (

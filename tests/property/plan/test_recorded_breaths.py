@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.performance.loudness import heard, note_loudness, sounding_curve
+from app.performance.loudness import controller_input, note_loudness, sounding_curve
 from app.plan.breath_envelope import GASP_S
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.parameters import PlayerParameters
@@ -42,7 +42,7 @@ def parts(draw: st.DrawFn) -> Part:
 @given(parts(), st.sampled_from((2.0, 9.0)))
 def test_breaths_are_in_order_and_end_before_what_they_serve(part: Part, lung_s: float) -> None:
     line = MonophonicPart(
-        "p", part.notes, TRUMPET, PlayerParameters(lung_s=lung_s), (), note_loudness(part), heard(part)
+        "p", part.notes, TRUMPET, PlayerParameters(lung_s=lung_s), (), note_loudness(part), controller_input(part)
     )
     frame = time_frame((line,), TEMPO)
     plan = make_plans(piece_of(TEMPO), (line,), frame)["p"]
@@ -72,7 +72,7 @@ def test_breaths_are_in_order_and_end_before_what_they_serve(part: Part, lung_s:
 
 @settings(deadline=None, max_examples=100)
 @given(parts())
-def test_every_note_is_heard(part: Part) -> None:
+def test_every_note_is_audible(part: Part) -> None:
     curve = sounding_curve(part)
     if curve is None:
         return
