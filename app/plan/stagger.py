@@ -178,23 +178,21 @@ def within_held(
 
 
 def breathed_of(
-    line: SharedLine, notes: Sequence[Note], caught: frozenset[str], events: Sequence[BreathEvent]
+    line: SharedLine, notes: Sequence[Note], caught: Sequence[int], events: Sequence[BreathEvent]
 ) -> Breathed:
     """Where a player breathes, for those who play the same.
 
     Parameters
     ----------
-    caught : frozenset of str
-        Notes before which a catch breath is taken.
+    caught : sequence of int
+        Notes (by index) before which a catch breath is taken.
     events : sequence of BreathEvent
         All breaths of the player.
     """
     within = {event.id.split(":", 1)[1]: event.start_s for event in events if event.id.startswith(f"{WITHIN}:")}
-    if not caught and not within:
-        return Breathed(line, frozenset(), ())
-    rows = list(zip(notes, line.places, strict=True))
+    held = [index for index, note in enumerate(notes) if note.id in within] if within else []
     return Breathed(
         line,
-        frozenset(place for note, place in rows if note.id in caught),
-        tuple((place, within[note.id]) for note, place in rows if note.id in within),
+        frozenset(line.places[index] for index in caught),
+        tuple((line.places[index], within[notes[index].id]) for index in held),
     )
