@@ -19,6 +19,7 @@ from app.plan.corrections import WITHIN
 from app.plan.line import LineTimes, Piece
 from app.plan.model import BreathEvent, FloatArray
 from app.plan.notation import PLACES, notated
+from app.plan.rest_breaths import breath_at
 from app.score.model import Note
 
 UNISON_NOTES = 4
@@ -162,18 +163,7 @@ def within_held(
         apart = np.min(np.abs(tried[:, None] - np.array([*others_s, math.inf])), axis=1)
         start_s = float(tried[np.lexsort((np.abs(tried - middle_s), -np.minimum(apart, APART_S)))[0]])
         reason = Message("breath.staggered", {"air_s": round(air_s, 2), "lung_s": round(lung_s, 2)})
-        events.append(
-            BreathEvent(
-                id=f"{WITHIN}:{notes[index].id}",
-                kind="breath",
-                start_tick=round(piece.clock.ticks(start_s)),
-                end_tick=round(piece.clock.ticks(start_s + BREATH_S)),
-                start_s=start_s,
-                end_s=start_s + BREATH_S,
-                depth=1.0,
-                reason=reason,
-            )
-        )
+        events.append(breath_at(f"{WITHIN}:{notes[index].id}", piece, start_s, start_s + BREATH_S, reason))
     return tuple(events)
 
 
