@@ -43,7 +43,7 @@ import numpy as np
 
 from app.errors import Argument, Message
 from app.plan.breath_depths import is_within, too_long, with_depths
-from app.plan.breath_envelope import BreathEnvelope, Silences, gaps_within, silences
+from app.plan.breath_envelope import BoolArray, BreathEnvelope, Silences, gaps_within, silences
 from app.plan.catch_lengths import CATCH_MIN_S, Room, catch_lengths_s, drop_lengths_s
 from app.plan.catch_places import catch_places
 from app.plan.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
@@ -80,15 +80,15 @@ class BreathPlan(msgspec.Struct, frozen=True):
         Every event the rules made, removed ones among them.
     early_end_s : dict of int to float
         Notes (by index) whose lips leave early for a catch breath, and when.
-    catch_notes : frozenset of str
-        Notes before which a catch breath is taken; players of the same part avoid them.
+    catches : tuple of int
+        Notes (by index) before which a catch breath is taken; players of the same part avoid them.
     """
 
     events: tuple[BreathEvent, ...]
     problems: tuple[Problem, ...]
     generated_ids: frozenset[str]
     early_end_s: dict[int, float]
-    catch_notes: frozenset[str]
+    catches: tuple[int, ...]
 
 
 def plan_breaths(
@@ -117,13 +117,13 @@ def plan_breaths(
         The breath that was blown. Where it shows breaths, they are where it has gaps and nowhere else.
     """
     if not notes:
-        return BreathPlan((), (), frozenset(), {}, frozenset())
+        return BreathPlan((), (), frozenset(), {}, ())
     line = _Breather(notes, times, piece, parameters, {note.id: index for index, note in enumerate(notes)})
     score = _read(line, air, envelope)
     given = _given(line, score, frame, corrections, shared)
     stock, spare = _stock(line, score, given)
-    catches = _catches(line, score, stock, given.untouchable, shared, seeds)
-    caught = [_caught(line, score, stock, spare, index) for index in catches]
+    catches = _catches(line, score, stock, given.may, shared, seeds)
+    caught = _caught(line, score, stock, spare, catches)
     refill = stock.refill.copy()
     for event, index in zip(caught, catches, strict=True):
         refill[index] = drawn(event.end_s - event.start_s)
@@ -135,7 +135,7 @@ def plan_breaths(
         problems=(*cut, *too_long(notes, times, stock.used, score.lung_s, refill)),
         generated_ids=frozenset(event.id for event in (*given.generated, *caught)),
         early_end_s=early_end_s,
-        catch_notes=frozenset(notes[index].id for index in catches),
+        catches=tuple(catches),
     )
 
 
@@ -192,14 +192,14 @@ class _Given(NamedTuple):
     kept : tuple of BreathEvent
         ... less what was removed or set by hand.
     by_hand : tuple of BreathEvent
-    untouchable : frozenset of str
-        Ids of breaths that the rules may not make.
+    may : (N,) bool
+        Before which notes the rules may make a breath.
     """
 
     generated: tuple[BreathEvent, ...]
     kept: tuple[BreathEvent, ...]
     by_hand: tuple[BreathEvent, ...]
-    untouchable: frozenset[str]
+    may: BoolArray
 
 
 class _Stock(NamedTuple):
@@ -265,7 +265,10 @@ def _given(
         kept = [
             event for event in kept if event.kind != "breath" or event.end_s - event.start_s >= CATCH_MIN_S - EPSILON
         ]
-    return _Given(generated, tuple(kept), by_hand, removed | hand_ids)
+    may = np.ones(len(notes), dtype=bool)
+    ids = (id.removeprefix("breath:") for id in removed | hand_ids if id.startswith("breath:"))
+    may[[line.index_of[id] for id in ids if id in line.index_of]] = False
+    return _Given(generated, tuple(kept), by_hand, may)
 
 
 def _stock(line: _Breather, score: _Score, given: _Given) -> tuple[_Stock, dict[int, BreathEvent]]:
@@ -323,24 +326,22 @@ def _spare(
     return {index: event for index, event in in_rests if not needed[index]}
 
 
-def _catches(
-    line: _Breather, score: _Score, stock: _Stock, untouchable: frozenset[str], shared: Shared, seeds: Seeds
-) -> list[int]:
+def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shared: Shared, seeds: Seeds) -> list[int]:
     """The notes before which catch breaths are taken: decided at the tempo of the score, corrected where a change of
     tempo takes more air."""
-    taken = frozenset(line.notes[index].id for index in shared.caught)
+    taken = np.zeros(len(line.notes), dtype=bool)
+    taken[list(shared.caught)] = True
 
     def between(times: LineTimes, used: FloatArray, filled: FloatArray) -> list[int]:
         full = levels(used, score.lung_s, filled)
         return catch_places(
-            line.notes,
             times,
             used,
             line.piece,
             score.lung_s,
             filled,
             full,
-            untouchable,
+            may,
             taken,
             seeds,
             score.rests,
@@ -359,13 +360,16 @@ def _catches(
     return catches
 
 
-def _caught(line: _Breather, score: _Score, stock: _Stock, spare: dict[int, BreathEvent], index: int) -> BreathEvent:
-    """The catch breath before a note; in a rest it is the one that the rest would have given."""
-    if index in spare:
-        return spare[index]
-    if score.gaps is not None and score.gaps.played[index]:
-        return blown_catch(line.notes[index], line.piece, score.gaps, index)
-    return _catch(line, stock, index)
+def _caught(
+    line: _Breather, score: _Score, stock: _Stock, spare: dict[int, BreathEvent], catches: list[int]
+) -> list[BreathEvent]:
+    """The catch breaths before some notes; in a rest it is the one that the rest would have given."""
+    found = {index: spare[index] for index in catches if index in spare}
+    if score.gaps is not None:
+        blown = [index for index in catches if index not in spare and score.gaps.played[index]]
+        found |= {index: blown_catch(line.notes[index], line.piece, score.gaps, index) for index in blown}
+    found |= _made(line, stock, [index for index in catches if index not in found])
+    return [found[index] for index in catches]
 
 
 def _cut_notes(line: _Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[int, float], list[Problem]]:
@@ -388,40 +392,50 @@ def _cut_notes(line: _Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[i
     return early_end_s, problems
 
 
-def _catch(line: _Breather, stock: _Stock, index: int) -> BreathEvent:
+def _made(line: _Breather, stock: _Stock, catches: list[int]) -> dict[int, BreathEvent]:
+    """Catch breaths out of the notes before, by the notes that they come before."""
+    if not catches:
+        return {}
     notes, times, room = line.notes, line.times, stock.room
-    onset_s = float(times.onset_s[index])
-    start_s = onset_s - float(room.lasts_s[index])
+    at = np.array(catches)
+    onset_s, start_s = times.onset_s[at], times.onset_s[at] - room.lasts_s[at]
     breaths = np.flatnonzero(stock.refill > 0.0)
-    place = int(np.searchsorted(breaths, index))
-    first = int(breaths[place - 1]) if place else 0
-    last = int(breaths[place]) if place < len(breaths) else len(notes)
-    why: dict[str, Argument] = {
-        "phrase_s": round(float(times.played_end_s[last - 1] - times.onset_s[first]), 2),
-        "lung_s": round(float(stock.air_s[first]), 2),
-    }
-    dropped = 0 if room.length_s[index] > 0.0 else int(room.dropped[index])
-    after = {"after_note": notes[index - max(dropped, 1)].id}
-    if dropped > 1:
-        reason = Message(
-            "breath.catch_dropped_two",
-            {"first_note": notes[index - dropped].id, "after_note": notes[index - 1].id, **why},
-        )
-    elif dropped:
-        reason = Message("breath.catch_dropped", {**after, **why})
-    else:
-        from_note_s = max(float(times.played_end_s[index - 1]) - start_s, 0.0)
-        reason = Message("breath.catch", {**after, **why, "from_note_ms": round(from_note_s * 1000.0)})
-    return BreathEvent(
-        id=f"breath:{notes[index].id}",
-        kind="breath",
-        start_tick=round(line.piece.clock.ticks(start_s)),
-        end_tick=int(times.onset_tick[index]),
-        start_s=start_s,
-        end_s=onset_s,
-        depth=1.0,
-        reason=reason,
+    place = np.searchsorted(breaths, at)
+    first, last = np.insert(breaths, 0, 0)[place], np.append(breaths, len(notes))[place]
+    rows = zip(
+        catches,
+        np.where(room.length_s[at] > 0.0, 0, room.dropped[at]).tolist(),
+        np.round(line.piece.clock.ticks(start_s)).astype(np.int64).tolist(),
+        times.onset_tick[at].tolist(),
+        start_s.tolist(),
+        onset_s.tolist(),
+        np.maximum(times.played_end_s[at - 1] - start_s, 0.0).tolist(),
+        (times.played_end_s[last - 1] - times.onset_s[first]).tolist(),
+        stock.air_s[first].tolist(),
+        strict=True,
     )
+    found = {}
+    for index, dropped, start_tick, end_tick, begins_s, ends_s, from_note_s, phrase_s, air_s in rows:
+        why: dict[str, Argument] = {"phrase_s": round(phrase_s, 2), "lung_s": round(air_s, 2)}
+        after = notes[index - 1].id
+        if dropped > 1:
+            first_note = notes[index - dropped].id
+            reason = Message("breath.catch_dropped_two", {"first_note": first_note, "after_note": after, **why})
+        elif dropped:
+            reason = Message("breath.catch_dropped", {"after_note": after, **why})
+        else:
+            reason = Message("breath.catch", {"after_note": after, **why, "from_note_ms": round(from_note_s * 1000.0)})
+        found[index] = BreathEvent(
+            id=f"breath:{notes[index].id}",
+            kind="breath",
+            start_tick=start_tick,
+            end_tick=end_tick,
+            start_s=begins_s,
+            end_s=ends_s,
+            depth=1.0,
+            reason=reason,
+        )
+    return found
 
 
 def _less(used: FloatArray, spared_s: FloatArray) -> FloatArray:

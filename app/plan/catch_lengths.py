@@ -70,7 +70,7 @@ def catch_lengths_s(score: LineTimes, times: LineTimes, rests: IntArray) -> Floa
 
 def _length_s(times: LineTimes, rests: IntArray, least_s: float) -> FloatArray:
     gap = gaps_s(times)
-    before = np.insert(times.duration_s[:-1], 0, 0.0)
+    before = np.concatenate(([0.0], times.duration_s[:-1]))
     tail = np.maximum(CATCH_NOTE_SHARE * before, np.minimum(CATCH_MIN_S - gap, before - least_s))
     return np.asarray(np.where((gap >= CATCH_MIN_S) & (rests > 0), gap, gap + tail), dtype=np.float64)
 
@@ -112,5 +112,4 @@ def _left_out_s(times: LineTimes, notes: int) -> tuple[FloatArray, FloatArray]:
 
 def gaps_s(times: LineTimes) -> FloatArray:
     """(N,): the silence before each note; 0 before the first."""
-    gap: FloatArray = np.maximum(times.onset_s - np.insert(times.played_end_s[:-1], 0, times.onset_s[0]), 0.0)
-    return gap
+    return np.concatenate(([0.0], np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)))

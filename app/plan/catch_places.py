@@ -12,7 +12,6 @@ from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import EPSILON, FULL_BREATH_S, HASTY_SHARE
 from app.plan.model import FloatArray
 from app.plan.phrase_ends import place_costs, slur_costs
-from app.score.model import Note
 
 EARLY_COST = 1.0
 """Breathing in with lungs still full; with half a lungful a quarter of it."""
@@ -24,15 +23,14 @@ DROPPED_COST = 30.0
 
 
 def catch_places(
-    notes: tuple[Note, ...],
     times: LineTimes,
     used: FloatArray,
     piece: Piece,
     lung_s: float,
     refill: FloatArray,
     level: FloatArray,
-    removed: frozenset[str],
-    taken: frozenset[str],
+    may: npt.NDArray[np.bool_],
+    taken: npt.NDArray[np.bool_],
     seeds: Seeds,
     rests: IntArray,
     room: Room,
@@ -53,27 +51,29 @@ def catch_places(
         Part of the lungs that the breath before each note fills; 0 where there is none.
     level : (N,) float
         How full the lungs are at each note.
+    may : (N,) bool
+        Before which notes the rules may place a breath.
+    taken : (N,) bool
+        Before which notes another player of the same line breathes.
     rests : (N,) int64
         Ticks of rest before each note, as `app.plan.rests.rest_ticks` finds them.
     room : Room
         What is left out of a line is left out only where nothing else gives the air.
     """
-    open_ = (room.length_s > 0.0) & (refill == 0.0)
+    may = may & (refill == 0.0)
+    open_ = may & (room.length_s > 0.0)
     open_[0] = False
     breaths = np.flatnonzero(refill > 0.0)
     starts = np.unique(np.concatenate(([0], breaths)))
-    ends = np.append(starts[1:], len(notes))
+    ends = np.append(starts[1:], len(refill))
     short = used[ends] - used[starts] > level[starts] * lung_s + EPSILON
     stretches = list(zip(starts[short].tolist(), ends[short].tolist(), strict=True))
     if not stretches:
         return []
-    may = np.zeros(len(notes), dtype=bool)
-    for start, end in stretches:
-        may[start + 1 : end] = [f"breath:{note.id}" not in removed for note in notes[start + 1 : end]]
-    dropping = ~open_ & (room.drop_s > 0.0) & (refill == 0.0)
-    cost = np.full(len(notes), np.inf)
-    at = np.flatnonzero(open_ & may)
-    cost[at] = place_costs(notes, times, piece, rests, at, taken, seeds)
+    dropping = may & ~open_ & (room.drop_s > 0.0)
+    cost = np.full(len(refill), np.inf)
+    at = np.concatenate([start + 1 + np.flatnonzero(open_[start + 1 : end]) for start, end in stretches])
+    cost[at] = place_costs(times, piece, rests, at, taken, seeds)
     air_s = np.minimum(room.lasts_s / FULL_BREATH_S, 1.0) * lung_s
 
     def chain(start: int, end: int, allowed: npt.NDArray[np.bool_]) -> tuple[list[int], bool]:
@@ -86,14 +86,14 @@ def catch_places(
 
     result: list[int] = []
     for start, end in stretches:
-        found, is_enough = chain(start, end, open_ & may)
-        also = start + 1 + np.flatnonzero(dropping[start + 1 : end] & may[start + 1 : end])
+        found, is_enough = chain(start, end, open_)
+        also = start + 1 + np.flatnonzero(dropping[start + 1 : end])
         if len(also) and not (is_enough and (cost[found] < DROPPED_COST).all()):
             # As good as a breath before the notes that are left out, but for these.
             dropped = room.dropped[also]
-            cost[also] = place_costs(notes, times, piece, rests, also - dropped, taken, seeds, dropped)
+            cost[also] = place_costs(times, piece, rests, also - dropped, taken, seeds, dropped)
             cost[also] += DROPPED_COST * dropped + slur_costs(times, rests, also)
-            found, _ = chain(start, end, (open_ | dropping) & may)
+            found, _ = chain(start, end, open_ | dropping)
         result += found
     return result
 

@@ -339,7 +339,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         poses=poses,
         traces=traces,
     )
-    return plan, breathed_of(given.shared_line, notes, breaths.catch_notes, events)
+    return plan, breathed_of(given.shared_line, notes, breaths.catches, events)
 
 
 def _lost(

@@ -12,7 +12,6 @@ from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import EPSILON
 from app.plan.model import FloatArray
 from app.plan.notation import PLACES, written_onsets
-from app.score.model import Note
 
 # How good a place for a catch breath is (added up; the cost of a place is PLACE_COST minus this).
 PLACE_COST = 7.0
@@ -60,12 +59,11 @@ TAKEN_COST = 6.0
 
 
 def place_costs(
-    notes: tuple[Note, ...],
     times: LineTimes,
     piece: Piece,
     rests: IntArray,
     at: IntArray,
-    taken: frozenset[str],
+    taken: npt.NDArray[np.bool_],
     seeds: Seeds,
     dropped: IntArray | int = 0,
 ) -> FloatArray:
@@ -73,6 +71,8 @@ def place_costs(
 
     Parameters
     ----------
+    taken : (N,) bool
+        Before which notes another player of the same line breathes.
     dropped : (K,) int64
         How many notes from there on are left out for it.
     """
@@ -114,7 +114,7 @@ def place_costs(
     good += CLIPPED * np.clip(taken_share / CATCH_NOTE_SHARE - 1.0, 0.0, 1.0)
     quarter = piece.clock.ticks_per_quarter
     good += JITTER * seeds.chances_at("catch", onset, (2 * PLACES * onset + quarter) // (2 * quarter))
-    good -= TAKEN_COST * np.array([notes[index].id in taken for index in at.tolist()])
+    good -= TAKEN_COST * taken[at]
     return np.asarray(np.maximum(PLACE_COST - good, LEAST_COST), dtype=np.float64)
 
 
@@ -193,7 +193,8 @@ def _lengths_around(duration_s: FloatArray) -> FloatArray:
     count = len(duration_s)
     around = np.empty(count)
     if count > 8:
-        around[8:] = np.median(np.lib.stride_tricks.sliding_window_view(duration_s[:-1], 8), axis=1)
+        eight = np.sort(np.lib.stride_tricks.sliding_window_view(duration_s[:-1], 8), axis=1)
+        around[8:] = (eight[:, 3] + eight[:, 4]) / 2.0
     for index in range(min(8, count)):
         around[index] = median(duration_s[: max(index, 1)].tolist())
     return around

@@ -6,7 +6,7 @@ Their messages are those of `app.plan.breath`.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -132,32 +132,37 @@ def _in_silences(
     events: list[BreathEvent] = []
     for place, index in enumerate(serving.tolist()):
         note_id, rest = notes[index].id, round(float(rests[index]), 3)
+        tick, at_s = round(starts[place]), float(start_s[place])
         if prepared[place] and preparations[place] < starts[place]:
-            events.append(
-                BreathEvent(
-                    id=f"preparation:{note_id}",
-                    kind="preparation",
-                    start_tick=round(preparations[place]),
-                    end_tick=round(starts[place]),
-                    start_s=float(preparation_s[place]),
-                    end_s=float(start_s[place]),
-                    depth=1.0,
-                    reason=reported.preparation(index, rest),
-                )
-            )
-        events.append(
-            BreathEvent(
-                id=f"breath:{note_id}",
-                kind="breath",
-                start_tick=round(starts[place]),
-                end_tick=int(end_tick[index]),
-                start_s=float(start_s[place]),
-                end_s=float(end_s[index]),
-                depth=1.0,
-                reason=reported.breath(index, rest, bool(long[place]), bool(prepared[place])),
-            )
-        )
+            begins = round(preparations[place]), float(preparation_s[place])
+            reason = reported.preparation(index, rest)
+            events.append(_event("preparation", f"preparation:{note_id}", begins, (tick, at_s), reason))
+        ends = int(end_tick[index]), float(end_s[index])
+        reason = reported.breath(index, rest, bool(long[place]), bool(prepared[place]))
+        events.append(_event("breath", f"breath:{note_id}", (tick, at_s), ends, reason))
     return tuple(events)
+
+
+def _event(
+    kind: Literal["preparation", "breath"], id: str, start: tuple[int, float], end: tuple[int, float], reason: Message
+) -> BreathEvent:
+    """From one tick and second to another."""
+    return BreathEvent(
+        id=id,
+        kind=kind,
+        start_tick=start[0],
+        end_tick=end[0],
+        start_s=start[1],
+        end_s=end[1],
+        depth=1.0,
+        reason=reason,
+    )
+
+
+def breath_at(id: str, piece: Piece, start_s: float, end_s: float, reason: Message) -> BreathEvent:
+    """A breath from one second to another."""
+    start, end = ((round(piece.clock.ticks(at_s)), at_s) for at_s in (start_s, end_s))
+    return _event("breath", id, start, end, reason)
 
 
 def _blown_reason(id: str, gaps: Silences, index: int) -> Message:
@@ -187,26 +192,9 @@ def _rest_reason(index: int, rest: float, long: bool, prepared: bool, parameters
 
 def blown_catch(note: Note, piece: Piece, gaps: Silences, index: int) -> BreathEvent:
     start_s, end_s = float(gaps.start_s[index]), float(gaps.end_s[index])
-    return BreathEvent(
-        id=f"breath:{note.id}",
-        kind="breath",
-        start_tick=round(piece.clock.ticks(start_s)),
-        end_tick=round(piece.clock.ticks(end_s)),
-        start_s=start_s,
-        end_s=end_s,
-        depth=1.0,
-        reason=_blown_reason("breath.blown_short", gaps, index),
-    )
+    return breath_at(f"breath:{note.id}", piece, start_s, end_s, _blown_reason("breath.blown_short", gaps, index))
 
 
 def within_note(note: Note, piece: Piece, start_s: float, end_s: float) -> BreathEvent:
-    return BreathEvent(
-        id=f"{WITHIN}:{note.id}",
-        kind="breath",
-        start_tick=round(piece.clock.ticks(start_s)),
-        end_tick=round(piece.clock.ticks(end_s)),
-        start_s=start_s,
-        end_s=end_s,
-        depth=1.0,
-        reason=Message("breath.blown", {"gap_s": round(end_s - start_s, 2)}),
-    )
+    reason = Message("breath.blown", {"gap_s": round(end_s - start_s, 2)})
+    return breath_at(f"{WITHIN}:{note.id}", piece, start_s, end_s, reason)

@@ -19,6 +19,7 @@ from app.plan.corrections import WITHIN
 from app.plan.line import LineTimes, Piece
 from app.plan.model import BreathEvent, FloatArray
 from app.plan.notation import PLACES, notated
+from app.plan.rest_breaths import breath_at
 from app.score.model import Note
 
 UNISON_NOTES = 4
@@ -162,39 +163,26 @@ def within_held(
         apart = np.min(np.abs(tried[:, None] - np.array([*others_s, math.inf])), axis=1)
         start_s = float(tried[np.lexsort((np.abs(tried - middle_s), -np.minimum(apart, APART_S)))[0]])
         reason = Message("breath.staggered", {"air_s": round(air_s, 2), "lung_s": round(lung_s, 2)})
-        events.append(
-            BreathEvent(
-                id=f"{WITHIN}:{notes[index].id}",
-                kind="breath",
-                start_tick=round(piece.clock.ticks(start_s)),
-                end_tick=round(piece.clock.ticks(start_s + BREATH_S)),
-                start_s=start_s,
-                end_s=start_s + BREATH_S,
-                depth=1.0,
-                reason=reason,
-            )
-        )
+        events.append(breath_at(f"{WITHIN}:{notes[index].id}", piece, start_s, start_s + BREATH_S, reason))
     return tuple(events)
 
 
 def breathed_of(
-    line: SharedLine, notes: Sequence[Note], caught: frozenset[str], events: Sequence[BreathEvent]
+    line: SharedLine, notes: Sequence[Note], caught: Sequence[int], events: Sequence[BreathEvent]
 ) -> Breathed:
     """Where a player breathes, for those who play the same.
 
     Parameters
     ----------
-    caught : frozenset of str
-        Notes before which a catch breath is taken.
+    caught : sequence of int
+        Notes (by index) before which a catch breath is taken.
     events : sequence of BreathEvent
         All breaths of the player.
     """
     within = {event.id.split(":", 1)[1]: event.start_s for event in events if event.id.startswith(f"{WITHIN}:")}
-    if not caught and not within:
-        return Breathed(line, frozenset(), ())
-    rows = list(zip(notes, line.places, strict=True))
+    held = [index for index, note in enumerate(notes) if note.id in within] if within else []
     return Breathed(
         line,
-        frozenset(place for note, place in rows if note.id in caught),
-        tuple((place, within[note.id]) for note, place in rows if note.id in within),
+        frozenset(line.places[index] for index in caught),
+        tuple((line.places[index], within[notes[index].id]) for index in held),
     )

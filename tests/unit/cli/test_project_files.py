@@ -50,13 +50,13 @@ def test_inspect_shows_the_corrections_of_a_project(run: Run, project: Path) -> 
 
 
 def test_inspect_lists_dancers(run: Run, tmp_path: Path) -> None:
-    danced, _ = add_dancer(small_project(), tmp_path / "salsa.choreography", "Ana", "woman_adult")
+    danced, _ = add_dancer(small_project(), tmp_path / "salsa.choreography", "Ana")
     danced = place_dancers(danced, {"dancer:1": StagePosition(1.5, 3.0, math.pi / 2.0)})
     save(danced, tmp_path / "danced.suisou")
     found = json.loads(run("inspect", tmp_path / "danced.suisou", "--json")[1])
     assert found["dancers"] == [
         {
-            "name": "Ana", "choreography": str(tmp_path / "salsa.choreography"), "character": "woman_adult",
+            "name": "Ana", "choreography": str(tmp_path / "salsa.choreography"), "character": danced.dancers[0].character_id,
             "x_m": 1.5, "z_m": 3.0, "turn_deg": 90.0, "seed": 0, "delay_beats": 0.0, "mirrored": False, "source": -1,
             "size": 1.0, "weight": 0.0,
         }
