@@ -82,7 +82,7 @@ class PlayblastDialog(WorkingDialog):
         self._rate.setCurrentIndex(self._rate.findData(str(min(session.project.fps, Fraction(30)))))
         self._range = named(ComboBox(), "playblast_range")
         self._view = named(ComboBox(), "playblast_view")
-        self._with_sound = named(Check("playblast_dialog.with_what_is_heard"), "playblast_sound")
+        self._with_sound = named(Check("playblast_dialog.include_audio"), "playblast_sound")
         self._with_sound.setChecked(True)
         self._file = named(PathEdit(path), "playblast_file")
         self._choose = Button("playblast_dialog.choose", self._choose_file)

@@ -74,7 +74,7 @@ class PlayersPanel(Retranslated, QWidget):
             "remove": self._tool("delete", "players_panel.remove_selected_players", self._remove),
         }
         self.list = named(PlayerList(session), "player_list")
-        self._empty = Caption("players_panel.nobody_plays_yet_add_player")
+        self._empty = Caption("players_panel.no_players_yet_add_player")
         self._empty.setWordWrap(True)
         self._empty.setContentsMargins(12, 4, 12, 4)
         self._parameters = ParameterSections(session)
