@@ -12,7 +12,8 @@ from app.audio.decode import Recording, decode
 from app.audio.synth import Phrase, Synthesiser, phrases, program_of
 from app.audio.track import RATE_HZ, Block, Mix, Piece, Track
 from app.errors import Cancelled
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from instrument_maps.library import all_maps
 
 _LEVEL: Final = 4.5

@@ -33,7 +33,7 @@ from app.plan.model import (
     PoseEvent,
 )
 from app.plan.problem_lines import problem_lines
-from app.project.model import Dancer, Player
+from app.project.performers import Dancer, Player
 from app.score.model import Note, UnplayedPart
 from app.score.mutes import is_muted
 from app.score.tempo import TempoMap

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
     from app.performance.ensemble import Performance
-    from app.project.model import Player
+    from app.project.performers import Player
 
 from app.encoding import shown
 

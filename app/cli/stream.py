@@ -16,8 +16,8 @@ from app.cli.summary import look_at
 from app.cli.terminal import say
 from app.errors import UsageError
 from app.messages import text
-from app.project.model import Dancer, Player
 from app.project.parameters import select_players
+from app.project.performers import Dancer, Player
 from app.stream.faces import FACE_NAMES
 from app.stream.sender import (
     LEAST_PORT,

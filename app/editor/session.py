@@ -26,7 +26,8 @@ from app.performance.ensemble import Performance
 from app.plan.model import Problem
 from app.project.document import Change, Document
 from app.project.grid import Grid
-from app.project.model import Dancer, Player, Project
+from app.project.model import Project
+from app.project.performers import Dancer, Player
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QAction

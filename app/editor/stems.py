@@ -15,7 +15,8 @@ from app.audio.synth import Phrase, Synthesiser
 from app.audio.track import RATE_HZ, Track
 from app.editor.tasks import Progress, StopRequested, Tasks
 from app.errors import Cancelled, Message
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 
 _SETTLE_MS = 120
 """Rendering waits until a drag rests for so long."""

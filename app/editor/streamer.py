@@ -28,7 +28,7 @@ from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
 from app.performance.cast import attempt
 from app.project.casting import StagePosition
-from app.project.model import Dancer, Player
+from app.project.performers import Dancer, Player
 from app.rig.character_library import character_named
 from app.rig.model import Character
 from app.stream.faces import FACE_NAMES, FaceNames

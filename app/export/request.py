@@ -18,7 +18,7 @@ from app.export.targets import CheckedTarget, checked_targets, spoilt
 from app.performance.cast import LeftOut, Performer, attempt, performer_of, require_players
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
-from app.project.model import Dancer, Player
+from app.project.performers import Dancer, Player
 from app.rig.read_figure import read_figure
 
 if TYPE_CHECKING:

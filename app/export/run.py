@@ -49,8 +49,8 @@ from app.performance.judged import judged_problems
 from app.performance.motion import player_motion
 from app.plan.model import Problem
 from app.plan.problem_lines import problem_lines
-from app.project.model import Dancer
 from app.project.names import file_stems
+from app.project.performers import Dancer
 from metadata.load import load_skeleton
 
 Progress = Callable[[float, str], None]

@@ -13,7 +13,7 @@ from app.export.mannequin import mannequin_axes, mannequin_target
 from app.export.own_skeleton import own_target
 from app.export.target import SkeletonChoice, TargetSkeleton, normalised_target
 from app.performance.cast import LeftOut
-from app.project.model import Dancer, Player
+from app.project.performers import Dancer, Player
 from app.rig import quaternion
 from app.rig.figure import Figure
 from app.rig.mesh import Mesh

@@ -17,7 +17,7 @@ import numpy.typing as npt
 from app.errors import FileError, MapError, UsageError, shortened
 from app.identity_cache import IdentityCache
 from app.motion.perform import lying
-from app.project.model import Player
+from app.project.performers import Player
 from app.rig.character_library import bundled_characters, character_named, character_revision
 from app.rig.fitted_instrument import FittedInstrument, suited
 from app.rig.grip_search import Progress, no_progress

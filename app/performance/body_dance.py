@@ -14,35 +14,20 @@ from app.chance import performed_seed, seed_of
 from app.choreography.body_layer import FPS, body_layer
 from app.choreography.generate import Choreographer
 from app.choreography.rhythm import Rhythm
-from app.errors import AppError, Message
 from app.identity_cache import IdentityCache
 from app.motion.danced import BodyLayer
 from app.motion.perform import frame_count
 from app.performance.bodies import character_of
-from app.performance.dancers import Dancing, choreographer_of, dance_frame, rhythm_of
+from app.performance.choreographers import choreographer_of, unfit_choreography
+from app.performance.dancers import Dancing, dance_frame, rhythm_of
 from app.performance.ensemble import Performance
 from app.plan.model import TimeFrame
 from app.project.casting import StagePosition
-from app.project.model import Dancer, Player
-from app.project.storage import choreography_missing
+from app.project.performers import Dancer, Player
 from app.rig.model import Character
 
 _Keys: TypeAlias = tuple[Dancer, Choreographer, Rhythm, Character, TimeFrame]
 _LAYERS: IdentityCache[BodyLayer] = IdentityCache(64)
-
-
-def unfit_choreography(player: Player) -> Message | None:
-    """Why a player cannot dance what was selected; None where nothing was, or nothing is wrong with it."""
-    choreography = player.parameters.choreography
-    if not choreography:
-        return None
-    for message in choreography_missing(player.name, choreography):
-        return message
-    try:
-        choreographer_of(choreography)
-    except AppError as error:
-        return error.message
-    return None
 
 
 def layer_of(performance: Performance, player: Player) -> BodyLayer | None:

@@ -22,7 +22,7 @@ import msgspec
 from app.errors import AppError, Cancelled, FileError, Message
 from app.performance.bodies import body_of, character_of, hold_of, model_of
 from app.performance.ensemble import Performance
-from app.project.model import Dancer, Player
+from app.project.performers import Dancer, Player
 from app.rig.hold import GripPose
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.model import InstrumentMap

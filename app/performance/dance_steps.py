@@ -26,7 +26,7 @@ from app.identity_cache import IdentityCache
 from app.performance.dancers import dancing_of, place_of
 from app.performance.ensemble import Performance
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState, UseSegment
-from app.project.model import Dancer
+from app.project.performers import Dancer
 from app.rig import quaternion
 
 FloatArray = npt.NDArray[np.float64]

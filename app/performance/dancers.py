@@ -29,8 +29,6 @@ from app.choreography.dance import Dance, Manner, Step
 from app.choreography.derived_rhythm import audible_rhythm
 from app.choreography.generate import Choreographer
 from app.choreography.judge import jerking_seams, sliding_stands
-from app.choreography.library import choreography_path
-from app.choreography.model_file import read_model
 from app.choreography.retarget import retarget
 from app.choreography.rhythm import Rhythm, delayed
 from app.choreography.sequence import Constraints, Grid, grid_of
@@ -39,12 +37,13 @@ from app.identity_cache import IdentityCache
 from app.motion.curve import Envelopes
 from app.motion.model import Motion
 from app.motion.perform import frame_count
+from app.performance.choreographers import choreographer_of
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.plan.model import Problem, TimeFrame
 from app.project.casting import StagePosition
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState, UseSegment
-from app.project.model import Dancer
+from app.project.performers import Dancer
 from app.project.storage import choreography_missing
 from app.rig.character_library import character_library, character_named
 from app.rig.model import Character
@@ -171,22 +170,6 @@ def manner_of(dancer: Dancer, sources: int) -> Manner:
     """How a dancer dances; a source that the choreography does not have is none."""
     source = dancer.source if 0 <= dancer.source < sources else None
     return Manner(dancer.seed, source, dancer.size, dancer.weight, dancer.mirrored)
-
-
-def choreographer_of(choreography: str) -> Choreographer:
-    """A choreography by name or path, read again when its file is another one. Raises FileError."""
-    path = choreography_path(choreography)
-    try:
-        status = path.stat()
-        version = (status.st_mtime_ns, status.st_size)
-    except OSError:
-        version = (0, 0)
-    return _choreographer(choreography, version)
-
-
-@lru_cache(maxsize=8)
-def _choreographer(choreography: str, version: tuple[int, int]) -> Choreographer:
-    return Choreographer(read_model(choreography_path(choreography)))
 
 
 def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:

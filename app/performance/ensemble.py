@@ -26,7 +26,8 @@ from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around,
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.plan.parameters import deciding
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from app.rig.character_library import character_library
 from app.score.limits import too_long
 from instrument_maps.library import library
@@ -349,7 +350,7 @@ def _not_danced(player: Player) -> tuple[Message, ...]:
     if not player.parameters.choreography:
         return ()
     # The modules of dances are loaded only for pieces with dancers.
-    from app.performance.body_dance import unfit_choreography
+    from app.performance.choreographers import unfit_choreography
 
     unfit = unfit_choreography(player)
     return () if unfit is None else (unfit,)

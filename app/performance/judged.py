@@ -12,7 +12,7 @@ from app.performance.ensemble import Performance
 from app.performance.motion import CHUNK, playing_of
 from app.performance.span import whole_span
 from app.plan.model import Problem
-from app.project.model import Player
+from app.project.performers import Player
 
 
 def all_problems(performance: Performance, players: Iterable[Player]) -> dict[str, tuple[Problem, ...]]:

@@ -29,7 +29,7 @@ from app.performance.chunks import Chunk, Grid, Pose, poses_of
 from app.performance.ensemble import Performance, no_events
 from app.performance.motion import playing_of
 from app.plan.model import PlayerPlan, Problem
-from app.project.model import Dancer, Player
+from app.project.performers import Dancer, Player
 
 if TYPE_CHECKING:
     from app.performance.dancers import Dancing

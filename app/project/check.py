@@ -24,8 +24,9 @@ from app.project.fault import (
     unique,
     within,
 )
-from app.project.model import AudioTrack, Player, PlayerTakes, Project
+from app.project.model import AudioTrack, PlayerTakes, Project
 from app.project.parameters import is_possible, range_text
+from app.project.performers import Player
 from app.score.limits import too_long
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score

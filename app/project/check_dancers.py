@@ -9,7 +9,8 @@ from app.choreography.model_file import SUFFIX
 from app.project import limits
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState
 from app.project.fault import Fault, about, between, id_faults, look_faults, text_faults, unique
-from app.project.model import DANCER_PARAMETERS, Dancer, Project
+from app.project.model import DANCER_PARAMETERS, Project
+from app.project.performers import Dancer
 
 
 def dancer_faults(project: Project) -> Iterator[Fault]:

@@ -13,16 +13,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import msgspec
 
+from app.project.performers import Player
 from app.score.model import MOST_VOICES, Note, Part
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap, Posture
-
-if TYPE_CHECKING:
-    from app.project.model import Player
 
 TOGETHER_S: Final = 1.0
 """The longest total time for which two instruments of one musician may sound at once: a held last note, a pickup

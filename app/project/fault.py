@@ -10,7 +10,7 @@ from typing import Final, TypeAlias
 from app.errors import shortened
 from app.plan.parameters import Bounds
 from app.project import limits
-from app.project.model import Dancer, Player
+from app.project.performers import Dancer, Player
 
 Fault: TypeAlias = tuple[str, str]
 """The key path, and what is wrong there."""

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Annotated, Final
+from typing import Final
 
 import msgspec
 import numpy as np
@@ -14,15 +14,15 @@ import numpy as np
 from app.errors import UsageError
 from app.plan.corrections import Correction
 from app.plan.generate import PREROLL_BEATS
-from app.plan.parameters import SEED, Parameter, PlayerParameters, declared
-from app.project import limits
-from app.project.casting import StagePosition, amplitude, choose_characters, player_seed, stage_seats, usual_posture
+from app.plan.parameters import Parameter, PlayerParameters, declared
+from app.project.casting import amplitude, choose_characters, player_seed, stage_seats, usual_posture
 from app.project.dance_corrections import DanceCorrection
 from app.project.doubling import common_postures, doubled_parts, embodied
 from app.project.footprint import footprint, together
 from app.project.names import unique_names
 from app.project.parameters import Setting
 from app.project.parameters import with_settings as parameters_with
+from app.project.performers import Dancer, Player
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.model import Character
 from app.score.choose import MapChoice
@@ -32,101 +32,6 @@ from app.score.model import ControllerCurve, Note, Part, Score
 from app.score.take import Take
 from instrument_maps.model import Control, InstrumentMap
 from metadata.model import Expression
-
-
-class Player(msgspec.Struct, frozen=True):
-    """Someone who plays one part.
-
-    Attributes
-    ----------
-    id : str
-        Stays the same whatever the player is called.
-    name : str
-        Unique in the project, also where case does not count.
-    part_id, instrument_id, character_id : str
-    parameters : PlayerParameters
-    stage : StagePosition
-    colour : str
-        ``"#rrggbb"``; empty: the theme's, by the player's place in the project.
-    muted, soloed : bool
-        Whether the player sounds; a muted player is still shown and exported.
-    doubles : str
-        Id of the player whose body plays this instrument too, as a flutist's plays the piccolo; empty: a body of its
-        own. The character, parameters and place of the musician are stored with that player.
-    """
-
-    id: str
-    name: str
-    part_id: str
-    instrument_id: str
-    character_id: str
-    parameters: PlayerParameters
-    stage: StagePosition
-    colour: str = ""
-    muted: bool = False
-    soloed: bool = False
-    doubles: str = ""
-
-
-class Dancer(msgspec.Struct, frozen=True):
-    """A performer who moves to the piece as a choreography has it.
-
-    Attributes
-    ----------
-    id : str
-        Stays the same whatever the dancer is called; unique among players and dancers.
-    name : str
-        Unique among players and dancers, also where case does not count.
-    choreography : str
-        Absolute path of a ``.choreography`` file as this machine knows it, or the name of a bundled one (see
-        `app.choreography.library`); a project's file keeps a path relative to itself.
-    character_id : str
-    stage : StagePosition
-        Where the dance begins, and which way the dancer faces.
-    seed : int
-    delay_beats : float
-        How much later than the music the dance begins, in felt beats: two dancers of one seed dance in canon.
-    mirrored : bool
-        Left and right are exchanged.
-    source : int
-        Index of the choreography's source whose segments are preferred; -1: none is.
-    size : float
-        Of the motion, 0..1.5; 1: as captured.
-    weight : float
-        -1..1, from light to heavy: how deep the knees bend; 0: as captured.
-    colour : str
-        ``"#rrggbb"``; empty: the theme's.
-    """
-
-    id: str
-    name: str
-    choreography: str
-    character_id: str
-    stage: StagePosition
-    # fmt: off
-    seed: Annotated[int, Parameter(
-        "dancer_parameter.seed", "dancer_parameter.seed_tip",
-        section="dancer", bounds=SEED, is_own=True,
-    )] = 0
-    delay_beats: Annotated[float, Parameter(
-        "dancer_parameter.delay_beats", "dancer_parameter.delay_beats_tip", "unit.beats",
-        bounds=(0.0, 10_000.0), usual=32.0, step=1.0, decimals=1, section="dancer", row=1,
-    )] = 0.0
-    mirrored: bool = False
-    source: Annotated[int, Parameter(
-        "dancer_parameter.source", "dancer_parameter.source_tip",
-        bounds=(-1, limits.CHOREOGRAPHY_INDEX[1]),
-    )] = -1
-    size: Annotated[float, Parameter(
-        "dancer_parameter.size", "dancer_parameter.size_tip", "unit.times", section="dancer", bounds=(0.0, 1.5),
-    )] = 1.0
-    weight: Annotated[float, Parameter(
-        "dancer_parameter.weight", "dancer_parameter.weight_tip",
-        section="dancer", bounds=(-1.0, 1.0), since=8,
-    )] = 0.0
-    # fmt: on
-    colour: str = ""
-
 
 DANCER_PARAMETERS: Final[Mapping[str, Parameter]] = declared(Dancer)
 """Every parameter of a dancer by name."""

@@ -52,7 +52,8 @@ from app.project.ids import (
     is_made_here,
 )
 from app.project.limits import LAST_TICK
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from app.score.model import Note, Part, Score
 from app.score.parts import transposed
 from instrument_maps.model import InstrumentMap

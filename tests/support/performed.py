@@ -14,7 +14,8 @@ from app.performance.span import FrameSpan
 from app.plan.corrections import PinFingering
 from app.plan.model import PlayerPlan
 from app.project.edit.corrections import put
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from app.score.metre_map import FeltBeats
 
 

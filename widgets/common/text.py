@@ -11,7 +11,7 @@ from app.errors import Argument, Message
 from app.messages import PITCHES, WORDINGS, filled
 from app.messages.pitches import pitch_name
 from app.plan.problem_lines import NOTES, note_of, note_place
-from app.project.model import Player
+from app.project.performers import Player
 from app.score.model import Note
 from instrument_maps.library import all_maps
 from instrument_maps.model import PARTS

@@ -23,7 +23,7 @@ from app.editor.tasks import Progress, StopRequested
 from app.errors import AppError, Message
 from app.performance.ensemble import Performance
 from app.project.document import Change
-from app.project.model import Dancer
+from app.project.performers import Dancer
 from widgets.common.controls import Button, Retranslated
 from widgets.common.dance_figures import Floats
 from widgets.common.layouts import STRETCH, in_column, in_row

@@ -24,7 +24,7 @@ from app.export.request import Request
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
-from app.project.model import Player
+from app.project.performers import Player
 from metadata.load import load_bone_names
 from widgets.common.controls import Button, Caption, named
 from widgets.common.layouts import in_column, in_form, in_row

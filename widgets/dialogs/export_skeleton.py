@@ -21,7 +21,7 @@ from app.export.target import SkeletonChoice
 from app.export.targets import CheckedTarget, checked_targets
 from app.performance.bodies import character_of
 from app.performance.cast import attempt
-from app.project.model import Player
+from app.project.performers import Player
 from app.rig.read_figure import SUFFIXES, read_figure
 from widgets.common.controls import Button, Retranslated, named
 from widgets.common.layouts import in_column, in_row

@@ -11,7 +11,8 @@ from app.plan.corrections import PinFingering, SetEmbouchure
 from app.plan.model import EmbouchureEvent, FingeringEvent, PlayerPlan
 from app.project.edit import events as edit_events
 from app.project.edit import notes as edit_notes
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from instrument_maps.library import find_map
 from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.chip import Chip

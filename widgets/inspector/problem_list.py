@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QWidget
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.plan.model import Problem
-from app.project.model import Dancer, Player
+from app.project.performers import Dancer, Player
 from app.score.model import Score
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Retranslated, named

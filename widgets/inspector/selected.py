@@ -8,7 +8,7 @@ from functools import cached_property
 from app.editor.session import Session
 from app.plan.model import FingeringEvent, PlayerPlan
 from app.project.edit.events import Placed, placed_events
-from app.project.model import Player
+from app.project.performers import Player
 from app.score.model import Note, Part
 
 MOST_NOTES = 500

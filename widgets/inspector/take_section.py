@@ -17,7 +17,7 @@ from app.editor.tokens import LEAST_TARGET_PX
 from app.errors import Message
 from app.project.edit.takes import colour_take, rename_take, set_cleaning, take_cleaned
 from app.project.limits import CLEANING
-from app.project.model import Player
+from app.project.performers import Player
 from app.score.take import Cleaning, Take
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Retranslated, named

@@ -15,7 +15,8 @@ from app.encoding import shown
 from app.plan.parameters import PARAMETERS
 from app.project.edit import body_dance as edit
 from app.project.edit.players import parameter_edit, reset_parameters, set_parameters
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import IconButton, Retranslated
 from widgets.common.layouts import in_row

@@ -28,7 +28,7 @@ from PySide6.QtWidgets import (
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
-from app.project.model import Dancer
+from app.project.performers import Dancer
 from widgets.common.controls import named
 from widgets.common.icons import icon
 from widgets.players.ordered_list import ID_ROLE, OrderedList

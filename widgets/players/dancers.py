@@ -22,7 +22,8 @@ from app.encoding import shown
 from app.errors import AppError, Message
 from app.project.document import Change
 from app.project.edit import dancers as edit
-from app.project.model import DANCER_PARAMETERS, Dancer, Project
+from app.project.model import DANCER_PARAMETERS, Project
+from app.project.performers import Dancer
 from app.rig.character_library import characters
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Check, IconButton, Retranslated, named

@@ -16,7 +16,8 @@ from app.errors import AppError, Message
 from app.plan.parameters import Parameter, Value
 from app.project.edit import players as edit
 from app.project.edit.players import parameter_edit
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from app.rig.character_library import bundled_characters, characters
 from instrument_maps.library import all_maps
 from widgets.common.combo import Combo, Option

@@ -39,7 +39,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.editor.session import Session
-from app.project.model import Player
+from app.project.performers import Player
 from widgets.common.controls import named
 from widgets.common.icons import icon
 from widgets.players.ordered_list import ID_ROLE, OrderedList

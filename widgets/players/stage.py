@@ -22,7 +22,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.editor.session import Session
 from app.project.casting import StagePosition
-from app.project.model import Dancer, Player
+from app.project.performers import Dancer, Player
 
 DISC_M = 0.28
 NOSE_M = 0.62

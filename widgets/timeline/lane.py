@@ -22,7 +22,7 @@ from app.editor.selection import Selection
 from app.editor.session import Session
 from app.plan.model import PlayerPlan
 from app.project.document import Change
-from app.project.model import Player
+from app.project.performers import Player
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.hands import mouse_at
 from widgets.timeline.lane_header import GUTTER_PX, LaneHeader

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.editor.session import Session
 from app.plan.model import PlayerPlan
-from app.project.model import Player
+from app.project.performers import Player
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_lines
 from widgets.timeline.model.hand import LaneMouse

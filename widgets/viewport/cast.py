@@ -17,7 +17,7 @@ from app.editor.poses import Posed
 from app.errors import AppError
 from app.performance.bodies import body_of, character_of, lies_at, model_of, suited_to
 from app.project.casting import StagePosition
-from app.project.model import Dancer, Player
+from app.project.performers import Dancer, Player
 from app.rig import quaternion
 from app.rig.character_library import character_library, character_named
 from app.rig.model import Character, InstrumentModel, Skeleton

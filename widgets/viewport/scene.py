@@ -14,7 +14,7 @@ from app.editor.poses import Posed, Poses, same
 from app.editor.session import Session, Severity
 from app.errors import Message
 from app.performance.cast import LeftOut
-from app.project.model import Dancer, Player
+from app.project.performers import Dancer, Player
 from widgets.common.text import message_text
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Member, Stage

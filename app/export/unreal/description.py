@@ -19,7 +19,7 @@ from app.export.unreal.manifest import OwnFile
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.casting import StagePosition
-from app.project.model import Dancer, Player
+from app.project.performers import Dancer, Player
 from app.score.model import Score
 from app.score.tempo import TempoMap
 

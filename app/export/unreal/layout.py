@@ -9,7 +9,8 @@ from pathlib import Path, PurePosixPath
 from typing import Final
 
 from app.export.unreal.names import asset_name, unique
-from app.project.model import Dancer, Player, Project
+from app.project.model import Project
+from app.project.performers import Dancer, Player
 
 SOURCES: Final = "SuisouSource"
 """Folder of the sources. Not in ``Content``, which Unreal may watch for new files to import by itself."""

@@ -48,7 +48,7 @@ from app.export.unreal.plugin import requested_plugin
 from app.export.unreal.project import UnrealProject, require_writable
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
-from app.project.model import Dancer
+from app.project.performers import Dancer
 from app.rig.mesh import Mesh
 
 _SHARES = {"files": 0.8, "sound": 0.15, "checks": 0.05}

@@ -26,8 +26,9 @@ from app.project.casting import DANCER_ROOM_M, ELBOW_M, StagePosition
 from app.project.edit.players import free_name, instrument_of
 from app.project.footprint import footprint
 from app.project.ids import fresh_dancer_ids
-from app.project.model import DANCER_PARAMETERS, Dancer, Project
+from app.project.model import DANCER_PARAMETERS, Project
 from app.project.names import clean_name
+from app.project.performers import Dancer
 from app.rig.character_library import bundled_characters
 
 MOST_IN_ROW: Final = 5

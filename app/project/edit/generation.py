@@ -11,7 +11,8 @@ from app.chance import next_seed
 from app.plan.corrections import Correction, Vary
 from app.project.edit.corrections import put, take_back
 from app.project.edit.players import musicians_of
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 
 NAME = "varied-"
 

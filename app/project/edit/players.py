@@ -31,8 +31,9 @@ from app.project.casting import (
 from app.project.doubling import TOGETHER_S, promote_remaining, together_s
 from app.project.footprint import footprint, together
 from app.project.ids import MADE_PART, fresh_note_ids, fresh_part_ids, fresh_player_ids
-from app.project.model import Player, Project, characters_for
+from app.project.model import Project, characters_for
 from app.project.names import clean_name
+from app.project.performers import Player
 from app.score.choose import require_map
 from app.score.model import Part
 from instrument_maps.library import all_maps, find_map

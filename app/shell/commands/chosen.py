@@ -6,7 +6,7 @@ from collections import defaultdict
 
 from app.editor.session import Session
 from app.plan.model import PlayerPlan
-from app.project.model import Player
+from app.project.performers import Player
 from app.score.model import Note
 
 

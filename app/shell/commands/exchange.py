@@ -15,7 +15,8 @@ from app.editor.translated import tr
 from app.encoding import shown
 from app.errors import AppError, Message
 from app.project.midi_out import export_midi as write_piece
-from app.project.model import Player, Project, map_choices
+from app.project.model import Project, map_choices
+from app.project.performers import Player
 from app.project.reimport import Reimport, reimport
 from app.score.read import read_midi
 from app.shell.editor import Editor, EditorAction

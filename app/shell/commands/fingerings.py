@@ -8,7 +8,8 @@ from weakref import WeakKeyDictionary
 from app.editor.session import Session, Severity
 from app.errors import AppError, Message
 from app.project.edit.events import pin_fingerings
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from app.score.model import Note
 from app.shell.action import Action
 from app.shell.commands.chosen import notes_by_player, plan_of

@@ -5,7 +5,8 @@ from __future__ import annotations
 from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import players as edit
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from app.shell.action import Action
 from app.shell.editor import EditorAction
 from instrument_maps.library import all_maps

@@ -12,7 +12,8 @@ from app.errors import AppError, Message
 from app.project.edit import takes as edit
 from app.project.edit.takes import BEFORE
 from app.project.limits import LAST_TICK
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from app.score.take import Cleaning, Floats, Take
 from app.shell.action import Action
 from app.shell.editor import Editor, EditorAction

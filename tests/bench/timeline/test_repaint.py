@@ -19,7 +19,8 @@ from app.performance.ensemble import Performance
 from app.plan.parameters import PlayerParameters
 from app.project.casting import Footprint, stage_seats
 from app.project.edit import notes
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 from tests.support.tasks import ImmediateTasks

@@ -14,7 +14,7 @@ from app.plan.corrections import ChangeExpression, ChangeGesture, PinFingering, 
 from app.plan.model import PlayerPlan
 from app.project.edit import events as edit
 from app.project.edit.corrections import put
-from app.project.model import Player
+from app.project.performers import Player
 from tests.gui.inspector.hands import child, click, click_line, drag, number, show_tab, type_into
 from widgets.inspector.by_hand import ByHandLine
 from widgets.inspector.panel import InspectorPanel

@@ -12,7 +12,7 @@ from app.editor.session import Session
 from app.errors import Message
 from app.plan.corrections import PinFingering, SetEmbouchure
 from app.project.edit.corrections import put
-from app.project.model import Player
+from app.project.performers import Player
 from app.score.model import Note
 from instrument_maps.library import find_map
 from tests.gui.inspector.hands import child, click, drag, number, type_into

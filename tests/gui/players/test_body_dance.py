@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from app.choreography.model_file import write_model
 from app.editor.session import Session
-from app.project.model import Player
+from app.project.performers import Player
 from tests.support.dances import model
 from tests.support.windows import show_in_front
 from widgets.common.combo import Combo

@@ -16,7 +16,7 @@ from app.editor.session import Session
 from app.project.casting import stage_arc
 from app.project.edit import players as players_edit
 from app.project.edit.players import cast_parameters, duplicate_players
-from app.project.model import Player
+from app.project.performers import Player
 from app.shell.commands.players import toggle_posture
 from instrument_maps.library import find_map
 from tests.support.windows import show_in_front

@@ -32,7 +32,8 @@ from app.project.edit.piece import set_audio
 from app.project.edit.players import join, place
 from app.project.edit.takes import add_takes, comp_whole, set_cleaning
 from app.project.grid import Grid
-from app.project.model import Player, Project, map_choices
+from app.project.model import Project, map_choices
+from app.project.performers import Player
 from app.project.presence import Presence
 from app.score.model import Note
 from app.score.read import read_midi

@@ -23,7 +23,8 @@ from app.project.casting import StagePosition
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
 from app.project.edit.dancers import set_choreography
 from app.project.grid import Grid
-from app.project.model import Dancer, Project
+from app.project.model import Project
+from app.project.performers import Dancer
 from app.score.model import Note
 from tests.gui.timeline.conftest import TPQ, scale_project
 from tests.gui.timeline.lane_hands import LEFT, SHIFT, click, planned

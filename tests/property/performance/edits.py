@@ -27,7 +27,8 @@ from app.plan.corrections import (
 )
 from app.plan.parameters import PARAMETERS
 from app.project.edit.corrections import put
-from app.project.model import Player, Project, project_from_score
+from app.project.model import Project, project_from_score
+from app.project.performers import Player
 from app.score.model import ControllerCurve, Note, Part, Score
 from app.score.tempo import TempoChange, TempoMap
 from instrument_maps.load import bundled_maps

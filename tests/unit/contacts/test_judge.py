@@ -22,7 +22,8 @@ from app.performance.span import whole_span
 from app.plan.corrections import AddGesture, Correction, PoseCorrection
 from app.plan.model import Problem
 from app.project.edit.corrections import put
-from app.project.model import Player, Project, map_choices, project_from_score
+from app.project.model import Project, map_choices, project_from_score
+from app.project.performers import Player
 from app.rig import quaternion
 from app.rig.hold import StationTable
 from app.rig.skeleton import forward

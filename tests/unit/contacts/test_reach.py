@@ -17,7 +17,8 @@ from app.performance.ensemble import Performance
 from app.performance.span import whole_span
 from app.plan.corrections import PinFingering
 from app.project.edit.corrections import put
-from app.project.model import Player, Project, map_choices, project_from_score
+from app.project.model import Project, map_choices, project_from_score
+from app.project.performers import Player
 from app.rig.hold import GripPose, hand_targets
 from app.rig.skeleton import forward
 from app.score.read import read_midi

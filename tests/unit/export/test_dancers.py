@@ -21,7 +21,8 @@ from app.performance.dancers import dancing_of
 from app.performance.ensemble import Performance
 from app.performance.span import whole_span
 from app.project.casting import StagePosition
-from app.project.model import Dancer, Project
+from app.project.model import Project
+from app.project.performers import Dancer
 from tests.support.dances import model
 from tests.unit.performance.test_dancers import played
 

@@ -23,7 +23,8 @@ from app.performance.live import LiveMotion
 from app.performance.span import bars_span, whole_span
 from app.project.edit.body_dance import set_body_dance, vary_body_dances
 from app.project.edit.players import set_parameters
-from app.project.model import Player, Project, map_choices, project_from_score
+from app.project.model import Project, map_choices, project_from_score
+from app.project.performers import Player
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
 from tests.support.performed import in_seventh, player_motion, playing_of

@@ -23,7 +23,8 @@ from app.plan.model import TimeFrame
 from app.project.casting import StagePosition
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
 from app.project.edit.generation import vary_everyone
-from app.project.model import Dancer, Project
+from app.project.model import Project
+from app.project.performers import Dancer
 from app.rig import quaternion
 from tests.support.dances import beaten, model
 from tests.unit.project.pieces import small_project

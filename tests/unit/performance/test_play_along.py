@@ -16,7 +16,7 @@ from app.contacts.judge import ContactJudge
 from app.performance.bodies import character_of, model_of
 from app.performance.chunks import Pose
 from app.performance.play_along import PlayAlong
-from app.project.model import Player
+from app.project.performers import Player
 from app.rig import quaternion
 from app.score.take import ControllerMapping
 from instrument_maps.load import bundled_maps

@@ -21,7 +21,8 @@ from app.plan.corrections import (
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition, stage_arc
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
-from app.project.model import AudioTrack, CompSpan, Dancer, Player, PlayerTakes, Project
+from app.project.model import AudioTrack, CompSpan, PlayerTakes, Project
+from app.project.performers import Dancer, Player
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score, UnplayedPart
 from app.score.take import Cleaning, ControllerMapping, Take

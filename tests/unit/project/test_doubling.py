@@ -13,8 +13,9 @@ from app.project.casting import StagePosition
 from app.project.doubling import together_s
 from app.project.edit import players as edit
 from app.project.edit.generation import vary_players
-from app.project.model import Player, project_from_score, with_settings
+from app.project.model import project_from_score, with_settings
 from app.project.parameters import Setting
+from app.project.performers import Player
 from app.project.reimport import reimport
 from app.project.storage import load, save
 from app.score.model import Note, Score

@@ -13,8 +13,9 @@ from app.plan.parameters import PARAMETERS, Parameter, PlayerParameters
 from app.project import presets
 from app.project.edit import dancers, players
 from app.project.migrations import CURRENT, MIGRATIONS
-from app.project.model import DANCER_PARAMETERS, Dancer, Project
+from app.project.model import DANCER_PARAMETERS, Project
 from app.project.parameters import parse_settings, with_settings
+from app.project.performers import Dancer
 from app.project.storage import decode, encode
 from tests.support.parameters import others
 from tests.unit.project.pieces import full_project, small_project

@@ -16,7 +16,8 @@ from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.edit import notes as edit
 from app.project.grid import Grid
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 

@@ -28,7 +28,8 @@ from app.project.edit.notes import add_note
 from app.project.edit.players import add_player, remove_players, set_parameters
 from app.project.edit.tempo import scale_tempo, set_metre, set_tempo
 from app.project.midi_out import export_midi
-from app.project.model import Dancer, Project, map_choices, project_from_score
+from app.project.model import Project, map_choices, project_from_score
+from app.project.performers import Dancer
 from app.project.reimport import orphaned, reattached, reimport
 from app.project.storage import load, save
 from app.score.model import Marker, Note, Part, PercussionHit, Score

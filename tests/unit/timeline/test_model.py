@@ -18,7 +18,8 @@ from app.project.casting import StagePosition
 from app.project.document import Document
 from app.project.edit import notes
 from app.project.grid import Grid
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 from widgets.timeline.model.gestures import Band, Step, either, moved_edge

@@ -17,7 +17,8 @@ from app.project import limits
 from app.project.dance_corrections import DanceCorrection
 from app.project.document import Change
 from app.project.edit import dance_corrections as edit
-from app.project.model import Dancer, Project
+from app.project.model import Project
+from app.project.performers import Dancer
 from widgets.common.text import sentence
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import LaneMouse

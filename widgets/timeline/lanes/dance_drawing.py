@@ -9,7 +9,7 @@ import numpy.typing as npt
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
-from app.project.model import Dancer
+from app.project.performers import Dancer
 from widgets.common.dance_figures import draw_figures, placed
 from widgets.timeline.drawing import draw_lines, draw_mark, draw_rects, draw_text, shade, small_font
 from widgets.timeline.model.dances import MoveStep

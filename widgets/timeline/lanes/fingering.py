@@ -15,7 +15,7 @@ from app.editor.session import Session
 from app.errors import AppError
 from app.plan.model import FingeringEvent, PlayerPlan
 from app.project.document import Change
-from app.project.model import Player
+from app.project.performers import Player
 from instrument_maps.model import Control, InstrumentMap
 from widgets.common.fingering_text import short_label
 from widgets.common.menus import add_actions

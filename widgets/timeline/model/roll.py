@@ -12,7 +12,8 @@ from app.editor.selection import Selection
 from app.editor.timeline_view import Ghosts
 from app.editor.tokens import Tokens
 from app.project.grid import Grid
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.project.performers import Player
 from app.score.model import Note, Score
 from widgets.timeline.model.gestures import Editing
 from widgets.timeline.model.hand import LaneMouse

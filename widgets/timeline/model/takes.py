@@ -8,7 +8,8 @@ from app.editor.selection import Selection
 from app.editor.tokens import Tokens
 from app.errors import Message
 from app.project.edit.takes import BEFORE, comp, comp_whole, comp_with, move_take, rename_take
-from app.project.model import CompSpan, Player, PlayerTakes, Project
+from app.project.model import CompSpan, PlayerTakes, Project
+from app.project.performers import Player
 from app.score.metre_map import Metre
 from app.score.take import Take
 from app.score.tempo import TempoMap
