@@ -11,7 +11,7 @@ import numpy.typing as npt
 from app.export.joints import world_transforms
 from app.formats.scene import Clip, Scene, SkinnedMesh
 from app.rig import quaternion
-from app.rig.skinning import Skin
+from app.rig.skinning import Skin, skin_of
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.integer]
@@ -77,47 +77,24 @@ class Surface:
     """
 
     def __init__(self, playback: Playback, mesh: SkinnedMesh, vertices: IntArray) -> None:
-        weights = _dense_weights(mesh, vertices, len(playback.bone_names))
-        bones = np.flatnonzero(weights.any(axis=0))
-        binds = np.asarray(mesh.world_from_bone_bind, np.float64)[bones].copy()
+        binds = np.array(mesh.world_from_bone_bind, np.float64)
         binds[:, :3, 3] *= METRES
-        bone_from_mesh: FloatArray = np.asarray(np.linalg.inv(binds), np.float64)
+        carrying = np.unique(mesh.joint_indices[vertices])
+        bone_from_mesh = np.zeros_like(binds)
+        bone_from_mesh[carrying] = np.linalg.inv(binds[carrying])
+        weights = np.asarray(mesh.weights, np.float64)[vertices]
+        shown = [morph for morph in mesh.morphs if morph.name in playback.clip.morph_weights]
         self._playback = playback
-        self.skin: Skin = Skin(
-            positions_m=np.asarray(mesh.vertices_cm, np.float64)[vertices] * METRES,
-            joints=bones,
-            weights=weights[:, bones],
-            joint_from_mesh=bone_from_mesh[:, :3],
-            morphs=_touching_morphs(playback.clip, mesh, vertices),
+        self.skin: Skin = skin_of(
+            vertices,
+            np.asarray(mesh.vertices_cm, np.float64) * METRES,
+            mesh.joint_indices[vertices],
+            # As a reader normalises them.
+            weights / weights.sum(axis=1, keepdims=True),
+            bone_from_mesh,
+            ((one.name, one.vertex_indices, np.asarray(one.position_deltas_cm) * METRES) for one in shown),
         )
 
     def positions_m(self, world: FloatArray, first: int, last: int) -> FloatArray:
         """Deformed positions (n, V, 3); ``world`` is `Playback.world` of the same frames."""
         return self.skin.deformed(world, self._playback.morphs(first, last))
-
-
-def _dense_weights(mesh: SkinnedMesh, vertices: IntArray, bones: int) -> FloatArray:
-    """Weights (V, J) with sum 1, as a reader normalises them."""
-    weights = np.zeros((len(vertices), bones))
-    rows = np.arange(len(vertices))
-    for column in range(mesh.joint_indices.shape[1]):
-        np.add.at(weights, (rows, mesh.joint_indices[vertices, column]), mesh.weights[vertices, column])
-    weights /= weights.sum(axis=1, keepdims=True)
-    return weights
-
-
-def _touching_morphs(clip: Clip, mesh: SkinnedMesh, vertices: IntArray) -> dict[str, FloatArray]:
-    """Displacement (V, 3) in metres of every morph of the clip that moves one of the vertices."""
-    once, copies = np.unique(vertices, return_inverse=True)
-    place = np.full(len(mesh.vertices_cm), -1)
-    place[once] = np.arange(len(once))
-    touching = {}
-    for morph in mesh.morphs:
-        rows = place[morph.vertex_indices]
-        if morph.name not in clip.morph_weights or not (rows >= 0).any():
-            continue
-        deltas_m = np.zeros((len(once), 3))
-        deltas_m[rows[rows >= 0]] = np.asarray(morph.position_deltas_cm, np.float64)[rows >= 0] * METRES
-        if deltas_m.any():
-            touching[morph.name] = deltas_m[copies]
-    return touching

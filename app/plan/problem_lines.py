@@ -14,6 +14,8 @@ Wording: TypeAlias = Callable[[Message], str]
 
 NOTES: Final = frozenset({"note", "other", "first_note", "after_note", "anchor"})
 """Arguments of messages that name a note by its id; an anchor may also be an event or a name."""
+PARTS: Final = ("side", "touch")
+"""Arguments that name a part of the body: what is wrong with another part is another kind of problem."""
 MOST_PLACES: Final = 40
 """More are counted only."""
 
@@ -31,9 +33,10 @@ def problem_lines(problems: Iterable[Problem], score: Score, wording: Wording, p
     part_id : str or None
         The player's part, whose notes are looked up first.
     """
-    kinds: dict[str, list[Problem]] = {}
+    kinds: dict[tuple[object, ...], list[Problem]] = {}
     for problem in problems:
-        kinds.setdefault(problem.message.id, []).append(problem)
+        parts = (problem.message.arguments.get(name) for name in PARTS)
+        kinds.setdefault((problem.message.id, *parts), []).append(problem)
     return [_line(found, score, wording, part_id) for found in kinds.values()]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -100,30 +100,50 @@ def mesh_named(character: Character, name: str) -> Mesh:
     raise KeyError(name)
 
 
+def skin_of(
+    vertices: npt.NDArray[np.integer],
+    positions_m: npt.NDArray[np.floating],
+    joints: npt.NDArray[np.integer],
+    weights: FloatArray,
+    joint_from_mesh: FloatArray,
+    morphs: Iterable[tuple[str, npt.NDArray[np.integer], npt.NDArray[np.floating]]],
+) -> Skin:
+    """Prepare some vertices (V,) of a mesh for deforming.
+
+    Parameters
+    ----------
+    vertices : (V,) int
+    positions_m : (N, 3)
+        Of all vertices of the mesh.
+    joints, weights : (V, K)
+        What carries the vertices; a joint named twice adds up.
+    joint_from_mesh : (J, 3 or more, 4) float64
+        Of all joints.
+    morphs : iterable of (name, vertices, displacements)
+        Of the mesh; displacements (M, 3) in metres.
+    """
+    dense = np.zeros((len(vertices), len(joint_from_mesh)))
+    np.add.at(dense, (np.arange(len(vertices))[:, None], joints), weights)
+    used = np.flatnonzero(dense.any(axis=0))
+    moved = {}
+    for name, touched, deltas_m in morphs:
+        rank = np.full(len(positions_m), -1, dtype=np.intp)
+        rank[touched] = np.arange(len(touched))
+        hit = rank[vertices] >= 0
+        if hit.any():
+            moved[name] = np.zeros((len(vertices), 3))
+            moved[name][hit] = deltas_m[rank[vertices[hit]]]
+    place_m = positions_m[vertices].astype(np.float64)
+    return Skin(place_m, used, np.ascontiguousarray(dense[:, used]), joint_from_mesh[used, :3], moved)
+
+
 def patch(character: Character, mesh: Mesh, vertices: npt.NDArray[np.integer]) -> Patch:
     """Prepare vertices of one of a character's meshes for `deform`."""
     vertices = np.asarray(vertices, dtype=np.intp)
-    used, weights = mesh.joints[vertices], mesh.weights[vertices].astype(np.float64)
-    joints = np.unique(used[weights > 0.0]).astype(np.intp)
-    dense = np.zeros((len(vertices), len(character.skeleton.names)))
-    np.add.at(dense, (np.arange(len(vertices))[:, None], used), weights)
-    morphs = {}
-    for morph in mesh.morphs:
-        deltas = np.zeros((len(vertices), 3))
-        rank = np.full(len(mesh.positions_m), -1, dtype=np.intp)
-        rank[morph.vertices] = np.arange(len(morph.vertices))
-        hit = rank[vertices] >= 0
-        if hit.any():
-            deltas[hit] = morph.deltas_m[rank[vertices[hit]]]
-            morphs[morph.name] = deltas
-    return Patch(
-        positions_m=mesh.positions_m[vertices].astype(np.float64),
-        normals=mesh.normals[vertices].astype(np.float64),
-        joints=joints,
-        weights=np.ascontiguousarray(dense[:, joints]),
-        joint_from_mesh=character.joint_from_mesh[joints, :3, :],
-        morphs=morphs,
-    )
+    weights = mesh.weights[vertices].astype(np.float64)
+    morphs = ((morph.name, morph.vertices, morph.deltas_m) for morph in mesh.morphs)
+    skin = skin_of(vertices, mesh.positions_m, mesh.joints[vertices], weights, character.joint_from_mesh, morphs)
+    return Patch(**vars(skin), normals=mesh.normals[vertices].astype(np.float64))
 
 
 def skin_matrices(joints: IntArray, joint_from_mesh: FloatArray, transforms: JointTransforms) -> FloatArray:

@@ -39,6 +39,11 @@ def test_kinds_stay_apart_in_the_order_of_their_first() -> None:
     assert [line.split()[1] for line in lines] == ["left", "change"]
 
 
+def test_both_hands_are_named() -> None:
+    hands = [Problem(Message("character.no_fingers", {"side": side}), None, -2.0, 60.0) for side in ("left", "right")]
+    assert [line.split()[4] for line in problem_lines(hands, SCORE, text)] == ["left", "right"]
+
+
 def test_what_names_no_note_is_given_a_place_unless_it_lasts_from_the_beginning() -> None:
     (line,) = problem_lines([Problem(Message("contact.lips_off", {"gap_mm": 3}), None, 4.25, 5.0)], SCORE, text)
     assert line.endswith("(at 3.1.240)")
