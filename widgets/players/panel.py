@@ -70,7 +70,7 @@ class PlayersPanel(Retranslated, QWidget):
         self._session = session
         self._tools = {
             "add": self._tool("add", "players_panel.add_player", self._offer_instruments),
-            "duplicate": self._tool("duplicate", "players_panel.duplicate_somebody_else_plays_same", self._duplicate),
+            "duplicate": self._tool("duplicate", "players_panel.duplicate_same_part", self._duplicate),
             "remove": self._tool("delete", "players_panel.remove_selected_players", self._remove),
         }
         self.list = named(PlayerList(session), "player_list")
