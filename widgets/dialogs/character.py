@@ -97,7 +97,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._wants_picture = False
         self.title = named(QLineEdit(draft.title), "character_title")
         self._source, self._picture = wrapped(Label()), named(Label(), "character_picture")
-        self._reported = named(wrapped(Label()), "character_told")
+        self._reported = named(wrapped(Label()), "character_status")
         self._legend = [(Label(sign), Label()) for sign in ("●", "◉", "○")]
         self.body = BodyMap(session, self._joint_text)
         self.rows = ColumnList("joint_list", "character_dialog.joint", "character_dialog.bone", stretches=(1,))

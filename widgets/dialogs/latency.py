@@ -70,7 +70,7 @@ class LatencyDialog(Retranslated, QDialog):
             Label(),
             Caption("latency_dialog.latency"),
         )
-        self._reported.setObjectName("latency_told")
+        self._reported.setObjectName("latency_status")
         self.chart = HitChart(session)
         self.value = named(QDoubleSpinBox(), "latency_value")
         self.value.setRange(-500.0, 1000.0)

@@ -94,7 +94,7 @@ class ShortcutsPage(Retranslated, QWidget):
         self.back = Button("shortcuts_page.default", self._back, "shortcut_back")
         self.take = Button("shortcuts_page.remove_keys", self._take, "shortcut_take")
         self.give = Button("shortcuts_page.assign", self._give, "shortcut_give")
-        self.reported = named(Label(), "shortcut_told")
+        self.reported = named(Label(), "shortcut_status")
         self.reported.setWordWrap(True)
         line = in_row(self._label, (self.edit, 1), self.give, self.take, self.back)
         bottom = in_row((self.reported, 1), self.all_back)

@@ -46,7 +46,7 @@ class StreamDialog(Retranslated, QDialog):
         self._session, self._state = session, session.streaming
         self._explained = wrapped(Caption("stream_dialog.sends_performers_poses_faces_and"))
         self._warning = named(wrapped(Caption("stream_dialog.what_is_sent_leaves_this")), "stream_warning")
-        self._reported = named(wrapped(Label()), "stream_told")
+        self._reported = named(wrapped(Label()), "stream_status")
         self._host, self._port = named(QLineEdit(), "stream_host"), named(QSpinBox(), "stream_port")
         self._who, self._faces = named(Combo(), "stream_who"), named(Combo(), "stream_faces")
         self._rate = named(Combo(), "stream_rate")

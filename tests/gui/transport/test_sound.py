@@ -43,13 +43,13 @@ def wait_ready(sound: Sound, qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: not sound.is_busy)
 
 
-def rendered(sound: Sound, start_s: float, end_s: float) -> np.ndarray:
+def excerpt(sound: Sound, start_s: float, end_s: float) -> np.ndarray:
     """What the playback would play."""
     return sound.playback.mix.read(round(start_s * RATE_HZ), round((end_s - start_s) * RATE_HZ))
 
 
 def loudness(sound: Sound, start_s: float, end_s: float) -> float:
-    return float(np.sqrt((rendered(sound, start_s, end_s) ** 2).mean()))
+    return float(np.sqrt((excerpt(sound, start_s, end_s) ** 2).mean()))
 
 
 def edit(session: Session, project: Project) -> None:
@@ -92,7 +92,7 @@ def test_scrubbing_can_be_silent(ready: Sound, session: Session, devices: FakeDe
 
 
 def test_films_get_the_sound_of_playback(ready: Sound, session: Session) -> None:
-    assert rendered(ready, 0.0, 3.0) == pytest.approx(mixdown(session.project, 0.0, 3.0), abs=1e-6)
+    assert excerpt(ready, 0.0, 3.0) == pytest.approx(mixdown(session.project, 0.0, 3.0), abs=1e-6)
 
 
 def test_mute_and_solo_take_effect_at_once(ready: Sound, session: Session, tasks: ImmediateTasks) -> None:
@@ -112,7 +112,7 @@ def test_after_an_edit_only_what_changed_is_rendered(
     rendered = []
     real = RenderProcess.__call__
     monkeypatch.setattr(RenderProcess, "__call__", lambda self, midi: rendered.append(midi) or real(self, midi))
-    before = rendered(ready, 0.0, 1.0)
+    before = excerpt(ready, 0.0, 1.0)
     project = session.project
     other = melody((1920, 960, 60))
     score = project.score
@@ -121,7 +121,7 @@ def test_after_an_edit_only_what_changed_is_rendered(
     qtbot.waitUntil(lambda: len(rendered) == 1)
     wait_ready(ready, qtbot)
     assert len(rendered) == 1
-    assert (rendered(ready, 0.0, 1.0) == before).all()
+    assert (excerpt(ready, 0.0, 1.0) == before).all()
     session.document.undo()
     wait_ready(ready, qtbot)
     assert len(rendered) == 1, "undo finds what was made before"
@@ -142,7 +142,7 @@ def replace_parts(score: object, parts: object) -> object:
 def test_another_tempo_changes_the_sound(ready: Sound, session: Session, qtbot: QtBot) -> None:
     edit(session, set_tempo(session.project, 0, 60.0))
     qtbot.waitUntil(lambda: loudness(ready, 4.2, 5.0) > 0.01)
-    assert rendered(ready, 0.0, 6.0) == pytest.approx(mixdown(session.project, 0.0, 6.0), abs=1e-6)
+    assert excerpt(ready, 0.0, 6.0) == pytest.approx(mixdown(session.project, 0.0, 6.0), abs=1e-6)
 
 
 def test_the_click(ready: Sound, session: Session) -> None:
@@ -314,7 +314,7 @@ def test_for_a_picture_the_recording_is_only_seen(
 def test_an_empty_piece_is_silent(sound: Sound, session: Session, qtbot: QtBot) -> None:
     session.document.open(piece())
     wait_ready(sound, qtbot)
-    assert not rendered(sound, -1.0, 2.0).any()
+    assert not excerpt(sound, -1.0, 2.0).any()
 
 
 # Takes
@@ -336,18 +336,18 @@ def recorded(ready: Sound, session: Session, qtbot: QtBot) -> Sound:
 def test_an_auditioned_take_replaces_the_part_until_playback_stops(
     recorded: Sound, session: Session, elapse: Elapse, qtbot: QtBot
 ) -> None:
-    before, project = rendered(recorded, 0.0, 3.0), session.project
+    before, project = excerpt(recorded, 0.0, 3.0), session.project
     recorded.listen(RecordedTake(first(session), "take:1", alone=False), 0.5)
     qtbot.waitUntil(lambda: session.playing)
     assert session.playhead_s == pytest.approx(0.5, abs=0.02)
     wait_ready(recorded, qtbot)
-    assert np.abs(rendered(recorded, 1.0, 1.9) - before[RATE_HZ : round(1.9 * RATE_HZ)]).max() > 0.01
+    assert np.abs(excerpt(recorded, 1.0, 1.9) - before[RATE_HZ : round(1.9 * RATE_HZ)]).max() > 0.01
     assert loudness(recorded, 2.2, 2.9) > 0.01, "the others play on"
     assert session.project is project, "nothing was taken"
     session.playback.stop()  # type: ignore[union-attr]
     assert session.listening.take is None
     wait_ready(recorded, qtbot)
-    assert rendered(recorded, 0.0, 3.0) == pytest.approx(before, abs=1e-6)
+    assert excerpt(recorded, 0.0, 3.0) == pytest.approx(before, abs=1e-6)
 
 
 def test_a_take_auditioned_alone_is_the_only_sound(recorded: Sound, session: Session, qtbot: QtBot) -> None:
