@@ -314,7 +314,8 @@ def test_how_a_new_body_holds_an_instrument_is_found_beside_the_window(
 
             def reported() -> list[str]:
                 player = session.project.players[0]
-                return [problem.message.id for problem in session.problems(player.id)]
+                # Not those of the motion: the hold is another body's.
+                return [problem.message.id for problem in session.performance.problems(player.id)]
 
             session.apply(EDIT, players.change(session.project, [first.id], character_id="unmarked"))
             qtbot.waitUntil(lambda: bool(where))
