@@ -42,6 +42,7 @@ from app.project.presence import Presence
 from app.project.recovery import Recoverable
 from app.score.read import read_contents
 from app.shell.app import Program, make_application
+from app.shell.recording_dialogs import show_latency
 from instrument_maps.load import bundled_maps
 from tests.gui.shell.conftest import Answers
 from tests.support.real_work import LUTKIN
@@ -278,7 +279,7 @@ class Look:
             "reimport": lambda: self.do("file.reimport"),
             "import": self._import,
             "midi_devices": lambda: self.do("record.devices"),
-            "latency": self.window.show_latency,
+            "latency": lambda: show_latency(self.program.editor),
             "choreography": self._choreography,
         }
         for name, show in steps.items():
