@@ -29,6 +29,12 @@ def test_the_latency_is_taken_off_and_the_count_in_is_before_the_take() -> None:
     assert (take.start_us, take.end_us, take.name) == (0, 2_000_000, "Take 1")
 
 
+def test_a_take_begins_where_the_recording_was_requested() -> None:
+    found = journal([(12.6, "903e40")], [(10.0, -0.5, 0), (14.0, 3.5, 0)])
+    (take,) = takes_of(found, TempoMap(480), ControllerMapping(), "Take", start_s=1.25)
+    assert (take.start_us, take.end_us) == (1_250_000, 3_500_000)
+
+
 def test_every_pass_in_which_a_user_played_is_a_take() -> None:
     syncs = [(10.0, 0.0, 0), (12.0, 2.0, 0), (12.0, 0.0, 1), (14.0, 2.0, 1), (14.0, 0.0, 2), (15.0, 1.0, 2)]
     found = journal([(10.6, "903c40"), (11.6, "803c00"), (13.0, "b00240"), (14.6, "903e40")], syncs)

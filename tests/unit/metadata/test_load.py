@@ -259,6 +259,8 @@ def changed(tmp_path: Path, source: str, old: str, new: str, name: str | None = 
          "joints[2].kind", "back"),
         ("skeletons/vrm1.toml", "[axes.jaw]\nflexion = [1.0, 0.0, 0.0]", "[axes.jaw]\nflexion = [2.0, 0.0, 0.0]",
          "axes.jaw", "unit"),
+        ("skeletons/vrm1.toml", "[axes.jaw]\nflexion = [1.0, 0.0, 0.0]", "[axes.jaw]\nflexion = [0.99, 0.0, 0.0]",
+         "axes.jaw", "unit"),
         ("skeletons/vrm1.toml", '["spine", "chest", "upperChest"]', '["spine", "ribs"]', "chains.spine", "ribs"),
     ],
 )  # fmt: skip

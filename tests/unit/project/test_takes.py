@@ -148,6 +148,14 @@ def test_a_take_of_a_known_part_lands_on_its_notes() -> None:
         if id in found
     )
 
+    # Half of the alignment goes half of the way, from where the notes were played.
+    base = set_cleaning(base, TRUMPET, "take:1", Cleaning(align=0.0))
+    loose = sorted(note.onset_tick for note in take_notes(base, TRUMPET, "take:1"))
+    base = set_cleaning(base, TRUMPET, "take:1", Cleaning(align=0.5))
+    half = sorted(note.onset_tick for note in take_notes(base, TRUMPET, "take:1"))
+    aligned = sorted(note.onset_tick for note in found.values())
+    assert half == pytest.approx((np.array(loose) + np.array(aligned)) / 2.0, abs=1.0)
+
 
 def test_the_breath_goes_where_the_notes_go() -> None:
     played = [(0.07, 0.4, 70, 0.5), (0.6, 0.95, 71, 0.9)]

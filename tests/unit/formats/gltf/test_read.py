@@ -274,8 +274,15 @@ def _set(path: str, value: object) -> Any:
     return change
 
 
+def _point_beyond(maker: Maker) -> None:
+    """A triangle of six points names a seventh."""
+    indices = maker.accessor(np.array([0, 1, 2, 3, 4, 6], np.uint16))
+    _set("meshes/0/primitives/0/indices", indices)(maker)
+
+
 ATTRIBUTES = "meshes/0/primitives/0/attributes/"
 DAMAGE = {
+    "a point beyond the last": (_point_beyond, "damaged"),
     "an index beyond the accessors": (_set(ATTRIBUTES + "POSITION", 99), "damaged"),
     "a negative index": (_set(ATTRIBUTES + "POSITION", -1), "damaged"),
     "an index of text": (_set(ATTRIBUTES + "POSITION", "0"), "damaged"),
