@@ -55,6 +55,7 @@ def run(arguments: Sequence[str]) -> int:
     """Run with these arguments (without the program's own name) and return the exit status."""
     from app.cli import main as command_line
     from app.cli import parser
+    from app.cli.display import why_no_display
     from app.cli.status import BAD_USE, NO_DISPLAY
     from app.cli.terminal import warn
 
@@ -67,8 +68,6 @@ def run(arguments: Sequence[str]) -> int:
         parsed = parser().parse_args(requested)
     except SystemExit as stop:  # argparse: --help ends with 0, bad use with 2
         return stop.code if isinstance(stop.code, int) else BAD_USE
-    from app.shell.display import why_no_display
-
     reason = why_no_display()
     if reason is not None:
         warn(reason)

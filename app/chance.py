@@ -24,7 +24,7 @@ def next_seed(name: str, seed: int) -> int:
 
 
 def performed_seed(seed: int, piece_seed: int) -> int:
-    """The seed of who has this one in a piece of that seed: another one of the piece is another for everyone."""
+    """The seed of a performer within a piece: a change of the piece's seed changes all performers."""
     return (seed + piece_seed) % 2**63
 
 

@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import FileError
-from app.formats.gltf import GltfModel, read_glb
+from app.formats.gltf.model import GltfModel
+from app.formats.gltf.read import read_glb
 from instrument_maps.model import ROOT, InstrumentMap
 from instrument_maps.surface import nearest_point
 from instrument_maps.validate import Problem

@@ -31,8 +31,9 @@ from typing import Any, TypeAlias
 
 import msgspec
 
-from app.errors import FileError, MapError, UsageError
+from app.errors import MapError, UsageError
 from app.formats.atomic import atomic_write
+from app.formats.files import cannot_write
 from app.formats.toml import toml_text
 from instrument_maps.extend import BASE
 from instrument_maps.fingering_label import HALF, NONE, OPEN, controls_of, says_words, words_of
@@ -290,7 +291,7 @@ def save_own(instrument: InstrumentMap, table: Table, folder: Path) -> Path | No
             path.unlink(missing_ok=True)
             return None
     except OSError as error:
-        raise FileError("file.cannot_write", file=str(path), reason=error.strerror or str(error)) from error
+        raise cannot_write(path, error) from error
     with atomic_write(path) as stream:
         stream.write(text.encode())
     return path

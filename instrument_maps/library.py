@@ -15,6 +15,7 @@ from app.formats.user_folder import Read, Shelf, UserFolder
 from instrument_maps.check_model import model_problems
 from instrument_maps.load import MODELS, NOT_MAPS, bundled_maps, named_map
 from instrument_maps.model import InstrumentMap
+from instrument_maps.score_order import in_score_order
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,11 @@ class Library(Shelf[InstrumentMap]):
     def maps(self) -> Mapping[str, InstrumentMap]:
         """By id, in the order of the ids."""
         return dict(sorted(self.items.items()))
+
+    @cached_property
+    def in_score_order(self) -> tuple[InstrumentMap, ...]:
+        """All of them as lists show them."""
+        return tuple(in_score_order(self.maps.values()))
 
     @property
     def own(self) -> Mapping[str, Path]:

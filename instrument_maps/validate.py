@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import TypeAlias
 
 from instrument_maps.fingering_label import NONE, WORDS, says_words, words_of
@@ -440,20 +440,13 @@ def _fingers(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iter
         if finger not in MOVERS:
             yield f"{path}.fingers.{name}", f"'{finger}' is not a finger"
     for finger, names in asked.items():
-        if not any(names == _station(contact) for contact in instrument.contacts if _of(contact, finger)):
+        of_finger = [contact for contact in instrument.contacts if contact.part.startswith(f"{finger}.")]
+        if not any(names == {contact.control or "", *contact.together} for contact in of_finger):
             requested = " and ".join(f"'{name}'" for name in sorted(names))
             yield (
                 f"{path}.controls",
                 f"no contact lets '{finger}' work {requested}{' together' if len(names) > 1 else ''}",
             )
-
-
-def _station(contact: Contact) -> set[str]:
-    return {contact.control or "", *contact.together}
-
-
-def _of(contact: Contact, finger: str) -> bool:
-    return contact.part.startswith(f"{finger}.")
 
 
 def _label(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
@@ -502,7 +495,7 @@ def _within(path: str, value: float, low: float, high: float) -> Iterator[Proble
 
 
 def _point(path: str, point: Vector) -> Iterator[Problem]:
-    if not _all(point, lambda value: abs(value) <= _REACH_M):
+    if not all(abs(value) <= _REACH_M for value in point):  # also catches nan
         yield path, f"{list(point)} is not a point in metres near the instrument"
 
 
@@ -510,10 +503,6 @@ def _unit(path: str, vector: Vector) -> Iterator[Problem]:
     length = math.hypot(*vector)
     if not abs(length - 1) <= _UNIT_TOLERANCE:
         yield path, f"{list(vector)} has the length {length:g}, not 1"
-
-
-def _all(values: Vector, test: Callable[[float], bool]) -> bool:
-    return all(math.isfinite(value) and test(value) for value in values)
 
 
 def _dot(a: Vector, b: Vector) -> float:

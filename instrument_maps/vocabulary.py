@@ -1,7 +1,7 @@
 """The vocabulary of instruments: what they are called in scores, and their General MIDI programs.
 
 The table itself is `vocabulary.toml` beside this module. An instrument here need not have a map; the vocabulary says
-what a part is, and the maps tell who can play it.
+what a part is; the maps say which instruments can play it.
 
 Messages
 --------
@@ -107,6 +107,7 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     seating: tuple[tuple[str, ...], ...]
+    score_order: tuple[str, ...]
     sizes: dict[str, tuple[str, ...]]
     keys: dict[str, tuple[str, ...]]
     clefs: dict[str, tuple[str, ...]]
@@ -127,6 +128,8 @@ class Vocabulary:
         Families of winds, by row from the audience's side, each row from the audience's left.
     sizes, keys, clefs : dict of str to tuple of str
         The marks that tell the forms of an instrument apart, and the words for each.
+    score_order : tuple of str
+        The same families, from the top of a score to its foot.
     prefixes : tuple of str
         Words that may be joined to a name and do not change its meaning ("Soloflöte", "ソロホルン").
 
@@ -145,8 +148,9 @@ class Vocabulary:
         keys: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
         clefs: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
         prefixes: tuple[str, ...] = (),
+        score_order: tuple[str, ...] = (),
     ) -> None:
-        self.seating = seating
+        self.seating, self.score_order = seating, score_order
         self.instruments = {instrument.id: instrument for instrument in instruments}
         self._by_program: dict[int, Instrument] = {}
         self._by_tokens: dict[tuple[str, ...], Instrument] = {}
@@ -197,6 +201,9 @@ class Vocabulary:
             for general in instrument.form_of:
                 self._forms.setdefault(general, []).append(instrument)
         families = {"", *(family for row in seating for family in row)}
+        if families != {"", *score_order}:
+            detail = "the seating and the score order have different families"
+            raise MapError("vocabulary.invalid", file=file, detail=detail)
         for instrument in instruments:
             for family in (instrument.family, *instrument.families):
                 if family not in families:
@@ -411,7 +418,16 @@ def vocabulary() -> Vocabulary:
         If the table is not valid.
     """
     table = shaped(read_toml(PATH, PATH.name), _Table, PATH.name)
-    return Vocabulary(table.instruments, PATH.name, table.seating, table.sizes, table.keys, table.clefs, table.prefixes)
+    return Vocabulary(
+        table.instruments,
+        PATH.name,
+        table.seating,
+        table.sizes,
+        table.keys,
+        table.clefs,
+        table.prefixes,
+        table.score_order,
+    )
 
 
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.

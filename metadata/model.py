@@ -224,11 +224,13 @@ TURNED_SHARE = 0.85
 
 
 class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """How a kind of body holds itself and moves, on the joints of ``skeleton``."""
+    """How a kind of body holds itself and moves, on the joints of ``skeleton``; ``checked_with`` is the id of the
+    instrument with which a character of this body is checked."""
 
     name: str
     description: str
     skeleton: str
+    checked_with: str
     limits: dict[str, JointLimits]
     postures: dict[Literal["standing", "seated"], Posture]
     sway: Sway

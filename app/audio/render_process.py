@@ -8,20 +8,18 @@ from __future__ import annotations
 
 import contextlib
 import os
-import struct
 import subprocess
 import sys
 import weakref
 from threading import Lock
-from typing import IO, Final
+from typing import Final
 
 import numpy as np
 
 from app.audio.rendering import rendered
 from app.audio.track import Samples
-from app.own_process import own_process
+from app.own_process import own_process, receive, send
 
-_LENGTH: Final = struct.Struct("<I")
 _NICENESS: Final = 5
 """The window has priority where the processor is busy."""
 
@@ -55,8 +53,8 @@ class RenderProcess:
         to, back = self._child.stdin, self._child.stdout
         assert to is not None
         assert back is not None
-        _write(to, midi)
-        return np.frombuffer(_read(back), np.int16)
+        send(to, midi)
+        return np.frombuffer(receive(back), np.int16)
 
 
 def _started() -> subprocess.Popen[bytes]:
@@ -74,33 +72,14 @@ def _end(child: subprocess.Popen[bytes]) -> None:
     child.stdout.close()
 
 
-def _write(stream: IO[bytes], data: bytes) -> None:
-    stream.write(_LENGTH.pack(len(data)))
-    stream.write(data)
-    stream.flush()
-
-
-def _read(stream: IO[bytes]) -> bytes:
-    """What was written with its length. Raises BrokenPipeError where the other side has ended."""
-    (length,) = _LENGTH.unpack(_exactly(stream, _LENGTH.size))
-    return _exactly(stream, length)
-
-
-def _exactly(stream: IO[bytes], count: int) -> bytes:
-    data = stream.read(count)
-    if len(data) < count:
-        raise BrokenPipeError("the other side has ended")
-    return data
-
-
 def main() -> None:
     """Render whatever is asked for."""
     if hasattr(os, "nice"):
         os.nice(_NICENESS)
     while True:
         try:
-            midi = _read(sys.stdin.buffer)
-            _write(sys.stdout.buffer, rendered(midi).tobytes())
+            midi = receive(sys.stdin.buffer)
+            send(sys.stdout.buffer, rendered(midi).tobytes())
         except BrokenPipeError:
             return
 

@@ -25,7 +25,7 @@ from typing import Final, TypeAlias
 import msgspec
 
 from app.errors import FileError
-from app.formats.files import read_file
+from app.formats.files import cannot_write, read_file
 from app.formats.locks import lock
 
 VERSION: Final = 1
@@ -157,7 +157,7 @@ class JournalWriter:
         except FileExistsError as error:
             raise FileError("journal.exists", file=path) from error
         except OSError as error:
-            raise FileError("file.cannot_write", file=path, reason=error.strerror or str(error)) from error
+            raise cannot_write(path, error) from error
         self._pending = bytearray(msgspec.json.encode(header) + b"\n" if is_new else b"")
         self._is_synced = False
 

@@ -16,7 +16,7 @@ EARLIEST_S: Final = -0.2
 LATEST_S: Final = 0.35
 LEAST_HITS: Final = 7
 MOST_SPREAD_S: Final = 0.035
-"""Whoever is less even than this says nothing of the device."""
+"""Playing less even than this says nothing about the device."""
 _ONE_HIT_S: Final = 0.15
 """Two beginnings closer than this were one."""
 _BREATH_RESTS, _BREATH_BEGINS = 4, 12

@@ -67,43 +67,37 @@ class Ports(_Report, frozen=True):
     system: str
 
 
-class Opened(_Report, frozen=True):
+class _OfPort(_Report, frozen=True):
+    port: str
+    ns: int
+
+
+class Opened(_OfPort, frozen=True):
     """The port is listened to."""
 
-    port: str
-    ns: int
 
-
-class Lost(_Report, frozen=True):
+class Lost(_OfPort, frozen=True):
     """The port has gone; it is opened again when it comes back."""
 
-    port: str
-    ns: int
 
-
-class Back(_Report, frozen=True):
+class Back(_OfPort, frozen=True):
     """The lost port is listened to again."""
 
-    port: str
-    ns: int
+
+class _Failure(_Report, frozen=True):
+    reason: Message
 
 
-class Refused(_Report, frozen=True):
+class Refused(_Failure, frozen=True):
     """Something asked for cannot be done, and why."""
 
-    reason: Message
 
-
-class NotStarted(_Report, frozen=True):
+class NotStarted(_Failure, frozen=True):
     """The journal cannot be begun, and why: nothing is recorded."""
 
-    reason: Message
 
-
-class Restarted(_Report, frozen=True):
+class Restarted(_Failure, frozen=True):
     """The recorder ended unexpectedly and was started again; the journal goes on."""
-
-    reason: Message
 
 
 class SystemEnded(_Report, frozen=True):

@@ -6,7 +6,7 @@ import os
 
 from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
 from app.choreography.clip import MotionClip
-from app.formats.bvh import write_bvh
+from app.formats.bvh import BvhClip, write_bvh
 
 
 def write_motion(path: str | os.PathLike[str], clip: MotionClip) -> None:
@@ -14,6 +14,5 @@ def write_motion(path: str | os.PathLike[str], clip: MotionClip) -> None:
     names = list(SEGMENTS)
     parents = [names.index(parent) if parent in names else -1 for parent in PARENT_OF.values()]
     ends_cm = {names.index(name): 100.0 * end_m for name, end_m in zip(ENDS, clip.shape.ends_m, strict=True)}
-    write_bvh(
-        path, names, parents, 100.0 * clip.shape.offsets_m, clip.fps, 100.0 * clip.hips_m, clip.rotations, ends_cm
-    )
+    offsets_cm, hips_cm = 100.0 * clip.shape.offsets_m, 100.0 * clip.hips_m
+    write_bvh(path, BvhClip(tuple(names), tuple(parents), offsets_cm, ends_cm, clip.fps, hips_cm, clip.rotations))

@@ -10,14 +10,14 @@ import io
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from typing import NoReturn
 
 import app.cli.characters
 import app.cli.choreography
 import app.cli.edit
 import app.cli.export
+import app.cli.film
 import app.cli.inspect
 import app.cli.instruments
 import app.cli.midi
@@ -25,7 +25,7 @@ import app.cli.ports
 import app.cli.record
 import app.cli.stream
 from app.cli.status import BAD_INPUT, BAD_USE, DONE, STOPPED
-from app.cli.terminal import warn
+from app.cli.terminal import interrupted_by, warn
 from app.encoding import shown
 from app.errors import AppError, UsageError
 from app.messages import error_text
@@ -40,11 +40,14 @@ examples:
   suisou inspect quartet.mid
   suisou export quartet.mid --to out
   suisou export quartet.mid --to out --format fbx --fps 30 --from-bar 1 --to-bar 8
+  suisou export pieces/ --to out --jobs 4
   suisou export quartet.mid --to out --set "*.amplitude=0.8" --set "trombone.posture=seated"
+  suisou film quartet.mid --to hands.mp4 --view hands --player "Trumpet 1" --from-bar 1 --to-bar 4
+  suisou film quartet.mid --sheet hands.png --every 0.1 --view hands --to-bar 2
   suisou midi session.suisou --to session.mid
   suisou stream quartet.mid --player horn --loop
   suisou instruments
-  suisou instruments scale trumpet_Bb
+  suisou instruments scale INSTRUMENT
   suisou characters check figure.vrm
   suisou characters add figure.vrm --name "Ms Mori"
   suisou choreography learn --pair salsa.bvh drums.mid --fps 60 --to salsa.choreography
@@ -73,6 +76,7 @@ def parser() -> argparse.ArgumentParser:
     app.cli.edit.add_command(commands)
     app.cli.inspect.add_command(commands)
     app.cli.export.add_command(commands)
+    app.cli.film.add_command(commands)
     app.cli.midi.add_command(commands)
     app.cli.instruments.add_command(commands)
     app.cli.characters.add_command(commands)
@@ -87,12 +91,12 @@ def main(arguments: Sequence[str]) -> int:
     """Run the program with these arguments (without its own name) and return the exit status."""
     _speak_utf8()
     try:
-        parsed = parser().parse_args(arguments)
+        parsed = parser().parse_args(arguments, argparse.Namespace(given=tuple(arguments)))
         if parsed.command is None:
             parser().print_help()
             return DONE
         run: Callable[[argparse.Namespace], int | None] = parsed.run
-        with _interruptible():
+        with interrupted_by(signal.SIGINT):
             status = run(parsed)
         sys.stdout.flush()
     except SystemExit as stop:  # argparse: --help and --version end with 0, bad use with 2
@@ -104,20 +108,10 @@ def main(arguments: Sequence[str]) -> int:
     except KeyboardInterrupt:
         return _fail("stopped; nothing was written", STOPPED)
     except BrokenPipeError:
-        # Whoever read our output has gone (`| head`): not an error. Python would complain once more at exit.
+        # The reader of our output has ended (`| head`): not an error. Python would complain once more at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
     return DONE if status is None else status
-
-
-@contextmanager
-def _interruptible() -> Iterator[None]:
-    """Ctrl-C ends what is done here by KeyboardInterrupt, so that nothing half-written stays."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def _with_file(error: AppError, parsed: argparse.Namespace) -> str:

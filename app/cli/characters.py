@@ -13,8 +13,6 @@ from app.encoding import restored, shown, stored
 from app.errors import AppError, Message, UsageError
 from app.messages import filled, text
 
-PLAYED = "clarinet_Bb"
-"""What a figure is checked with: it asks for nine fingers, two thumbs and lips."""
 _weight = within(-10.0, 10.0, "a weight", float)
 
 
@@ -188,8 +186,9 @@ def _reported(character: Any) -> tuple[Message, ...]:
     from instrument_maps.library import find_map, model_path
     from metadata.load import load_body
 
-    played = find_map(PLAYED)
-    return suited(character, played, load_body(), lambda: load_instrument(model_path(played), played)).reported
+    body = load_body()
+    played = find_map(body.checked_with)
+    return suited(character, played, body, lambda: load_instrument(model_path(played), played)).reported
 
 
 def as_text(found: Mapping[str, Any]) -> list[str]:

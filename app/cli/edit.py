@@ -2,35 +2,15 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 from typing import Final
 
-from app.cli.options import Commands, seconds
+from app.cli.options import Commands, picture_size, seconds
 from app.messages import LANGUAGES
 
 VIEWS: Final = ("ensemble", "front", "side", "top", "hands", "mouth", "feet")
 THEMES: Final = ("dark", "light")
 LEAST_PX, MOST_PX = (960, 600), (7680, 4320)
-
-
-def size(text: str) -> tuple[int, int]:
-    """Width and height from ``1600x1000``.
-
-    Raises
-    ------
-    argparse.ArgumentTypeError
-        Not a size that the window can have.
-    """
-    width, _, height = text.partition("x")
-    if not (width.isascii() and width.isdecimal() and height.isascii() and height.isdecimal()):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a size such as 1600x1000")
-    result = int(width), int(height)
-    if not all(least <= value <= most for least, value, most in zip(LEAST_PX, result, MOST_PX, strict=True)):
-        raise argparse.ArgumentTypeError(
-            f"{text!r} is not between {LEAST_PX[0]}x{LEAST_PX[1]} and {MOST_PX[0]}x{MOST_PX[1]}"
-        )
-    return result
 
 
 def add_command(commands: Commands) -> None:
@@ -47,7 +27,11 @@ def add_command(commands: Commands) -> None:
     )
     command.add_argument("--view", choices=VIEWS, default="", help="how the players are seen")
     command.add_argument(
-        "--size", type=size, default=(1600, 1000), metavar="WxH", help="of the picture (default 1600x1000)"
+        "--size",
+        type=picture_size(LEAST_PX, MOST_PX),
+        default=(1600, 1000),
+        metavar="WxH",
+        help="of the picture (default 1600x1000)",
     )
     command.add_argument("--language", choices=tuple(LANGUAGES), default="", help="of the editor")
     command.add_argument("--theme", choices=THEMES, default="", help="of the editor")

@@ -5,24 +5,22 @@ from __future__ import annotations
 import argparse
 import signal
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, Final
 
+from app.cli.bars import add_bar_options, requested_bars, requested_span
 from app.cli.options import (
     Commands,
     add_rate_option,
     add_source_options,
     add_title_option,
     open_project,
-    whole_number,
+    within,
 )
 from app.cli.progress import Progress, find_holds
 from app.cli.status import report_left_out
 from app.cli.summary import project_summary, summary
-from app.cli.terminal import say
+from app.cli.terminal import interrupted_by, say
 from app.encoding import shown
 from app.errors import UsageError
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
@@ -33,8 +31,6 @@ from metadata.load import names
 
 if TYPE_CHECKING:
     from app.export.target import SkeletonChoice
-    from app.performance.ensemble import Performance
-    from app.performance.span import FrameSpan
 
 SKELETONS: Final[tuple[SkeletonChoice, ...]] = ("own", "ue5", "suisou")
 
@@ -103,9 +99,30 @@ def add_command(commands: Commands) -> None:
         action="store_true",
         help="also the sound as WAV, from the first frame on; USD files refer to it (a project always gets it)",
     )
-    command.add_argument("--from-bar", type=whole_number, metavar="N", help="first bar, as printed (a pickup is bar 0)")
-    command.add_argument("--to-bar", type=whole_number, metavar="N", help="last bar, inclusive")
+    command.add_argument(
+        "--stage",
+        action="store_true",
+        help="also everyone in one file, each at the place on the stage, in every format that can hold it: "
+        + ", ".join(name for name, kind in FILE_FORMATS.items() if kind.write_stage is not None),
+    )
+    command.add_argument(
+        "--jobs",
+        type=jobs,
+        metavar="N",
+        help="processes that share the work (default: one per core, where it is worth it)",
+    )
+    command.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="export the pieces of a folder on the machines of a Dask scheduler, such as tcp://10.0.0.1:8786; all of "
+        "them must see the folders under the same paths",
+    )
+    command.add_argument("--piece", type=Path, help=argparse.SUPPRESS)
+    add_bar_options(command)
     command.set_defaults(run=export)
+
+
+jobs = within(1, 256, "a number of processes", int)
 
 
 def file_formats(text: str) -> list[Format]:
@@ -126,6 +143,15 @@ def file_formats(text: str) -> list[Format]:
 
 def export(arguments: argparse.Namespace) -> int:
     """Write the files, print what they hold and name the excluded players; the exit status."""
+    if arguments.piece is not None:
+        arguments.file = arguments.piece
+    elif arguments.file.is_dir():
+        from app.cli.batch import export_folder
+
+        with interrupted_by(signal.SIGTERM):
+            return export_folder(arguments)
+    elif arguments.scheduler is not None:
+        raise UsageError("dask.one_piece")
     from app.export.request import Request
     from app.export.run import export as write
     from app.export.tree import clean_up
@@ -135,6 +161,11 @@ def export(arguments: argparse.Namespace) -> int:
 
     if arguments.unreal is not None and arguments.formats:
         raise UsageError("unreal.formats")
+    formats: frozenset[Format] = frozenset(arguments.formats or USUAL_FORMATS)
+    if arguments.stage and arguments.unreal is not None:
+        raise UsageError("unreal.stage")
+    if arguments.stage and all(FILE_FORMATS[name].write_stage is None for name in formats):
+        raise UsageError("stage.formats")
     # What is wrong with it is reported before anything is read.
     unreal = None if arguments.unreal is None else find_project(arguments.unreal)
     clean_up()
@@ -152,19 +183,21 @@ def export(arguments: argparse.Namespace) -> int:
         performance=performance,
         players=players,
         folder=arguments.to if unreal is None else unreal.folder,
-        formats=frozenset(arguments.formats or USUAL_FORMATS),
-        span=_span(performance, arguments),
-        bars=_bars(performance, arguments),
+        formats=formats,
+        span=requested_span(performance, arguments, project.fps),
+        bars=requested_bars(performance, arguments),
         source=shown(arguments.file.name),
         creator=f"Suisou {program_version()}",
         skeleton=arguments.skeleton,
         asset=arguments.check_skeleton,
         sound=arguments.sound,
+        stage=arguments.stage,
         bvh_names=arguments.bvh_names,
         dancers=tuple(project.dancers[index - count] for index in chosen if index >= count),
+        processes=arguments.jobs,
     )
     try:
-        with _terminable():
+        with interrupted_by(signal.SIGTERM):
             if unreal is None:
                 report = write(request, text, progress=progress)
                 reported = summary(report, arguments.to)
@@ -175,48 +208,3 @@ def export(arguments: argparse.Namespace) -> int:
         progress.clear()
     say(*reported)
     return report_left_out((one.player, one.reason) for one in report.left_out)
-
-
-@contextmanager
-def _terminable() -> Iterator[None]:
-    """A request to end (SIGTERM) stops like Ctrl-C does, so that nothing half-written stays."""
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGTERM, stop)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-def _bars(performance: Performance, arguments: argparse.Namespace) -> tuple[int, int] | None:
-    """First and last bar to export; None for the whole piece.
-
-    Raises
-    ------
-    UsageError
-        ``bars.none``: the piece does not have them, or they are in the wrong order.
-    """
-    if arguments.from_bar is None and arguments.to_bar is None:
-        return None
-    score = performance.project.score
-    lowest = 0 if score.pickup_ticks else 1
-    highest = score.last_bar
-    first = lowest if arguments.from_bar is None else arguments.from_bar
-    last = highest if arguments.to_bar is None else arguments.to_bar
-    if not lowest <= first <= last <= highest:
-        raise UsageError("bars.none", first=first, last=last, lowest=lowest, highest=highest)
-    return first, last
-
-
-def _span(performance: Performance, arguments: argparse.Namespace) -> FrameSpan:
-    """The frames asked for: the bars with the pre-roll before them, or everything."""
-    from app.performance.span import bars_span, whole_span
-
-    bars = _bars(performance, arguments)
-    fps = performance.project.fps
-    if bars is None:
-        return whole_span(performance.time_frame, fps)
-    return bars_span(performance, fps, bars, performance.project.preroll_beats)

@@ -122,12 +122,7 @@ def _dancer(dancer: Dancer) -> Table:
         "x_m": dancer.stage.x_m,
         "z_m": dancer.stage.z_m,
         "turn_deg": math.degrees(dancer.stage.turn_rad),
-        "seed": dancer.seed,
-        "delay_beats": dancer.delay_beats,
-        "mirrored": dancer.mirrored,
-        "source": dancer.source,
-        "size": dancer.size,
-        "weight": dancer.weight,
+        **{field: getattr(dancer, field) for field in ("seed", "delay_beats", "mirrored", "source", "size", "weight")},
     }
 
 
@@ -181,45 +176,15 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
                 played, articulation, bends(played, None if blown is None else blown.bend), strict=True
             )
         ],
-        "breaths": [
-            {"kind": event.kind, **span, "reason": reason(event.reason)}
-            for event, span in zip(plan.breaths, _spans(plan.breaths, clock), strict=True)
-        ],
-        "cues": [
-            {**span, "peak_s": event.peak_s, "beat_s": event.beat_s, "reason": reason(event.reason)}
-            for event, span in zip(plan.cues, _spans(plan.cues, clock), strict=True)
-        ],
-        "gestures": [
-            {"kind": event.kind, **span, "amount": event.amount, "reason": reason(event.reason)}
-            for event, span in zip(plan.gestures, _spans(plan.gestures, clock), strict=True)
-        ],
+        "breaths": _events(plan.breaths, clock, reason, "kind"),
+        "cues": _events(plan.cues, clock, reason, "", "peak_s", "beat_s"),
+        "gestures": _events(plan.gestures, clock, reason, "kind", "amount"),
+        "expressions": _events(plan.expressions, clock, reason, "expression", "strength", "fade_in_s", "fade_out_s"),
     }
-    table["expressions"] = [
-        {
-            "expression": event.expression,
-            **span,
-            "strength": event.strength,
-            "fade_in_s": event.fade_in_s,
-            "fade_out_s": event.fade_out_s,
-            "reason": reason(event.reason),
-        }
-        for event, span in zip(plan.expressions, _spans(plan.expressions, clock), strict=True)
-    ]
     if plan.poses:
         # Only where the animator held something differently: nothing else has any.
-        table["poses"] = [
-            {
-                "target": event.target,
-                **span,
-                "up_deg": event.up_deg,
-                "left_deg": event.left_deg,
-                "roll_deg": event.roll_deg,
-                "fade_in_s": event.fade_in_s,
-                "fade_out_s": event.fade_out_s,
-                "reason": reason(event.reason),
-            }
-            for event, span in zip(plan.poses, _spans(plan.poses, clock), strict=True)
-        ]
+        angles = ("up_deg", "left_deg", "roll_deg")
+        table["poses"] = _events(plan.poses, clock, reason, "target", *angles, "fade_in_s", "fade_out_s")
     return table
 
 
@@ -251,15 +216,29 @@ def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, cloc
     }
 
 
-def _spans(
-    events: Sequence[BreathEvent | CueEvent | ExpressionEvent | GestureEvent | PoseEvent], clock: TempoMap
+def _events(
+    events: Sequence[BreathEvent | CueEvent | ExpressionEvent | GestureEvent | PoseEvent],
+    clock: TempoMap,
+    reason: _Reasons,
+    what: str,
+    *fields: str,
 ) -> list[Table]:
-    """When the events are, in seconds and in quarters."""
+    """Events with what they are, where they are in seconds and beats, some fields of them, and why."""
     seconds = np.array([(event.start_s, event.end_s) for event in events]).reshape(-1, 2)
     beats = clock.ticks(seconds) / clock.ticks_per_quarter
     return [
-        {"start_s": start_s, "end_s": end_s, "start_beat": start_beat, "end_beat": end_beat}
-        for (start_s, end_s), (start_beat, end_beat) in zip(seconds.tolist(), beats.tolist(), strict=True)
+        {
+            **({what: getattr(event, what)} if what else {}),
+            "start_s": start_s,
+            "end_s": end_s,
+            "start_beat": start_beat,
+            "end_beat": end_beat,
+            **{field: getattr(event, field) for field in fields},
+            "reason": reason(event.reason),
+        }
+        for event, (start_s, end_s), (start_beat, end_beat) in zip(
+            events, seconds.tolist(), beats.tolist(), strict=True
+        )
     ]
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from pathlib import Path
 
 from app.cli.options import Commands
+from app.cli.summary import columns
 from app.cli.terminal import say
 from app.encoding import shown
 from app.errors import AppError
@@ -59,9 +59,9 @@ def list_maps(arguments: argparse.Namespace) -> None:
             transposition(instrument.transposition_semitones),
             ", ".join(control.label or control.name for control in instrument.controls),
         )
-        for instrument in known.maps.values()
+        for instrument in known.in_score_order
     ]
-    say(*_left(("id", "name", "sounds", "written", "controls"), rows))
+    say(*columns([("id", "name", "sounds", "written", "controls"), *rows], of_numbers=False))
     say("", f"your own (*): {shown(known.folder)}")
     for problems in known.problems.values():
         for problem in problems:
@@ -87,19 +87,12 @@ def print_scale(arguments: argparse.Namespace) -> None:
                     ", ".join(fingering.tags),
                 )
             )
-    say(*_left(("sounds", "written", "rank", "fingering", "cents", "for"), rows))
+    say(*columns([("sounds", "written", "rank", "fingering", "cents", "for"), *rows], of_numbers=False))
 
 
 def transposition(semitones: int) -> str:
     """How the written pitch differs from what sounds: ``"+2"``, ``"as it sounds"``."""
     return f"{semitones:+d}" if semitones else "as it sounds"
-
-
-def _left(head: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> list[str]:
-    """Columns, all to the left."""
-    table = [tuple(map(shown, row)) for row in (head, *rows)]
-    widths = [max(len(row[column]) for row in table) for column in range(len(head))]
-    return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in table]
 
 
 def check_map(arguments: argparse.Namespace) -> None:

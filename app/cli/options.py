@@ -93,6 +93,25 @@ seconds = within(-LONGEST_S, LONGEST_S, "a number of seconds", float)
 """Of the performance; before the first beat it is negative."""
 
 
+def picture_size(least_px: tuple[int, int], most_px: tuple[int, int]) -> Callable[[str], tuple[int, int]]:
+    """The type of an option that takes width and height such as ``1600x1000``, each between these bounds."""
+
+    def parsed(text: str) -> tuple[int, int]:
+        width, _, height = text.partition("x")
+        # No more digits than `int` reads at once.
+        if not all(side.isascii() and side.isdecimal() and len(side) <= _MOST_SHOWN for side in (width, height)):
+            shown = text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
+            raise argparse.ArgumentTypeError(f"{shown!r} is not a size such as 1600x1000")
+        result = int(width), int(height)
+        if not all(least <= value <= most for least, value, most in zip(least_px, result, most_px, strict=True)):
+            raise argparse.ArgumentTypeError(
+                f"{text!r} is not between {least_px[0]}x{least_px[1]} and {most_px[0]}x{most_px[1]}"
+            )
+        return result
+
+    return parsed
+
+
 def felt_beat(text: str) -> float | str:
     """A beat in quarters; `AUTOMATIC`: metre and tempo say."""
     return AUTOMATIC if text.strip().casefold() == AUTOMATIC else _felt_quarters(text)
@@ -121,8 +140,8 @@ def add_file_options(command: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar='"PART=INSTRUMENT"',
-        help="the instrument of a MIDI file's part, for instance 'Lead=trumpet_Bb', also where the file says none or "
-        "another; PART may be a pattern such as '*'; repeatable; `suisou instruments` lists the instruments",
+        help="the instrument of a MIDI file's part, also where the file says none or another; PART may be a pattern "
+        "such as '*'; repeatable; `suisou instruments` lists the instruments",
     )
     command.add_argument(
         "--written",

@@ -10,7 +10,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Final
 
-from app.capture.journal import Header, Journal, passes, read_journal
+from app.capture.journal import Header, passes, read_journal
 from app.capture.protocol import Back, Finished, Lost, NotStarted, Opened, Refused, Restarted, Written
 from app.cli.options import LONGEST_S, Commands, within
 from app.cli.ports import Listening, NoDevice
@@ -182,7 +182,7 @@ def _write(target: Path, path: Path, tempo: float) -> None:
             path.unlink()
         raise RecordError("record.nothing_received", port=journal.header.port)
     take = taken[0]
-    end_us = _end_us(journal)
+    end_us = round(journal.syncs[-1].position_s * 1e6)
     try:
         notes = write_take(
             target,
@@ -198,10 +198,6 @@ def _write(target: Path, path: Path, tempo: float) -> None:
     path.unlink()
     length_s = max(end_us, take.times_us[-1], 0) / 1e6
     say(f"{shown(target)}: {notes} {'note' if notes == 1 else 'notes'} in {length_s:.1f} s")
-
-
-def _end_us(journal: Journal) -> int:
-    return round(journal.syncs[-1].position_s * 1e6)
 
 
 def _monotonic_s(ns: int) -> float:

@@ -15,7 +15,7 @@ BAD_INPUT: Final = 1
 """A file is wrong or cannot be written: nothing was done."""
 BAD_USE: Final = 2
 NO_DISPLAY: Final = 3
-"""The editor has nowhere to open."""
+"""The editor has nowhere to open, or a film cannot be drawn."""
 PARTIAL: Final = 4
 """Done, but players were excluded."""
 STOPPED: Final = 128 + signal.SIGINT

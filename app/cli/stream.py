@@ -35,7 +35,6 @@ from app.stream.sender import (
 if TYPE_CHECKING:
     from app.motion.model import Motion
     from app.performance.cast import Performer
-    from app.performance.chunks import Pose
     from app.performance.dancers import Dancing
     from app.performance.ensemble import Performance
     from app.performance.span import FrameSpan
@@ -96,14 +95,14 @@ def _host(text: str) -> str:
 
 
 def stream(arguments: argparse.Namespace) -> int:
-    """Send the piece, in time, and name who is excluded; the exit status.
+    """Send the piece, in time, and name the excluded players; the exit status.
 
     Raises
     ------
     AppError
         The file cannot be read, the computer cannot be reached.
     """
-    from app.performance.cast import attempt, performers_of, require_players
+    from app.performance.cast import dancings_of, performers_of, require_players
     from app.performance.ensemble import Performance
     from app.performance.span import whole_span
 
@@ -113,7 +112,7 @@ def stream(arguments: argparse.Namespace) -> int:
     first = _first_frame(span, arguments.from_s)
     performers = project.performers
     asked = [performers[at] for at in select_players(arguments.players, [one.name for one in performers])]
-    # Whoever is asked for by any instrument is sent with all.
+    # A musician selected by any instrument is sent with all of them.
     chosen = list(dict.fromkeys(project.musician(one) if isinstance(one, Player) else one for one in asked))
     if not chosen:
         raise UsageError("stream.no_players")
@@ -125,7 +124,7 @@ def stream(arguments: argparse.Namespace) -> int:
     dancers = [one for one in chosen if isinstance(one, Dancer)]
     everything = [one for player in players for one in project.played_by(player)]
     find_holds(performance, everything)
-    playing, dancing = performers_of(performance, everything), attempt(dancers, lambda one: _dancing(performance, one))
+    playing, dancing = performers_of(performance, everything), dancings_of(performance, dancers)
     made: dict[str, Performer | Dancing] = {**playing.made, **dancing.made}
     left_out = playing.left_out + dancing.left_out
     if not made:
@@ -162,13 +161,6 @@ def _beside(performance: Performance, one: Player | Dancer, made: Mapping[str, P
     return tuple(
         made[other.id] for other in performance.project.played_by(one) if other is not one and other.id in made
     )
-
-
-def _dancing(performance: Performance, dancer: Dancer) -> Dancing:
-    # The modules of dances are loaded only for pieces with dancers.
-    from app.performance.dancers import dancing_of
-
-    return dancing_of(performance, dancer)
 
 
 def _first_frame(span: FrameSpan, from_s: float | None) -> int:
@@ -225,21 +217,10 @@ class _Streamed:
         self._stage: StagePosition = IN_THE_MIDDLE if alone else performer.stage
 
     def datagrams(self, frame: int, time_s: float) -> list[bytes]:
-        beside = [_pose(motion, frame) for motion in self._beside]
-        return self._sent.datagrams(_pose(self._motion, frame), time_s, self._stage, beside)
+        from app.performance.chunks import Pose
 
-
-def _pose(motion: Motion, frame: int) -> Pose:
-    from app.performance.chunks import Pose
-
-    return Pose(
-        rotations=motion.rotations[frame],
-        hips_m=motion.hips_m[frame],
-        morphs={name: float(values[frame]) for name, values in motion.morphs.items()},
-        controls={},
-        instrument_position_m=motion.instrument_position_m[frame],
-        instrument_rotation=motion.instrument_rotation[frame],
-    )
+        beside = [Pose.of(motion, frame) for motion in self._beside]
+        return self._sent.datagrams(Pose.of(self._motion, frame), time_s, self._stage, beside)
 
 
 def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: int, loop: bool) -> None:

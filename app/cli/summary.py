@@ -102,14 +102,13 @@ def look_at(warnings: Sequence[str]) -> list[str]:
     return ["", "to look at:", *(f"  {warning}" for warning in warnings)] if warnings else []
 
 
-def columns(rows: Iterable[tuple[str, ...]]) -> list[str]:
-    """Rows with their cells one below the other: the first column left, the others right."""
+def columns(rows: Iterable[tuple[str, ...]], of_numbers: bool = True) -> list[str]:
+    """Rows as columns two spaces apart; all but the first are ``of_numbers``, on the right of their columns."""
     table = [tuple(map(shown, row)) for row in rows]
     widths = [max(len(row[column]) for row in table) for column in range(len(table[0]))]
+    placed = [str.ljust, *([str.rjust if of_numbers else str.ljust] * (len(widths) - 1))]
     return [
-        "  ".join(
-            [row[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))]
-        ).rstrip()
+        "  ".join(place(cell, width) for place, cell, width in zip(placed, row, widths, strict=True)).rstrip()
         for row in table
     ]
 

@@ -8,7 +8,10 @@ visible in one is escaped (`app.encoding.shown`).
 from __future__ import annotations
 
 import json
+import signal
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any, TextIO
 
 import msgspec
@@ -37,3 +40,14 @@ def count(number: int, *, is_last: bool) -> None:
     """Print a number of a count-in beside the ones before, with the terminal's bell."""
     bell = "\a" if sys.stdout.isatty() else ""
     print(f"{bell}{number}", end="\n" if is_last else " ", flush=True)
+
+
+@contextmanager
+def interrupted_by(number: signal.Signals) -> Iterator[None]:
+    """Let a signal (Ctrl-C, or a request to end) end what is done here by KeyboardInterrupt, so that nothing
+    half-written stays."""
+    before = signal.signal(number, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(number, before)

@@ -1,4 +1,4 @@
-"""How far off what touches may be: declared here, and read by whoever judges."""
+"""Bounds of contacts, for every check and report."""
 
 from __future__ import annotations
 

@@ -93,7 +93,7 @@ def reached(
         As the player's body plays it.
     fingerings : tuple of FingeringEvent
     holding : callable
-        Asked only where someone has to be posed.
+        Called only where a body has to be posed.
     """
     carried = carried_controls(instrument)
     if not carried:

@@ -1,7 +1,7 @@
-"""What the editor knows and what works for it, below all widgets.
+"""The editor's state and services, below all widgets.
 
-State that panels and commands share (`session` and what hangs on it: selection, listening, recording, streaming, who is
-played now, what the viewport shows), and the services that keep it up with the project: files and settings, plans and
-motion, sound, recorder, streamer, the user's own libraries, slow work beside the window. Of Qt only signals, timers and
+State that panels and commands share (`session` and its parts: selection, listening, recording, streaming, live players,
+what the viewport shows), and the services that keep it up with the project: files and settings, plans and motion,
+sound, recorder, streamer, the user's own libraries, slow work beside the window. Of Qt only signals, timers and
 watchers (``PySide6.QtCore``).
 """

@@ -12,11 +12,12 @@ import threading
 import weakref
 from collections.abc import Callable
 from queue import Empty, SimpleQueue
-from typing import Final
+from typing import Final, Generic, TypeVar
 
 from PySide6.QtCore import QCoreApplication, QObject, QSocketNotifier
 from shiboken6 import isValid
 
+T = TypeVar("T", bound=QObject)
 Call = Callable[[], None]
 Ask = Callable[[Call], None]
 """Have this called in the window's thread, after what was asked for before; may be called in any thread."""
@@ -84,3 +85,21 @@ def window_calls() -> Calls:
     if _calls is None or not isValid(_calls):
         _calls = Calls(QCoreApplication.instance())
     return _calls
+
+
+class Reporter(Generic[T]):
+    """Carries what a thread says into the window's thread, as long as the one it is said to lives and awaits it."""
+
+    def __init__(self, listener: T, is_awaited: Callable[[T], bool]) -> None:
+        self._ask, self._listener, self._is_awaited = window_calls().ask, weakref.ref(listener), is_awaited
+
+    def __call__(self, say: Callable[[T], None]) -> None:
+        """Let something be said to the listener soon."""
+        listening, is_awaited = self._listener, self._is_awaited
+
+        def call() -> None:
+            listener = listening()
+            if listener is not None and isValid(listener) and is_awaited(listener):
+                say(listener)
+
+        self._ask(call)

@@ -10,19 +10,17 @@ import sys
 import threading
 import time
 import weakref
-from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Protocol
 
 from PySide6.QtCore import QObject, QTimer, Signal
-from shiboken6 import isValid
 
-from app.editor.calls import window_calls
+from app.editor.calls import Reporter
 from app.editor.session import Session, Severity
 from app.editor.tasks import Progress, StopRequested, Tasks
 from app.errors import AppError, Cancelled, Message
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion, PlayerFault
-from app.plan.model import Problem
 from app.project.document import Change
 from app.project.model import Project
 from app.rig.character_library import character_library
@@ -95,7 +93,7 @@ class Generator(QObject):
         self._ready = -1.0
         self.live = LiveMotion(session.performance)
         """The motion of all players: the viewport draws `LiveMotion.pose`."""
-        self._worker = _Worker(self.live, _MainThreadNotifier(self))
+        self._worker = _Worker(self.live, Reporter(self, lambda generator: generator._end.alive))
         self._end = weakref.finalize(self, self._worker.close)
         session.changed.connect(self._project_changed)
         session.performance_changed.connect(self._show)
@@ -246,9 +244,6 @@ class Generator(QObject):
         self.live.want(self._session.playhead_s, player_ids=self._session.players)
         self._worker.wake()
 
-    def _judged(self, broken: Mapping[str, tuple[Problem, ...]]) -> None:
-        self._session.set_broken(broken)
-
     def _worked(self, ready: float) -> None:
         if ready != self._ready:
             self._ready = ready
@@ -257,38 +252,6 @@ class Generator(QObject):
     def _fell(self, fault: BaseException) -> None:
         """A fault of the program that the worker met is reported like one that the window met."""
         raise fault
-
-
-class _MainThreadNotifier:
-    """Passes reports of the worker to the window's thread, as long as the generator exists."""
-
-    def __init__(self, generator: Generator) -> None:
-        self._ask, self._generator = window_calls().ask, weakref.ref(generator)
-
-    def planned(self, performance: Performance, number: int, error: AppError | None) -> None:
-        self._report(lambda generator: generator._planned(performance, number, error))
-
-    def fell(self, fault: BaseException) -> None:
-        self._report(lambda generator: generator._fell(fault))
-
-    def moved(self) -> None:
-        self._report(lambda generator: generator.motion_changed.emit())
-
-    def worked(self, ready: float) -> None:
-        self._report(lambda generator: generator._worked(ready))
-
-    def judged(self, broken: Mapping[str, tuple[Problem, ...]]) -> None:
-        self._report(lambda generator: generator._judged(broken))
-
-    def _report(self, say: Callable[[Generator], None]) -> None:
-        listening = self._generator
-
-        def call() -> None:
-            generator = listening()
-            if generator is not None and isValid(generator) and generator._end.alive:
-                say(generator)
-
-        self._ask(call)
 
 
 class _Clock(Protocol):
@@ -306,8 +269,8 @@ class _Clock(Protocol):
 class _Worker:
     """The thread: plans first, then motion. Holds nothing of the window, so that it may end without a goodbye."""
 
-    def __init__(self, live: LiveMotion, notifier: _MainThreadNotifier, clock: _Clock = time) -> None:
-        self._live, self._notifier, self._clock = live, notifier, clock
+    def __init__(self, live: LiveMotion, report: Reporter[Generator], clock: _Clock = time) -> None:
+        self._live, self._report, self._clock = live, report, clock
         self._changed = threading.Condition()
         self._pending: tuple[Performance, int] | None = None
         self._planning = False
@@ -396,11 +359,11 @@ class _Worker:
         except AppError as error:
             failed = error
         except Exception as fault:  # noqa: BLE001 - reported in the window's thread
-            self._notifier.fell(fault)
+            self._report(partial(Generator._fell, fault=fault))
             return
         finally:
             self._planning = False
-        self._notifier.planned(performance, number, failed)
+        self._report(partial(Generator._planned, performance=performance, number=number, error=failed))
 
     def _make_motion(self) -> None:
         clock, requests = self._clock, self._wishes
@@ -409,11 +372,11 @@ class _Worker:
             more = self._live.work(self._interrupted)
         except PlayerFault as fault:
             # The others go on.
-            self._notifier.fell(fault)
+            self._report(partial(Generator._fell, fault=fault))
             return
         except Exception as fault:  # noqa: BLE001 - reported in the window's thread
             self._met = requests
-            self._notifier.fell(fault)
+            self._report(partial(Generator._fell, fault=fault))
             return
         now_s = clock.monotonic()
         others_s = clock.process_time() - clock.thread_time() - others_s
@@ -424,10 +387,10 @@ class _Worker:
         self._report_broken(now_s, not more)
         if self._live.seen != self._reported_seen and (now_s - self._reported_seen_s >= TELL_S or not awaited):
             self._reported_seen, self._reported_seen_s = self._live.seen, now_s
-            self._notifier.moved()
+            self._report(lambda generator: generator.motion_changed.emit())
         if now_s - self._reported_s >= TELL_READY_S or not more:
             self._reported_s = now_s
-            self._notifier.worked(self._live.ready_share)
+            self._report(partial(Generator._worked, ready=self._live.ready_share))
         if self._playing:
             clock.sleep(REST_WHILE_PLAYING * (now_s - start_s))
         elif not awaited and others_s > OTHERS_S:
@@ -445,11 +408,11 @@ class _Worker:
         try:
             self._judging = self._live.judge(lambda: not self._idle)
         except PlayerFault as fault:
-            self._notifier.fell(fault)
+            self._report(partial(Generator._fell, fault=fault))
             return
         except Exception as fault:  # noqa: BLE001 - reported in the window's thread
             self._judging = False
-            self._notifier.fell(fault)
+            self._report(partial(Generator._fell, fault=fault))
             return
         now_s = self._clock.monotonic()
         self._report_broken(now_s, not self._judging)
@@ -461,7 +424,7 @@ class _Worker:
         broken = self._live.broken
         if broken is not self._reported_broken and (at_once or now_s - self._reported_broken_s >= TELL_BROKEN_S):
             self._reported_broken, self._reported_broken_s = broken, now_s
-            self._notifier.judged(broken)
+            self._report(lambda generator: generator._session.set_broken(broken))
 
     def _interrupted(self) -> bool:
         return self._closed or self._pending is not None

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final, Literal
+from typing import Any, Final, Literal
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import Signal
 
 from app.audio.peaks import Peaks
+from app.editor.state import State
 
 Source = Literal["recording", "synthesiser", "both"]
 SOURCES: Final[tuple[Source, ...]] = ("recording", "synthesiser", "both")
@@ -32,7 +33,7 @@ class RecordedTake:
     alone: bool
 
 
-class Listening(QObject):
+class Listening(State):
     """How the user listens.
 
     Attributes
@@ -53,7 +54,7 @@ class Listening(QObject):
         Of the project's recording, once it is read.
     ready : float
         0..1: how much of the score the synthesiser has made.
-    take : HeardTake or None
+    take : RecordedTake or None
         Heard in the place of its player's part until the sound stops.
 
     Signals
@@ -64,7 +65,6 @@ class Listening(QObject):
         The recording is another, or was read.
     """
 
-    changed = Signal()
     waveform_changed = Signal()
 
     def __init__(self) -> None:
@@ -79,40 +79,15 @@ class Listening(QObject):
         self.waveform: Peaks | None = None
         self.take: RecordedTake | None = None
 
-    def set(
-        self,
-        *,
-        speed: float | None = None,
-        volume: float | None = None,
-        click: bool | None = None,
-        scrub_sound: bool | None = None,
-        source: Source | None = None,
-        silent: bool | None = None,
-        ready: float | None = None,
-    ) -> None:
-        """Change what is not None."""
-        before = self._state()
-        self.speed = self.speed if speed is None else min(max(speed, LEAST_SPEED), MOST_SPEED)
-        self.volume = self.volume if volume is None else min(max(volume, 0.0), 1.0)
-        self.click = self.click if click is None else click
-        self.scrub_sound = self.scrub_sound if scrub_sound is None else scrub_sound
-        self.source = self.source if source is None else source
-        self.silent = self.silent if silent is None else silent
-        self.ready = self.ready if ready is None else ready
-        if before != self._state():
-            self.changed.emit()
-
-    def set_take(self, take: RecordedTake | None) -> None:
-        """Hear a take in the place of its player's part; None: the part."""
-        if take != self.take:
-            self.take = take
-            self.changed.emit()
+    def set(self, **values: Any) -> None:
+        """Change some attributes; `changed` once if any is another. Speed and volume are held within their bounds."""
+        for name, (least, most) in {"speed": (LEAST_SPEED, MOST_SPEED), "volume": (0.0, 1.0)}.items():
+            if name in values:
+                values[name] = min(max(values[name], least), most)
+        super().set(**values)
 
     def set_waveform(self, waveform: Peaks | None) -> None:
         """The recording's picture; None: there is no recording, or it is not read yet."""
         if waveform is not self.waveform:
             self.waveform = waveform
             self.waveform_changed.emit()
-
-    def _state(self) -> tuple[object, ...]:
-        return (self.speed, self.volume, self.click, self.scrub_sound, self.source, self.silent, self.ready)

@@ -20,7 +20,7 @@ REST_S: Final = 4.0
 
 
 class LivePlayer(QObject):
-    """Hands what is played to the pose of the player who is recorded.
+    """Applies what is played to the pose of the player that is recorded.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class LivePlayer(QObject):
         self._play_along, self._of = None, ()
 
     def _ready(self) -> PlayAlong | None:
-        """Whoever plays along; made anew where the player, the instrument or the body is another."""
+        """The live performance; made anew where the player, the instrument or the body has changed."""
         player_id, performance = self._chosen(), self._session.performance
         player = next((player for player in performance.project.players if player.id == player_id), None)
         if player is None or player.id not in performance.plans or player.id in performance.waiting:

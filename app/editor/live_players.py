@@ -18,7 +18,7 @@ from app.score.take import ControllerMapping
 SAME_S: Final = 0.006
 """A pose that is asked for again so soon is the same: the window shows it, and the network is sent it."""
 BLEND_S: Final = 0.2
-"""From the performance to who is played now, and back."""
+"""From the pose of the performance to that of the controller, and back."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class LivePlayers(QObject):
         self._lock = threading.Lock()
         """What plays along is asked for poses by the thread that streams them, too."""
         self._poses: dict[str, tuple[float, Pose]] = {}
-        """The pose that was made last of each, and when; of who has just ended, the last one."""
+        """The last pose of each player, and when it was made; also of players that have just ended."""
         self._blends: dict[str, _Blend] = {}
 
     @property
@@ -106,7 +106,7 @@ class LivePlayers(QObject):
         return None if play_along is None else play_along.lying.get(other_id)
 
     def pose(self, player_id: str, at_s: float) -> tuple[Pose, float] | None:
-        """How a player stands now, and how much of that is to be seen, 0..1; None for who is not played.
+        """A player's pose now, and its share of what is shown, 0..1; None for players that are not played.
 
         Parameters
         ----------

@@ -1,19 +1,20 @@
-"""Poses, in which who is played now stands as it plays."""
+"""Poses of the performance, with those of players that are played from a controller now."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from app.editor.poses import Posed, Poses, blended
+from app.editor.poses import Poses, blended
 from app.editor.session import Session
 from app.performance.chunks import Pose
 
 
 class LivePoses:
-    """Poses of the performance, but of who is played now (`session.live_players`) those of now. May be asked by any
-    thread.
+    """Poses of the performance; of players that are played now (`session.live_players`), those of now. Any thread may
+    call it.
 
     Parameters
     ----------
@@ -29,7 +30,7 @@ class LivePoses:
         """Whether a player is live, or has just been."""
         return self._session.live_players.is_shown
 
-    def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Posed | None]:
+    def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
         """See `Poses.poses`."""
         found = self._poses.poses(player_ids, time_s)
         live = self._session.live_players
@@ -37,14 +38,14 @@ class LivePoses:
             return found
         return [self._shown(player_id, pose, time_s) for player_id, pose in zip(player_ids, found, strict=True)]
 
-    def _shown(self, player_id: str, performed: Posed | None, time_s: float) -> Posed | None:
+    def _shown(self, player_id: str, performed: Pose | None, time_s: float) -> Pose | None:
         now = self._session.live_players.pose(player_id, time_s)
         if now is None:
             return self._beside(player_id, performed, time_s)
         live, share = now
         return live if performed is None or share >= 1.0 else blended(performed, live, share)
 
-    def _beside(self, player_id: str, performed: Posed | None, time_s: float) -> Posed | None:
+    def _beside(self, player_id: str, performed: Pose | None, time_s: float) -> Pose | None:
         """An instrument that lies aside while the musician plays another one now: the body is that of now."""
         live, project = self._session.live_players, self._session.project
         own = next((player for player in project.players if player.id == player_id), None)
@@ -55,17 +56,15 @@ class LivePoses:
             body, share = now
             found = live.lying(other.id, player_id)
             position_m, rotation = found or (performed.instrument_position_m, performed.instrument_rotation)
-            beside = Pose(
-                rotations=body.rotations,
-                hips_m=body.hips_m,
-                morphs=body.morphs,
-                controls=dict(performed.controls),
+            beside = replace(
+                body,
+                controls=performed.controls,
                 instrument_position_m=np.asarray(position_m, np.float32),
                 instrument_rotation=np.asarray(rotation, np.float32),
             )
             return beside if share >= 1.0 else blended(performed, beside, share)
         return performed
 
-    def pose_now(self, player_id: str, time_s: float) -> Posed | None:
+    def pose_now(self, player_id: str, time_s: float) -> Pose | None:
         """See `Poses.pose_now`: pictures of the performance show the performance."""
         return self._poses.pose_now(player_id, time_s)

@@ -13,35 +13,7 @@ from app.performance.chunks import Pose, between
 Floats = npt.NDArray[np.floating]
 
 
-class Posed(Protocol):
-    """One frame of a player's motion, in the player's own frame (feet at the origin, facing +Z)."""
-
-    @property
-    def rotations(self) -> Floats:
-        """``parent_from_joint`` of every joint (J, 4), xyzw."""
-
-    @property
-    def hips_m(self) -> Floats:
-        """Translation of the hips in the root's frame (3,)."""
-
-    @property
-    def morphs(self) -> Mapping[str, float]:
-        """Weights 0..1 of the morph targets that move."""
-
-    @property
-    def controls(self) -> Mapping[str, float]:
-        """Value 0..1 of every control of the instrument."""
-
-    @property
-    def instrument_position_m(self) -> Floats:
-        """Origin of the instrument (3,)."""
-
-    @property
-    def instrument_rotation(self) -> Floats:
-        """Rotation of the instrument (4,), xyzw."""
-
-
-def blended(one: Posed, other: Posed, share: float) -> Posed:
+def blended(one: Pose, other: Pose, share: float) -> Pose:
     """A pose on the way from one to another: 0 is the one, 1 the other."""
 
     def mixed(before: Mapping[str, float], after: Mapping[str, float]) -> dict[str, float]:
@@ -64,7 +36,7 @@ def blended(one: Posed, other: Posed, share: float) -> Posed:
     )
 
 
-def same(one: Posed | None, other: Posed | None) -> bool:
+def same(one: Pose | None, other: Pose | None) -> bool:
     """Whether two poses look the same."""
     if one is None or other is None or one is other:
         return one is other
@@ -81,8 +53,8 @@ def same(one: Posed | None, other: Posed | None) -> bool:
 class Poses(Protocol):
     """Poses by player and time."""
 
-    def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Posed | None]:
+    def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
         """How players stand at a time, in their order; None while that is not made yet. Returns at once."""
 
-    def pose_now(self, player_id: str, time_s: float) -> Posed | None:
+    def pose_now(self, player_id: str, time_s: float) -> Pose | None:
         """How a player stands, made here and now where it is not there yet: for pictures that have to be right."""

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from typing import Literal
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import Signal
 
+from app.editor.state import State
 from app.errors import Message
 from app.score.take import ControllerMapping
 
@@ -14,7 +15,7 @@ Connection = Literal["none", "waiting", "open", "lost", "refused"]
 """Of the chosen device: none is chosen; it is not there (yet); it is listened to; it has gone; it cannot be had."""
 
 
-class Recording(QObject):
+class Recording(State):
     """How recording stands.
 
     Attributes
@@ -31,7 +32,7 @@ class Recording(QObject):
     wiring : ControllerMapping
         With what the device sends breath and bite.
     armed : str
-        Id of the player who is recorded; empty: the one in front.
+        Id of the player to record; empty: the active one.
     running : bool
         A take is being recorded, or counted in.
     start_s, counted_from_s : float
@@ -63,7 +64,6 @@ class Recording(QObject):
         An `app.capture.protocol.Events` came in; for the monitor and the live pose.
     """
 
-    changed = Signal()
     played = Signal()
     received = Signal(object)
 
@@ -87,14 +87,6 @@ class Recording(QObject):
         self.breath = 0.0
         self.pitch: int | None = None
         self.latency_s = 0.0
-
-    def set(self, **values: object) -> None:
-        """Change some attributes; `changed` once if any is another."""
-        different = [name for name, value in values.items() if getattr(self, name) != value]
-        for name in different:
-            setattr(self, name, values[name])
-        if different:
-            self.changed.emit()
 
     def set_played(self, breath: float, pitch: int | None) -> None:
         """What is played now."""

@@ -16,10 +16,11 @@ from app.editor.listening import Listening
 from app.editor.live_players import LivePlayers
 from app.editor.recording import Recording
 from app.editor.selection import Selection
+from app.editor.state import State, Watched
 from app.editor.streaming import Streaming
 from app.editor.tasks import Tasks
 from app.editor.timeline_view import TimelineView
-from app.editor.tokens import DARK, Tokens
+from app.editor.tokens import DARK
 from app.editor.viewport_state import ViewportState
 from app.errors import AppError, Message
 from app.performance.ensemble import Performance
@@ -45,27 +46,14 @@ class Severity(Enum):
     ERROR = "error"
 
 
-class PitchDisplay(QObject):
+class PitchDisplay(State):
     """How pitches are named: concert or written, which octave middle C is in, letters or syllables."""
-
-    changed = Signal()
 
     def __init__(self) -> None:
         super().__init__()
         self.written = False
         self.middle_c_octave = 4
         self.syllables = False
-
-    def set(
-        self, written: bool | None = None, middle_c_octave: int | None = None, syllables: bool | None = None
-    ) -> None:
-        """Change what is not None."""
-        before = (self.written, self.middle_c_octave, self.syllables)
-        self.written = self.written if written is None else written
-        self.middle_c_octave = self.middle_c_octave if middle_c_octave is None else middle_c_octave
-        self.syllables = self.syllables if syllables is None else syllables
-        if before != (self.written, self.middle_c_octave, self.syllables):
-            self.changed.emit()
 
 
 class Session(QObject):
@@ -150,15 +138,7 @@ class Session(QObject):
         self._selection = Selection()
         self._players: tuple[str, ...] = tuple(player.id for player in project.players[:1])
         self._dancer_id = project.dancers[-1].id if project.dancers else ""
-        self._playhead_s = 0.0
-        self._playing = False
-        self._loop_s: tuple[float, float] | None = None
-        self._grid = Grid()
-        self._tokens = DARK
-        self._time_display: TimeDisplay = "bars"
-        self._follow = True
         self._folded: dict[str, bool] = {}
-        self._preview_morphs: dict[str, float] | None = None
         self.variety = 0.3
         """How far apart `randomise` makes players, 0..1."""
         self.document.observe(self._document_changed)
@@ -240,7 +220,7 @@ class Session(QObject):
         selected = self._selection
         self._selection = Selection() if change.opened else selected.within(change.after)
         if change.opened:
-            self._loop_s = None
+            Session.loop_s.put(self, None)
         self.changed.emit(change)
         if moved:
             self.players_changed.emit()
@@ -291,7 +271,7 @@ class Session(QObject):
             return player.colour
         players = self.project.players
         number = players.index(player) if isinstance(player, Player) else self.project.dancers.index(player)
-        return self._tokens.player(number if isinstance(player, Player) else len(players) + number)
+        return self.tokens.player(number if isinstance(player, Player) else len(players) + number)
 
     # The rest of the state
 
@@ -307,82 +287,40 @@ class Session(QObject):
             self._selection = selection
             self.selection_changed.emit()
 
-    @property
-    def playhead_s(self) -> float:
-        """Where the performance is shown, seconds."""
-        return self._playhead_s
+    playhead_s = Watched("playhead_changed", 0.0, is_sent=True)
+    """Where the performance is shown, seconds."""
+    set_playhead = playhead_s.setter
+    """Show the performance here. While playing only the transport calls this; others call its `seek` action."""
 
-    def set_playhead(self, playhead_s: float) -> None:
-        """Show the performance here. While playing only the transport calls this; others call its `seek` action."""
-        if playhead_s != self._playhead_s:
-            self._playhead_s = playhead_s
-            self.playhead_changed.emit(playhead_s)
+    playing = Watched("playing_changed", False, is_sent=True)
+    """Whether the performance plays."""
+    set_playing = playing.setter
+    """Said by the transport."""
 
-    @property
-    def playing(self) -> bool:
-        """Whether the performance plays."""
-        return self._playing
+    loop_s = Watched[tuple[float, float] | None]("loop_changed", None)
+    """The range that is played over and over, seconds; None: none."""
+    set_loop = loop_s.setter
 
-    def set_playing(self, playing: bool) -> None:
-        """Said by the transport."""
-        if playing != self._playing:
-            self._playing = playing
-            self.playing_changed.emit(playing)
+    grid = Watched("grid_changed", Grid())
+    """What edits snap to."""
+    set_grid = grid.setter
 
-    @property
-    def loop_s(self) -> tuple[float, float] | None:
-        """The range that is played over and over, seconds; None: none."""
-        return self._loop_s
+    tokens = Watched("theme_changed", DARK)
+    """The theme."""
+    set_tokens = tokens.setter
 
-    def set_loop(self, loop_s: tuple[float, float] | None) -> None:
-        """Play this range over and over."""
-        if loop_s != self._loop_s:
-            self._loop_s = loop_s
-            self.loop_changed.emit()
+    time_display = Watched[TimeDisplay]("time_display_changed", "bars")
+    """How times are written."""
+    set_time_display = time_display.setter
 
-    @property
-    def grid(self) -> Grid:
-        """What edits snap to."""
-        return self._grid
+    follow = Watched("follow_changed", True)
+    """Whether the timeline follows the playhead."""
+    set_follow = follow.setter
 
-    def set_grid(self, grid: Grid) -> None:
-        """Snap to this."""
-        if grid != self._grid:
-            self._grid = grid
-            self.grid_changed.emit()
-
-    @property
-    def tokens(self) -> Tokens:
-        """The theme."""
-        return self._tokens
-
-    def set_tokens(self, tokens: Tokens) -> None:
-        """Change the theme."""
-        if tokens != self._tokens:
-            self._tokens = tokens
-            self.theme_changed.emit()
-
-    @property
-    def time_display(self) -> TimeDisplay:
-        """How times are written."""
-        return self._time_display
-
-    def set_time_display(self, display: TimeDisplay) -> None:
-        """Write times so."""
-        if display != self._time_display:
-            self._time_display = display
-            self.time_display_changed.emit()
-
-    @property
-    def follow(self) -> bool:
-        """Whether the timeline follows the playhead."""
-        return self._follow
-
-    def set_follow(self, follow: bool) -> None:
-        """Let the timeline follow the playhead, or not."""
-        if follow != self._follow:
-            self._follow = follow
-            self.follow_changed.emit()
+    preview_morphs = Watched[dict[str, float] | None]("preview_changed", None)
+    """Morph weights that the player in front wears instead of the performance's while a face is being made; None: no
+    one makes one."""
+    set_preview_morphs = preview_morphs.setter
 
     @property
     def folded(self) -> Mapping[str, bool]:
@@ -394,18 +332,6 @@ class Session(QObject):
         if self._folded.get(name) is not folded:
             self._folded[name] = folded
             self.folded_changed.emit()
-
-    @property
-    def preview_morphs(self) -> dict[str, float] | None:
-        """Morph weights that the player in front wears instead of the performance's while a face is being made; None:
-        no one makes one."""
-        return self._preview_morphs
-
-    def set_preview_morphs(self, morphs: dict[str, float] | None) -> None:
-        """Show a face that is being made, or no more."""
-        if morphs != self._preview_morphs:
-            self._preview_morphs = morphs
-            self.preview_changed.emit()
 
     def notice(self, message: Message, severity: Severity = Severity.INFORMATION) -> None:
         """Tell the user something, in the status line."""

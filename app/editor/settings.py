@@ -29,6 +29,7 @@ from app.editor.session import Session
 from app.editor.setting_bindings import FOLDED, THEME, TIME, SettingBinding, in_listening, in_pitches
 from app.errors import AppError, FileError, MapError, Message
 from app.formats.atomic import atomic_write
+from app.formats.files import cannot_write
 from app.formats.toml import read_toml, shaped, toml
 from app.messages import LANGUAGES
 from app.stream.sender import LEAST_PORT, MOST_PORT
@@ -309,7 +310,9 @@ class Settings(QObject):
         except (AppError, OSError) as error:
             if not self._is_reported:
                 self._is_reported = True
-                self.failed.emit(error.message if isinstance(error, AppError) else _cannot_write(self.path, error))
+                self.failed.emit(
+                    error.message if isinstance(error, AppError) else cannot_write(self.path, error).message
+                )
                 self.failed.emit(Message("settings.set_aside", {"file": os.fspath(self.path)}))
             return
         self._changes.clear()
@@ -386,7 +389,3 @@ def _put(table: dict[str, Any], keys: tuple[str, str], value: object) -> None:
     if not isinstance(table.get(section), dict):
         table[section] = {}
     table[section][name] = value
-
-
-def _cannot_write(path: Path, error: OSError) -> Message:
-    return Message("file.cannot_write", {"file": os.fspath(path), "reason": error.strerror or str(error)})

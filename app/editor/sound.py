@@ -130,7 +130,7 @@ class Sound(QObject):
             self._frame_timer.start()
         else:
             self._frame_timer.stop()
-            self._session.listening.set_take(None)
+            self._session.listening.set(take=None)
         self._follow_sound()
         self._session.set_playing(playing)
 
@@ -146,7 +146,7 @@ class Sound(QObject):
         """Play a take without taking it, as soon as its beginning is rendered; it is over when the sound stops."""
         self.playback.stop()
         self._session.set_playhead(from_s)
-        self._session.listening.set_take(take)
+        self._session.listening.set(take=take)
         self._take_waits_ms = _TAKE_WAIT_MS
         self._take_timer.start()
         self._play_take()
@@ -155,7 +155,7 @@ class Sound(QObject):
         """Hear the part again."""
         self._take_timer.stop()
         self.playback.stop()
-        self._session.listening.set_take(None)
+        self._session.listening.set(take=None)
 
     def _play_take(self) -> None:
         self._take_waits_ms -= _TAKE_LOOK_MS
@@ -344,19 +344,13 @@ class Sound(QObject):
             session.notice(Message("audio.not_recognised", {"percent": percent}), Severity.WARNING)
             return
         other_tempo = abs(estimate.tempo_ratio - 1.0) > SAME_TEMPO
-        if other_tempo and with_tempo:
-            name = Message("edit.fit_tempo")
-            session.attempt(
-                name,
-                lambda project: scale_tempo(
-                    set_offset(project, estimate.offset_s, estimate.confidence), estimate.tempo_ratio
-                ),
-            )
-        else:
-            session.attempt(
-                Message("edit.estimate_offset"),
-                lambda project: set_offset(project, estimate.offset_s, estimate.confidence),
-            )
+        fitted = other_tempo and with_tempo
+
+        def placed(project: Project) -> Project:
+            project = set_offset(project, estimate.offset_s, estimate.confidence)
+            return scale_tempo(project, estimate.tempo_ratio) if fitted else project
+
+        session.attempt(Message("edit.fit_tempo" if fitted else "edit.estimate_offset"), placed)
         tempo_percent = 100 * (estimate.tempo_ratio - 1.0)
         arguments = {"offset_s": estimate.offset_s, "percent": percent, "tempo_percent": tempo_percent}
         id = "audio.offset_found"

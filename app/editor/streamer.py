@@ -11,14 +11,14 @@ import threading
 import time
 import weakref
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Final
 
 from PySide6.QtCore import QObject
-from shiboken6 import isValid
 
-from app.editor.calls import window_calls
+from app.editor.calls import Reporter
 from app.editor.live_poses import LivePoses
 from app.editor.poses import Poses
 from app.editor.session import Session, Severity
@@ -148,9 +148,9 @@ class Streamer(QObject):
     def _begin(self, address: Address) -> None:
         self._address = address
         self._state.set(state="sending", trouble=None)
-        self._thread = _Thread(self._poses, _MainThreadNotifier(self))
-        self._ending = weakref.finalize(self, self._thread.close)
-        self._thread.begin()
+        thread = _Thread(self._poses, Reporter(self, lambda streamer: streamer._thread is thread))
+        self._thread, self._ending = thread, weakref.finalize(self, thread.close)
+        thread.begin()
         self._request()
 
     def close(self) -> None:
@@ -252,28 +252,11 @@ class _Anchor:
         return position_s
 
 
-class _MainThreadNotifier:
-    """Carries what the thread says into the window's thread, as long as there is a streamer that has it."""
-
-    def __init__(self, streamer: Streamer) -> None:
-        self._ask, self._streamer = window_calls().ask, weakref.ref(streamer)
-
-    def report(self, thread: _Thread, say: Callable[[Streamer], None]) -> None:
-        listening = self._streamer
-
-        def call() -> None:
-            streamer = listening()
-            if streamer is not None and isValid(streamer) and streamer._thread is thread:
-                say(streamer)
-
-        self._ask(call)
-
-
 class _Thread:
     """Sends at its rate until it is closed. Holds nothing of the window."""
 
-    def __init__(self, poses: LivePoses, notifier: _MainThreadNotifier) -> None:
-        self._poses, self._notifier = poses, notifier
+    def __init__(self, poses: LivePoses, say: Reporter[Streamer]) -> None:
+        self._poses, self._say = poses, say
         self._changed = threading.Condition()
         self._request: _Request | None = None
         self._anchor = _Anchor(0.0, 0.0, 0.0, None)
@@ -318,8 +301,7 @@ class _Thread:
             while not self._closed:
                 due_s = self._step(due_s)
         except Exception as error:  # noqa: BLE001 - reported in the window's thread
-            fault = error
-            self._notifier.report(self, lambda streamer: streamer._fell(fault))
+            self._say(partial(Streamer._fell, fault=error))
         finally:
             self._close_senders()
 
@@ -339,9 +321,8 @@ class _Thread:
         try:
             no_receiver = self._send(request, anchor.position(now_s), now_s)
         except AppError as error:
-            message = error.message
             self._close_senders()
-            self._notifier.report(self, lambda streamer: streamer._fail(message))
+            self._say(partial(Streamer._fail, message=error.message))
             return time.perf_counter() + RETRY_S
         self._report(now_s, no_receiver)
         if anchor.speed or self._poses.is_live:
@@ -399,8 +380,7 @@ class _Thread:
         self._reported_s = now_s
         while self._frames and now_s - self._frames[0] > _SECOND_S:
             self._frames.popleft()
-        count = len(self._frames)
-        self._notifier.report(self, lambda streamer: streamer._report(count, no_receiver))
+        self._say(partial(Streamer._report, sent_hz=len(self._frames), no_receiver=no_receiver))
 
     def _close_senders(self) -> None:
         for sender in self._senders.values():

@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, Literal
 
-from PySide6.QtCore import QObject, Signal
-
+from app.editor.state import State
 from app.errors import Message
 from app.project.model import Project
 from app.stream.faces import FaceNames
@@ -29,7 +28,7 @@ class StreamTarget:
     port: int
 
 
-class Streaming(QObject):
+class Streaming(State):
     """How streaming stands.
 
     Attributes
@@ -41,7 +40,7 @@ class Streaming(QObject):
     broadcast : str
         The host that may be sent to although every computer on the network can receive it: it was confirmed.
     port : int
-        Of who is in front; of several, the first one's.
+        Of the active player; of several, the first one's.
     everyone : bool
         Every player and dancer, each to a port of their own, at their places on the stage; else the one in front, in
         the middle.
@@ -55,14 +54,7 @@ class Streaming(QObject):
         Frames of a performer that were sent in the last second.
     trouble : Message or None
         Why nothing can be sent.
-
-    Signals
-    -------
-    changed()
-        One of these is another.
     """
-
-    changed = Signal()
 
     def __init__(self) -> None:
         super().__init__()
@@ -79,13 +71,13 @@ class Streaming(QObject):
         self.trouble: Message | None = None
 
     def planned(self, project: Project, front: Sequence[str]) -> tuple[StreamTarget, ...]:
-        """Who is sent where, or would be; who has no port left is not.
+        """Which player is sent to which port, or would be; players without a port are excluded.
 
         Parameters
         ----------
         project : Project
         front : sequence of str
-            Ids of those who are selected, the one in front first.
+            Ids of the selected players, the active one first.
         """
         players = {player.id: player for player in project.players}
         # A musician who plays several instruments is sent once.
@@ -94,11 +86,3 @@ class Streaming(QObject):
         return tuple(
             StreamTarget(id, self.port + place) for place, id in enumerate(ids) if self.port + place <= MOST_PORT
         )
-
-    def set(self, **values: object) -> None:
-        """Change some attributes; `changed` once if any is another."""
-        different = [name for name, value in values.items() if getattr(self, name) != value]
-        for name in different:
-            setattr(self, name, values[name])
-        if different:
-            self.changed.emit()

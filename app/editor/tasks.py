@@ -201,6 +201,6 @@ def _take_back(task: Task) -> None:
 
 
 def _is_there(callback: Callable[..., None]) -> bool:
-    """Whether who is to be reported has not been closed meanwhile."""
+    """Whether the receiver of a report is still open."""
     reported = getattr(callback, "__self__", None)
     return not isinstance(reported, QObject) or isValid(reported)

@@ -6,7 +6,12 @@ the dark surface and darkened for the light one.
 
 from __future__ import annotations
 
+from importlib.resources import as_file, files
+from typing import Final
+
 import msgspec
+
+from app.formats.toml import read_toml, shaped
 
 
 class Tokens(msgspec.Struct, frozen=True):
@@ -48,41 +53,14 @@ class Tokens(msgspec.Struct, frozen=True):
         return self.players[index % len(self.players)]
 
 
-DARK = Tokens(
-    name="dark",
-    surface="#23252a",
-    raised="#2e3138",
-    sunken="#1a1c20",
-    line="#363a42",
-    line_strong="#4d535e",
-    text="#e3e5e9",
-    text_dim="#9aa1ad",
-    accent="#559fea",
-    accent_text="#0b1620",
-    by_hand="#f2c14e",
-    warning="#f0a13c",
-    error="#f27a6a",
-    good="#57bd84",
-    players=("#56b4e9", "#e69f00", "#2fbf93", "#e58bbd", "#f0e442", "#4d8fe0", "#ee7d3b", "#b7bcc6"),
-)
-LIGHT = Tokens(
-    name="light",
-    surface="#f4f5f7",
-    raised="#ffffff",
-    sunken="#e9ebef",
-    line="#d3d7de",
-    line_strong="#aab1bd",
-    text="#1d2127",
-    text_dim="#5b6472",
-    accent="#1a65b5",
-    accent_text="#ffffff",
-    by_hand="#8c5a00",
-    warning="#9f5300",
-    error="#c0392b",
-    good="#1b7446",
-    players=("#1478b5", "#b37400", "#00805c", "#b0508a", "#8a7f00", "#0a5fa8", "#b84a00", "#5b6472"),
-)
-THEMES = {tokens.name: tokens for tokens in (DARK, LIGHT)}
+def _themes() -> dict[str, Tokens]:
+    with as_file(files("resources") / "themes.toml") as path:
+        table = read_toml(path)
+    return {name: shaped({"name": name, **colours}, Tokens, path.name) for name, colours in table.items()}
+
+
+THEMES: Final = _themes()
+DARK, LIGHT = THEMES["dark"], THEMES["light"]
 
 LEAST_TEXT_PT = 9
 LEAST_TARGET_PX = 24

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from app.export.own_skeleton import own_weights
 from app.export.target import BoneMotion, TargetSkeleton, bone_motion, matrices, normalised_target
 from app.formats.join import join_meshes
+from app.formats.names import numbered
 from app.formats.scene import Bone, Clip, MorphTarget, Scene, SkinnedMesh
 from app.motion.model import Motion
 from app.rig import quaternion
@@ -22,7 +23,7 @@ CENTIMETRES = 100.0
 
 
 def character_scene(
-    character: Character, motion: Motion, clip: str, creator: str, target: TargetSkeleton | None = None
+    character: Character, motion: Motion, name: str, creator: str, target: TargetSkeleton | None = None
 ) -> Scene:
     """The scene of one player.
 
@@ -31,8 +32,8 @@ def character_scene(
     character : Character
     motion : Motion
         Of this character's skeleton.
-    clip : str
-        Name of the animation.
+    name : str
+        Of the armature and the animation; the meshes' names begin with it.
     creator : str
         Program and version.
     target : TargetSkeleton, optional
@@ -47,17 +48,18 @@ def character_scene(
     """
     target = normalised_target(character.skeleton) if target is None else target
     if target.choice == "own" and character.own is not None:
-        meshes, weights = _own_meshes(character.own.figure, target), own_weights(motion.morphs, character.own)
+        meshes, weights = _own_meshes(character.own.figure, target, name), own_weights(motion.morphs, character.own)
     else:
-        meshes, weights = (_joined_mesh(character, target),), motion.morphs
+        meshes, weights = (_joined_mesh(character, target, name),), motion.morphs
     there = {morph.name for mesh in meshes for morph in mesh.morphs}
     return Scene(
         bones=_bound_bones(target, meshes[0]) if target.choice == "ue5" else skeleton_bones(target),
         meshes=meshes,
         clip=character_clip(
-            character, motion, clip, target, {name: weight for name, weight in weights.items() if name in there}
+            character, motion, name, target, {morph: weight for morph, weight in weights.items() if morph in there}
         ),
         creator=creator,
+        name=name,
     )
 
 
@@ -108,19 +110,19 @@ def character_clip(
     )
 
 
-def _own_meshes(figure: Figure, target: TargetSkeleton) -> tuple[SkinnedMesh, ...]:
+def _own_meshes(figure: Figure, target: TargetSkeleton, name: str) -> tuple[SkinnedMesh, ...]:
     """The meshes of a figure, bound where its bones are at rest."""
     binds = matrices(*world_placements(target.parents, target.offsets_m * CENTIMETRES, target.rest))
     added = len(target.names) - len(figure.bone_names)
-    names = mesh_names([mesh.name for mesh in figure.meshes], target.names)
+    names = mesh_names([f"{name}_{mesh.name or 'mesh'}" for mesh in figure.meshes], target.names)
     return tuple(
         # What has no weight may name any bone.
-        skinned_mesh(mesh, name, np.maximum(mesh.joints + np.int32(added), 0), mesh.weights, binds)
-        for mesh, name in zip(figure.meshes, names, strict=True)
+        skinned_mesh(mesh, own_name, np.maximum(mesh.joints + np.int32(added), 0), mesh.weights, binds)
+        for mesh, own_name in zip(figure.meshes, names, strict=True)
     )
 
 
-def _joined_mesh(character: Character, target: TargetSkeleton) -> SkinnedMesh:
+def _joined_mesh(character: Character, target: TargetSkeleton, name: str) -> SkinnedMesh:
     """All meshes of a character as one, on the bones of a target; a joint without a bone goes with the one above."""
     bone_of_joint = np.zeros(len(character.skeleton.names), np.int32)
     for joint, parent in enumerate(character.skeleton.parents):
@@ -130,8 +132,7 @@ def _joined_mesh(character: Character, target: TargetSkeleton) -> SkinnedMesh:
     meshes = [
         skinned_mesh(mesh, mesh.name, bone_of_joint[mesh.joints], mesh.weights, binds) for mesh in character.meshes
     ]
-    (name,) = mesh_names([character.id], target.names)
-    return join_meshes(meshes, name)
+    return join_meshes(meshes, *mesh_names([f"{name}_mesh"], target.names))
 
 
 def _binds(character: Character, target: TargetSkeleton) -> npt.NDArray[np.floating]:
@@ -184,14 +185,5 @@ def skinned_mesh(
 
 
 def mesh_names(names: Iterable[str], bones: Iterable[str]) -> tuple[str, ...]:
-    """Names no other mesh and no bone has: Unreal and Blender distinguishes objects by name alone."""
-    taken = {bone.casefold() for bone in bones}
-    result = []
-    for name in names:
-        unique, number = name or "mesh", 1
-        while unique.casefold() in taken:
-            number += 1
-            unique = f"{name or 'mesh'}_{number}"
-        taken.add(unique.casefold())
-        result.append(unique)
-    return tuple(result)
+    """Names no other mesh and no bone has: Unreal and Blender distinguish objects by name alone."""
+    return numbered(names, bones)

@@ -1,6 +1,9 @@
-"""A dancer's files, and what is measured on them once they are read back."""
+"""A dancer's files, written and then measured as a reader plays them back."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -8,10 +11,16 @@ import numpy.typing as npt
 from app.choreography.contacts import BoolArray
 from app.choreography.feet import SIDES
 from app.choreography.retarget import foot_tip_m
+from app.export.character import character_scene
+from app.export.file_names import figure_stems, file_names
+from app.export.formats import FILE_FORMATS
 from app.export.joint_playback import JointPlayback
 from app.export.playback import Playback
-from app.export.report import DancerMeasures
+from app.export.player import skeleton_report, write_options
+from app.export.report import DancerMeasures, DancerReport, stage_place
+from app.export.request import ExportCast, Request
 from app.export.target import TargetSkeleton
+from app.formats.fbx.read import read_scene
 from app.formats.scene import Scene
 from app.performance.dancers import Dancing
 from app.performance.span import FrameSpan
@@ -56,4 +65,39 @@ def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, s
         slide_most_mm_s=round(float(slides.max(initial=0.0)), 3),
         bones_mm=round(1000.0 * float(np.abs(lengths - rest)[:, joints.rigid].max(initial=0.0)), 4),
         below_mm=round(1000.0 * max(0.0, -lowest), 3),
+    )
+
+
+def export_dancer(
+    request: Request, cast: ExportCast, dancing: Dancing, folder: Path, reported: Callable[[float], None]
+) -> DancerReport:
+    """Write and measure the files of a dancer; parameters as of `app.export.player.export_player`."""
+    dancer = next(one for one in request.dancers if one.id == dancing.dancer.id)
+    checked, stem = cast.targets[dancer.id], figure_stems(request.performance)[dancer.id]["character"]
+    files = file_names(request.performance, request.formats)[dancer.id]
+    reported(0.0)
+    character, target, span = dancing.character, checked.target, request.span
+    motion = dancing.motion(span.fps, span.first, span.count)
+    reported(0.3)
+    scene = character_scene(character, motion, stem, request.creator, target)
+    beside = write_options(request, character, target)
+    for name, kind in FILE_FORMATS.items():
+        if name in request.formats:
+            kind.write(folder / files[f"character_{name}"], scene, beside)
+    reported(0.8)
+    measures = None
+    if "fbx" in request.formats:
+        read = read_scene(folder / files["character_fbx"])
+        measures = measure_dancer(read, character, target, standing_frames(dancing, span))
+    reported(1.0)
+    starts_s = [step.start_s for step in dancing.dance(span.fps).steps]
+    return DancerReport(
+        name=dancer.name,
+        choreography=dancing.choreographer.model.name,
+        character=dancer.character_id,
+        files=files,
+        stage=stage_place(dancer.stage),
+        steps=sum(span.first_frame_s <= start_s < span.end_s for start_s in starts_s),
+        skeleton=skeleton_report(request, checked),
+        measures=measures,
     )

@@ -11,8 +11,8 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from app.errors import FileError
 from app.export.tree import tree_into
+from app.formats.files import cannot_write
 
 
 @contextlib.contextmanager
@@ -41,7 +41,7 @@ def files_into(folder: Path) -> Iterator[Path]:
         try:
             _make(folder, made)
         except OSError as error:
-            raise FileError("file.cannot_write", file=os.fspath(folder), reason=error.strerror or str(error)) from error
+            raise cannot_write(folder, error) from error
         with tree_into(folder, folder) as change:
             yield change.new
         made.clear()

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, Literal
 
 from app.formats.scene import Scene
-from app.formats.usd import refuse_without_usd
+from app.formats.usd import Sound, refuse_without_usd
 
 Format = Literal["fbx", "bvh", "glb", "usd"]
-SettingBinding = Literal["character", "instrument"]
+FileContent = Literal["character", "instrument"]
 
 
 @dataclass(frozen=True)
@@ -44,14 +44,17 @@ class FileFormat:
         How long a player's files take to write, beside those of the other formats.
     write : callable
         Writes a scene that has a clip.
+    write_stage : callable or None
+        Writes several such scenes, each with a name and a place, into one file; None: it can hold one only.
     refuse : callable
         Raises UsageError where what writes this kind of file is not installed.
     """
 
     suffix: str
-    holds: tuple[SettingBinding, ...]
+    holds: tuple[FileContent, ...]
     work: float
     write: Callable[[Path, Scene, WriteOptions], None]
+    write_stage: Callable[[Path, Iterable[Scene], WriteOptions], None] | None = None
     refuse: Callable[[], None] = lambda: None
 
 
@@ -64,13 +67,17 @@ def _fbx(path: Path, scene: Scene, beside: WriteOptions) -> None:
     write_scene(path, scene)
 
 
+def _fbx_stage(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
+    from app.formats.fbx.write import write_scenes
+
+    write_scenes(path, scenes)
+
+
 def _bvh(path: Path, scene: Scene, beside: WriteOptions) -> None:
     from app.export.skeleton import scene_bvh
-    from app.formats.atomic import atomic_write
-    from app.formats.bvh import encode_bvh
+    from app.formats.bvh import write_bvh
 
-    with atomic_write(path) as stream:
-        stream.write(encode_bvh(scene_bvh(scene, beside.bone_names)))
+    write_bvh(path, scene_bvh(scene, beside.bone_names))
 
 
 def _glb(path: Path, scene: Scene, beside: WriteOptions) -> None:
@@ -79,17 +86,33 @@ def _glb(path: Path, scene: Scene, beside: WriteOptions) -> None:
     write_glb(path, scene)
 
 
-def _usd(path: Path, scene: Scene, beside: WriteOptions) -> None:
-    from app.formats.usd import Sound, write_usd
+def _glb_stage(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
+    from app.formats.gltf.write import write_glbs
 
-    write_usd(path, scene, None if beside.sound is None else Sound(beside.sound, 0.0))
+    write_glbs(path, scenes)
+
+
+def _usd(path: Path, scene: Scene, beside: WriteOptions) -> None:
+    from app.formats.usd import write_usd
+
+    write_usd(path, scene, _usd_sound(beside))
+
+
+def _usd_stage(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
+    from app.formats.usd import write_usds
+
+    write_usds(path, scenes, _usd_sound(beside))
+
+
+def _usd_sound(beside: WriteOptions) -> Sound | None:
+    return None if beside.sound is None else Sound(beside.sound, 0.0)
 
 
 FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
-    "fbx": FileFormat(".fbx", ("character", "instrument"), 3.0, _fbx),
+    "fbx": FileFormat(".fbx", ("character", "instrument"), 3.0, _fbx, _fbx_stage),
     "bvh": FileFormat(".bvh", ("character",), 1.0, _bvh),
-    "glb": FileFormat(".glb", ("character", "instrument"), 2.0, _glb),
-    "usd": FileFormat(".usdc", ("character", "instrument"), 6.0, _usd, refuse_without_usd),
+    "glb": FileFormat(".glb", ("character", "instrument"), 2.0, _glb, _glb_stage),
+    "usd": FileFormat(".usdc", ("character", "instrument"), 6.0, _usd, _usd_stage, refuse_without_usd),
 }
 """In the order in which they are written and listed."""
 

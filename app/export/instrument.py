@@ -22,7 +22,7 @@ FloatArray = npt.NDArray[np.float64]
 
 
 def instrument_scene(
-    instrument: InstrumentMap, model: InstrumentModel, motion: Motion, clip: str, creator: str
+    instrument: InstrumentMap, model: InstrumentModel, motion: Motion, name: str, creator: str
 ) -> Scene:
     """The scene of a player's instrument.
 
@@ -33,19 +33,20 @@ def instrument_scene(
         The model the map names.
     motion : Motion
         Of the player who holds it.
-    clip, creator : str
-        Name of the animation; program and version.
+    name, creator : str
+        Of the armature and the animation, with which the mesh's name begins; program and version.
     """
     bones = instrument_bones(instrument, model)
     binds = np.tile(np.eye(4), (len(bones), 1, 1))
     binds[:, :3, 3] = model.node_positions_m * CENTIMETRES
-    (name,) = mesh_names([instrument.id], (bone.name for bone in bones))
+    (mesh_name,) = mesh_names([f"{name}_mesh"], (bone.name for bone in bones))
     meshes = [skinned_mesh(mesh, mesh.name, mesh.joints, mesh.weights, binds) for mesh in model.meshes]
     return Scene(
         bones=bones,
-        meshes=(join_meshes(meshes, name),),
-        clip=instrument_clip(instrument, model, motion, clip),
+        meshes=(join_meshes(meshes, mesh_name),),
+        clip=instrument_clip(instrument, model, motion, name),
         creator=creator,
+        name=name,
     )
 
 

@@ -1,124 +1,74 @@
 """The core bones of Unreal Engine 5's mannequin as a target, with the proportions of the character.
 
 Axes are an asset's, where a file of it is given: then a rotation means the same on both, and an animation of
-one can be played on the other. Without a file the axes are those the mannequin has by convention (see `_AXES`), which
-are near but not the same; Unreal's IK retargeter is the way to the asset then.
+one can be played on the other. Without a file the axes are those the mannequin has by convention (its table in
+`metadata`), which are near but not the same; Unreal's IK retargeter is the way to the asset then.
 
 The mannequin has neither eyes nor a jaw: what they carry goes with the head.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
+import msgspec
 import numpy as np
 import numpy.typing as npt
 
 from app.export.own_skeleton import limb_twist
 from app.export.target import HIPS, TargetSkeleton, Twist
+from app.formats.toml import read_toml, shaped
 from app.rig import quaternion
 from app.rig.figure import Figure
 from app.rig.model import Skeleton
 from app.rig.placements import local_placements
 from app.rig.skeleton import rest_positions
 from app.rig.t_pose import rest_of, turns_to_t_pose, upright
+from metadata.load import ROOT
 from metadata.model import REQUIRED_JOINTS
 
 FloatArray = npt.NDArray[np.float64]
 
-_FINGERS: Final = (("index", "Index"), ("middle", "Middle"), ("ring", "Ring"), ("pinky", "Little"))
-_METACARPAL: Final = 0.3
-"""How far from the wrist to the knuckle a metacarpal begins."""
+TABLE: Final = ROOT / "mannequin.toml"
 
 
-@dataclass(frozen=True)
-class _Bone:
+class _Bone(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A bone of the mannequin: it is a joint, or stands ``along`` the way between two, or is tied to another bone."""
 
     name: str
-    parent: str
-    axes: str
+    parent: str = ""
+    axes: str = ""
     joint: str = ""
     between: tuple[str, str] = ("", "")
     along: float = 0.0
     twists: bool = False
     tied: str = ""
 
-
-def _side(x: str, side: str) -> Iterator[_Bone]:
-    arm, leg = f"arm_{x}", f"leg_{x}"
-    yield _Bone(f"clavicle_{x}", "spine_05", arm, f"{side}Shoulder")
-    yield _Bone(f"upperarm_{x}", f"clavicle_{x}", arm, f"{side}UpperArm")
-    yield from _limb_twists("upperarm", x, arm, (f"{side}UpperArm", f"{side}LowerArm"), (1 / 3, 2 / 3))
-    yield _Bone(f"lowerarm_{x}", f"upperarm_{x}", arm, f"{side}LowerArm")
-    yield from _limb_twists("lowerarm", x, arm, (f"{side}LowerArm", f"{side}Hand"), (2 / 3, 1 / 3))
-    hand = f"hand_{x}"
-    yield _Bone(hand, f"lowerarm_{x}", hand, f"{side}Hand")
-    for index, joint in enumerate(("Metacarpal", "Proximal", "Distal"), start=1):
-        parent = hand if index == 1 else f"thumb_0{index - 1}_{x}"
-        yield _Bone(f"thumb_0{index}_{x}", parent, hand, f"{side}Thumb{joint}")
-    for finger, joint in _FINGERS:
-        first = f"{side}{joint}Proximal"
-        yield _Bone(f"{finger}_metacarpal_{x}", hand, hand, between=(f"{side}Hand", first), along=_METACARPAL)
-        parent = f"{finger}_metacarpal_{x}"
-        for index, part in enumerate(("Proximal", "Intermediate", "Distal"), start=1):
-            yield _Bone(f"{finger}_0{index}_{x}", parent, hand, f"{side}{joint}{part}")
-            parent = f"{finger}_0{index}_{x}"
-    yield _Bone(f"thigh_{x}", "pelvis", leg, f"{side}UpperLeg")
-    yield from _limb_twists("thigh", x, leg, (f"{side}UpperLeg", f"{side}LowerLeg"), (1 / 3, 2 / 3))
-    yield _Bone(f"calf_{x}", f"thigh_{x}", leg, f"{side}LowerLeg")
-    yield from _limb_twists("calf", x, leg, (f"{side}LowerLeg", f"{side}Foot"), (2 / 3, 1 / 3))
-    yield _Bone(f"foot_{x}", f"calf_{x}", f"foot_{x}", f"{side}Foot")
-    yield _Bone(f"ball_{x}", f"foot_{x}", f"foot_{x}", f"{side}Toes")
+    def of_side(self, x: str, side: str) -> _Bone:
+        """The left or the right one of a bone that stands for both."""
+        said = msgspec.json.encode(self).decode().replace("{x}", x).replace("{side}", side)
+        return msgspec.json.decode(said, type=_Bone)
 
 
-def _limb_twists(name: str, x: str, axes: str, between: tuple[str, str], along: tuple[float, float]) -> Iterator[_Bone]:
-    for index, share in enumerate(along, start=1):
-        yield _Bone(f"{name}_twist_0{index}_{x}", f"{name}_{x}", axes, between=between, along=share, twists=True)
+class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The file: bones before those of the sides, of both sides, and after them; axes X and Z by their name."""
+
+    trunk: tuple[_Bone, ...]
+    sides: tuple[_Bone, ...]
+    others: tuple[_Bone, ...]
+    axes: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]]
 
 
+_TABLE: Final = shaped(read_toml(TABLE, TABLE.name), _Table, TABLE.name)
 _BONES: Final = (
-    _Bone("root", "", "root"),
-    _Bone("pelvis", "root", "trunk", "hips"),
-    _Bone("spine_01", "pelvis", "trunk", "spine"),
-    _Bone("spine_02", "spine_01", "trunk", between=("spine", "chest"), along=0.5),
-    _Bone("spine_03", "spine_02", "trunk", "chest"),
-    _Bone("spine_04", "spine_03", "trunk", between=("chest", "upperChest"), along=0.5),
-    _Bone("spine_05", "spine_04", "trunk", "upperChest"),
-    _Bone("neck_01", "spine_05", "trunk", "neck"),
-    _Bone("neck_02", "neck_01", "trunk", between=("neck", "head"), along=0.5),
-    _Bone("head", "neck_02", "trunk", "head"),
-    *_side("l", "left"),
-    *_side("r", "right"),
-    _Bone("ik_foot_root", "root", "root"),
-    _Bone("ik_foot_l", "ik_foot_root", "", tied="foot_l"),
-    _Bone("ik_foot_r", "ik_foot_root", "", tied="foot_r"),
-    _Bone("ik_hand_root", "root", "root"),
-    _Bone("ik_hand_gun", "ik_hand_root", "", tied="hand_r"),
-    _Bone("ik_hand_l", "ik_hand_gun", "", tied="hand_l"),
-    _Bone("ik_hand_r", "ik_hand_gun", "", tied="hand_r"),
-    _Bone("interaction", "root", "root"),
-    _Bone("center_of_mass", "root", "root"),
+    *_TABLE.trunk,
+    *(bone.of_side(x, side) for x, side in (("l", "left"), ("r", "right")) for bone in _TABLE.sides),
+    *_TABLE.others,
 )
 MANNEQUIN: Final[Mapping[str, str]] = {bone.name: bone.parent for bone in _BONES}
 """Parent of every bone; that of the root is empty."""
-
-_AXES: Final[Mapping[str, tuple[tuple[float, float, float], tuple[float, float, float]]]] = {
-    # In Unreal (X to the character's left, Y forward, Z up): where a bone's X and Z axes point in the T-pose. X lies
-    # along the bone, limbs bend about Z. Right bones are the left ones mirrored with all three axes reversed.
-    "root": ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
-    "trunk": ((0.0, 0.0, 1.0), (-1.0, 0.0, 0.0)),
-    "arm_l": ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0)),
-    "hand_l": ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0)),
-    "leg_l": ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),
-    "foot_l": ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),
-    "arm_r": ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
-    "hand_r": ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
-    "leg_r": ((0.0, 0.0, -1.0), (1.0, 0.0, 0.0)),
-    "foot_r": ((0.0, 0.0, -1.0), (1.0, 0.0, 0.0)),
-}
 _STRAIGHT: Final = ("root", "foot_l", "foot_r")
 """Axes that stay as they are; all others have X turned along the bone."""
 
@@ -229,17 +179,12 @@ def _conventional(places: FloatArray, tied: Mapping[int, int]) -> FloatArray:
         if index in tied:
             turned[index] = turned[tied[index]]
             continue
-        x, z = (_from_unreal(axis) for axis in _AXES[bone.axes])
+        x, z = np.array(_TABLE.axes[bone.axes])[:, [0, 2, 1]]  # Unreal's Y is our Z.
         if bone.axes not in _STRAIGHT and (way := _way(bone, places, names)) is not None:
             x = np.copysign(1.0, way @ x) * way
         y = np.cross(z, x)
         turned[index] = quaternion.from_frames(x, y / np.linalg.norm(y))
     return turned
-
-
-def _from_unreal(axis: tuple[float, float, float]) -> FloatArray:
-    """A direction in our space: Unreal's Y is our Z."""
-    return np.array([axis[0], axis[2], axis[1]])
 
 
 def _way(bone: _Bone, places: FloatArray, names: tuple[str, ...]) -> FloatArray | None:

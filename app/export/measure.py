@@ -10,6 +10,7 @@ import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass
+from functools import partial
 
 import msgspec
 import numpy as np
@@ -32,6 +33,7 @@ from app.export.joint_playback import JointPlayback
 from app.export.joints import anatomical_angles, angular_accelerations
 from app.export.playback import Playback, Surface
 from app.export.target import TargetSkeleton, normalised_target
+from app.export.threads import in_threads
 from app.formats.scene import Scene
 from app.plan.model import BreathEvent, PlayerPlan
 from app.rig import quaternion
@@ -46,7 +48,7 @@ JAW_OPENS = 0.05
 TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
 
-_CHUNK = 256
+_CHUNK = 2048
 _TORSO = ("hips", "neck")
 _SOLES = ("left.foot.sole", "right.foot.sole")
 _HANDS = ("left.hand", "right.hand")
@@ -236,9 +238,9 @@ def _read(
     high = joints.bone(_TORSO[1], "head")  # VRM leaves the neck optional; the head is next above it.
     lengths_m = np.linalg.norm(player.rest_m, axis=1)
     parents = np.array(player.parents)
-    for first in range(0, frames, _CHUNK):
-        last = min(first + _CHUNK, frames)
-        span = slice(first, last)
+
+    def read(span: slice) -> None:
+        first, last = span.start, span.stop
         world = player.world(first, last)
         for name, surface in surfaces.items():
             landmarks[name][span] = surface.positions_m(world, first, last).mean(axis=1)
@@ -253,7 +255,10 @@ def _read(
         if sounding[span].any():
             here, morphs = {name: nodes[name][span] for name in nodes}, player.morphs(first, last)
             depth_m[span] = np.max([part.depths_m(world, morphs, here) for part in hands], axis=0, initial=0.0)
-        progress(last / frames)
+
+    spans = [slice(first, min(first + _CHUNK, frames)) for first in range(0, frames, _CHUNK)]
+    done = itertools.count(1)
+    in_threads([partial(read, span) for span in spans], lambda index: progress(next(done) / len(spans)))
     return _Read(Traces(landmarks, nodes), torso, deviation_m, depth_m)
 
 
@@ -309,17 +314,15 @@ def _acceleration(
     known = {joint.name: joint.kind for joint in profile.joints}
     indices = [index for index, bone in enumerate(bones) if known.get(bone, "") in body.limits]
     bounds = np.array([body.limits[known[bones[index]]].acceleration_rad_s2 for index in indices])
-    accelerations = angular_accelerations(rotations[:, indices], fps)
-    if not accelerations.size:
+    greatest, beyond = np.zeros(len(indices)), 0
+    for first in range(0, len(rotations) - 2, _CHUNK):
+        accelerations = angular_accelerations(rotations[first : first + _CHUNK + 2, indices], fps)
+        greatest = np.maximum(greatest, accelerations.max(axis=0))
+        beyond += int((accelerations > bounds).sum())
+    if len(rotations) < 3 or not indices:
         return JointMeasure("", 0.0, 0.0, 0)
-    ratios = accelerations / bounds
-    worst = int(np.argmax(ratios.max(axis=0)))
-    return JointMeasure(
-        bones[indices[worst]],
-        round(float(accelerations[:, worst].max()), 3),
-        float(bounds[worst]),
-        int((ratios > 1.0).sum()),
-    )
+    worst = int(np.argmax(greatest / bounds))
+    return JointMeasure(bones[indices[worst]], round(float(greatest[worst]), 3), float(bounds[worst]), beyond)
 
 
 def _breaths(

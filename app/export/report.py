@@ -8,6 +8,7 @@ import msgspec
 
 from app.contacts.bounds import Spread, allowed_mm
 from app.export.check_skeleton import Difference
+from app.export.formats import Format
 from app.export.measure import PlayerMeasures
 from app.export.target import SkeletonChoice
 from app.project.casting import StagePosition
@@ -50,7 +51,7 @@ class DancerMeasures(msgspec.Struct, frozen=True):
 
 
 class StagePlace(msgspec.Struct, frozen=True):
-    """Where a performer stands on the stage: the files hold everyone at the origin, facing +Z. Metres, Y up, the
+    """Where a performer stands on the stage: the performer's own files are at the origin, facing +Z. Metres, Y up, the
     audience towards +Z; a positive turn is from +Z towards +X."""
 
     x_m: float
@@ -130,6 +131,22 @@ class DancerReport(msgspec.Struct, frozen=True):
     measures: DancerMeasures | None
 
 
+class StageFigure(msgspec.Struct, frozen=True):
+    """A character or an instrument in the file of the whole stage: the name of its node, whose it is, and where the
+    node is."""
+
+    node: str
+    performer: str
+    place: StagePlace
+
+
+class StageReport(msgspec.Struct, frozen=True):
+    """The files of the whole stage by format, and the figures that each of them holds."""
+
+    files: dict[Format, str]
+    figures: tuple[StageFigure, ...]
+
+
 class UnplayedPart(msgspec.Struct, frozen=True):
     """A part of the file that no one plays, and why."""
 
@@ -165,6 +182,8 @@ class Report(msgspec.Struct, frozen=True):
     """File that starts with frame 0; None where none was asked for."""
     left_out: tuple[LeftOutReport, ...] = ()
     dancers: tuple[DancerReport, ...] = ()
+    stage: StageReport | None = None
+    """None where none was asked for."""
 
     @property
     def file_count(self) -> int:
@@ -174,7 +193,8 @@ class Report(msgspec.Struct, frozen=True):
             *(double.files for player in self.players for double in player.doubles),
             *(dancer.files for dancer in self.dancers),
         ]
-        return sum(map(len, files)) + (self.sound is not None) + 1
+        stage = 0 if self.stage is None else len(self.stage.files)
+        return sum(map(len, files)) + stage + (self.sound is not None) + 1
 
 
 def encode_report(report: Report) -> bytes:

@@ -11,11 +11,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.errors import Cancelled, FileError, Message
+from app.errors import FileError, Message
 from app.export.formats import FILE_FORMATS, Format
 from app.export.target import SkeletonChoice
 from app.export.targets import CheckedTarget, checked_targets, spoilt
-from app.performance.cast import LeftOut, Performer, attempt, performer_of, require_players
+from app.performance.cast import LeftOut, Performer, dancings_of, performers_of, require_players
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.performers import Dancer, Player
@@ -54,6 +54,10 @@ class Request:
         Table of bone names that BVH files have; empty: those of the skeleton.
     dancers : tuple of Dancer
         Those to export.
+    stage : bool
+        Whether the whole stage is written too, in one file of each format that can hold it.
+    processes : int or None
+        How many share the work at most; None: one per core, where it is worth it.
     asset : path or None
         File of the asset that the animation is for: every player's skeleton is compared with its.
     """
@@ -71,6 +75,8 @@ class Request:
     sound: bool = False
     bvh_names: str = ""
     dancers: tuple[Dancer, ...] = ()
+    stage: bool = False
+    processes: int | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,23 +134,12 @@ def cast_of(
         FILE_FORMATS[name].refuse()
     asset = None if request.asset is None else read_figure(request.asset)
 
-    def make(player: Player) -> Performer:
-        if stop_requested():
-            raise Cancelled("work.stopped")
-        return performer_of(request.performance, player)
-
-    def make_dance(dancer: Dancer) -> Dancing:
-        # The modules of dances are loaded only for pieces with dancers.
-        from app.performance.dancers import dancing_of
-
-        if stop_requested():
-            raise Cancelled("work.stopped")
-        return dancing_of(request.performance, dancer)
-
     project = request.performance.project
     musicians = tuple(dict.fromkeys(project.musician(player) for player in request.players))
-    found, dances = attempt(musicians, make), attempt(request.dancers, make_dance)
-    beside = attempt((one for id in found.made for one in project.played_by(project.player(id))[1:]), make)
+    found = performers_of(request.performance, musicians, stop_requested)
+    dances = dancings_of(request.performance, request.dancers, stop_requested)
+    further = (one for id in found.made for one in project.played_by(project.player(id))[1:])
+    beside = performers_of(request.performance, further, stop_requested)
     characters = {id: performer.character for id, performer in found.made.items()}
     characters |= {id: dance.character for id, dance in dances.made.items()}
     targets = checked_targets(characters, request.skeleton, asset)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from types import MappingProxyType
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from app.export.joints import world_transforms
 from app.formats.bvh import BvhClip
+from app.formats.names import numbered
 from app.formats.scene import Clip, Scene
 from app.rig import quaternion
 
@@ -44,7 +45,8 @@ def scene_bvh(scene: Scene, names: Mapping[int, str] = MappingProxyType({})) -> 
     offsets_cm = np.stack([np.asarray(scene.bones[bone].translation_cm, np.float64) for bone in chosen])
     offsets_cm[0] = 0.0
     return BvhClip(
-        names=_distinct([names.get(bone, scene.bones[bone].name) for bone in chosen]),
+        # BVH takes no blanks in names.
+        names=numbered("_".join(names.get(bone, scene.bones[bone].name).split()) or "bone" for bone in chosen),
         parents=tuple(-1 if bone == first else place[scene.bones[bone].parent] for bone in chosen),
         offsets_cm=offsets_cm,
         end_sites_cm={place[bone]: end for bone, end in _end_sites_cm(scene, chosen).items()},
@@ -59,21 +61,6 @@ def _first(scene: Scene, clip: Clip) -> int:
     below = {bone: len(_below(scene, bone)) for bone in clip.translations_cm}
     trunk = [bone for bone, count in below.items() if 2 * count > len(scene.bones)]
     return max(trunk, default=0)
-
-
-def _distinct(names: Sequence[str]) -> tuple[str, ...]:
-    """Names as BVH takes them: without blanks, and different however they are written."""
-    taken: set[str] = set()
-    result = []
-    for name in names:
-        joined = "_".join(name.split()) or "bone"
-        unique, number = joined, 1
-        while unique.casefold() in taken:
-            number += 1
-            unique = f"{joined}_{number}"
-        taken.add(unique.casefold())
-        result.append(unique)
-    return tuple(result)
 
 
 def _below(scene: Scene, first: int) -> list[int]:

@@ -11,7 +11,7 @@ Messages
 --------
 file.cannot_write (file, reason)
 tree.busy (file)
-    Someone else writes into the same tree just now.
+    Another process is writing into the same tree.
 tree.refused (file, reason)
     The system did not let a file be replaced or removed; everything is as it was.
 tree.leads_outside (file, target)
@@ -33,7 +33,7 @@ from pathlib import Path, PurePath, PureWindowsPath
 from typing import Final
 
 from app.errors import FileError
-from app.formats.files import read_file
+from app.formats.files import cannot_write, read_file
 from app.formats.locks import is_locked, lock
 from app.formats.scratch import abandoned_folders, scratch_folder
 
@@ -90,7 +90,7 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
     try:
         scratch.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise FileError("file.cannot_write", file=os.fspath(scratch), reason=_reason(error)) from error
+        raise cannot_write(scratch, error) from error
     partial = scratch / f".{secrets.token_hex(8)}.partial"
     noted = contextlib.ExitStack()
     try:
@@ -102,7 +102,7 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
             (partial / _NEW).mkdir(parents=True)
             stream = (partial / _LOCK).open("xb")
         except OSError as error:
-            raise FileError("file.cannot_write", file=os.fspath(scratch), reason=_reason(error)) from error
+            raise cannot_write(scratch, error) from error
         with stream:
             with contextlib.suppress(OSError):  # a file system without locks
                 lock(stream)

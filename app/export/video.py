@@ -26,6 +26,7 @@ from app.errors import FileError
 from app.export.tree import tree_into
 from app.formats.scratch import scratch_folder
 
+SOUND_RATE_HZ = 48_000
 QUALITY_CRF = 18
 """x264's constant rate factor at which most people see no loss."""
 _TOLD = 2000
@@ -63,7 +64,7 @@ def video_into(
     size: tuple[int, int],
     fps: Fraction,
     sound: npt.NDArray[np.float32] | None = None,
-    sound_rate: int = 48_000,
+    sound_rate: int = SOUND_RATE_HZ,
 ) -> Iterator[VideoWriter]:
     """A film that appears whole when the block is done, or not at all.
 

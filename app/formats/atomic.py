@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO, Final
 
-from app.errors import FileError
+from app.formats.files import cannot_write
 from app.formats.locks import is_locked, is_same_file, lock
 
 _PARTIAL: Final = re.compile(r"\.[0-9a-f]{16}\.partial")
@@ -63,7 +63,7 @@ def atomic_write(
     try:
         partial, stream = _new_partial(target.parent)
     except OSError as error:
-        raise _cannot_write(path, error) from error
+        raise cannot_write(path, error) from error
     try:
         with stream:
             yield stream
@@ -75,7 +75,7 @@ def atomic_write(
             _rename(stream, partial, target)
         _sync_folder(target.parent)
     except OSError as error:
-        raise _cannot_write(path, error) from error
+        raise cannot_write(path, error) from error
     finally:
         partial.unlink(missing_ok=True)
 
@@ -103,7 +103,7 @@ def _new_partial(folder: Path) -> tuple[Path, BinaryIO]:
         # "x": never write into another program's file; the mode follows the umask, as for any new file.
         stream = partial.open("xb")
         try:
-            # Someone who sweeps may have taken it for a dead one's between the two steps.
+            # Another process that cleans up may have removed it between the two steps.
             if lock(stream) and is_same_file(partial, stream):
                 return partial, stream
         except OSError:
@@ -163,7 +163,3 @@ def _sync_folder(folder: Path) -> None:
             os.fsync(descriptor)
         finally:
             os.close(descriptor)
-
-
-def _cannot_write(path: str | os.PathLike[str], error: OSError) -> FileError:
-    return FileError("file.cannot_write", file=os.fspath(path), reason=error.strerror or str(error))

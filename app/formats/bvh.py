@@ -16,7 +16,7 @@ Messages (with ``file``): ``file.cannot_read`` (reason);
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
@@ -73,25 +73,16 @@ class BvhClip:
     translations_cm: Mapping[int, FloatArray] = field(default_factory=dict)
 
 
-def write_bvh(
-    path: str | os.PathLike[str],
-    names: Sequence[str],
-    parents: Sequence[int],
-    offsets_cm: FloatArray,
-    fps: Fraction,
-    root_translation_cm: FloatArray,
-    rotations_xyzw: FloatArray,
-    end_sites_cm: Mapping[int, FloatArray],
-) -> None:
+def write_bvh(path: str | os.PathLike[str], clip: BvhClip) -> None:
     """Write a BVH file, whole or not at all.
 
     Parameters
     ----------
     path : str or path-like
-    names, parents, offsets_cm, fps, root_translation_cm, rotations_xyzw, end_sites_cm
-        As in `BvhClip`. Names have no blanks; children need not follow their parent directly (the file's order of
-        joints is depth first). The root's offset is not written: its place is in `root_translation_cm`. Every joint
-        without a child needs an end site.
+    clip : BvhClip
+        Names have no blanks; children need not follow their parent directly (the file's order of joints is depth
+        first). The root's offset is not written: its place is in `root_translation_cm`. Every joint without a child
+        needs an end site.
 
     Raises
     ------
@@ -100,20 +91,13 @@ def write_bvh(
     ValueError
         If the values contradict each other.
     """
-    clip = BvhClip(
-        tuple(names), tuple(parents), offsets_cm, end_sites_cm, fps, root_translation_cm, rotations_xyzw
-    )  # fmt: skip
-    pieces = _pieces(clip)
+    pieces = bvh_pieces(clip)
     with atomic_write(path) as stream:
         stream.writelines(pieces)
 
 
-def encode_bvh(clip: BvhClip) -> bytes:
-    """Bytes of the file that `write_bvh` writes."""
-    return b"".join(_pieces(clip))
-
-
-def _pieces(clip: BvhClip) -> list[bytes]:
+def bvh_pieces(clip: BvhClip) -> list[bytes]:
+    """The file's bytes, one piece after the other."""
     _check(clip)
     children: list[list[int]] = [[] for _ in clip.names]
     for joint, parent in enumerate(clip.parents[1:], start=1):

@@ -1,16 +1,19 @@
-"""What an animation file holds, as plain values: bones, skinned meshes, morphs, materials, one clip.
+"""What an animation file holds, as plain values: bones, skinned meshes, morphs, materials, one clip; or several such
+scenes, each at its place.
 
 Space: centimetres, right-handed, Y up. Quaternions are xyzw, matrices act on column vectors. Nothing is scaled.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
 import numpy as np
 import numpy.typing as npt
+
+from app.formats.euler import matrices
 
 FloatArray = npt.NDArray[np.floating]
 IntArray = npt.NDArray[np.integer]
@@ -133,6 +136,27 @@ class Clip:
     translations_cm: Mapping[int, FloatArray] = field(default_factory=dict)
     morph_weights: Mapping[str, FloatArray] = field(default_factory=dict)
 
+    @property
+    def kind(self) -> tuple[str, Fraction, int]:
+        """Name, rate and length, which all clips of a file share."""
+        return self.name, self.fps, self.frames
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """Where a node stands: translation (3,) in centimetres and rotation (4,) xyzw."""
+
+    translation_cm: FloatArray
+    rotation_xyzw: FloatArray
+
+    @property
+    def matrix(self) -> npt.NDArray[np.float64]:
+        """``world_from_node``, shape (4, 4)."""
+        result = np.eye(4)
+        result[:3, :3] = matrices(np.asarray(self.rotation_xyzw, dtype=np.float64))
+        result[:3, 3] = self.translation_cm
+        return result
+
 
 @dataclass(frozen=True, eq=False)
 class Scene:
@@ -146,12 +170,24 @@ class Scene:
     clip : Clip or None
     creator : str
         Program and version that made the file.
+    name : str
+        What programs call the armature; empty: as the clip, or else as the root bone.
+    place : Place or None
+        Of a node of that name above the root bone. None: no such node, since Unreal may make a bone of whatever is
+        above the root; the name then shows only where the format has a place for it.
     """
 
     bones: tuple[Bone, ...]
     meshes: tuple[SkinnedMesh, ...] = ()
     clip: Clip | None = None
     creator: str = "Suisou"
+    name: str = ""
+    place: Place | None = None
+
+    @property
+    def title(self) -> str:
+        """The name, or what stands for it."""
+        return self.name or (self.bones[0].name if self.clip is None else self.clip.name)
 
 
 def check_scene(scene: Scene) -> None:
@@ -181,6 +217,29 @@ def check_scene(scene: Scene) -> None:
         unknown = sorted(set(scene.clip.morph_weights) - morphs)
         if unknown:
             raise ValueError(f"weights of morphs that no mesh has: {', '.join(unknown)}")
+
+
+def checked_scenes(scenes: Iterable[Scene]) -> Iterator[Scene]:
+    """The scenes of one file, one after another, each checked when it comes.
+
+    Raises
+    ------
+    ValueError
+        As `check_scene`; several without a place and a name of their own; clips of different names, rates or lengths.
+    """
+    names: set[str] = set()
+    before: Clip | None = None
+    for number, scene in enumerate(scenes):
+        check_scene(scene)
+        if number and (not names or not scene.name or scene.name in names or scene.place is None):
+            raise ValueError(f"scene {scene.name!r}: several in one file need a place, and a name of their own")
+        if scene.name and scene.place is not None:
+            names.add(scene.name)
+        clip = scene.clip
+        if number and (None if clip is None else clip.kind) != (None if before is None else before.kind):
+            raise ValueError(f"scene {scene.name!r}: a clip of another name, rate or length than the one before")
+        before = clip
+        yield scene
 
 
 def _check_mesh(mesh: SkinnedMesh, bone_count: int) -> None:

@@ -1,4 +1,5 @@
-"""Scene -> OpenUSD file: a SkelRoot with its skeleton, skinned meshes, blend shapes and their animation.
+"""Scenes -> OpenUSD file: a SkelRoot with its skeleton, skinned meshes, blend shapes and their animation; several
+scenes lie below one prim of the clip's name, each at its place, and share materials.
 
 Centimetres (``metersPerUnit`` 0.01), Y up, facing +Z; time code n is frame n. Names that USD does not allow for a prim
 are made valid, and stay whole as the prim's display name, in the skeleton's ``jointNames`` and in the blend shapes'
@@ -17,7 +18,8 @@ import shutil
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from threading import Lock
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -26,7 +28,8 @@ from app.errors import FileError, UsageError
 from app.formats.atomic import atomic_write
 from app.formats.continuous import continuous
 from app.formats.euler import matrices
-from app.formats.scene import Clip, Material, MorphTarget, Scene, SkinnedMesh, check_scene
+from app.formats.names import numbered
+from app.formats.scene import Clip, Material, MorphTarget, Scene, SkinnedMesh, checked_scenes
 from app.formats.scratch import scratch_folder
 from app.formats.skin import influences
 
@@ -47,6 +50,10 @@ class Sound:
 
     file: str
     start_s: float
+
+
+_ONE_AT_A_TIME: Final = Lock()
+"""Two threads in the USD library wait for each other for ever."""
 
 
 def usd_installed() -> bool:
@@ -80,68 +87,142 @@ def write_usd(path: str | os.PathLike[str], scene: Scene, sound: Sound | None = 
     ValueError
         If the scene contradicts itself.
     """
-    refuse_without_usd()
-    check_scene(scene)
-    from pxr import Tf, UsdUtils
+    write_usds(path, (scene,), sound)
 
-    layer = _Writer(scene).layer(sound)
-    try:
-        # USD writes files of its own only.
-        with scratch_folder() as folder:
-            made = folder / f"scene{Path(path).suffix}"
-            # Without a listener USD prints that a sound's time needs a version of its binary files newer than the
-            # oldest; errors are raised all the same.
-            listener = UsdUtils.CoalescingDiagnosticDelegate()
-            layer.Export(str(made))
-            del listener
-            with made.open("rb") as content, atomic_write(path) as stream:
-                shutil.copyfileobj(content, stream)
-    except (OSError, Tf.ErrorException) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise FileError("file.cannot_write", file=os.fspath(path), reason=reason) from error
+
+def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: Sound | None = None) -> None:
+    """Write scenes into one file as `write_usd`; each is let go when the next is asked for."""
+    refuse_without_usd()
+    with _ONE_AT_A_TIME:
+        from pxr import Tf, UsdUtils
+
+        layer = _stage_layer(scenes, sound)
+        try:
+            # USD writes files of its own only.
+            with scratch_folder() as folder:
+                made = folder / f"scene{Path(path).suffix}"
+                # Without a listener USD prints that a sound's time needs a version of its binary files newer than the
+                # oldest; errors are raised all the same.
+                listener = UsdUtils.CoalescingDiagnosticDelegate()
+                layer.Export(str(made))
+                del listener
+                with made.open("rb") as content, atomic_write(path) as stream:
+                    shutil.copyfileobj(content, stream)
+        except (OSError, Tf.ErrorException) as error:
+            reason = getattr(error, "strerror", None) or str(error)
+            raise FileError("file.cannot_write", file=os.fspath(path), reason=reason) from error
+
+
+def _stage_layer(scenes: Iterable[Scene], sound: Sound | None) -> Any:
+    """The whole file."""
+    from pxr import Kind, Sdf, Usd, UsdGeom
+
+    layer: Any = Sdf.Layer.CreateAnonymous(".usda")
+    stage: Any = Usd.Stage.Open(layer)
+    UsdGeom.SetStageMetersPerUnit(stage, METERS_PER_UNIT)
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
+    group = ""
+    materials: _Materials | None = None
+    for number, scene in enumerate(checked_scenes(scenes)):
+        if number == 0:
+            layer.comment = scene.creator
+            if scene.place is not None:
+                title = scene.title if scene.clip is None else scene.clip.name
+                group = f"/{_identifiers([title])[0]}"
+                prim = UsdGeom.Xform.Define(stage, group).GetPrim()
+                prim.SetDisplayName(title)
+                Usd.ModelAPI(prim).SetKind(Kind.Tokens.assembly)
+            taken = {"Materials", "Sound"} if group else set[str]()
+        (root_name,) = _identifiers([scene.title], taken)
+        taken.add(root_name)
+        root = f"{group}/{root_name}"
+        default = group or root
+        if materials is None:
+            materials = _Materials(stage, f"{default}/Materials")
+        _Writer(scene, layer, stage, materials).write(root)
+        if number == 0:
+            stage.SetDefaultPrim(stage.GetPrimAtPath(default))
+            if scene.clip is not None and sound is not None:
+                _add_sound(stage, f"{default}/Sound", scene.clip, sound)
+    return layer
+
+
+class _Materials:
+    """The preview surfaces of a file, each made when it is first asked for."""
+
+    def __init__(self, stage: Any, path: str) -> None:
+        self._stage, self._path = stage, path
+        self._made: dict[Material, Any] = {}
+        self._taken: set[str] = set()
+
+    def __getitem__(self, surface: Material) -> Any:
+        from pxr import UsdGeom
+
+        if not self._made:
+            UsdGeom.Scope.Define(self._stage, self._path)
+        if surface not in self._made:
+            (name,) = _identifiers([surface.name], self._taken)
+            self._taken.add(name)
+            self._made[surface] = self._material(surface, f"{self._path}/{name}")
+        return self._made[surface]
+
+    def _material(self, surface: Material, path: str) -> Any:
+        from pxr import Gf, Sdf, UsdShade
+
+        material = UsdShade.Material.Define(self._stage, path)
+        material.GetPrim().SetDisplayName(surface.name)
+        shader = UsdShade.Shader.Define(self._stage, f"{path}/Surface")
+        shader.CreateIdAttr("UsdPreviewSurface")
+        color = Gf.Vec3f(*surface.base_color[:3])
+        shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(color)
+        for number, value in (
+            ("metallic", surface.metallic),
+            ("roughness", surface.roughness),
+            ("opacity", surface.base_color[3]),
+        ):
+            shader.CreateInput(number, Sdf.ValueTypeNames.Float).Set(float(value))
+        material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
+        return material
 
 
 class _Writer:
-    """Puts the stage of a scene together."""
+    """Puts one scene into a stage."""
 
-    def __init__(self, scene: Scene) -> None:
-        from pxr import Sdf, Usd, UsdGeom
-
+    def __init__(self, scene: Scene, layer: Any, stage: Any, materials: _Materials) -> None:
         self._scene = scene
-        self._layer: Any = Sdf.Layer.CreateAnonymous(".usda")
-        self._layer.comment = scene.creator
-        self._stage: Any = Usd.Stage.Open(self._layer)
-        UsdGeom.SetStageMetersPerUnit(self._stage, METERS_PER_UNIT)
-        UsdGeom.SetStageUpAxis(self._stage, UsdGeom.Tokens.y)
+        self._layer = layer
+        self._stage = stage
+        self._materials = materials
 
-    def layer(self, sound: Sound | None) -> Any:
-        """The whole file."""
-        from pxr import Kind, Usd, UsdSkel
+    def write(self, root_path: str) -> None:
+        """Add the scene's SkelRoot."""
+        from pxr import Gf, Kind, Usd, UsdSkel
 
         scene, clip = self._scene, self._scene.clip
-        name = clip.name if clip is not None else scene.bones[0].name
-        (root_name,) = _identifiers([name], set())
-        root = UsdSkel.Root.Define(self._stage, f"/{root_name}")
-        root.GetPrim().SetDisplayName(name)
-        Usd.ModelAPI(root.GetPrim()).SetKind(Kind.Tokens.component)
-        self._stage.SetDefaultPrim(root.GetPrim())
-        # The names of our own prims come first, so that a mesh cannot have one of them.
-        taken = {"Skeleton", "Motion", "Materials", "Sound"}
+        root = UsdSkel.Root.Define(self._stage, root_path)
+        prim = root.GetPrim()
+        prim.SetDisplayName(scene.title)
+        Usd.ModelAPI(prim).SetKind(Kind.Tokens.component)
+        if scene.place is not None:
+            x, y, z, w = (float(value) for value in scene.place.rotation_xyzw)
+            root.AddTranslateOp().Set(Gf.Vec3d(*(float(value) for value in scene.place.translation_cm)))
+            root.AddOrientOp().Set(Gf.Quatf(w, x, y, z))
+        # The names of our own prims come first, so that a mesh cannot have one of them. Programs call the armature
+        # and its animation as these.
+        name = prim.GetName()
+        skeleton_name, motion_name = f"{name}_skeleton", f"{name}_motion"
+        taken = {skeleton_name, motion_name, "Materials", "Sound"}
         mesh_names = _identifiers([mesh.name for mesh in scene.meshes], taken)
         joints = self._joint_paths()
-        skeleton = self._skeleton(f"/{root_name}/Skeleton", joints)
-        materials = self._materials(f"/{root_name}/Materials")
+        skeleton = self._skeleton(f"{root_path}/{skeleton_name}", joints)
         for mesh, mesh_name in zip(scene.meshes, mesh_names, strict=True):
-            self._mesh(f"/{root_name}/{mesh_name}", mesh, skeleton, materials)
+            self._mesh(f"{root_path}/{mesh_name}", mesh, skeleton)
         if clip is not None:
-            self._motion(f"/{root_name}/Motion", clip, joints, skeleton)
-            if sound is not None:
-                self._sound(f"/{root_name}/Sound", clip, sound)
-        return self._layer
+            self._motion(f"{root_path}/{motion_name}", clip, joints, skeleton)
 
     def _joint_paths(self) -> list[str]:
         """USD distinguishes joints by paths: a name below its parent's path."""
-        names = _identifiers([bone.name for bone in self._scene.bones], set())
+        names = _identifiers([bone.name for bone in self._scene.bones])
         paths: list[str] = []
         for bone, name in zip(self._scene.bones, names, strict=True):
             paths.append(name if bone.parent < 0 else f"{paths[bone.parent]}/{name}")
@@ -166,35 +247,7 @@ class _Writer:
         skeleton.CreateBindTransformsAttr(Vt.Matrix4dArray.FromNumpy(_rows(bind)))
         return skeleton
 
-    # ------------------------------------------------------------------------------------------------------- surfaces
-
-    def _materials(self, path: str) -> dict[Material, Any]:
-        """A preview surface for every material of the scene."""
-        from pxr import Gf, Sdf, UsdGeom, UsdShade
-
-        surfaces = list(dict.fromkeys(material for mesh in self._scene.meshes for material in mesh.materials))
-        result: dict[Material, Any] = {}
-        if not surfaces:
-            return result
-        UsdGeom.Scope.Define(self._stage, path)
-        for surface, name in zip(surfaces, _identifiers([one.name for one in surfaces], set()), strict=True):
-            material = UsdShade.Material.Define(self._stage, f"{path}/{name}")
-            material.GetPrim().SetDisplayName(surface.name)
-            shader = UsdShade.Shader.Define(self._stage, f"{path}/{name}/Surface")
-            shader.CreateIdAttr("UsdPreviewSurface")
-            color = Gf.Vec3f(*surface.base_color[:3])
-            shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(color)
-            for number, value in (
-                ("metallic", surface.metallic),
-                ("roughness", surface.roughness),
-                ("opacity", surface.base_color[3]),
-            ):
-                shader.CreateInput(number, Sdf.ValueTypeNames.Float).Set(float(value))
-            material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
-            result[surface] = material
-        return result
-
-    def _mesh(self, path: str, mesh: SkinnedMesh, skeleton: Any, materials: dict[Material, Any]) -> None:
+    def _mesh(self, path: str, mesh: SkinnedMesh, skeleton: Any) -> None:
         from pxr import Gf, Sdf, UsdGeom, UsdSkel, Vt
 
         made = UsdGeom.Mesh.Define(self._stage, path)
@@ -214,7 +267,7 @@ class _Writer:
             uvs = Vt.Vec2fArray.FromNumpy(np.ascontiguousarray(mesh.uvs, dtype=np.float32))
             interpolation = _interpolation(mesh, mesh.uvs)
             primvars.CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, interpolation).Set(uvs)
-        self._bind_materials(made, mesh, materials)
+        self._bind_materials(made, mesh)
 
         joints, weights = influences(mesh)
         binding = UsdSkel.BindingAPI.Apply(made.GetPrim())
@@ -226,18 +279,18 @@ class _Writer:
         if mesh.morphs:
             self._blend_shapes(path, mesh.morphs, binding)
 
-    def _bind_materials(self, made: Any, mesh: SkinnedMesh, materials: dict[Material, Any]) -> None:
+    def _bind_materials(self, made: Any, mesh: SkinnedMesh) -> None:
         from pxr import UsdGeom, UsdShade
 
         binding = UsdShade.MaterialBindingAPI.Apply(made.GetPrim())
         if mesh.face_materials is None or len(mesh.materials) == 1:
-            binding.Bind(materials[mesh.materials[0]])
+            binding.Bind(self._materials[mesh.materials[0]])
             return
         for number, material in enumerate(mesh.materials):
             faces = np.flatnonzero(mesh.face_materials == number)
-            name = materials[material].GetPath().name
+            name = self._materials[material].GetPath().name
             subset = binding.CreateMaterialBindSubset(name, _integers(faces), UsdGeom.Tokens.face)
-            UsdShade.MaterialBindingAPI.Apply(subset.GetPrim()).Bind(materials[material])
+            UsdShade.MaterialBindingAPI.Apply(subset.GetPrim()).Bind(self._materials[material])
         binding.SetMaterialBindSubsetsFamilyType(UsdGeom.Tokens.partition)
 
     def _blend_shapes(self, path: str, morphs: tuple[MorphTarget, ...], binding: Any) -> None:
@@ -256,8 +309,6 @@ class _Writer:
             targets.append(shape.GetPath())
         binding.CreateBlendShapesAttr([morph.name for morph in morphs])
         binding.CreateBlendShapeTargetsRel().SetTargets(targets)
-
-    # ---------------------------------------------------------------------------------------------- motion and sound
 
     def _motion(self, path: str, clip: Clip, joints: list[str], skeleton: Any) -> None:
         from pxr import UsdSkel, Vt
@@ -295,32 +346,24 @@ class _Writer:
         binding = UsdSkel.BindingAPI.Apply(skeleton.GetPrim())
         binding.CreateAnimationSourceRel().SetTargets([motion.GetPath()])
 
-    def _sound(self, path: str, clip: Clip, sound: Sound) -> None:
-        from pxr import Sdf, UsdMedia
 
-        made = UsdMedia.SpatialAudio.Define(self._stage, path)
-        made.CreateFilePathAttr(Sdf.AssetPath(f"./{sound.file}"))
-        made.CreateAuralModeAttr(UsdMedia.Tokens.nonSpatial)
-        made.CreatePlaybackModeAttr(UsdMedia.Tokens.onceFromStart)
-        made.CreateStartTimeAttr(Sdf.TimeCode(max(sound.start_s, 0.0) * float(clip.fps)))
-        made.CreateMediaOffsetAttr(max(-sound.start_s, 0.0))
+def _add_sound(stage: Any, path: str, clip: Clip, sound: Sound) -> None:
+    from pxr import Sdf, UsdMedia
+
+    made = UsdMedia.SpatialAudio.Define(stage, path)
+    made.CreateFilePathAttr(Sdf.AssetPath(f"./{sound.file}"))
+    made.CreateAuralModeAttr(UsdMedia.Tokens.nonSpatial)
+    made.CreatePlaybackModeAttr(UsdMedia.Tokens.onceFromStart)
+    made.CreateStartTimeAttr(Sdf.TimeCode(max(sound.start_s, 0.0) * float(clip.fps)))
+    made.CreateMediaOffsetAttr(max(-sound.start_s, 0.0))
 
 
-def _identifiers(names: Iterable[str], taken: set[str]) -> list[str]:
+def _identifiers(names: Iterable[str], taken: Iterable[str] = ()) -> tuple[str, ...]:
     """Valid names of prims, different from each other and from those taken, however they are written."""
     from pxr import Sdf, Tf
 
-    used = {name.casefold() for name in taken}
-    result = []
-    for name in names:
-        valid = name if Sdf.Path.IsValidIdentifier(name) else Tf.MakeValidIdentifier(name)
-        unique, number = valid, 1
-        while unique.casefold() in used:
-            number += 1
-            unique = f"{valid}_{number}"
-        used.add(unique.casefold())
-        result.append(unique)
-    return result
+    valid = (name if Sdf.Path.IsValidIdentifier(name) else Tf.MakeValidIdentifier(name) for name in names)
+    return numbered(valid, taken)
 
 
 def _matrix(translation: npt.NDArray[np.floating], rotation_xyzw: npt.NDArray[np.floating]) -> npt.NDArray[np.float64]:

@@ -105,14 +105,15 @@ def filled(template: str, arguments: Mapping[str, object]) -> str:
     return _FILLING.vformat(template, (), arguments)
 
 
-def text(message: Message) -> str:
-    """The message as an English sentence."""
+def text(message: Message, language: str = "en") -> str:
+    """The message as a sentence, English unless another of `LANGUAGES` is asked for."""
+    place = list(LANGUAGES).index(language)
     arguments = dict(message.arguments)
     for name in PITCHES.get(message.id, ()):
         arguments[name] = pitch_name(float(arguments[name]))
     for name in TEXTS & arguments.keys():
-        arguments[name] = WORDINGS.get(str(arguments[name]), (arguments[name],))[0]
-    return filled(WORDINGS[message.id][0], arguments)
+        arguments[name] = WORDINGS.get(str(arguments[name]), (arguments[name],) * len(LANGUAGES))[place]
+    return filled(WORDINGS[message.id][place], arguments)
 
 
 def error_text(error: AppError) -> str:

@@ -72,8 +72,11 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ),
     ),
     "assign.malformed": (
-        "--assign: {assignment!r} is not in the form PART=INSTRUMENT, e.g. 'Lead=trumpet_Bb'",
-        "--assign: {assignment!r} は「パート=楽器」の形ではありません（例: 'Lead=trumpet_Bb'）",
+        "--assign: {assignment!r} is not in the form PART=INSTRUMENT; `suisou instruments` lists the instruments",
+        (
+            "--assign: {assignment!r} は「PART=INSTRUMENT」（パート=楽器）の形ではありません。楽器は "
+            "`suisou instruments` で一覧できます"
+        ),
     ),
     "assign.instrument_unknown": (
         "instrument {instrument!r} was not found; available: {possible}",

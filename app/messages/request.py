@@ -5,6 +5,30 @@ from __future__ import annotations
 from typing import Final
 
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
+    "batch.no_pieces": (
+        "there is no piece in {folder}: no .mid, .midi or .suisou file",
+        "{folder} に曲がありません（.mid、.midi、.suisou ファイルがありません）",
+    ),
+    "batch.unreal": (
+        "the pieces of a folder go into a folder: use --to",
+        "フォルダーの曲はフォルダーに書き出します。--to を指定してください",
+    ),
+    "batch.bad_notes": (
+        "{file} is damaged; delete it, and every piece is exported again",
+        "{file} が壊れています。削除すると、すべての曲を書き出し直します",
+    ),
+    "dask.missing": (
+        "--scheduler needs the package distributed, which is not installed: pip install distributed",
+        "--scheduler には distributed パッケージが必要です: pip install distributed",
+    ),
+    "dask.unreachable": (
+        "no Dask scheduler answers at {address}: {reason}",
+        "{address} の Dask スケジューラーに接続できません: {reason}",
+    ),
+    "dask.one_piece": (
+        "--scheduler is for a folder of pieces",
+        "--scheduler は曲のフォルダーに使います",
+    ),
     "set.syntax": (
         "--set {text}: expected PLAYER.parameter=value",
         "--set {text}: 「奏者.パラメーター=値」の形で指定してください",
@@ -36,6 +60,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "export.no_players": (
         "{file}: there are no players to export; 'suisou inspect' shows why each part is not played",
         "{file}: 書き出す奏者がいません。演奏されない理由は 'suisou inspect' で確認できます",
+    ),
+    "stage.formats": (
+        "--stage requires a format that can hold several players: fbx, glb or usd",
+        "--stage には、複数の奏者を収められる形式（fbx、glb、usd）が必要です",
     ),
     "player.left_out": ("{player} is excluded: {reason}", "{player} は除外されました: {reason}"),
     "player.fault": (

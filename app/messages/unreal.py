@@ -95,6 +95,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "--format applies to exports to a folder; Unreal projects always get the formats that Unreal imports",
         ("--format はフォルダーへの書き出し用です。Unreal プロジェクトには、常に Unreal が読み込む形式で書き出します"),
     ),
+    "unreal.stage": (
+        "--stage applies to exports to a folder; in an Unreal project the sequence places everyone",
+        "--stage はフォルダーへの書き出し用です。Unreal プロジェクトでは、シーケンスが全員を配置します",
+    ),
     "tree.busy": (
         "another export to {file} is in progress; wait until it finishes and export again",
         "{file} への別の書き出しが進行中です。終わってから、もう一度書き出してください",

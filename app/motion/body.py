@@ -163,7 +163,6 @@ def follow(
     events: Sequence[GestureEvent],
     kind: Literal["sway", "weight_shift", "bell_height"],
     transition_s: float | None = None,
-    limits: tuple[float, float] = (-1.0, 1.0),
 ) -> Curve:
     """A value that goes to each gesture's amount: over the whole gesture, or within ``transition_s`` of its start.
 
@@ -178,7 +177,7 @@ def follow(
             continue
         move_s = length_s if transition_s is None else min(transition_s, length_s)
         size = min(1.0, move_s / QUICK_S)
-        amount = min(max(event.amount * size, limits[0]), limits[1])
+        amount = min(max(event.amount * size, -1.0), 1.0)
         segments.append((event.start_s, event.start_s + move_s, amount))
         pause_s = np.inf if following is None else following.start_s - end_s
         if pause_s > max(1.0, length_s):
@@ -356,10 +355,7 @@ class _Sum:
 
     def add(self, shares: dict[str, float], values: FloatArray) -> None:
         for joint, share in shares.items():
-            if joint in self.angles:
-                self.angles[joint] = self.angles[joint] + share * values
-            else:
-                self.angles[joint] = share * values
+            self.angles[joint] = self.angles.get(joint, 0.0) + share * values
 
     def all(self) -> dict[str, FloatArray]:
         return {joint: self.angles.get(joint, np.zeros(self.frames)) for joint in TRUNK}
@@ -456,19 +452,9 @@ class Layers:
 
     def sample(self, times_s: FloatArray) -> LayerSamples:
         """The layers at ascending times."""
-        dip, lift = self.nods.sample(times_s)
-        return LayerSamples(
-            full=self.full.sample(times_s),
-            leaning=self.leaning.sample(times_s),
-            dip=dip,
-            lift=lift,
-            sway=self.sway.sample(times_s),
-            weight=self.weight.sample(times_s),
-            height=self.height.sample(times_s),
-            bobbing=self.bobbing.sample(times_s),
-            lowered=self.lowered.sample(times_s),
-            held=self.poses.sample(times_s),
-        )
+        sampled: dict[str, Any] = {layer.name: getattr(self, layer.name).sample(times_s) for layer in fields(self)}
+        dip, lift = sampled.pop("nods")
+        return LayerSamples(dip=dip, lift=lift, held=sampled.pop("poses"), **sampled)
 
 
 def body_motion(

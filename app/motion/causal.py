@@ -96,7 +96,7 @@ class Spring:
 class Journey:
     """Which of its places something is at, or between which two of them.
 
-    Whoever is on the way to one place when another is asked for goes on to the nearer end first: ways lead from place
+    A finger on the way to one place when another is requested first goes on to the nearer end: ways lead from place
     to place only.
     """
 

@@ -176,13 +176,9 @@ class Face:
 
     def sample(self, times_s: FloatArray) -> Drivers:
         """What moves the face at ascending times."""
+        driven = vars(self).items()
         return Drivers(
-            at_lips=self.at_lips.sample(times_s),
-            tension=self.tension.sample(times_s),
-            effort=self.effort.sample(times_s),
-            air=self.air.sample(times_s),
-            tongue=self.tongue.sample(times_s),
-            mouth_open=self.mouth_open.sample(times_s),
+            **{name: curve.sample(times_s) for name, curve in driven if name != "expressions"},
             expressions={name: envelopes.sample(times_s) for name, envelopes in self.expressions.items()},
         )
 
@@ -257,12 +253,8 @@ def _mixed(drivers: Sequence[tuple[FloatArray, Mapping[str, float]]]) -> dict[st
     morphs: dict[str, FloatArray] = {}
     for driver, weights in drivers:
         for name, weight in weights.items():
-            if weight == 0.0:
-                continue
-            if name in morphs:
-                morphs[name] += weight * driver
-            else:
-                morphs[name] = weight * driver
+            if weight != 0.0:
+                morphs[name] = morphs.get(name, 0.0) + weight * driver
     for values in morphs.values():
         np.clip(values, 0.0, 1.0, out=values)
     return morphs

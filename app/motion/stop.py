@@ -25,7 +25,7 @@ from app.rig.model import Skeleton
 LONGEST = 0.997
 """Share of its length an arm is stretched at most for a hand that is carried: the elbow is 9 degrees from straight."""
 EASE = 0.006
-"""The arm comes to that softly, within this share of its length before it: it is still what is asked up to there."""
+"""The arm comes to that softly, within this share of its length before it: up to there it goes as requested."""
 HALVINGS = 24
 """Times the span is halved in which the place is sought: to a ten-millionth of the travel."""
 

@@ -49,7 +49,7 @@ def body_problems(
     memo : Memo
         Of the performance.
     waiting : bool
-        Whether someone else finds out first how the instrument is held.
+        Whether another task is computing how the instrument is held.
     """
     try:
         held, lacking = suited_to(player, instrument)

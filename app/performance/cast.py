@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import msgspec
 
@@ -27,6 +27,9 @@ from app.rig.hold import GripPose
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body
+
+if TYPE_CHECKING:
+    from app.performance.dancers import Dancing
 
 T = TypeVar("T")
 P = TypeVar("P", bound="Player | Dancer")
@@ -83,7 +86,9 @@ class Performer:
     hold: GripPose
 
 
-def attempt(players: Iterable[P], make: Callable[[P], T]) -> Attempt[T]:
+def attempt(
+    players: Iterable[P], make: Callable[[P], T], stop_requested: Callable[[], bool] = lambda: False
+) -> Attempt[T]:
     """Make something of every player or dancer; those that raise an `AppError` are excluded with its message.
 
     Raises
@@ -92,6 +97,8 @@ def attempt(players: Iterable[P], make: Callable[[P], T]) -> Attempt[T]:
     """
     made, left_out = dict[str, T](), list[LeftOut]()
     for player in players:
+        if stop_requested():
+            raise Cancelled("work.stopped")
         try:
             made[player.id] = make(player)
         except Cancelled:
@@ -122,9 +129,25 @@ def performer_of(performance: Performance, player: Player) -> Performer:
     )
 
 
-def performers_of(performance: Performance, players: Iterable[Player]) -> Attempt[Performer]:
+def performers_of(
+    performance: Performance, players: Iterable[Player], stop_requested: Callable[[], bool] = lambda: False
+) -> Attempt[Performer]:
     """`performer_of` each player."""
-    return attempt(players, lambda player: performer_of(performance, player))
+    return attempt(players, lambda player: performer_of(performance, player), stop_requested)
+
+
+def dancings_of(
+    performance: Performance, dancers: Iterable[Dancer], stop_requested: Callable[[], bool] = lambda: False
+) -> Attempt[Dancing]:
+    """`app.performance.dancers.dancing_of` each dancer."""
+
+    def make(dancer: Dancer) -> Dancing:
+        # The modules of dances are loaded only for pieces with dancers.
+        from app.performance.dancers import dancing_of
+
+        return dancing_of(performance, dancer)
+
+    return attempt(dancers, make, stop_requested)
 
 
 def require_players(left_out: Sequence[LeftOut], file: str, wording: Wording) -> None:

@@ -25,7 +25,8 @@ OVERHEAD_BYTES = 1024
 
 @dataclass(frozen=True)
 class Pose:
-    """One player at one moment; members as of `app.motion.model.Motion`, for one frame.
+    """One player at one moment, in the player's own frame (feet at the origin, facing +Z); members as of
+    `app.motion.model.Motion`, for one frame.
 
     Attributes
     ----------
@@ -42,6 +43,18 @@ class Pose:
     controls: dict[str, float]
     instrument_position_m: Floats
     instrument_rotation: Floats
+
+    @classmethod
+    def of(cls, motion: Motion, frame: int) -> Pose:
+        """One frame of a motion."""
+        return cls(
+            rotations=motion.rotations[frame],
+            hips_m=motion.hips_m[frame],
+            morphs={name: float(values[frame]) for name, values in motion.morphs.items()},
+            controls={name: float(values[frame]) for name, values in motion.controls.items()},
+            instrument_position_m=motion.instrument_position_m[frame],
+            instrument_rotation=motion.instrument_rotation[frame],
+        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ basic motions), ``dance.foot_slides`` (side).
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
@@ -32,14 +32,13 @@ from app.choreography.judge import jerking_seams, sliding_stands
 from app.choreography.retarget import retarget
 from app.choreography.rhythm import Rhythm, delayed
 from app.choreography.sequence import Constraints, Grid, grid_of
-from app.errors import AppError, Cancelled, Message
+from app.errors import AppError, Message
 from app.identity_cache import IdentityCache
 from app.motion.curve import Envelopes
 from app.motion.model import Motion
 from app.motion.perform import frame_count
 from app.performance.choreographers import choreographer_of
 from app.performance.ensemble import Performance
-from app.performance.span import FrameSpan
 from app.plan.model import Problem, TimeFrame
 from app.project.casting import StagePosition
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState, UseSegment
@@ -197,21 +196,6 @@ def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
         return Dancing(dancer, choreographer, rhythm, corrections, project.score.tempo_map, character, frame)
 
     return _DANCING.get((_same_dancer(dancer), choreographer, rhythm, corrections, character, frame), made)
-
-
-def dancer_motion(
-    performance: Performance,
-    dancer: Dancer,
-    span: FrameSpan,
-    stop_requested: Callable[[], bool] = lambda: False,
-    progress: Callable[[float], None] = lambda share: None,
-) -> Motion:
-    """One dancer's motion over some frames. Raises AppError as `dancing_of`, and Cancelled."""
-    if stop_requested():
-        raise Cancelled("work.stopped")
-    motion = dancing_of(performance, dancer).motion(span.fps, span.first, span.count)
-    progress(1.0)
-    return motion
 
 
 def rhythm_of(performance: Performance) -> Rhythm:

@@ -45,7 +45,7 @@ _CHECKED: Final = {""}
 class Performance:
     """A project, played.
 
-    A player whose instrument there is no map of, or who is a character that is not there, keeps a place: the plan has
+    A player without a map of the instrument, or with a character that is not installed, keeps a place: the plan has
     a problem and, without a map, no events; the others play on.
 
     Its instruments and characters are those there are when it is made.
@@ -383,7 +383,7 @@ def _with_parts(plan: PlayerPlan, names: tuple[str, ...], *values: tuple[object,
 
 
 def no_events(player_id: str, frame: TimeFrame) -> PlayerPlan:
-    """The plan of someone for whom nothing is planned."""
+    """The plan of a player for whom nothing is planned."""
     return PlayerPlan(player_id, frame, (), (), (), (), (), (), (), ())
 
 

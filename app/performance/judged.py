@@ -1,4 +1,4 @@
-"""All that is wrong with a player's performance, its made motion included: the same for whoever reports it."""
+"""All that is wrong with a player's performance, its generated motion included: the same in every report."""
 
 from __future__ import annotations
 

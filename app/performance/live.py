@@ -1,6 +1,6 @@
 """The motion of all players as the viewport needs it: what is looked at first, the rest behind it, memory bounded.
 
-The performance is cut into chunks of frames. Whoever owns the worker thread calls `LiveMotion.work` as long as it
+The performance is cut into chunks of frames. The owner of the worker thread calls `LiveMotion.work` as long as it
 makes something; the viewport calls `LiveMotion.pose`, which never waits. After an edit only the chunks are made again
 whose curves changed.
 
@@ -198,7 +198,7 @@ class LiveMotion:
             for player in project.players:
                 plan, known = performance.plan(player), performance.problems(player.id)
                 old = before.tracks.get(player.id)
-                # Whoever plays several instruments moves as all of them ask.
+                # The motion of a musician with several instruments depends on all of them.
                 whole = {one.id for one in project.played_by(player)}
                 waited = not whole.isdisjoint(before.performance.waiting)
                 if old is None or not same_frames or waited:
@@ -289,8 +289,8 @@ class LiveMotion:
     def make_now(self, player_id: str, time_s: float) -> None:
         """Make a player's frames around a time here and now, in any thread.
 
-        Not of who was never seen, or whose dance is not generated: that takes long. Nor where the thread that works is
-        at it, for what is looked at is what it makes next. Raises PlayerFault.
+        Not of players that were never shown, or whose dance is not generated: that takes long. Nor while the worker
+        thread is busy, since it makes next what is shown. Raises PlayerFault.
         """
         if not self._working.acquire(blocking=False):
             return
@@ -448,22 +448,6 @@ class LiveMotion:
         if self._chunk_bytes:
             requested = min(requested, self._budget_bytes // self._chunk_bytes)
         return min(ready / requested, 1.0) if requested else 1.0
-
-    def ready_spans(self, player_id: str) -> tuple[tuple[float, float], ...]:
-        """Where a player's motion is made, as spans of seconds in order."""
-        shown = self._shown
-        track = shown.tracks.get(player_id)
-        if track is None:
-            return ()
-        grid, spans = shown.grid, list[tuple[int, int]]()
-        for index in sorted(track.chunks):
-            if spans and spans[-1][1] == index:
-                spans[-1] = (spans[-1][0], index + 1)
-            else:
-                spans.append((index, index + 1))
-        step_s = grid.length * grid.fps.denominator / grid.fps.numerator
-        end_s = grid.start_s + grid.frames * grid.fps.denominator / grid.fps.numerator
-        return tuple((grid.start_s + first * step_s, min(grid.start_s + last * step_s, end_s)) for first, last in spans)
 
     @property
     def bytes(self) -> int:

@@ -36,7 +36,7 @@ OPENS_S = 0.16
 EMPTY_PAUSE_S, FULL_PAUSE_S = 0.12, 0.45
 """With empty lungs the player breathes in as soon as the breath pauses; with full ones only where it pauses longer."""
 LEAST_SPENT = 0.08
-"""No one breathes in who has hardly breathed out."""
+"""Players breathe in only when they have breathed out enough."""
 RELAXES_S = 2.0
 """Full lungs are held for so long; then the body lets go."""
 TENSION_S, PRESSED_S, AIR_S, EFFORT_S, RAISES_S = 0.09, 0.05, 0.10, 0.50, 1.6

@@ -184,14 +184,7 @@ class PlayAlong:
         curves, given = self._solved(now_s)
         player, now = self._playing.player, curves[:1]
         motion = poses(player, replace(now, body=helped(player, now.body, given)), ONE_FRAME, now_s)
-        return Pose(
-            rotations=motion.rotations[0],
-            hips_m=motion.hips_m[0],
-            morphs={name: float(values[0]) for name, values in motion.morphs.items()},
-            controls={name: float(values[0]) for name, values in motion.controls.items()},
-            instrument_position_m=motion.instrument_position_m[0],
-            instrument_rotation=motion.instrument_rotation[0],
-        )
+        return Pose.of(motion, 0)
 
     def _sound(self, now_s: float, pitch: int, velocity: int, attacked: bool) -> None:
         self._hands.play(now_s, pitch, self._breath.loudness)

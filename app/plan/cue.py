@@ -220,7 +220,7 @@ def _tempo_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Pie
         tick, beat = int(beats[place]), _beat(piece, int(beats[place]))
         reason = _new_tempo(lasts_s, place)
         players = _coming_in(sounding, tick, beat)
-        # Someone alone with an accompaniment goes with it.
+        # A single player with an accompaniment follows it.
         carried = len(sounding) == 1 and accompaniment.sounds_before(tick, beat)
         if reason is None or not players or carried or tick <= lines.starts[0]:
             continue

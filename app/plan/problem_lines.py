@@ -42,8 +42,7 @@ def problem_lines(problems: Iterable[Problem], score: Score, wording: Wording, p
 
 def note_place(score: Score, note: Note) -> Message:
     """Where a note is, as a message."""
-    bar, beat = score.metre_map.bar_of_tick(note.onset_tick), score.metre_map.beat_of_tick(note.onset_tick)
-    return Message("note.place", {"pitch": note.pitch, "bar": bar, "beat": f"{beat:.2f}".rstrip("0").rstrip(".")})
+    return Message("note.place", {"pitch": note.pitch, "place": score.metre_map.label(note.onset_tick)})
 
 
 def note_of(score: Score, note_id: str, part_id: str | None = None) -> Note | None:

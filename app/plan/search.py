@@ -362,15 +362,6 @@ class FingeringProblem:
         fastest, allowed = (np.maximum.reduceat(along(motions.share, steps, way), spans)[::2] for way in (path, other))
         return np.asarray(inside & (further | (fastest > allowed + TOLERANCE)))
 
-    def path_cost(self, path: IntArray) -> float:
-        """What the search pays for a path, over the whole line."""
-        count = len(path)
-        notes, steps = np.arange(count), np.arange(count - 1)
-        cost = float(self.local_cost[notes, path].sum() + self.motions.cost[steps, path[:-1], path[1:]].sum())
-        if self.reversal_cost is not None:
-            cost += float(self.reversal_cost[steps[:-1], path[:-2], path[1:-1], path[2:]].sum())
-        return cost
-
 
 def fingering_problem(
     notes: tuple[Note, ...], times: LineTimes, instrument: InstrumentMap, pins: dict[str, str]

@@ -299,11 +299,9 @@ def take_faults(take: Take, place: str) -> Iterator[Fault]:
     if take.colour and not COLOUR.fullmatch(take.colour):
         yield f"{place}.colour", 'must be empty or like "#3366cc"'
     yield from between(f"{place}.wiring.channel", take.wiring.channel, (0, 16))
-    yield from _plain_faults(f"{place}.cleaning", take.cleaning)
-    for field in take.cleaning.__struct_fields__:
-        low, high = limits.CLEANING[field]
-        yield from between(f"{place}.cleaning.{field}", getattr(take.cleaning, field), (low, high))
-    yield from within(place, within("tempo_map", _tempo_faults(take.tempo_map.changes)))
+    for field, bounds in limits.CLEANING.items():
+        yield from between(f"{place}.cleaning.{field}", getattr(take.cleaning, field), bounds)
+    yield from within(place, _tempo_faults(take.tempo_map.changes))
     yield from between(
         f"{place}.tempo_map.ticks_per_quarter", take.tempo_map.ticks_per_quarter, limits.TICKS_PER_QUARTER
     )

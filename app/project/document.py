@@ -110,7 +110,7 @@ class Document:
         last = self._done[-1] if self._done else None
         if gesture is not None and last is not None and last.gesture is gesture and last.after is before:
             self._done.pop()
-            if not _same(project, last.before):
+            if project is not last.before and project != last.before:
                 self._done.append(replace(last, name=name, after=project))
             else:
                 project = last.before
@@ -179,7 +179,3 @@ class Document:
                 observer(Change(before, project, origin, opened))
         finally:
             self._telling = False
-
-
-def _same(one: Project, other: Project) -> bool:
-    return one is other or one == other

@@ -21,7 +21,7 @@ MOST_NAME: Final = 60
 
 
 def about(performer: Player | Dancer | None, found: Iterable[Fault]) -> Iterator[Fault]:
-    """Faults that concern one performer, who is named: a number in a list says little to a reader."""
+    """Faults of one performer, with its name: a number in a list says little to a reader."""
     who = "dancer" if isinstance(performer, Dancer) else "player"
     for place, detail in found:
         yield place, detail if performer is None else f"{detail} ({who} {shortened(performer.name, MOST_NAME)!r})"

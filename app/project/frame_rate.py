@@ -23,6 +23,9 @@ USUAL_RATES: Final = (
 )
 """Of film, television and games, in ascending order (SMPTE ST 12-1 and ST 12-3; 120 is what capture and games have)."""
 
+USUAL_FILM_RATE: Final = Fraction(30)
+"""Of a film of the viewport, unless the piece has fewer frames per second."""
+
 
 def exact_number(text: str) -> Fraction:
     """An exact number from ``1.5`` or ``3/2``. Raises ValueError, ZeroDivisionError."""

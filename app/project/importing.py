@@ -184,7 +184,7 @@ def import_project(
             characters[first.place] = row.character_id
     players = []
     for player in project.players:
-        # Whoever plays several instruments is who was chosen for the first of them that says so.
+        # A musician with several instruments is the character chosen for the first of them that has one.
         places = [project.part(one).place for one in project.played_by(player)]
         character = next((characters[place] for place in places if place in characters), player.character_id)
         players.append(msgspec.structs.replace(player, character_id=character))

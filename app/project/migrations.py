@@ -1,7 +1,7 @@
 """Project files of older versions, brought up to the present one, one version at a time.
 
 A migration is a pure function on the file's decoded JSON; the first takes version 1 to 2, the next 2 to 3 and so on.
-Whoever changes what a file holds adds one to `STRUCTURE`, and a sample to ``tests/data/projects``; a new parameter only
+To change what a file holds, add one to `STRUCTURE`, and a sample to ``tests/data/projects``; a new parameter only
 says of itself which version is the first that has it.
 """
 

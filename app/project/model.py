@@ -125,7 +125,7 @@ class Project:
         By part and note id: what the MIDI file held when it was last read, whatever was done to the notes since. A
         part that is not there was not read from a file, or by a program that did not keep it.
     takes : mapping of str to PlayerTakes
-        By player id; who was never recorded is not there.
+        By player id; players without takes are absent.
     dancers : tuple of Dancer
         In the order in which they are listed.
     dance_corrections : mapping of str to tuple of DanceCorrection

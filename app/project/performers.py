@@ -12,7 +12,7 @@ from app.project.casting import StagePosition
 
 
 class Player(msgspec.Struct, frozen=True):
-    """Someone who plays one part.
+    """A musician playing one part.
 
     Attributes
     ----------

@@ -20,9 +20,9 @@ import msgspec
 import platformdirs
 
 from app.encoding import restored, stored
-from app.errors import FileError, MapError, Message, UsageError
+from app.errors import MapError, Message, UsageError
 from app.formats.atomic import atomic_write
-from app.formats.files import files_in
+from app.formats.files import cannot_write, files_in
 from app.formats.toml import read_toml, toml
 from app.formats.user_folder import Named
 from app.plan.parameters import PARAMETERS, PlayerParameters
@@ -140,7 +140,7 @@ def _save(
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise FileError("file.cannot_write", file=str(folder), reason=error.strerror or str(error)) from error
+        raise cannot_write(folder, error) from error
     path = tables.path_of(folder, name) if name in known else None
     if path is None:
         stem = file_stem(name)
@@ -159,4 +159,4 @@ def _delete(folder: Path, name: str, tables: Named[Any]) -> None:
     try:
         path.unlink()
     except OSError as error:
-        raise FileError("file.cannot_write", file=str(path), reason=error.strerror or str(error)) from error
+        raise cannot_write(path, error) from error

@@ -507,7 +507,7 @@ def _with_new_players(project: Project, parts: Sequence[Part], maps: Mapping[str
 
 
 def _musician(project: Project, player_id: str) -> str:
-    """Whose body a player has, by id; who is new has one of their own."""
+    """Which musician's body a player has, by id; a new player has a new one."""
     known = next((player for player in project.players if player.id == player_id), None)
     return player_id if known is None else project.musician(known).id
 

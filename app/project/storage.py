@@ -153,7 +153,7 @@ def file_hash(path: Path) -> str:
         with open_file(path) as stream:
             return hashlib.file_digest(stream, "sha256").hexdigest()
     except (OSError, FileError):
-        # Whoever reads or writes the file next gets the reason.
+        # The next read or write of the file raises the reason.
         return ""
 
 
@@ -257,10 +257,10 @@ def decode(content: bytes, path: Path, name: str | None = None) -> Project:
         raw = msgspec.json.decode(content)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise FileError("project.damaged", file=file, detail=shortened(error)) from error
-    if not isinstance(raw, dict) or not _is_version(raw.get(VERSION_KEY)):
+    version = raw.get(VERSION_KEY) if isinstance(raw, dict) else None
+    if not isinstance(version, int) or isinstance(version, bool) or version < 1:
         raise FileError("project.damaged", file=file, detail=f"no {VERSION_KEY}")
     raw.pop("autosave", None)
-    version = raw[VERSION_KEY]
     if version > CURRENT:
         raise FileError("project.newer", file=file, version=version, known=CURRENT)
     try:
@@ -334,10 +334,6 @@ def missing_media(project: Project) -> Path | None:
         return None
     path = Path(project.audio.path)
     return None if os.path.isfile(path) else path
-
-
-def _is_version(value: object) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and value >= 1
 
 
 def _project(raw: Raw, folder: Path, file: str) -> Project:

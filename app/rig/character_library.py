@@ -35,7 +35,7 @@ import msgspec
 from app.encoding import shown
 from app.errors import AppError, FileError, MapError, Message, UsageError, shortened
 from app.formats.atomic import atomic_write
-from app.formats.files import open_file, read_file
+from app.formats.files import cannot_write, open_file, read_file
 from app.formats.gltf.read import MOST_BYTES
 from app.formats.toml import read_toml, shaped, toml
 from app.formats.user_folder import Read, Shelf, Stamp, UserFolder, stamp_of
@@ -248,7 +248,7 @@ def add_character(
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise FileError("file.cannot_write", file=str(folder), reason=error.strerror or str(error)) from error
+        raise cannot_write(folder, error) from error
     with LIBRARY.lock:
         id = _free_id(title, folder)
         suffix = path.suffix.lower() if path.suffix.lower() in SUFFIXES else _suffix_of(path)
@@ -283,7 +283,7 @@ def remove_character(id: str) -> None:
         try:
             path.unlink(missing_ok=True)
         except OSError as error:
-            raise FileError("file.cannot_write", file=str(path), reason=error.strerror or str(error)) from error
+            raise cannot_write(path, error) from error
     reload_characters()
 
 

@@ -24,6 +24,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import FileError, Message
+from app.formats.names import numbered
 from app.rig import quaternion
 from app.rig.figure import Figure, Origin
 from app.rig.mesh import Mesh, Morph, scaled_mesh
@@ -132,7 +133,7 @@ def build_figure(
     figure = Figure(
         file=file,
         origin=origin,
-        bone_names=_unique([nodes.names[node] or f"node_{node}" for node in listed]),
+        bone_names=numbered((nodes.names[node] or f"node_{node}" for node in listed), key=str),
         parents=parents,
         translations_m=translations,
         rotations=turns,
@@ -227,23 +228,8 @@ def nearest_rotations(world: FloatArray) -> FloatArray:
     return quaternion.from_matrix(left @ right)
 
 
-def _unique(names: Sequence[str]) -> tuple[str, ...]:
-    taken: set[str] = set()
-    last: dict[str, int] = {}
-    result = []
-    for name in names:
-        unique, number = name, last.get(name, 1)
-        while unique in taken:
-            number += 1
-            unique = f"{name}_{number}"
-        last[name] = number
-        taken.add(unique)
-        result.append(unique)
-    return tuple(result)
-
-
 def _named_apart(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
-    names = _unique([mesh.name or "mesh" for mesh in meshes])
+    names = numbered((mesh.name or "mesh" for mesh in meshes), key=str)
     return tuple(replace(mesh, name=name) for mesh, name in zip(meshes, names, strict=True))
 
 

@@ -162,6 +162,11 @@ def _solved(asked: Sequence[FloatArray | Asked]) -> list[FloatArray]:
     return [found[id(one)] if isinstance(one, Asked) else one for one in asked]
 
 
+def solved_pose(asked: FloatArray | Asked) -> FloatArray:
+    """One pose by itself."""
+    return _solved([asked])[0]
+
+
 def _at_station(
     station: StationTable, controls: Controls, raised: FloatArray, pressed: FloatArray | float = 1.0
 ) -> FloatArray:
@@ -194,20 +199,13 @@ def _on_way(
     """Rotations (K, n, 4) between two stations, lifted over what lies between."""
     pose = mixed(near, far, share[:, None, None])
     away = max((table.stations[first].away_m, table.stations[second].away_m), key=lambda one: float(one @ one))
-    return _raised(table, first, second, pose, share, away) if np.any(away) else pose
+    return raised_way(table, first, second, pose, share, away) if np.any(away) else pose
 
 
 def raised_way(
     table: FingerTable, first: int, second: int, rotations: FloatArray, share: FloatArray, away_m: FloatArray
-) -> FloatArray:
-    """Lift a finger that is between two of its stations, most half way: rotations (K, n, 4)."""
-    return _solved([_raised(table, first, second, rotations, share, away_m)])[0]
-
-
-def _raised(
-    table: FingerTable, first: int, second: int, rotations: FloatArray, share: FloatArray, away_m: FloatArray
 ) -> FloatArray | Asked:
-    """What `raised_way` asks for."""
+    """Lift a finger that is between two of its stations, most half way: rotations (K, n, 4)."""
     near, far = table.stations[first], table.stations[second]
     if table.chain is None or min(near.tip_joint, far.tip_joint) < 0 or not np.any(away_m):
         return rotations
@@ -232,11 +230,11 @@ def _at_place(
         return rotations
     lean = next((lean for lean in hand.leans if _is(lean, table, index)), None)
     if lean is None:
-        return _with_wrist(table, station, rotations, wrist_given(hand, []), wrist_given(hand, given))
+        return with_wrist(table, station, rotations, wrist_given(hand, []), wrist_given(hand, given))
     waits = 1.0 - next((weight for one, weight in given if one is lean), np.zeros(len(rotations)))
     lifted = np.multiply.outer(waits, station.waits_m)
     own = wrist_given(hand, [(lean, np.ones(1))])
-    return _with_wrist(table, station, rotations, own, wrist_given(hand, given), lifted)
+    return with_wrist(table, station, rotations, own, wrist_given(hand, given), lifted)
 
 
 def with_wrist(
@@ -246,23 +244,11 @@ def with_wrist(
     own: tuple[FloatArray, FloatArray],
     wrist: tuple[FloatArray, FloatArray],
     lifted_m: FloatArray | float = 0.0,
-) -> FloatArray:
+) -> Asked:
     """Rotations (K, n, 4) that leave what touches at a station where it is, for another wrist than their ``own``.
 
     Wrists are places (K, 3) and rotations (K, 4) in one frame; ``lifted_m`` (K, 3) is added in that of the wrist.
     """
-    return _solved([_with_wrist(table, station, rotations, own, wrist, lifted_m)])[0]
-
-
-def _with_wrist(
-    table: FingerTable,
-    station: StationTable,
-    rotations: FloatArray,
-    own: tuple[FloatArray, FloatArray],
-    wrist: tuple[FloatArray, FloatArray],
-    lifted_m: FloatArray | float = 0.0,
-) -> Asked:
-    """What `with_wrist` asks for."""
     assert table.chain is not None
     tips = np.broadcast_to(station.tip_m, (len(rotations), 3))
     requested = own[0] + quaternion.rotate(own[1], _tip(table, rotations, tips, station.tip_joint))

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
-from app.rig.finger_poses import tip_m, with_wrist
+from app.rig.finger_poses import solved_pose, tip_m, with_wrist
 from app.rig.grip_problem import METRES
 from app.rig.hold import FingerTable, HandHold, WristOffset, wrist_given
 
@@ -126,5 +126,5 @@ def _missed(hand: HandHold, table: FingerTable, index: int, wrist: tuple[FloatAr
     own = wrist_given(hand, [(one, np.ones(1)) for one in hand.leans if one.places == ((table.finger, index),)])
     requested = own[0] + quaternion.rotate(own[1], tip_m(table, station, station.rotations[-1:]))
     rotations = np.repeat(station.rotations[-1:], len(wrist[0]), axis=0)
-    there = with_wrist(table, station, rotations, own, wrist)
+    there = solved_pose(with_wrist(table, station, rotations, own, wrist))
     return wrist[0] + quaternion.rotate(wrist[1], tip_m(table, station, there)) - requested

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
-from app.rig.finger_poses import LOW_HOVER, raised_way, with_wrist
+from app.rig.finger_poses import LOW_HOVER, raised_way, solved_pose, with_wrist
 from app.rig.grip_fingers import GripScene
 from app.rig.grip_problem import HOVER_MORE, Problem, nodes_at
 from app.rig.grip_residuals import inside_proxy
@@ -117,7 +117,7 @@ def _lifted_along(
     def on_way(waits: FloatArray) -> Callable[[float], FloatArray]:
         first, last = (np.repeat(end, len(WAYS), axis=0) for end in (near, waits))
         pose = mixed(first, last, way[:, None, None])
-        return lambda lift: raised_way(table, 0, index, pose, way, lift * away)
+        return lambda lift: solved_pose(raised_way(table, 0, index, pose, way, lift * away))
 
     if wrist is scene:
         found = _Height(*_least_lift(problem, scene, number, on_way(come), LIFTS_M))
@@ -127,7 +127,7 @@ def _lifted_along(
     own, at_home = ((one.position_m[:1], quaternion.from_matrix(one.basis[:1])) for one in (wrist, scene))
 
     def waiting(lift: float) -> FloatArray:
-        return with_wrist(table, there, come, own, at_home, lift * off)
+        return solved_pose(with_wrist(table, there, come, own, at_home, lift * off))
 
     least, _ = _least_lift(problem, scene, number, waiting, LIFTS_M[: len(LIFTS_M) // 2 + 1])
     # Where the way to there is not clear at any height, it is to a finger that waits higher; but not too far off.

@@ -141,7 +141,7 @@ def inside(some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: FloatArra
     if not len(some) or not len(points_m):
         return depth, owner
     point, body = _candidates(some, nodes, points_m, radius_m)
-    found = radius_m[point] - _measured(some, _local(some, nodes, points_m[point], body), body)
+    found = radius_m[point] - distances(some, _local(some, nodes, points_m[point], body), body)
     np.maximum.at(depth, point, found)
     deepest = (found > 0.0) & (found == depth[point])
     owner[point[deepest]] = body[deepest]
@@ -152,7 +152,7 @@ def distance(some: Bodies, nodes: Nodes, points_m: FloatArray) -> FloatArray:
     """Signed distance (P,) of points (P, 3) of the instrument's frame to the union, negative inside."""
     count = len(points_m)
     point, body = (index.ravel() for index in np.mgrid[:count, : len(some)])
-    found = _measured(some, _local(some, nodes, points_m[point], body), body).reshape(count, len(some))
+    found = distances(some, _local(some, nodes, points_m[point], body), body).reshape(count, len(some))
     nearest: FloatArray = found.min(axis=1, initial=np.inf)
     return nearest
 
@@ -161,7 +161,7 @@ def gradient(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IntArray) -
     """Gradient (P, 3) of the distance of each point (P, 3) to one body (P,), in the instrument's frame."""
     local = _local(some, nodes, points_m, body)
     steps = _STEP_M * np.concatenate([np.eye(3), -np.eye(3)])
-    found = _measured(some, (local + steps[:, None]).reshape(-1, 3), np.tile(body, 6)).reshape(6, -1)
+    found = distances(some, (local + steps[:, None]).reshape(-1, 3), np.tile(body, 6)).reshape(6, -1)
     slope: FloatArray = (found[:3] - found[3:]).T / (2.0 * _STEP_M)
     turned: FloatArray = (nodes.basis[some.nodes[body]] @ slope[:, :, None])[:, :, 0]
     return turned
@@ -209,14 +209,15 @@ def _candidates(some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: Floa
     return point, members[body]
 
 
-def _measured(some: Bodies, local_m: FloatArray, body: IntArray) -> FloatArray:
-    """Signed distance (K,) of points (K, 3), each to one body (K,) in the frame of its node."""
-    result = np.empty(len(body))
+def distances(some: Bodies, local_m: npt.NDArray[Any], body: IntArray) -> npt.NDArray[Any]:
+    """Signed distance (K,) of points (K, 3), each to one body (K,) in the frame of its node, in the points'
+    precision."""
+    result = np.empty(len(body), dtype=local_m.dtype)
     start = 0
     for rows, measure in _kinds(some):
         hit = np.flatnonzero((body >= start) & (body < start + len(rows)))
         if len(hit):
-            result[hit] = measure(rows[body[hit] - start], local_m[hit])
+            result[hit] = measure(rows[body[hit] - start].astype(local_m.dtype, copy=False), local_m[hit])
         start += len(rows)
     return result
 

@@ -16,7 +16,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import FileError
-from app.formats.gltf import GltfMaterial, GltfModel, GltfNode, GltfPrimitive, read_glb
+from app.formats.gltf.model import GltfMaterial, GltfModel, GltfNode, GltfPrimitive
+from app.formats.gltf.read import read_glb
 from app.formats.scene import Material
 from app.rig import quaternion
 from app.rig.mesh import Mesh, Morph

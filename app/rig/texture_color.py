@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from app.formats.gltf import GltfModel, GltfPrimitive
+from app.formats.gltf.model import GltfModel, GltfPrimitive
 from app.formats.scene import Material
 
 FloatArray = npt.NDArray[np.float64]

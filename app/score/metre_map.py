@@ -159,12 +159,6 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
             return start + ticks
         return start + early + (beat - 1 - (early > 0)) * whole // denominator + ticks
 
-    def beat_of_tick(self, tick: float) -> float:
-        """The beat of its bar in which a tick lies, counted from 1, with the part of it that is over."""
-        whole = int(tick // 1)
-        _, beat, since = self.place_of_tick(whole)
-        return beat + (since + tick - whole) / self.beat_length(whole)
-
     def beats_of_bar(self, bar: int) -> IntArray:
         """Ticks at which the beats of a bar begin, the bar itself first."""
         ticks, _ = self._written(bar, bar + 1)
@@ -172,10 +166,16 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return ticks if len(ticks) and ticks[0] == start else np.insert(ticks, 0, start)
 
     def label(self, tick: int) -> str:
-        """``"12.3"``, or ``"12.3.240"`` where the place is not on the beat."""
+        """Bar, beat and ticks, ``"12.3.096"``: how a position is written everywhere; the ticks have as many digits as
+        the longest beat of the piece needs, so that they stand still while it plays."""
         bar, beat, rest = self.place_of_tick(tick)
-        text = f"{bar}.{beat}".replace("-", "−")
-        return f"{text}.{rest:03d}" if rest else text
+        return f"{bar}.{beat}.{rest:0{self._tick_digits}d}".replace("-", "−")
+
+    @cached_property
+    def _tick_digits(self) -> int:
+        """Digits of the last tick of the longest beat; 3 where that has fewer."""
+        longest = 4 * self.ticks_per_quarter // min(metre.denominator for metre in self.metres)
+        return max(len(str(longest - 1)), 3)
 
     def tick_of_label(self, text: str) -> int | None:
         """The tick that such a text means; None where it means none. A bar alone is its first beat."""

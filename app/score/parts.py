@@ -249,8 +249,8 @@ def _reason(stream: TrackChannel, crowded: bool, maps: Sequence[MapChoice]) -> M
 def _about(id_: str, part: str, notes: Sequence[Note], piece: Score, **more: Argument) -> Message:
     """A message about some notes: how many, and where the first one is."""
     first = notes[0]
-    bar, beat = piece.metre_map.bar_of_tick(first.onset_tick), piece.metre_map.beat_of_tick(first.onset_tick)
-    place: dict[str, Argument] = {"bar": bar, "beat": round(beat, 1), "pitch": first.pitch}
+    bar, beat, _ = piece.metre_map.place_of_tick(first.onset_tick)
+    place: dict[str, Argument] = {"bar": bar, "beat": beat, "pitch": first.pitch}
     return Message(id_, {"part": part, "count": len(notes), **place, **more})
 
 

@@ -208,7 +208,9 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         except LookupError as error:
             raise FileError("midi.unknown_encoding", file=str(path), encoding=encoding) from error
     container = read_container(path)
-    ticks_per_quarter = _ticks_per_quarter(container.division)
+    ticks_per_quarter = container.division
+    if ticks_per_quarter <= 0:
+        ticks_per_quarter = TempoMap.of_smpte(_ticks_per_second(ticks_per_quarter)).ticks_per_quarter
     warnings = list(container.warnings)
     tracks: list[TrackEvents] = []
     begin = 0
@@ -324,10 +326,6 @@ def _ticks_per_second(division: int) -> float:
     """Of a file that counts in SMPTE frames."""
     rate = _smpte_rate(division)
     return float(_SMPTE_RATES.get(rate, Fraction(rate)) * max(division & 0xFF, 1))
-
-
-def _ticks_per_quarter(division: int) -> int:
-    return division if division > 0 else TempoMap.of_smpte(_ticks_per_second(division)).ticks_per_quarter
 
 
 def _metres(tracks: Sequence[TrackEvents], ticks_per_quarter: int) -> tuple[tuple[Metre, ...], int, list[Message]]:

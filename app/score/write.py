@@ -50,7 +50,6 @@ import msgspec
 from app.errors import AppError, Message
 from app.formats.atomic import atomic_write
 from app.score.choose import PERCUSSION_CHANNEL, MapChoice, plays
-from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, CurveKind, Note, Part, Score
 from app.score.tempo import TempoChange
 from app.score.tracks import CONTROLLERS, LEAST_TEMPO
@@ -198,7 +197,10 @@ def _conductor(score: Score) -> list[_Event]:
         if not LEAST_TEMPO <= tempo <= MOST_TEMPO:
             raise _unwritable(score, change)
         events.append((change.tick, 2, mido.MetaMessage("set_tempo", tempo=tempo)))
-    events += [(metre.tick, 1, _time_signature(metre)) for metre in score.metres]
+    events += [
+        (metre.tick, 1, mido.MetaMessage("time_signature", numerator=metre.numerator, denominator=metre.denominator))
+        for metre in score.metres
+    ]
     return events + [(marker.tick, 3, mido.MetaMessage("marker", text=marker.text)) for marker in score.markers]
 
 
@@ -210,10 +212,6 @@ def _unwritable(score: Score, change: TempoChange) -> AppError:
         low=round(60e6 / MOST_TEMPO, 3),
         high=round(60e6 / LEAST_TEMPO),
     )
-
-
-def _time_signature(metre: Metre) -> mido.MetaMessage:
-    return mido.MetaMessage("time_signature", numerator=metre.numerator, denominator=metre.denominator)
 
 
 def _part(part: Part, name: str, instrument: Instrument | None, channel: int) -> list[_Event]:

@@ -6,15 +6,17 @@ import platform
 from pathlib import Path
 
 import PySide6
-from PySide6.QtCore import QEvent, Qt, qVersion
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt, qVersion
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QWidget
 
 from app.shell.crash_handler import log_path
 from app.version import program_version
+from widgets.common.controls import Button, Retranslated, named, sized, wrapped
+from widgets.common.layouts import in_column
 from widgets.common.plain import Label
 
 
-class AboutDialog(QDialog):
+class AboutDialog(Retranslated, QDialog):
     """About Suisou.
 
     Parameters
@@ -28,34 +30,21 @@ class AboutDialog(QDialog):
         self.setObjectName("about")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._settings = settings
-        self._name, self._text = Label("Suisou"), Label()
-        font = self._name.font()
-        font.setPointSizeF(20.0)
-        self._name.setFont(font)
-        self._text.setObjectName("about_text")
-        self._text.setWordWrap(True)
+        self._text = wrapped(named(Label(), "about_text"))
         self._text.setTextInteractionFlags(
             Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
         )
         self._text.setMinimumWidth(440)
-        self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
-        self._buttons.rejected.connect(self.reject)
-        self._licences = QPushButton()
-        self._licences.setObjectName("about_licences")
-        self._licences.clicked.connect(self._show_licences)
-        self._buttons.addButton(self._licences, QDialogButtonBox.ButtonRole.HelpRole)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(24, 20, 24, 16)
-        column.setSpacing(12)
-        column.addWidget(self._name)
-        column.addWidget(self._text)
-        column.addWidget(self._buttons)
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        buttons.rejected.connect(self.reject)
+        licences = Button("about_dialog.licences", self._show_licences, "about_licences")
+        buttons.addButton(licences, QDialogButtonBox.ButtonRole.HelpRole)
+        in_column(sized(Label("Suisou"), 20.0), self._text, buttons, of=self, margins=(24, 20, 24, 16), spacing=12)
         self.retranslate()
 
     def retranslate(self) -> None:
         """Set the texts."""
         self.setWindowTitle(self.tr("about_dialog.about_suisou"))
-        self._licences.setText(self.tr("about_dialog.licences"))
         versions = f"Python {platform.python_version()}, Qt {qVersion()}, PySide6 {PySide6.__version__}"
         self._text.setText(
             "\n\n".join(
@@ -73,9 +62,3 @@ class AboutDialog(QDialog):
         from app.shell.licences_dialog import LicencesDialog
 
         LicencesDialog(self).open()
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)

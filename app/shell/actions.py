@@ -36,7 +36,7 @@ def sequences(keys: str) -> list[QKeySequence]:
 class RowAction(QAction):
     """A row as Qt shows it: it asks, names and pictures itself.
 
-    Qt tells only widgets of another language (``QEvent.LanguageChange``): an action hears of it by the session.
+    Qt notifies only widgets of a language change (``QEvent.LanguageChange``): actions are notified by the session.
 
     Parameters
     ----------
@@ -136,9 +136,7 @@ class ActionTable(QObject):
         self._context = "window"
         self.actions = {row.id: RowAction(row, self) for row in rows}
         session.actions = self.actions
-        self._soon = QTimer(self)
-        self._soon.setSingleShot(True)
-        self._soon.setInterval(0)
+        self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self.refresh)
         for signal in (
             session.changed,

@@ -42,9 +42,10 @@ from app.shell.keyboard_buttons import KeyboardButtons
 from app.shell.language import Language
 from app.shell.questions import DialogQuestions
 from app.shell.rows import rows
-from app.shell.theme import apply_font, apply_theme
+from app.shell.theme import apply_theme
 from app.shell.window import Window
 from instrument_maps.library import begin
+from widgets.common.font import apply_font
 
 STOP_S = 3.0
 """Workers that are asked to stop when the editor ends get this long."""

@@ -6,13 +6,14 @@ import re
 from collections.abc import Callable
 from functools import partial
 
-from PySide6.QtCore import QEvent, QSize
+from PySide6.QtCore import QSize
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QPushButton, QToolButton, QWidget
+from PySide6.QtWidgets import QBoxLayout, QFrame, QPushButton, QWidget
 
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX
-from widgets.common.icons import icon, pixmap
+from widgets.common.controls import IconButton, Retranslated, named, small, wrapped
+from widgets.common.icons import pixmap
+from widgets.common.layouts import STRETCH, in_row
 from widgets.common.plain import Label
 
 NARROW_PX = 560
@@ -24,7 +25,7 @@ Texts = Callable[[], tuple[str, tuple[str, ...]]]
 """The question and the answers in the language of the editor."""
 
 
-class Banner(QFrame):
+class Banner(Retranslated, QFrame):
     """One question at a time.
 
     Parameters
@@ -40,19 +41,10 @@ class Banner(QFrame):
         self._buttons: list[QPushButton] = []
         self._line = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
         self._line.setContentsMargins(12, 5, 6, 5)
-        self._mark, self._text = Label(), Label()
-        self._text.setObjectName("banner_text")
-        self._text.setWordWrap(True)
-        self._close = QToolButton()
-        self._close.setObjectName("banner_close")
-        self._close.setFixedSize(LEAST_TARGET_PX, LEAST_TARGET_PX)
-        self._close.clicked.connect(self.hide)
-        self._question, self._answers = QHBoxLayout(), QHBoxLayout()
-        self._question.addWidget(self._mark)
-        self._question.addWidget(self._text, 1)
-        self._answers.addStretch(1)
-        self._answers.addWidget(self._close)
-        self._line.addLayout(self._question, 1)
+        self._mark, self._text = Label(), wrapped(named(Label(), "banner_text"))
+        close = small(IconButton(session, "close", "banner.not_now", self.hide, "banner_close"))
+        self._answers = in_row(STRETCH, close)
+        self._line.addLayout(in_row(self._mark, (self._text, 1)), 1)
         self._line.addLayout(self._answers)
         self.hide()
         session.theme_changed.connect(self.retranslate)
@@ -66,8 +58,7 @@ class Banner(QFrame):
         self._buttons = []
         self._texts = texts
         for place, answer in enumerate(answers):
-            button = QPushButton()
-            button.setObjectName(f"banner_answer_{place}")
+            button = named(QPushButton(), f"banner_answer_{place}")
             button.clicked.connect(partial(self._answered, answer))
             self._answers.insertWidget(1 + place, button)
             self._buttons.append(button)
@@ -83,8 +74,6 @@ class Banner(QFrame):
         tokens = self._session.tokens
         self.setStyleSheet(f"#banner {{ background: {tokens.raised}; border-bottom: 1px solid {tokens.warning}; }}")
         self._mark.setPixmap(pixmap("warning", 18, tokens.warning, self.devicePixelRatioF()))
-        self._close.setIcon(icon("close", tokens))
-        self._close.setToolTip(self.tr("banner.not_now"))
         if self._texts is not None:
             text, answers = self._texts()
             # Names of files may break where the user would break them.
@@ -93,12 +82,6 @@ class Banner(QFrame):
                 button.setText(answer)
 
     # Qt's own names
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def minimumSizeHint(self) -> QSize:
         """Narrow: what lies beside the banner keeps its width."""

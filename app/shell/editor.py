@@ -61,3 +61,8 @@ class EditorAction(Row[Editor]):
     """A row about files, devices or the window: its functions take the editor."""
 
     about_editor = True
+
+
+def is_open(editor: Editor) -> bool:
+    """Whether a project is open."""
+    return editor.files.is_open

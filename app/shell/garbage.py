@@ -30,8 +30,7 @@ class Garbage(QObject):
         # Modules and what they made.
         gc.freeze()
         self._lasting = gc.get_freeze_count()
-        self._timer = QTimer(self)
-        self._timer.setInterval(PERIOD_MS)
+        self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self.collect)
         self._timer.start()
 

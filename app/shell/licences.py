@@ -27,7 +27,7 @@ _SOURCES: Final = ("source", "source code", "repository", "homepage", "home")
 
 
 class Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Someone else's work within a package, or among the program's data.
+    """A third party's work within a package, or among the program's data.
 
     Attributes
     ----------

@@ -4,27 +4,26 @@ from __future__ import annotations
 
 from importlib.metadata import PackageNotFoundError
 
-from PySide6.QtCore import QEvent, Qt
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QHeaderView, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QHeaderView, QTreeWidget, QTreeWidgetItem, QWidget
 
 from app.shell.licences import data, installed
+from widgets.common.controls import Retranslated, named, wrapped
+from widgets.common.layouts import in_column
 from widgets.common.plain import Label
 
 _SIZE = (1040, 640)
 
 
-class LicencesDialog(QDialog):
+class LicencesDialog(Retranslated, QDialog):
     """Packages, what their wheels hold, and the data: versions, licences and sources."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("licences")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self._text = Label()
-        self._text.setObjectName("licences_text")
-        self._text.setWordWrap(True)
-        self._list = QTreeWidget()
-        self._list.setObjectName("licences_list")
+        self._text = wrapped(named(Label(), "licences_text"))
+        self._list = named(QTreeWidget(), "licences_list")
         self._list.setColumnCount(4)
         self._list.setTextElideMode(Qt.TextElideMode.ElideRight)
         try:
@@ -42,12 +41,9 @@ class LicencesDialog(QDialog):
         for section, width in enumerate((270, 90, 330)):
             header.resizeSection(section, width)
         header.setSectionResizeMode(3, QHeaderView.ResizeMode.Stretch)
-        self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
-        self._buttons.rejected.connect(self.reject)
-        column = QVBoxLayout(self)
-        column.addWidget(self._text)
-        column.addWidget(self._list, 1)
-        column.addWidget(self._buttons)
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        buttons.rejected.connect(self.reject)
+        in_column(self._text, (self._list, 1), buttons, of=self)
         self.resize(*_SIZE)
         self.retranslate()
 
@@ -72,12 +68,6 @@ class LicencesDialog(QDialog):
             ]
         )
         self._data.setText(0, self.tr("licences_dialog.suisous_own_files"))
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def _row(*texts: str) -> QTreeWidgetItem:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Final
 
-from PySide6.QtCore import QEvent
 from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QMenu, QMenuBar, QWidget
 
 from app.editor.translated import tr
 from app.shell.action import without_key
 from app.shell.actions import ActionTable, sequences
+from widgets.common.controls import Retranslated
 
 BAR: Final = ("file", "edit", "view", "play", "record", "generate", "export", "help")
 """How the menus stand in the bar; within them everything stands as in the table."""
@@ -30,7 +30,7 @@ def menu_with_keys(keys: str) -> str:
     return next((without_key(title) for title in titles if QKeySequence.mnemonic(title).toString() in requested), "")
 
 
-class Menu(QMenu):
+class Menu(Retranslated, QMenu):
     """A menu, called as the last part of its path says."""
 
     def __init__(self, path: str, parent: QWidget) -> None:
@@ -38,13 +38,11 @@ class Menu(QMenu):
         self._text_id = f"menu.{path.rpartition('/')[2]}"
         self.setObjectName(f"menu_{path.replace('/', '_')}")
         self.setToolTipsVisible(False)
-        self.setTitle(tr(self._text_id))
+        self.retranslate()
 
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.setTitle(tr(self._text_id))
-        super().changeEvent(event)
+    def retranslate(self) -> None:
+        """Set its title."""
+        self.setTitle(tr(self._text_id))
 
 
 class Menus:

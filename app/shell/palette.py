@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QStyle,
     QStyledItemDelegate,
     QStyleOptionViewItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -23,6 +22,8 @@ from app.shell.action import without_dots
 from app.shell.actions import ActionTable, sequences
 from app.shell.fuzzy import fitness
 from app.shell.texts import TEXTS
+from widgets.common.controls import Retranslated, named
+from widgets.common.layouts import in_column
 from widgets.common.plain import Label
 
 WIDTH_PX, ROW_PX, MOST_ROWS = 560, 30, 14
@@ -30,7 +31,7 @@ _ID = int(Qt.ItemDataRole.UserRole)
 _PLACE, _KEYS = _ID + 1, _ID + 2
 
 
-class Palette(QFrame):
+class Palette(Retranslated, QFrame):
     """A field and a list under it; goes away by itself.
 
     Parameters
@@ -45,14 +46,12 @@ class Palette(QFrame):
         self.setFrameShape(QFrame.Shape.StyledPanel)
         self._session, self._table = session, table
         self._ran: list[str] = []
-        self.field = QLineEdit()
-        self.field.setObjectName("palette_field")
+        self.field = named(QLineEdit(), "palette_field")
         self.field.setClearButtonEnabled(True)
         self.field.textChanged.connect(self._search)
         self.field.installEventFilter(self)
         self.model = QStandardItemModel(self)
-        self.list = QListView()
-        self.list.setObjectName("palette_list")
+        self.list = named(QListView(), "palette_list")
         self.list.setModel(self.model)
         self.list.setItemDelegate(_Row(session, self.list))
         self.list.setEditTriggers(QListView.EditTrigger.NoEditTriggers)
@@ -61,16 +60,10 @@ class Palette(QFrame):
         self.list.setFrameShape(QFrame.Shape.NoFrame)
         self.list.setMouseTracking(True)
         self.list.clicked.connect(self._run)
-        self.nothing = Label()
-        self.nothing.setObjectName("palette_nothing")
+        self.nothing = named(Label(), "palette_nothing")
         self.nothing.setFixedHeight(ROW_PX)
         self.nothing.setIndent(8)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(6, 6, 6, 6)
-        column.setSpacing(6)
-        column.addWidget(self.field)
-        column.addWidget(self.list)
-        column.addWidget(self.nothing)
+        in_column(self.field, self.list, self.nothing, of=self, margins=6, spacing=6)
         self.retranslate()
 
     def retranslate(self) -> None:
@@ -168,12 +161,6 @@ class Palette(QFrame):
                 self._run(self.list.currentIndex())
                 return True
         return super().eventFilter(watched, event)
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 class _Row(QStyledItemDelegate):

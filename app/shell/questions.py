@@ -17,7 +17,7 @@ from app.project.importing import ImportWish
 from app.score.read import MidiContents
 from instrument_maps.library import all_maps
 from widgets.common.paths import ask_for_file, ask_where_to_save
-from widgets.common.plain import MessageBox
+from widgets.common.plain import Role, ask
 
 
 class DialogQuestions:
@@ -41,21 +41,16 @@ class DialogQuestions:
 
     def unsaved(self, name: str) -> Answer:
         """See `Questions.unsaved`."""
-        box = MessageBox(_parent())
-        box.setObjectName("unsaved")
-        box.setIcon(MessageBox.Icon.NoIcon)
-        box.setWindowTitle(tr("questions.unsaved_changes"))
-        box.setText(tr("questions.save_changes_to").format(name=name))
-        box.setInformativeText(tr("questions.they_are_lost_if_you"))
-        save = box.addButton(tr("questions.save"), MessageBox.ButtonRole.AcceptRole)
-        discard = box.addButton(tr("questions.dont_save"), MessageBox.ButtonRole.DestructiveRole)
-        cancel = box.addButton(tr("questions.cancel"), MessageBox.ButtonRole.RejectRole)
-        box.setDefaultButton(save)
-        box.setEscapeButton(cancel)
-        box.exec()
-        clicked = box.clickedButton()
-        box.deleteLater()
-        return "save" if clicked is save else "discard" if clicked is discard else "cancel"
+        role = ask(
+            _parent(),
+            "unsaved",
+            tr("questions.unsaved_changes"),
+            tr("questions.save_changes_to").format(name=name),
+            tr("questions.they_are_lost_if_you"),
+            {tr("questions.save"): Role.AcceptRole, tr("questions.dont_save"): Role.DestructiveRole} | _cancel(),
+            usual=Role.AcceptRole,
+        )
+        return "save" if role == Role.AcceptRole else "discard" if role == Role.DestructiveRole else "cancel"
 
     def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
         """See `Questions.import_midi`."""
@@ -69,22 +64,15 @@ class DialogQuestions:
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
         """See `Questions.remove_character`."""
-        box = MessageBox(_parent())
-        box.setObjectName("remove_character")
-        box.setIcon(MessageBox.Icon.NoIcon)
-        box.setWindowTitle(tr("questions.remove_character"))
-        box.setText(tr("questions.remove_and_its_file_for").format(name=name))
-        if players:
-            reported = tr("questions.these_players_are_this_character")
-            box.setInformativeText(reported.format(players=", ".join(players)))
-        remove = box.addButton(tr("questions.remove"), MessageBox.ButtonRole.DestructiveRole)
-        cancel = box.addButton(tr("questions.cancel"), MessageBox.ButtonRole.RejectRole)
-        box.setDefaultButton(cancel)
-        box.setEscapeButton(cancel)
-        box.exec()
-        clicked = box.clickedButton()
-        box.deleteLater()
-        return clicked is remove
+        role = ask(
+            _parent(),
+            "remove_character",
+            tr("questions.remove_character"),
+            tr("questions.remove_and_its_file_for").format(name=name),
+            tr("questions.these_players_are_this_character").format(players=", ".join(players)) if players else "",
+            {tr("questions.remove"): Role.DestructiveRole} | _cancel(),
+        )
+        return role == Role.DestructiveRole
 
 
 def with_suffix(path: Path, suffixes: Sequence[str]) -> Path:
@@ -93,20 +81,19 @@ def with_suffix(path: Path, suffixes: Sequence[str]) -> Path:
 
 
 def _may_replace(title: str, path: Path) -> bool:
-    box = MessageBox(_parent())
-    box.setObjectName("replace")
-    box.setIcon(MessageBox.Icon.NoIcon)
-    box.setWindowTitle(title)
-    box.setText(tr("questions.replace").format(name=shown(path.name)))
-    box.setInformativeText(tr("questions.folder_has_file_of_this"))
-    replace = box.addButton(tr("questions.replace_2"), MessageBox.ButtonRole.DestructiveRole)
-    cancel = box.addButton(tr("questions.cancel"), MessageBox.ButtonRole.RejectRole)
-    box.setDefaultButton(cancel)
-    box.setEscapeButton(cancel)
-    box.exec()
-    clicked = box.clickedButton()
-    box.deleteLater()
-    return clicked is replace
+    role = ask(
+        _parent(),
+        "replace",
+        title,
+        tr("questions.replace").format(name=shown(path.name)),
+        tr("questions.folder_has_file_of_this"),
+        {tr("questions.replace_2"): Role.DestructiveRole} | _cancel(),
+    )
+    return role == Role.DestructiveRole
+
+
+def _cancel() -> dict[str, Role]:
+    return {tr("questions.cancel"): Role.RejectRole}
 
 
 def _parent() -> QWidget | None:

@@ -6,16 +6,18 @@ import os
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QDateTime, QEvent, QLocale, QSize, Qt
+from PySide6.QtCore import QDateTime, QLocale, QSize, Qt
 from PySide6.QtGui import QFontMetrics
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QScrollArea, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from app.editor.files import Files
 from app.editor.session import Session
 from app.editor.settings import Settings
 from app.encoding import shown
 from app.project.recovery import Recoverable
+from widgets.common.controls import IconButton, Retranslated, named, sized, wrapped
 from widgets.common.icons import icon
+from widgets.common.layouts import STRETCH, in_column, in_row, panel
 from widgets.common.plain import Label, verbatim
 
 WIDTH_PX = 860
@@ -23,7 +25,7 @@ RECENT_PX, LEAST_FOLDER_PX = 370, 90
 """Room for a recent file's name with its folder, and what the folder has of it at least."""
 
 
-class StartPage(QScrollArea):
+class StartPage(Retranslated, QScrollArea):
     """The start page.
 
     Parameters
@@ -40,34 +42,8 @@ class StartPage(QScrollArea):
         self.setWidgetResizable(True)
         self._session, self._files, self._settings = session, files, settings
         self._offers: tuple[Recoverable, ...] = ()
-        page = QWidget()
-        outer = QHBoxLayout(page)
-        column = QWidget()
-        column.setMaximumWidth(WIDTH_PX)
-        outer.addStretch(1)
-        outer.addWidget(column, 6)
-        outer.addStretch(1)
-        self._column = QVBoxLayout(column)
-        self._column.setContentsMargins(24, 40, 24, 24)
-        self._column.setSpacing(10)
-        self.setWidget(page)
-
-        self._title = _label("start_title", 26)
-        self._about = _label("start_about", 11)
-        self._column.addWidget(self._title)
-        self._column.addWidget(self._about)
-        self._column.addSpacing(12)
-        self._recovery = QVBoxLayout()
-        self._recovery.setSpacing(6)
-        self._column.addLayout(self._recovery)
-        sides = QHBoxLayout()
-        sides.setSpacing(40)
-        self._column.addLayout(sides)
-        begin = QVBoxLayout()
-        begin.setSpacing(6)
-        sides.addLayout(begin, 2)
-        self._begin_heading = _label("start_begin", 10)
-        begin.addWidget(self._begin_heading)
+        self._title, self._about = _label("start_title", 26), _label("start_about", 11)
+        self._recovery, self._recent = in_column(spacing=6), in_column(spacing=2)
         self._buttons = {
             "file.open": _row_button("start_open"),
             "file.new": _row_button("start_new"),
@@ -76,25 +52,18 @@ class StartPage(QScrollArea):
         }
         for action_id, button in self._buttons.items():
             button.clicked.connect(partial(self._trigger, action_id))
-            begin.addWidget(button)
-        begin.addSpacing(18)
+        self._lessons = [wrapped(_label(f"start_lesson_{number}", 9.5)) for number in range(3)]
+        self._begin_heading = _label("start_begin", 10)
         self._teaching_heading = _label("start_teaching_heading", 10)
-        begin.addWidget(self._teaching_heading)
-        self._lessons = [_label(f"start_lesson_{number}", 9.5) for number in range(3)]
-        for lesson in self._lessons:
-            lesson.setWordWrap(True)
-            begin.addWidget(lesson)
-        begin.addStretch(1)
-        recent = QVBoxLayout()
-        recent.setSpacing(2)
-        sides.addLayout(recent, 3)
         self._recent_heading = _label("start_recent", 10)
-        recent.addWidget(self._recent_heading)
-        self._recent = QVBoxLayout()
-        self._recent.setSpacing(2)
-        recent.addLayout(self._recent)
-        recent.addStretch(1)
-        self._column.addStretch(1)
+        lessons = (self._teaching_heading, *self._lessons)
+        begin = in_column(self._begin_heading, *self._buttons.values(), 18, *lessons, STRETCH, spacing=6)
+        recent = in_column(self._recent_heading, self._recent, STRETCH, spacing=2)
+        sides = in_row((begin, 2), (recent, 3), spacing=40)
+        parts = (self._title, self._about, 12, self._recovery, sides, STRETCH)
+        column = panel(in_column(*parts, margins=(24, 40, 24, 24), spacing=10))
+        column.setMaximumWidth(WIDTH_PX)
+        self.setWidget(panel(in_row(STRETCH, (column, 6), STRETCH)))
         session.theme_changed.connect(self.retranslate)
         self.retranslate()
 
@@ -145,13 +114,10 @@ class StartPage(QScrollArea):
         _clear(self._recovery)
         tokens = self._session.tokens
         for item in self._offers:
-            card = QFrame()
-            card.setObjectName("recovery")
+            card = named(QFrame(), "recovery")
             card.setStyleSheet(
                 f"#recovery {{ background: {tokens.raised}; border: 1px solid {tokens.warning}; border-radius: 6px; }}"
             )
-            line = QHBoxLayout(card)
-            line.setContentsMargins(12, 8, 8, 8)
             changed = QDateTime.fromSecsSinceEpoch(round(item.changed_s))
             when = QLocale().toString(changed, QLocale.FormatType.ShortFormat)
             name = item.name or self.tr("start_page.piece_that_was_never_saved")
@@ -160,17 +126,12 @@ class StartPage(QScrollArea):
                 reported = "\n".join((reported, self.tr("start_page.projects_file_no_longer_exists")))
             elif item.is_file_changed:
                 reported = "\n".join((reported, self.tr("start_page.projects_file_has_changed_since")))
-            text = Label(reported)
-            text.setWordWrap(True)
-            go_on, throw = QPushButton(self.tr("start_page.recover")), QPushButton(self.tr("start_page.discard"))
-            go_on.setObjectName("recover")
-            throw.setObjectName("discard")
+            go_on = named(QPushButton(self.tr("start_page.recover")), "recover")
+            throw = named(QPushButton(self.tr("start_page.discard")), "discard")
             throw.setFlat(True)
             go_on.clicked.connect(partial(self._files.recover, item))
             throw.clicked.connect(partial(self._discard, item))
-            line.addWidget(text, 1)
-            line.addWidget(throw)
-            line.addWidget(go_on)
+            in_row((wrapped(Label(reported)), 1), throw, go_on, of=card, margins=(12, 8, 8, 8))
             self._recovery.addWidget(card)
         if self._offers:
             self._recovery.addSpacing(14)
@@ -188,9 +149,6 @@ class StartPage(QScrollArea):
 
     def _recent_row(self, path: Path) -> QWidget:
         tokens = self._session.tokens
-        row = QWidget()
-        line = QHBoxLayout(row)
-        line.setContentsMargins(0, 0, 0, 0)
         there = os.path.isfile(path)
         button = _row_button("recent_file")
         metrics = QFontMetrics(button.font())
@@ -202,15 +160,10 @@ class StartPage(QScrollArea):
         button.setToolTip(shown(path))
         button.setEnabled(there)
         button.clicked.connect(partial(self._files.open, path))
-        forget = QToolButton()
-        forget.setObjectName("forget_recent")
-        forget.setIcon(icon("close", tokens))
+        forget_tip = "start_page.remove_from_this_list"
+        forget = IconButton(self._session, "close", forget_tip, partial(self._forget, str(path)), "forget_recent")
         forget.setFixedSize(26, 26)
-        forget.setToolTip(self.tr("start_page.remove_from_this_list"))
-        forget.clicked.connect(partial(self._forget, str(path)))
-        line.addWidget(button, 1)
-        line.addWidget(forget)
-        return row
+        return panel(in_row((button, 1), forget, margins=0))
 
     def _forget(self, path: str) -> None:
         self._settings.remove_recent(path)
@@ -223,25 +176,13 @@ class StartPage(QScrollArea):
     def _trigger(self, action_id: str) -> None:
         self._session.actions[action_id].trigger()
 
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
-
 
 def _label(name: str, size_pt: float) -> Label:
-    label = Label()
-    label.setObjectName(name)
-    font = label.font()
-    font.setPointSizeF(size_pt)
-    label.setFont(font)
-    return label
+    return sized(named(Label(), name), size_pt)
 
 
 def _row_button(name: str) -> QPushButton:
-    button = QPushButton()
-    button.setObjectName(name)
+    button = named(QPushButton(), name)
     button.setFlat(True)
     button.setIconSize(QSize(20, 20))
     button.setMinimumHeight(34)

@@ -5,33 +5,27 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
+from collections.abc import Callable
 from functools import partial
 
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer
+from PySide6.QtCore import QSize, Qt, QTimer
 from PySide6.QtGui import QFontMetrics
-from PySide6.QtWidgets import (
-    QApplication,
-    QFrame,
-    QHBoxLayout,
-    QProgressBar,
-    QPushButton,
-    QStatusBar,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QApplication, QFrame, QProgressBar, QPushButton, QStatusBar, QWidget
 
 from app.editor.files import Files
 from app.editor.session import Session, Severity
 from app.editor.tasks import Task, ThreadTasks
-from app.editor.tokens import LEAST_TARGET_PX, Tokens
+from app.editor.tokens import Tokens
 from app.errors import Message
 from instrument_maps.library import library
+from widgets.common.controls import Button, IconButton, Retranslated, named, small, wrapped
 from widgets.common.icons import icon, pixmap
+from widgets.common.layouts import STRETCH, in_column, in_row, panel
 from widgets.common.plain import Label, verbatim
 from widgets.common.text import message_text, sentence
 
-POLL_MS = 100
+POLL_MS, AGE_MS = 100, 5000
+"""How often it is seen how far work is, and how long ago the piece was saved."""
 NAME_PX = 48
 """The name of work may become this narrow."""
 MOTION_PX = 64
@@ -43,7 +37,7 @@ INFORMATION_S = 6.0
 MOST_NOTICES = 100
 
 
-class StatusLine(QStatusBar):
+class StatusLine(Retranslated, QStatusBar):
     """The status line.
 
     Parameters
@@ -67,63 +61,44 @@ class StatusLine(QStatusBar):
         self._ready = 1.0
         self._reported_device: tuple[object, ...] = ()
 
-        self._work = QWidget()
-        self._work_line = QHBoxLayout(self._work)
-        self._work_line.setContentsMargins(4, 0, 0, 0)
-        self._work_line.setSpacing(10)
         # Beside one another at the left, however much room there is.
-        self._work_line.addStretch(1)
-        self._notice = QPushButton()
-        self._notice.setObjectName("notice")
+        self._work_line = in_row(STRETCH, margins=(4, 0, 0, 0), spacing=10)
+        self._work = panel(self._work_line)
+        self._notice = _flat("notice", self._unfold)
         self._notice.setMinimumWidth(120)
-        self._notice.setFlat(True)
         self._notice.setStyleSheet("text-align: left; padding: 3px 6px;")
-        self._notice.clicked.connect(self._unfold)
+        self._dismiss = _close(session, "status_line.close_this_notice", self.dismiss, "dismiss_notice")
+        for widget in (self._work, self._notice, self._dismiss):
+            self.addWidget(widget)
         self._notice.hide()
-        self._dismiss = _tool("dismiss_notice")
-        self._dismiss.clicked.connect(self.dismiss)
         self._dismiss.hide()
-        self.addWidget(self._work)
-        self.addWidget(self._notice)
-        self.addWidget(self._dismiss)
-        self._risk = _flat("unsaved_at_risk")
-        self._risk.clicked.connect(lambda: files.save_as())
-        self.addPermanentWidget(self._risk)
-        self._instruments = _flat("instrument_problems")
-        self._instruments.clicked.connect(partial(self._do, "application.instruments"))
-        self.addPermanentWidget(self._instruments)
-        self._device = _flat("midi_device")
-        self._device.clicked.connect(partial(self._do, "record.devices"))
-        self.addPermanentWidget(self._device)
-        self._stream = _flat("stream_state")
-        self._stream.clicked.connect(partial(self._do, "stream.settings"))
-        self.addPermanentWidget(self._stream)
-        self._problems = _flat("problems")
-        self._problems.clicked.connect(partial(self._do, "problems.next"))
-        self._saved, self._rate, self._motion = Label(), Label(), Label()
-        self._saved.setObjectName("saved")
-        self._rate.setObjectName("frame_rate")
-        self._motion.setObjectName("motion")
-        self._motion_bar = QProgressBar()
-        self._motion_bar.setObjectName("motion_ready")
+        self._risk = _flat("unsaved_at_risk", files.save_as)
+        self._instruments = _flat("instrument_problems", partial(self._do, "application.instruments"))
+        self._device = _flat("midi_device", partial(self._do, "record.devices"))
+        self._stream = _flat("stream_state", partial(self._do, "stream.settings"))
+        self._problems = _flat("problems", partial(self._do, "problems.next"))
+        self._saved, self._rate = named(Label(), "saved"), named(Label(), "frame_rate")
+        self._motion, self._motion_bar = named(Label(), "motion"), named(QProgressBar(), "motion_ready")
         self._motion_bar.setTextVisible(False)
         self._motion_bar.setFixedWidth(MOTION_PX)
         # A step for a point: every other value would be drawn at once, and with it the whole window composed anew.
         self._motion_bar.setRange(0, MOTION_PX)
-        for widget in (self._saved, self._problems, self._rate, self._motion, self._motion_bar):
+        self._about_piece = (self._saved, self._problems, self._rate, self._motion, self._motion_bar)
+        for widget in (self._risk, self._instruments, self._device, self._stream, *self._about_piece):
             self.addPermanentWidget(widget)
         self._details = _Details(session, self)
-        self._fade = QTimer(self)
+        self._fade, self._poll, self._age = QTimer(self), QTimer(self), QTimer(self)
         self._fade.setSingleShot(True)
         self._fade.timeout.connect(self.dismiss)
-        self._poll = QTimer(self)
         self._poll.setInterval(POLL_MS)
         self._poll.timeout.connect(self._look)
-        self._age = QTimer(self)
-        self._age.setInterval(5000)
         self._age.timeout.connect(self._report_saved)
-        self._age.start()
+        self._age.start(AGE_MS)
+        self._listen()
+        self.retranslate()
 
+    def _listen(self) -> None:
+        session, files = self._session, self._files
         session.noticed.connect(self.report)
         session.performance_changed.connect(self._report_problems)
         session.problems_changed.connect(self._report_problems)
@@ -134,9 +109,8 @@ class StatusLine(QStatusBar):
         session.playing_changed.connect(self._played)
         files.changed.connect(self._report_saved)
         files.opened.connect(self._opened)
-        if tasks is not None:
-            tasks.changed.connect(self._tasks_changed)
-        self.retranslate()
+        if self._tasks is not None:
+            self._tasks.changed.connect(self._tasks_changed)
 
     def _do(self, action_id: str) -> None:
         self._session.actions[action_id].trigger()
@@ -169,8 +143,7 @@ class StatusLine(QStatusBar):
             row.deleteLater()
         for task in shown:
             if task not in self._rows and self._tasks is not None:
-                row = _TaskRow(task, self._session.tokens)
-                row.stop.clicked.connect(partial(self._tasks.cancel, task))
+                row = _TaskRow(self._session, task, partial(self._tasks.cancel, task))
                 self._rows[task] = row
                 self._work_line.insertWidget(self._work_line.count() - 1, row)
         self._work.setVisible(bool(shown))
@@ -218,7 +191,7 @@ class StatusLine(QStatusBar):
     # The right side
 
     def _opened(self) -> None:
-        for widget in (self._saved, self._problems, self._rate, self._motion, self._motion_bar):
+        for widget in self._about_piece:
             widget.setVisible(self._files.is_open)
         self._report_saved()
         self._report_problems()
@@ -311,10 +284,8 @@ class StatusLine(QStatusBar):
             ago = self.tr("status_line.min_ago").format(count=int(passed // 60))
         else:
             ago = self.tr("status_line.h_ago").format(count=int(passed // 3600))
-        if files.autosaved:
-            self._saved.setText(self.tr("status_line.autosaved").format(ago=ago))
-        else:
-            self._saved.setText(self.tr("status_line.saved_2").format(ago=ago))
+        template = self.tr("status_line.autosaved") if files.autosaved else self.tr("status_line.saved_2")
+        self._saved.setText(template.format(ago=ago))
 
     def painted(self) -> None:
         """The viewport drew a picture."""
@@ -341,36 +312,22 @@ class StatusLine(QStatusBar):
         self._motion_bar.setVisible(busy)
         _show_value(self._motion_bar, int(MOTION_PX * self._ready))
         self._motion.setVisible(self._files.is_open)
-        if busy:
-            self._motion.setText(self.tr("status_line.making_motion"))
-        else:
-            self._motion.setText(self.tr("status_line.motion_ready"))
+        self._motion.setText(self.tr("status_line.making_motion") if busy else self.tr("status_line.motion_ready"))
 
     def retranslate(self) -> None:
         """Set all texts, and what the theme colours."""
         tokens = self._session.tokens
         for label in (self._saved, self._rate, self._motion):
             label.setStyleSheet(f"color: {tokens.text_dim}; padding: 0 4px;")
-        self._dismiss.setIcon(icon("close", tokens))
-        self._dismiss.setToolTip(self.tr("status_line.close_this_notice"))
         self._problems.setToolTip(self.tr("status_line.go_to_next_problem"))
         self._motion.setToolTip(self.tr("status_line.how_much_of_players_motion"))
-        self._details.retranslate()
         if not self._notice.isHidden():
             self._show_notice()
-        for task, row in self._rows.items():
-            row.report(task, tokens)
         self._report_instruments()
         self._reported_device = ()
         self._report_device()
         self._report_stream()
         self._opened()
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
 
 def problem_count(session: Session) -> int:
@@ -396,34 +353,27 @@ def _show_value(bar: QProgressBar, value: int) -> None:
         bar.setUpdatesEnabled(True)
 
 
-class _TaskRow(QWidget):
+class _TaskRow(Retranslated, QWidget):
     """Work: its name, how far it is, and a way to stop it."""
 
-    def __init__(self, task: Task, tokens: Tokens) -> None:
+    def __init__(self, session: Session, task: Task, stop: Callable[[], object]) -> None:
         super().__init__()
-        line = QHBoxLayout(self)
-        line.setContentsMargins(0, 0, 0, 0)
-        line.setSpacing(6)
-        self._name = Label()
+        self._task, self._name, self._bar = task, Label(), QProgressBar()
         # What stands at the right has room before the names of work.
         self._name.setMinimumWidth(NAME_PX)
-        self._bar = QProgressBar()
         self._bar.setTextVisible(False)
         self._bar.setFixedWidth(110)
         self._bar.setRange(0, 0)
-        self.stop = _tool("stop_task")
-        line.addWidget(self._name)
-        line.addWidget(self._bar)
-        line.addWidget(self.stop)
-        self.report(task, tokens)
+        in_row(
+            self._name, self._bar, _close(session, "task_row.stop", stop, "stop_task"), of=self, margins=0, spacing=6
+        )
+        self.retranslate()
 
-    def report(self, task: Task, tokens: Tokens) -> None:
-        """Set texts and colours."""
-        name = message_text(task.name)
+    def retranslate(self) -> None:
+        """Name the work."""
+        name = message_text(self._task.name)
         self._name.setText(name[:1].upper() + name[1:])
         self._name.setToolTip(self._name.text())
-        self.stop.setIcon(icon("close", tokens))
-        self.stop.setToolTip(self.tr("task_row.stop"))
 
     def set_share(self, share: float) -> None:
         """0..1; what says nothing of how far it is moves to and fro."""
@@ -441,22 +391,10 @@ class _Details(QFrame):
         self.setObjectName("notices")
         self.setFrameShape(QFrame.Shape.StyledPanel)
         self._session = session
-        column = QVBoxLayout(self)
-        column.setContentsMargins(10, 10, 10, 10)
-        column.setSpacing(8)
-        self._rows = QVBoxLayout()
-        self._rows.setSpacing(8)
-        column.addLayout(self._rows)
-        self._copy = QPushButton()
-        self._copy.setObjectName("copy_notices")
-        self._copy.clicked.connect(self._copy_all)
-        column.addWidget(self._copy, 0, Qt.AlignmentFlag.AlignRight)
+        self._rows = in_column(spacing=8)
+        copy = Button("details.copy", self._copy_all, "copy_notices")
+        in_column(self._rows, (copy, 0, Qt.AlignmentFlag.AlignRight), of=self, margins=10, spacing=8)
         self._text = ""
-        self.retranslate()
-
-    def retranslate(self) -> None:
-        """Set the texts."""
-        self._copy.setText(self.tr("details.copy"))
 
     def open_over(self, anchor: QWidget, log: tuple[tuple[Message, Severity], ...]) -> None:
         """Show the newest notices above a widget."""
@@ -469,17 +407,11 @@ class _Details(QFrame):
         self._text = "\n".join(sentence(message, self._session) for message, _ in newest)
         tokens = self._session.tokens
         for message, severity in newest:
-            row = QWidget()
-            line = QHBoxLayout(row)
-            line.setContentsMargins(0, 0, 0, 0)
-            mark, text = Label(), Label(sentence(message, self._session))
+            mark, text = Label(), wrapped(Label(sentence(message, self._session)))
             mark.setPixmap(pixmap(severity.value, 16, severity_colour(severity, tokens), self.devicePixelRatioF()))
-            text.setWordWrap(True)
             text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
             text.setFixedWidth(520)
-            line.addWidget(mark, 0, Qt.AlignmentFlag.AlignTop)
-            line.addWidget(text, 1)
-            self._rows.addWidget(row)
+            self._rows.addWidget(panel(in_row((mark, 0, Qt.AlignmentFlag.AlignTop), (text, 1), margins=0)))
         self.adjustSize()
         corner = anchor.mapToGlobal(anchor.rect().topLeft())
         self.move(corner.x(), corner.y() - self.height() - 4)
@@ -490,17 +422,15 @@ class _Details(QFrame):
         self.hide()
 
 
-def _flat(name: str) -> QPushButton:
-    button = QPushButton()
-    button.setObjectName(name)
+def _flat(name: str, run: Callable[[], object]) -> QPushButton:
+    button = named(QPushButton(), name)
     button.setFlat(True)
     button.setStyleSheet("padding: 3px 6px;")
+    button.clicked.connect(lambda _checked: run())
     return button
 
 
-def _tool(name: str) -> QToolButton:
-    button = QToolButton()
-    button.setObjectName(name)
+def _close(session: Session, tip_id: str, run: Callable[[], object], name: str) -> IconButton:
+    button = small(IconButton(session, "close", tip_id, run, name))
     button.setIconSize(QSize(14, 14))
-    button.setFixedSize(LEAST_TARGET_PX, LEAST_TARGET_PX)
     return button

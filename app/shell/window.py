@@ -11,7 +11,7 @@ from typing import Final
 from PySide6.QtCore import QByteArray, QEvent, QPoint, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
-from PySide6.QtWidgets import QMainWindow, QPushButton, QStackedWidget, QToolBar, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QMainWindow, QPushButton, QStackedWidget, QToolBar, QWidget
 
 from app.editor.files import AUDIO_SUFFIXES, MIDI_SUFFIXES, Files
 from app.editor.generator import Generator
@@ -32,7 +32,9 @@ from app.shell.menus import Menus
 from app.shell.palette import Palette
 from app.shell.start_page import StartPage
 from app.shell.status import StatusLine
+from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
+from widgets.common.layouts import in_column, panel
 from widgets.common.paths import dropped_paths
 from widgets.common.plain import verbatim, verbatim_title
 from widgets.inspector.panel import InspectorPanel
@@ -58,7 +60,7 @@ SIDES: Final = {
 }
 
 
-class Window(QMainWindow):
+class Window(Retranslated, QMainWindow):
     """The editor's window.
 
     Parameters
@@ -101,7 +103,6 @@ class Window(QMainWindow):
         self._layout = QByteArray()
 
         self.viewport = ViewportPanel(self.session, generator.live)
-        generator.motion_changed.connect(self.viewport.poses_changed)
         self.timeline = TimelinePanel(self.session)
         self.players = PlayersPanel(self.session)
         self.panels: dict[str, QWidget] = {
@@ -114,58 +115,18 @@ class Window(QMainWindow):
         self.banner = Banner(self.session)
         self.start_page = StartPage(self.session, self._files, settings)
         self._pages = QStackedWidget()
-        self._pages.addWidget(self.start_page)
-        self._pages.addWidget(self.viewport)
-        centre = QWidget()
-        column = QVBoxLayout(centre)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addWidget(self.banner)
-        column.addWidget(self._pages, 1)
-        self.setCentralWidget(centre)
-        self.docks: dict[str, Dock] = {}
-        for name, area in SIDES.items():
-            dock = Dock(name, self.panels[name], self.session, self)
-            self.addDockWidget(area, dock)
-            dock.visibilityChanged.connect(self._table.refresh_soon)
-            self.docks[name] = dock
-        self.bar = QToolBar()
-        self.bar.setObjectName("transport_bar")
-        self.bar.setMovable(False)
-        self.bar.setFloatable(False)
-        self.bar.toggleViewAction().setEnabled(False)
-        self.bar.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
-        self.bar.addWidget(self.panels["transport"])
-        self.addToolBar(Qt.ToolBarArea.TopToolBarArea, self.bar)
+        for page in (self.start_page, self.viewport):
+            self._pages.addWidget(page)
+        self.setCentralWidget(panel(in_column(self.banner, (self._pages, 1), margins=0, spacing=0)))
+        self.docks = {name: Dock(name, self.panels[name], self.session, self) for name in SIDES}
+        self.bar = named(QToolBar(), "transport_bar")
         tasks = self.session.tasks
         self.status = StatusLine(self.session, self._files, tasks if isinstance(tasks, ThreadTasks) else None, self)
-        self.setStatusBar(self.status)
         self.menus = Menus(self.menuBar(), self._table)
-        self.palette_field = QPushButton()
-        self.palette_field.setObjectName("palette_button")
-        self.palette_field.clicked.connect(self.show_palette)
-        self.menuBar().setCornerWidget(self.palette_field, Qt.Corner.TopRightCorner)
+        self.palette_field = named(QPushButton(), "palette_button")
         self.palette_popup = Palette(self.session, self._table, self)
-        for name in CONTEXTS:
-            place = self.panels.get(name) or self.findChild(QWidget, name)
-            if place is not None:
-                self._table.attach(name, place)
-        # Window-wide shortcuts work also where their menu is hidden, as in full screen.
-        self._table.attach("window", self)
-        recent = self.menus.menu("file/open_recent")
-        recent.aboutToShow.connect(self._fill_recent)
-        self._place_recent()
-
-        self._files.changed.connect(self._report_title)
-        self._files.opened.connect(self._show_page)
-        self._files.found.connect(self._offer_recovery)
-        self._files.missing.connect(self._ask_for_media)
-        self._files.overtaken.connect(self._ask_to_save_over)
-        self.session.theme_changed.connect(self._apply_theme)
-        generator.ready_changed.connect(self.status.set_ready)
-        picture = self.viewport.findChild(QOpenGLWidget)
-        if isinstance(picture, QOpenGLWidget):
-            picture.frameSwapped.connect(self.status.painted)
+        self._build()
+        self._connect(generator)
         self._arrange()
         self._default_layout = self.saveState(LAYOUT_VERSION)
         self._restore()
@@ -173,6 +134,45 @@ class Window(QMainWindow):
         self.retranslate()
         self._show_page()
         self._table.refresh()
+
+    def _build(self) -> None:
+        for name, area in SIDES.items():
+            self.addDockWidget(area, self.docks[name])
+        self.bar.setMovable(False)
+        self.bar.setFloatable(False)
+        self.bar.toggleViewAction().setEnabled(False)
+        self.bar.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
+        self.bar.addWidget(self.panels["transport"])
+        self.addToolBar(Qt.ToolBarArea.TopToolBarArea, self.bar)
+        self.setStatusBar(self.status)
+        self.menuBar().setCornerWidget(self.palette_field, Qt.Corner.TopRightCorner)
+        for name in CONTEXTS:
+            place = self.panels.get(name) or self.findChild(QWidget, name)
+            if place is not None:
+                self._table.attach(name, place)
+        # Window-wide shortcuts work also where their menu is hidden, as in full screen.
+        self._table.attach("window", self)
+        # Below Open, where it is looked for.
+        menu, recent = self.menus.menu("file"), self.menus.menu("file/open_recent")
+        menu.removeAction(recent.menuAction())
+        menu.insertMenu(self._table.actions["file.open_example"], recent)
+
+    def _connect(self, generator: Generator) -> None:
+        generator.motion_changed.connect(self.viewport.poses_changed)
+        generator.ready_changed.connect(self.status.set_ready)
+        for dock in self.docks.values():
+            dock.visibilityChanged.connect(self._table.refresh_soon)
+        self.palette_field.clicked.connect(self.show_palette)
+        self.menus.menu("file/open_recent").aboutToShow.connect(self._fill_recent)
+        self._files.changed.connect(self._report_title)
+        self._files.opened.connect(self._show_page)
+        self._files.found.connect(self._offer_recovery)
+        self._files.missing.connect(self._ask_for_media)
+        self._files.overtaken.connect(self._ask_to_save_over)
+        self.session.theme_changed.connect(self._apply_theme)
+        picture = self.viewport.findChild(QOpenGLWidget)
+        if isinstance(picture, QOpenGLWidget):
+            picture.frameSwapped.connect(self.status.painted)
 
     # Layout
 
@@ -312,31 +312,20 @@ class Window(QMainWindow):
             path = Path(text)
             row = menu.addAction(verbatim(f"{shown(path.name)}    {shown(path.parent)}"))
             row.setEnabled(os.path.isfile(path))
-            row.triggered.connect(partial(self._open_recent, path))
+            row.triggered.connect(lambda _checked, path=path: self._files.open(path))
         if menu.isEmpty():
             menu.addAction(self.tr("window.nothing_yet")).setEnabled(False)
-
-    def _open_recent(self, path: Path) -> None:
-        self._files.open(path)
-
-    def _place_recent(self) -> None:
-        """Below Open, where it is looked for."""
-        menu, recent = self.menus.menu("file"), self.menus.menu("file/open_recent")
-        menu.removeAction(recent.menuAction())
-        menu.insertMenu(self._table.actions["file.open_example"], recent)
 
     # What files say
 
     def _offer_recovery(self, item: Recoverable) -> None:
-        def texts() -> tuple[str, tuple[str, ...]]:
-            if item.is_file_changed:
-                reported = self.tr("window.there_is_unsaved_work_on")
-            else:
-                reported = self.tr("window.there_is_unsaved_work_on_this_project")
-            return reported, (self.tr("window.recover"), self.tr("window.discard"))
-
         self.banner.ask(
-            texts,
+            lambda: (
+                self.tr("window.there_is_unsaved_work_on")
+                if item.is_file_changed
+                else self.tr("window.there_is_unsaved_work_on_this_project"),
+                (self.tr("window.recover"), self.tr("window.discard")),
+            ),
             (partial(self._files.recover, item), partial(self._files.discard, item)),
         )
 
@@ -400,12 +389,6 @@ class Window(QMainWindow):
         self._report_title()
 
     # Qt
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another language."""
-        if event.type() == QEvent.Type.LanguageChange:
-            self.retranslate()
-        super().changeEvent(event)
 
     def keyPressEvent(self, event: QEvent) -> None:
         """Escape leaves full screen."""

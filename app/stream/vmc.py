@@ -7,8 +7,8 @@ model to be attached.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Protocol
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +20,9 @@ from app.stream.faces import FaceNames, face_layout
 from app.stream.packets import Head, Packets
 from app.stream.unity import unity_bone, unity_positions, unity_rotations
 
+if TYPE_CHECKING:
+    from app.performance.chunks import Pose
+
 Floats = npt.NDArray[np.floating]
 
 LOADED = 1
@@ -27,31 +30,6 @@ LOADED = 1
 _TRANSFORM = 7
 """Position and rotation."""
 IN_THE_MIDDLE = StagePosition(0.0, 0.0, 0.0)
-
-
-class Posed(Protocol):
-    """One frame of a player's motion, as `app.performance.chunks.Pose`: described here because what is shown of a live
-    player is made by the viewport, which this room must not import."""
-
-    @property
-    def rotations(self) -> Floats:
-        """``parent_from_joint`` of every joint (J, 4), xyzw."""
-
-    @property
-    def hips_m(self) -> Floats:
-        """Translation of the hips in the root's frame (3,)."""
-
-    @property
-    def morphs(self) -> Mapping[str, float]:
-        """Weights 0..1 of the morph targets that move."""
-
-    @property
-    def instrument_position_m(self) -> Floats:
-        """Origin of the instrument (3,), in the player's frame."""
-
-    @property
-    def instrument_rotation(self) -> Floats:
-        """Rotation of the instrument (4,), xyzw."""
 
 
 class Sent:
@@ -108,18 +86,18 @@ class Sent:
         self._packets = Packets(heads)
 
     def datagrams(
-        self, pose: Posed, time_s: float, stage: StagePosition = IN_THE_MIDDLE, beside: Sequence[Posed] = ()
+        self, pose: Pose, time_s: float, stage: StagePosition = IN_THE_MIDDLE, beside: Sequence[Pose] = ()
     ) -> list[bytes]:
         """The packets of a pose.
 
         Parameters
         ----------
-        pose : Posed
+        pose : Pose
         time_s : float
             Since the stream began.
         stage : StagePosition, optional
             Where the performer stands; in the middle, facing the audience, unless said.
-        beside : sequence of Posed
+        beside : sequence of Pose
             The same body with each of the other instruments.
         """
         root_m = np.array([stage.x_m, 0.0, stage.z_m])
@@ -132,7 +110,7 @@ class Sent:
             values.append(_transforms(held_m[None], held[None]))
         return self._packets.filled(np.concatenate([*values, self._face.values(pose.morphs)]))
 
-    def _local(self, pose: Posed) -> tuple[Floats, Floats]:
+    def _local(self, pose: Pose) -> tuple[Floats, Floats]:
         """Positions and rotations of the bones, each in the frame of the bone above it that is sent."""
         rotations = quaternion.normalize(pose.rotations[self._joints])
         positions_m = self._offsets_m.copy()

@@ -19,6 +19,7 @@ What the arrangement does (quarters are counted from the start of the source, me
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -162,11 +163,11 @@ def velocity(sound: Sound, line: list[Sound]) -> int:
     return max(1, min(127, base + accent + contour))
 
 
-def tick(quarter: float) -> int:
-    return round((quarter - FIRST_QUARTER) * TICKS_PER_QUARTER)
+def tick(quarter: float, start: float) -> int:
+    return round((quarter - start) * TICKS_PER_QUARTER)
 
 
-def track_of(events: list[tuple[int, int, mido.Message | mido.MetaMessage]]) -> mido.MidiTrack:
+def _track(events: list[tuple[int, int, mido.Message | mido.MetaMessage]]) -> mido.MidiTrack:
     """Events at absolute ticks to a track; at one tick the smaller order goes first."""
     track = mido.MidiTrack()
     now = 0
@@ -176,31 +177,36 @@ def track_of(events: list[tuple[int, int, mido.Message | mido.MetaMessage]]) -> 
     return track
 
 
-def conductor() -> mido.MidiTrack:
+def conductor(
+    title: str, about: str, rights: str, metre: tuple[int, int], key: str, tempi: Iterable[tuple[int, float]]
+) -> mido.MidiTrack:
+    """Title, metre and key; tempi as (tick, quarters per minute)."""
     meta = mido.MetaMessage
-    events = [
-        (0, 0, meta("track_name", name="Sonata 21")),
-        (0, 1, meta("text", text="Johann Pezel, Hora decima (1670), arranged for two trumpets and two trombones")),
-        (0, 2, meta("copyright", text="Public domain")),
-        (0, 3, meta("time_signature", numerator=3, denominator=2, clocks_per_click=48)),
-        (0, 4, meta("key_signature", key="Fm")),
-        *((tick(quarter), 5, meta("set_tempo", tempo=mido.bpm2tempo(bpm))) for quarter, bpm in TEMPI),
-    ]
-    return track_of(events)
+    return _track(
+        [
+            (0, 0, meta("track_name", name=title)),
+            (0, 1, meta("text", text=about)),
+            (0, 2, meta("copyright", text=rights)),
+            (0, 3, meta("time_signature", numerator=metre[0], denominator=metre[1], clocks_per_click=48)),
+            (0, 4, meta("key_signature", key=key)),
+            *((at, 5, meta("set_tempo", tempo=mido.bpm2tempo(bpm))) for at, bpm in tempi),
+        ]
+    )
 
 
-def player(name: str, channel: int, program: int, line: list[Sound]) -> mido.MidiTrack:
+def player(
+    name: str, channel: int, program: int, notes: Iterable[tuple[float, float, int, int]], start: float = 0.0
+) -> mido.MidiTrack:
+    """One player's track from (onset, length, pitch, velocity), in quarters; ticks are counted from ``start``."""
     events: list[tuple[int, int, mido.Message | mido.MetaMessage]] = [
         (0, 0, mido.MetaMessage("track_name", name=name)),
         (0, 1, mido.Message("program_change", channel=channel, program=program)),
     ]
-    for sound in line:
-        loudness = velocity(sound, line)
-        pitch = sound.pitch + TRANSPOSITION_SEMITONES
+    for onset, length, pitch, loudness in notes:
         on = mido.Message("note_on", channel=channel, note=pitch, velocity=loudness)
         off = mido.Message("note_off", channel=channel, note=pitch, velocity=64)
-        events += [(tick(sound.onset), 3, on), (tick(sound.onset + sound.length), 2, off)]
-    return track_of(events)
+        events += [(tick(onset, start), 3, on), (tick(onset + length, start), 2, off)]
+    return _track(events)
 
 
 def arrange(source: mido.MidiFile) -> mido.MidiFile:
@@ -213,8 +219,14 @@ def arrange(source: mido.MidiFile) -> mido.MidiFile:
         ("Trombone 1", 2, 57, first_trombone(alto, low)),
         ("Trombone 2", 3, 57, bass_line(low)),
     )
-    tracks = [player(name, channel, program, breathing(line)) for name, channel, program, line in lines]
-    return mido.MidiFile(type=1, ticks_per_beat=TICKS_PER_QUARTER, tracks=[conductor(), *tracks])
+    tempi = [(tick(quarter, FIRST_QUARTER), bpm) for quarter, bpm in TEMPI]
+    about = "Johann Pezel, Hora decima (1670), arranged for two trumpets and two trombones"
+    tracks = [conductor("Sonata 21", about, "Public domain", (3, 2), "Fm", tempi)]
+    for name, channel, program, line in lines:
+        shaped = breathing(line)
+        notes = [(s.onset, s.length, s.pitch + TRANSPOSITION_SEMITONES, velocity(s, shaped)) for s in shaped]
+        tracks.append(player(name, channel, program, notes, FIRST_QUARTER))
+    return mido.MidiFile(type=1, ticks_per_beat=TICKS_PER_QUARTER, tracks=tracks)
 
 
 def main() -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from character_skeleton import SkeletonFit
-from character_surface import Surface, compact, smooth_normals
+from character_surface import Surface, modelled
 from scipy.ndimage import gaussian_filter1d
 from scipy.sparse import coo_array
 from scipy.spatial import ConvexHull
@@ -240,13 +240,5 @@ def cloth_surface(name: str, parts: dict[str, Cloth], fit: SkeletonFit) -> Surfa
     for material, part in parts.items():
         triangles[material] = joined.faces[start : start + len(part.faces)]
         start += len(part.faces)
-    surface = Surface(
-        name=name,
-        positions=fit.to_rest_pose(joined.points, weights),
-        normals=np.zeros_like(joined.points),
-        uvs=joined.points[:, :2] + np.array([1.0, 0.0]),
-        weights=weights,
-        triangles=triangles,
-        origin=np.full(len(joined.points), -1),
-    )
-    return compact(smooth_normals(surface))
+    uvs = joined.points[:, :2] + np.array([1.0, 0.0])
+    return modelled(name, fit.to_rest_pose(joined.points, weights), weights, triangles, uvs=uvs)

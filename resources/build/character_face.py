@@ -6,7 +6,7 @@ import numpy as np
 from character_cloth import grid_faces
 from character_skeleton import SkeletonFit
 from character_source import Source
-from character_surface import Surface, compact, smooth_normals, triangulate
+from character_surface import Surface, modelled, triangulate
 
 PUPIL_M, IRIS_M, LIMBUS_M = 0.0020, 0.0053, 0.0060
 BROW_HAIRS = 150
@@ -43,21 +43,12 @@ def eyes(source: Source, fit: SkeletonFit) -> Surface:
         for name, (low, high) in {"pupil": (0, 2), "iris": (2, 4), "limbus": (4, 5), "eye_white": (5, 99)}.items():
             triangles[name].append(start + triangulate(quads[(band >= low) & (band < high)], points[-1]))
     positions = np.concatenate(points)
-    surface = Surface(
-        name="eyes",
-        positions=positions,
-        normals=np.zeros_like(positions),
-        uvs=positions[:, :2] * 10.0 % 1.0,
-        weights=np.concatenate(weights),
-        triangles={name: np.concatenate(parts) for name, parts in triangles.items()},
-        origin=np.full(len(positions), -1),
-    )
-    return compact(smooth_normals(surface))
+    faces = {name: np.concatenate(parts) for name, parts in triangles.items()}
+    return modelled("eyes", positions, np.concatenate(weights), faces, uvs=positions[:, :2] * 10.0 % 1.0)
 
 
 def _attached(
     name: str,
-    material: str,
     source: Source,
     fit: SkeletonFit,
     corners: np.ndarray,
@@ -65,23 +56,17 @@ def _attached(
     offsets: np.ndarray,
     faces: np.ndarray,
 ) -> Surface:
-    """A surface whose vertices are shares (N, K) of base vertices (N, K) plus offsets (N, 3): it moves as they do."""
+    """A surface of one material whose vertices are shares (N, K) of base vertices (N, K) plus offsets (N, 3).
+
+    It moves as they do.
+    """
     positions = np.einsum("nk,nka->na", shares, source.vertices[corners]) + offsets
     morphs = {
         label: np.einsum("nk,nka->na", shares, delta[corners])
         for label, delta in zip(source.morph_names, source.morph_deltas, strict=True)
     }
-    surface = Surface(
-        name=name,
-        positions=positions,
-        normals=np.zeros_like(positions),
-        uvs=positions[:, :2] % 1.0,
-        weights=np.einsum("nk,nkj->nj", shares, fit.weights[corners]),
-        triangles={material: faces},
-        morphs=morphs,
-        origin=np.full(len(positions), -1),
-    )
-    return smooth_normals(surface)
+    weights = np.einsum("nk,nkj->nj", shares, fit.weights[corners])
+    return modelled(name, positions, weights, {name: faces}, morphs=morphs)
 
 
 def lashes(source: Source, fit: SkeletonFit) -> Surface:
@@ -106,9 +91,8 @@ def lashes(source: Source, fit: SkeletonFit) -> Surface:
                     [(1 - length) * (1 - middle), (1 - length) * middle, length * middle, length * (1 - middle)]
                 )
                 faces.append([start, start + 1, start + 2])
-    count = len(corners)
     return _attached(
-        "lashes", "lashes", source, fit, np.array(corners), np.array(shares), np.zeros((count, 3)), np.array(faces)
+        "lashes", source, fit, np.array(corners), np.array(shares), np.zeros((len(corners), 3)), np.array(faces)
     )
 
 
@@ -157,19 +141,10 @@ def brows(source: Source, fit: SkeletonFit, thickness: float) -> Surface:
         across = np.cross(normal, direction)
         across *= (0.00045 * np.sqrt(thickness) / np.linalg.norm(across, axis=1))[:, None]
         lift = normal * 0.0004
-        start = len(corners) * 3 if not corners else sum(len(part) for part in corners)
+        start = sum(len(part) for part in corners)
         corners += [roots] * 3
         shares += [share] * 3
         offsets += [lift + across, lift - across, lift + direction * length[:, None] + normal * 0.0007]
         index = start + np.arange(BROW_HAIRS)
         faces.append(np.stack([index, index + BROW_HAIRS, index + 2 * BROW_HAIRS], axis=1))
-    return _attached(
-        "brows",
-        "brows",
-        source,
-        fit,
-        np.concatenate(corners),
-        np.concatenate(shares),
-        np.concatenate(offsets),
-        np.concatenate(faces),
-    )
+    return _attached("brows", source, fit, *(np.concatenate(rows) for rows in (corners, shares, offsets, faces)))

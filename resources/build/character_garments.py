@@ -297,8 +297,9 @@ def _placket(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator, to
     return strip, join(*buttons)
 
 
-def _band(profile: Profile, suit: Cloth, rows: list[tuple[float, float]], columns: int = 72) -> Cloth:
+def _band(profile: Profile, suit: Cloth, rows: list[tuple[float, float]]) -> Cloth:
     """A ring round the waist from (height, distance from the drape) rows."""
+    columns = 72
     angles = 2 * np.pi * np.arange(columns) / columns
     level = float(np.mean([height for height, _ in rows]))
     centre = np.array([np.interp(level, profile.levels, profile.centres[:, k]) for k in range(2)])

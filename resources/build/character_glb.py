@@ -21,11 +21,10 @@ MORPH_THRESHOLD_M = 2e-6
 
 @dataclass(frozen=True)
 class Material:
-    """A PBR material: linear base colour, metallic and roughness in 0..1."""
+    """A PBR material, no metal: linear base colour, roughness in 0..1."""
 
     colour: tuple[float, float, float]
     roughness: float
-    metallic: float = 0.0
     two_sided: bool = False
 
 
@@ -141,7 +140,7 @@ def _material(name: str, material: Material) -> dict[str, Any]:
         "name": name,
         "pbrMetallicRoughness": {
             "baseColorFactor": [*material.colour, 1.0],
-            "metallicFactor": material.metallic,
+            "metallicFactor": 0.0,
             "roughnessFactor": material.roughness,
         },
         "doubleSided": material.two_sided,

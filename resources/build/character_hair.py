@@ -12,10 +12,11 @@ import numpy as np
 from character_cloth import grid_faces, smoothstep
 from character_skeleton import SkeletonFit
 from character_source import Source
-from character_surface import Surface, compact, smooth_normals, triangulate
+from character_surface import Surface, modelled, triangulate
 from scipy.interpolate import RBFInterpolator
 
 CAP_LIFT_M = 0.0025
+FOREHEAD_M = 0.060
 ARCH = np.array([[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]])
 """Cross-section of a lock: sideways in half widths, outwards in heights."""
 
@@ -68,15 +69,15 @@ def _angles(directions: np.ndarray) -> np.ndarray:
     return np.abs(np.arctan2(directions[:, 0], directions[:, 2]))
 
 
-def hairline(head: Skull, directions: np.ndarray, forehead_m: float) -> np.ndarray:
+def hairline(head: Skull, directions: np.ndarray) -> np.ndarray:
     """(N,) height in metres of skin above the hairline at its azimuth; hair grows where it is positive."""
     degrees = np.degrees(_angles(directions))
     knots = [0, 25, 45, 58, 66, 76, 84, 100, 112, 125, 150, 180]
     above_eyes = [
-        forehead_m,
-        forehead_m - 0.001,
-        forehead_m - 0.012,
-        forehead_m - 0.026,
+        FOREHEAD_M,
+        FOREHEAD_M - 0.001,
+        FOREHEAD_M - 0.012,
+        FOREHEAD_M - 0.026,
         0.024,
         -0.006,
         -0.002,
@@ -90,16 +91,14 @@ def hairline(head: Skull, directions: np.ndarray, forehead_m: float) -> np.ndarr
     return height - np.interp(degrees, knots, above_eyes)
 
 
-def _cap(
-    source: Source, fit: SkeletonFit, head: Skull, ears: np.ndarray, forehead_m: float
-) -> tuple[np.ndarray, np.ndarray]:
+def _cap(source: Source, fit: SkeletonFit, head: Skull, ears: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Positions and triangles of a close cap: the scalp's own skin, lifted."""
     body = source.groups["body"]
     triangles = triangulate(body.vertices, source.vertices)
     scalp = fit.weights[:, fit.index("head")] > 0.6
     directions = _unit(source.vertices - head.centre)
     grows = np.full(len(scalp), -1.0)
-    grows[scalp] = hairline(head, directions[scalp], forehead_m)
+    grows[scalp] = hairline(head, directions[scalp])
     grows[ears] = -1.0
     inside = (grows[triangles] > -0.002).all(axis=1)
     used, faces = np.unique(triangles[inside], return_inverse=True)
@@ -122,13 +121,13 @@ def _lock(
 
 
 def _assemble(
-    name: str,
     fit: SkeletonFit,
     cap: tuple[np.ndarray, np.ndarray],
     locks: list[tuple[np.ndarray, np.ndarray]],
-    shades: np.ndarray,
+    rng: np.random.Generator,
 ) -> Surface:
     """Cap and locks as one mesh in two shades."""
+    shades = rng.uniform(0, 1, len(locks)) < 0.35
     points, triangles = [cap[0]], {"hair": [cap[1]], "hair_light": []}
     start = len(cap[0])
     for (positions, quads), shade in zip(locks, shades, strict=True):
@@ -138,35 +137,29 @@ def _assemble(
     positions = np.concatenate(points)
     weights = np.zeros((len(positions), len(fit.names)))
     weights[:, fit.index("head")] = 1.0
-    surface = Surface(
-        name=name,
-        positions=positions,
-        normals=np.zeros_like(positions),
-        uvs=positions[:, :2] % 1.0,
-        weights=weights,
-        triangles={shade: np.concatenate(parts) for shade, parts in triangles.items()},
-        origin=np.full(len(positions), -1),
-    )
-    return compact(smooth_normals(surface))
+    return modelled("hair", positions, weights, {shade: np.concatenate(parts) for shade, parts in triangles.items()})
 
 
-def _scattered(count: int) -> np.ndarray:
-    """(count, 3) directions spread evenly over the sphere (Fibonacci's spiral)."""
+def _roots(
+    head: Skull, count: int, astray: float, lowest: float, rng: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
+    """Directions of locks above a height, of `count` spread evenly over the sphere (Fibonacci's spiral) and a little
+    astray; and how far above the hairline they are."""
     index = np.arange(count) + 0.5
     up = 1 - 2 * index / count
     turn = np.pi * (1 + np.sqrt(5)) * index
     flat = np.sqrt(1 - up**2)
-    return np.stack([flat * np.cos(turn), up, flat * np.sin(turn)], axis=1)
+    even = np.stack([flat * np.cos(turn), up, flat * np.sin(turn)], axis=1)
+    roots = _unit(even + rng.normal(0, astray, (count, 3)))
+    roots = roots[roots[:, 1] > lowest]
+    return roots, hairline(head, roots)
 
 
 def short_hair(source: Source, fit: SkeletonFit, ears: np.ndarray) -> Surface:
     """A short cut, longer on top and swept forward and aside from the whorl."""
-    forehead = 0.060
     head = skull(source, fit, ears)
     rng = np.random.Generator(np.random.PCG64(51))
-    roots = _unit(_scattered(1750) + rng.normal(0, 0.02, (1750, 3)))
-    roots = roots[roots[:, 1] > -0.75]
-    margin = hairline(head, roots, forehead)
+    roots, margin = _roots(head, 1750, 0.02, -0.75, rng)
     roots, margin = roots[margin > 0.001], margin[margin > 0.001]
     whorl = _unit(np.array([0.12, 0.80, -0.60]))
     steps = 5
@@ -199,8 +192,7 @@ def short_hair(source: Source, fit: SkeletonFit, ears: np.ndarray) -> Surface:
             0.55 + 2 * share, 1.0
         ) + 0.0002
         locks.append(_lock(np.array(path), np.array(normals), width, 0.35 * width, rng.normal(0, 0.25)))
-    shades = rng.uniform(0, 1, len(locks)) < 0.35
-    return _assemble("hair", fit, _cap(source, fit, head, ears, forehead), locks, shades)
+    return _assemble(fit, _cap(source, fit, head, ears), locks, rng)
 
 
 def _slerp(start: np.ndarray, end: np.ndarray, shares: np.ndarray) -> np.ndarray:
@@ -230,13 +222,10 @@ def _bun(head: Skull, knot: np.ndarray, rng: np.random.Generator) -> list[tuple[
 
 def bun_hair(source: Source, fit: SkeletonFit, ears: np.ndarray) -> Surface:
     """Long hair combed back from the hairline into a low bun."""
-    forehead = 0.060
     head = skull(source, fit, ears)
     rng = np.random.Generator(np.random.PCG64(52))
     knot = _unit(np.array([0.0, -0.08, -1.0]))
-    roots = _unit(_scattered(2350) + rng.normal(0, 0.012, (2350, 3)))
-    roots = roots[roots[:, 1] > -0.85]
-    margin = hairline(head, roots, forehead)
+    roots, margin = _roots(head, 2350, 0.012, -0.85, rng)
     near_edge = (margin > 0.0005) & ((margin < 0.014) | (rng.uniform(0, 1, len(roots)) < 0.30))
     steps = np.linspace(0, 1, 10)
     locks = []
@@ -258,5 +247,4 @@ def bun_hair(source: Source, fit: SkeletonFit, ears: np.ndarray) -> Surface:
         width = (0.0068 * gather * np.minimum(0.35 + 5 * steps, 1.0)) + 0.0003
         locks.append(_lock(head.at(path, lift), path, width, 0.30 * width, rng.normal(0, 0.12)))
     locks += _bun(head, knot, rng)
-    shades = rng.uniform(0, 1, len(locks)) < 0.35
-    return _assemble("hair", fit, _cap(source, fit, head, ears, forehead), locks, shades)
+    return _assemble(fit, _cap(source, fit, head, ears), locks, rng)

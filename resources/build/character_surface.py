@@ -78,9 +78,9 @@ def split_seams(vertices: np.ndarray, uvs: np.ndarray) -> tuple[np.ndarray, np.n
     return unique[:, 0], unique[:, 1], inverse.reshape(vertices.shape)
 
 
-def weld(surface: Surface, tolerance_m: float = 1e-6) -> np.ndarray:
+def weld(surface: Surface) -> np.ndarray:
     """(N,) label per vertex, equal for vertices in one place (the two sides of a texture seam)."""
-    keys = np.round(surface.positions / tolerance_m).astype(np.int64)
+    keys = np.round(surface.positions / 1e-6).astype(np.int64)
     return np.unique(keys, axis=0, return_inverse=True)[1].ravel()
 
 
@@ -108,6 +108,33 @@ def compact(surface: Surface) -> Surface:
         morphs={name: delta[used] for name, delta in surface.morphs.items()},
         origin=surface.origin[used] if len(surface.origin) else surface.origin,
     )
+
+
+def modelled(
+    name: str,
+    positions: np.ndarray,
+    weights: np.ndarray,
+    triangles: Mapping[str, np.ndarray],
+    *,
+    uvs: np.ndarray | None = None,
+    morphs: Mapping[str, np.ndarray] | None = None,
+    origin: np.ndarray | None = None,
+) -> Surface:
+    """A surface with smooth normals, of vertices that are no base mesh's where no `origin` is given.
+
+    Texture coordinates are those of the front where none are given.
+    """
+    surface = Surface(
+        name=name,
+        positions=positions,
+        normals=np.zeros_like(positions),
+        uvs=positions[:, :2] % 1.0 if uvs is None else uvs,
+        weights=weights,
+        triangles=dict(triangles),
+        morphs=dict(morphs or {}),
+        origin=np.full(len(positions), -1) if origin is None else origin,
+    )
+    return compact(smooth_normals(surface))
 
 
 def keep_triangles(surface: Surface, keep: Mapping[str, np.ndarray]) -> Surface:

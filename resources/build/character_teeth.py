@@ -8,7 +8,7 @@ import numpy as np
 from character_cloth import grid_faces
 from character_skeleton import SkeletonFit
 from character_source import Source
-from character_surface import Surface, compact, smooth_normals, triangulate
+from character_surface import Surface, modelled, triangulate
 
 # Crown widths and heights in mm from the middle backwards (Wheeler's Dental Anatomy, tables of average crowns).
 UPPER_WIDTHS, UPPER_HEIGHTS = (8.5, 6.5, 7.5, 7.0, 7.0, 10.0, 9.0), (10.5, 9.0, 10.0, 8.5, 8.5, 7.5, 7.0)
@@ -158,14 +158,6 @@ def teeth(source: Source, fit: SkeletonFit) -> Surface:
             start += len(points)
     positions = np.concatenate(parts)
     origin = np.concatenate(origins)
-    surface = Surface(
-        name="teeth",
-        positions=positions,
-        normals=np.zeros_like(positions),
-        uvs=positions[:, :2] % 1.0,
-        weights=fit.weights[origin],
-        triangles={name: np.concatenate(faces) for name, faces in triangles.items()},
-        morphs={label: delta[origin] for label, delta in zip(source.morph_names, source.morph_deltas, strict=True)},
-        origin=origin,
-    )
-    return compact(smooth_normals(surface))
+    faces = {name: np.concatenate(parts) for name, parts in triangles.items()}
+    morphs = {label: delta[origin] for label, delta in zip(source.morph_names, source.morph_deltas, strict=True)}
+    return modelled("teeth", positions, fit.weights[origin], faces, morphs=morphs, origin=origin)

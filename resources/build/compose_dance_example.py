@@ -15,17 +15,16 @@ Onsets and lengths are in quarters, bars are counted from 0, pitches are MIDI's.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final, NamedTuple
 
 import mido
 
-from resources.build.arrange_example import track_of
+from resources.build.arrange_example import TICKS_PER_QUARTER, conductor, player
 
 TARGET: Final = Path(__file__).parents[1] / "examples/montuno.mid"
 
-TICKS_PER_QUARTER: Final = 480
 QUARTERS_PER_MINUTE: Final = 184.0
 BAR: Final = 4.0
 BARS: Final = 24
@@ -203,44 +202,16 @@ def drums() -> list[Sound]:
     return sounds
 
 
-def conductor() -> mido.MidiTrack:
-    """Title, metre and tempo."""
-    meta = mido.MetaMessage
-    return track_of(
-        [
-            (0, 0, meta("track_name", name="Montuno")),
-            (0, 1, meta("text", text="A short piece for brass quartet, drums and a dancer")),
-            (0, 2, meta("copyright", text="CC0 1.0")),
-            (0, 3, meta("time_signature", numerator=2, denominator=2, clocks_per_click=48)),
-            (0, 4, meta("key_signature", key="Cm")),
-            (0, 5, meta("set_tempo", tempo=mido.bpm2tempo(QUARTERS_PER_MINUTE))),
-        ]
-    )
-
-
-def track(name: str, channel: int, program: int, sounds: Iterable[Sound]) -> mido.MidiTrack:
-    """One player's track."""
-    events: list[tuple[int, int, mido.Message | mido.MetaMessage]] = [
-        (0, 0, mido.MetaMessage("track_name", name=name)),
-        (0, 1, mido.Message("program_change", channel=channel, program=program)),
-    ]
-    for sound in sorted(sounds):
-        on = mido.Message("note_on", channel=channel, note=sound.pitch, velocity=sound.velocity)
-        off = mido.Message("note_off", channel=channel, note=sound.pitch, velocity=64)
-        start, end = (round(quarter * TICKS_PER_QUARTER) for quarter in (sound.onset, sound.onset + sound.length))
-        events += [(start, 3, on), (end, 2, off)]
-    return track_of(events)
-
-
 def compose() -> mido.MidiFile:
     """The piece."""
+    about = "A short piece for brass quartet, drums and a dancer"
     tracks = [
-        conductor(),
-        track("Trumpet 1", 0, 56, first_trumpet()),
-        track("Trumpet 2", 1, 56, second_trumpet()),
-        track("Trombone", 2, 57, trombone()),
-        track("Tuba", 3, 58, tuba()),
-        track("Drums", DRUMS, 0, drums()),
+        conductor("Montuno", about, "CC0 1.0", (2, 2), "Cm", [(0, QUARTERS_PER_MINUTE)]),
+        player("Trumpet 1", 0, 56, sorted(first_trumpet())),
+        player("Trumpet 2", 1, 56, sorted(second_trumpet())),
+        player("Trombone", 2, 57, sorted(trombone())),
+        player("Tuba", 3, 58, sorted(tuba())),
+        player("Drums", DRUMS, 0, sorted(drums())),
     ]
     return mido.MidiFile(type=1, ticks_per_beat=TICKS_PER_QUARTER, tracks=tracks)
 

@@ -13,11 +13,13 @@ the wing joint to the long joint. Distances ``along`` are counted down from the 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from resources.build.instrument_joints import Joints
-from resources.build.instrument_keys import Cup, Keywork, bodied, cylinder, entry, oval, slab
-from resources.build.instrument_mesh import Shape, bend, lengths, tube, turned, unit
+from resources.build.instrument_keys import Cup, Keywork, Touch, Wall, bodied, cylinder, entry, oval
+from resources.build.instrument_mesh import Shape, bend, lengths, solid, tube, turned, unit
 from resources.build.instrument_reeds import DoubleReed, loft
 
 X, Y, Z = np.eye(3)
@@ -80,8 +82,8 @@ class Bassoon:
         )
         share = lengths(bocal) / lengths(bocal)[-1]
         work.model.add("lacquered_brass", tube(bocal, 0.0024 + 0.0026 * share, sides=18))
-        cork = [(-0.016, 0), (-0.016, 0.0066), (0.001, 0.0072), (0.001, 0)]
-        work.model.add("cork", turned(SOCKET, -UP, cork, sides=20))
+        cork = [(-0.016, 0.0066), (0.001, 0.0072)]
+        work.model.add("cork", solid(SOCKET, -UP, cork, sides=20))
         for piece in (self.wing, self.flange, self.long):
             work.model.add("maple", piece.skin(36))
         for piece, along, length in (
@@ -159,18 +161,18 @@ class Bassoon:
             (self.long, long_row, 0.0320, -0.0265, (0.0074, 0.0105), 0.0038),
         ):
             for name, label, along, cup, angle in row:
-                low, high = sorted((cup.along, along))
-                work.key(
-                    name,
-                    label,
-                    "left.thumb.pad",
-                    joint.rod(low - 0.006, high + 0.006, angle, 0.0045),
-                    touch(lefts.get(label, left), front, along, back, *size),
-                    [cup],
-                    travel_m=travel_m,
-                    attack_s=FLICK_S if label in FLICKS else None,
-                )
+                spatula = touch(lefts.get(label, left), front, along, back, *size)
+                attack_s = FLICK_S if label in FLICKS else None
+                JOINTS.thumb_key(work, name, label, joint, cup, spatula, along, angle, travel_m, attack_s)
         JOINTS.thumb_over_low_keys(work, "whisper")
+
+    def key(
+        self, name: str, label: str, part: str, joint: Wall, rod: Sequence[float], spatula: Touch,
+        cups: Sequence[tuple[float, float, float]], travel_m: float,
+    ) -> None:  # fmt: skip
+        """A key of the right hand, its rod and its cups on one joint."""
+        hung = [Cup(joint, *cup) for cup in cups]
+        self.work.key(name, label, part, joint.rod(*rod), spatula, hung, travel_m=travel_m)
 
     def right_hand(self) -> None:
         """Two holes, the plate of the third finger, and three keys of the little finger."""
@@ -178,93 +180,29 @@ class Bassoon:
         for name, label, finger, along in (("hole_R1", "R1", "index", 0.515), ("hole_R2", "R2", "middle", 0.553)):
             work.hole(name, label, f"right.{finger}.pad", self.small, along=along, angle_deg=-10.0, radius=0.0044,
                       rim_m=0.0020, material="silver")  # fmt: skip
-        work.plateau(
-            "key_G",
-            "R3",
-            "right.ring.pad",
-            self.small.rod(0.575, 0.640, 30.0, 0.0050),
-            Cup(self.small, 0.592, -10.0, 0.0095),
-            [Cup(self.small, 0.626, 4.0, 0.0110)],
-            opening_m=0.0035,
-        )
+        plate, vent = Cup(self.small, 0.592, -10.0, 0.0095), Cup(self.small, 0.626, 4.0, 0.0110)
+        work.plateau("key_G", "R3", "right.ring.pad", self.small.rod(0.575, 0.640, 30.0, 0.0050), plate, [vent])
         for name, label, angle, along, wide, rod, cups in (
-            (
-                "key_F",
-                "Rp_f",
-                -28.0,
-                0.6088,
-                0.0120,
-                self.small.rod(0.600, 0.735, 12.0, 0.0050),
-                [Cup(self.small, 0.7200, -14.0, 0.0150)],
-            ),
-            (
-                "key_A_flat",
-                "Rp_gis",
-                -52.0,
-                0.6125,
-                0.0110,
-                self.small.rod(0.604, 0.668, -86.0, 0.0050),
-                [Cup(self.small, 0.6580, -50.0, 0.0110)],
-            ),
-            (
-                "key_F_sharp_little",
-                "Rp_fis",
-                -36.0,
-                0.6168,
-                0.0110,
-                self.small.rod(0.6150, 0.690, -72.0, 0.0060),
-                [],
-            ),
+            ("key_F", "Rp_f", -28.0, 0.6088, 0.0120, (0.600, 0.735, 12.0, 0.0050), [(0.7200, -14.0, 0.0150)]),
+            ("key_A_flat", "Rp_gis", -52.0, 0.6125, 0.0110, (0.604, 0.668, -86.0, 0.0050), [(0.6580, -50.0, 0.0110)]),
+            ("key_F_sharp_little", "Rp_fis", -36.0, 0.6168, 0.0110, (0.6150, 0.690, -72.0, 0.0060), []),
         ):
-            touch = slab(
-                self.small.point(along, angle, 0.0105), self.small.normal(angle), -UP, oval(0.0076, wide), foot=0.0
-            )
-            work.key(name, label, "right.little.pad", rod, touch, cups, travel_m=0.0040)
+            touch = self.small.spatula(along, angle, 0.0105, oval(0.0076, wide), foot=0.0)
+            self.key(name, label, "right.little.pad", self.small, rod, touch, cups, 0.0040)
 
     def right_thumb(self) -> None:
         """Four keys at the back of the boot."""
         work = self.work
         back = -FRONT
-        for name, label, left, along, size, rod, cups in (
-            (
-                "key_E",
-                "Rt_e",
-                0.0115,
-                0.5352,
-                (0.0115, 0.0125),
-                self.large.rod(0.530, 0.840, 196.0, 0.0050),
-                [Cup(self.large, 0.8200, 172.0, 0.0150)],
-            ),
-            (
-                "key_B_flat",
-                "Rt_bes",
-                -0.0020,
-                0.5270,
-                (0.0115, 0.0125),
-                self.small.rod(0.488, 0.532, 206.0, 0.0050),
-                [Cup(self.small, 0.4980, 186.0, 0.0085)],
-            ),
-            (
-                "key_F_sharp",
-                "Rt_fis",
-                0.0010,
-                0.5535,
-                (0.0115, 0.0130),
-                self.small.rod(0.548, 0.760, 206.0, 0.0050),
-                [],
-            ),
-            (
-                "key_A_flat_thumb",
-                "Rt_gis",
-                0.0135,
-                0.5506,
-                (0.0095, 0.0090),
-                self.large.rod(0.545, 0.680, 176.0, 0.0050),
-                [],
-            ),
+        small, large, even, wide = self.small, self.large, (0.0115, 0.0125), (0.0115, 0.0130)
+        for name, label, left, along, size, joint, rod, cups in (
+            ("key_E", "Rt_e", 0.0115, 0.5352, even, large, (0.530, 0.840, 196.0), [(0.8200, 172.0, 0.0150)]),
+            ("key_B_flat", "Rt_bes", -0.0020, 0.5270, even, small, (0.488, 0.532, 206.0), [(0.4980, 186.0, 0.0085)]),
+            ("key_F_sharp", "Rt_fis", 0.0010, 0.5535, wide, small, (0.548, 0.760, 206.0), []),
+            ("key_A_flat_thumb", "Rt_gis", 0.0135, 0.5506, (0.0095, 0.0090), large, (0.545, 0.680, 176.0), []),
         ):
             spatula = touch(left, -0.0412, along, back, *size)
-            work.key(name, label, "right.thumb.pad", rod, spatula, cups, travel_m=0.0038)
+            self.key(name, label, "right.thumb.pad", joint, (*rod, 0.0050), spatula, cups, 0.0038)
         work.linked("cup_F_sharp", ("key_F_sharp", "key_F_sharp_little"), self.small.rod(0.700, 0.775, 226.0, 0.0045),
                     cups=[Cup(self.small, 0.7620, 196.0, 0.0120)], drop_m=-0.0030)  # fmt: skip
 

@@ -20,6 +20,8 @@ from resources.build.instrument_mesh import (
     joined,
     lengths,
     plate,
+    solid,
+    square_to,
     tube,
     turned,
     unit,
@@ -27,6 +29,19 @@ from resources.build.instrument_mesh import (
 
 X, Y, Z = np.eye(3)
 BRASS, NICKEL, SILVER = "lacquered_brass", "nickel_silver", "silver"
+
+
+def contact(
+    part: str, node: str, point: Array, normal: Array, control: str | None = None, grip: str = "firm"
+) -> dict[str, object]:
+    """A touch of a hand, in the root frame."""
+    return {"part": part, "node": node, "point": point, "normal": normal, "control": control, "grip": grip}
+
+
+def on_round(centre: Array, radius: float, normal: Array) -> tuple[Array, Array]:
+    """The point of a round part that faces along a normal, and the normal with length 1."""
+    way = unit(normal)
+    return centre + radius * way, way
 
 
 def direction(pitch_down_deg: float, yaw_left_deg: float) -> Array:
@@ -70,16 +85,14 @@ def arc(
     radius: float,
     start_deg: float,
     end_deg: float,
-    rise: float = 0.0,
     step_m: float = 0.010,
 ) -> Array:
-    """Part of a circle about the third axis: 0 degrees lies against the second axis, 90 along the first. ``rise`` is
-    how far it goes along the third."""
+    """Part of a circle about the third axis: 0 degrees lies against the second axis, 90 along the first."""
     count = max(4, int(np.ceil(abs(np.radians(end_deg - start_deg)) * radius / step_m)))
     share = np.linspace(0, 1, count + 1)
     angle = np.radians(start_deg + share * (end_deg - start_deg))
     p, q, r = centre
-    places = np.column_stack([p + radius * np.sin(angle), q - radius * np.cos(angle), r + rise * share])
+    places = np.column_stack([p + radius * np.sin(angle), q - radius * np.cos(angle), np.full_like(angle, r)])
     return np.asarray(frame.origin + places @ frame.axes)
 
 
@@ -127,29 +140,27 @@ def receiver(model: Model, start: ArrayLike, axis: ArrayLike, radius: float, len
     r = radius
     model.add(
         NICKEL,
-        turned(
+        solid(
             start,
             axis,
-            [(0, 0), (0, 1.12 * r), (0.002, 1.2 * r), (0.005, 1.2 * r), (0.006, 1.06 * r), (length, r), (length, 0)],
+            [(0, 1.12 * r), (0.002, 1.2 * r), (0.005, 1.2 * r), (0.006, 1.06 * r), (length, r)],
             sides=24,
         ),
     )
 
 
-def ferrule(model: Model, centre: ArrayLike, axis: ArrayLike, radius: float, length: float, node: str = "root") -> None:
+def ferrule(model: Model, centre: ArrayLike, axis: ArrayLike, radius: float, length: float) -> None:
     """A beaded sleeve over a joint of tubes; ``radius`` is theirs, and their bodies stand for it."""
     half, r, bead = length / 2, radius + 0.0009, min(0.002, length / 5)
     profile = [
-        (-half, 0),
         (-half, r + 0.0006),
         (bead - half, r + 0.0006),
         (bead - half, r),
         (half - bead, r),
         (half - bead, r + 0.0006),
         (half, r + 0.0006),
-        (half, 0),
     ]
-    model.add(NICKEL, turned(centre, axis, profile, sides=20, proxy=False), node=node)
+    model.add(NICKEL, solid(centre, axis, profile, sides=20, proxy=False))
 
 
 def branch(model: Model, line: Array, radii: ArrayLike, sides: int = 16) -> None:
@@ -166,18 +177,29 @@ def stay(start: ArrayLike, end: ArrayLike, thick: float = 0.0028) -> Shape:
     length = float(np.linalg.norm(b - a))
     t = thick
     profile = [
-        (-0.002, 0),
         (-0.002, 1.65 * t),
         (0.0015, 1.6 * t),
         (0.0030, t),
         (length - 0.0030, t),
         (length - 0.0015, 1.6 * t),
         (length + 0.002, 1.65 * t),
-        (length + 0.002, 0),
     ]
     reach = 0.0015 * (b - a) / length
     body = {"shape": "cylinder", "a_m": a - reach, "b_m": b + reach, "radius_m": 1.25 * t}
-    return replace(turned(a, b - a, profile, sides=14, proxy=False), proxies=(body,))
+    return replace(solid(a, b - a, profile, sides=14, proxy=False), proxies=(body,))
+
+
+def brace(start: ArrayLike, end: ArrayLike, thick: float = 0.0022) -> Shape:
+    """A turned stay between two tubes, with a flange at either end and a bead in the middle."""
+    a, b = np.asarray(start, float), np.asarray(end, float)
+    length = float(np.linalg.norm(b - a))
+    t, m = thick, length / 2
+    profile = [
+        (-0.001, 2.3 * t), (0.0012, 2.2 * t), (0.0022, 1.15 * t), (0.0035, t), (m - 2 * t, t), (m - t, 1.5 * t),
+        (m, 1.7 * t), (m + t, 1.5 * t), (m + 2 * t, t), (length - 0.0035, t), (length - 0.0022, 1.15 * t),
+        (length - 0.0012, 2.2 * t), (length + 0.001, 2.3 * t),
+    ]  # fmt: skip
+    return solid(a, b - a, profile, sides=18)
 
 
 def loop(
@@ -188,18 +210,17 @@ def loop(
     length: float,
     radius: float,
     drawn: float = 0.45,
-    node: str = "root",
     tolerance_m: float = 0.0022,
 ) -> None:
     """A valve slide: two legs side by side, their sleeves, and the bow that is drawn."""
     a, b, way = np.asarray(start, float), np.asarray(end, float), unit(out)
     foot = length - float(np.linalg.norm(b - a)) / 2
     line = joined(a, half_circle(a + foot * way, b + foot * way, way, 10), b)
-    model.add(BRASS, tube(line, radius + 0.0003, sides=16, tolerance_m=tolerance_m), node=node)
+    model.add(BRASS, tube(line, radius + 0.0003, sides=16, tolerance_m=tolerance_m))
     for foot in (a, b):
-        sleeve = [(0, 0), (0, radius + 0.0009), (drawn * length, radius + 0.0009), (drawn * length, 0)]
-        model.add(NICKEL, turned(foot, way, sleeve, sides=16, proxy=False), node=node)
-        ferrule(model, foot + drawn * length * way, way, radius, 0.006, node=node)
+        sleeve = [(0, radius + 0.0009), (drawn * length, radius + 0.0009)]
+        model.add(NICKEL, solid(foot, way, sleeve, sides=16, proxy=False))
+        ferrule(model, foot + drawn * length * way, way, radius, 0.006)
 
 
 @dataclass(frozen=True)
@@ -209,7 +230,6 @@ class Bell:
     rim_r: float
     scale_m: float
     flare: float
-    length: float = 0.0
 
     def radius(self, distance: ArrayLike) -> Array:
         return np.asarray(self.rim_r * (self.scale_m / (self.scale_m + np.asarray(distance, float))) ** self.flare)
@@ -236,21 +256,20 @@ def bell(
     open_m : a hand may reach so far into it: that part is walls, not a solid body
     """
     middle, way = np.asarray(centre, float), unit(out)
-    straight = float(np.linalg.norm(middle - before[-1])) - 0.004 if len(before) else shape.length
+    straight = float(np.linalg.norm(middle - before[-1])) - 0.004
     distance = np.geomspace(0.0006, straight, rings)[::-1]
     stem = middle - distance[:, None] * way
-    line = joined(before, stem) if len(before) else stem
+    line = joined(before, stem)
     tail = len(line) - len(stem)
     along = lengths(line)
     radii = shape.radius(distance)
-    if tail:
-        share = (along[:tail] / along[tail]) ** 1.6
-        radii = np.r_[start_r + share * (radii[0] - start_r), radii]
+    share = (along[:tail] / along[tail]) ** 1.6
+    radii = np.r_[start_r + share * (radii[0] - start_r), radii]
     solid = tail + int(np.searchsorted(-distance, -open_m)) if open_m else len(line) - 1
     model.add(BRASS, tube(line, radii, sides=sides, closed=False, proxy=not open_m))
     rim_bead = 0.0016
     angles = np.linspace(0, 2 * np.pi, 48, endpoint=False)
-    across, over = _square_to(way)
+    across, over = square_to(way)
     if open_m:
         bodies = tube(line[: solid + 1], radii[: solid + 1], sides=6, closed=False, tolerance_m=0.0017).proxies
         walls = _walls(shape, middle, way, across, over, float(distance[solid - tail]))
@@ -267,12 +286,6 @@ WALLS, WALL_SAG_M, RIM_M = 19, 0.0010, 0.02
 
 def _empty() -> Shape:
     return Shape(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 2)), np.zeros((0, 3), np.int64))
-
-
-def _square_to(way: Array) -> tuple[Array, Array]:
-    across = np.eye(3)[np.argmin(np.abs(way))]
-    across = unit(across - way * (across @ way))
-    return across, np.cross(way, across)
 
 
 def _walls(shape: Bell, middle: Array, way: Array, across: Array, over: Array, deep: float) -> list[dict[str, object]]:
@@ -298,7 +311,7 @@ def _walls(shape: Bell, middle: Array, way: Array, across: Array, over: Array, d
     return found
 
 
-def _next_edge(shape: Bell, start: float, tolerance_m: float = WALL_SAG_M) -> float:
+def _next_edge(shape: Bell, start: float) -> float:
     """How far a straight piece may go along the profile."""
     end = start
     while end < start + 0.12:
@@ -307,7 +320,7 @@ def _next_edge(shape: Bell, start: float, tolerance_m: float = WALL_SAG_M) -> fl
         profile = np.column_stack([along, shape.radius(along)])
         chord = unit(profile[-1] - profile[0])
         off = (profile - profile[0]) @ np.array([-chord[1], chord[0]])
-        if np.abs(off).max() > (tolerance_m if start > RIM_M else 2.2 * tolerance_m):
+        if np.abs(off).max() > (WALL_SAG_M if start > RIM_M else 2.2 * WALL_SAG_M):
             break
     return end
 
@@ -325,48 +338,40 @@ class Piston:
     def build(self, model: Model, node: str, foot: Array, up: Array) -> None:
         """The casing in the root, piston, stem and finger button in ``node``."""
         r, top, low, high = self.casing_r, self.top, self.bottom, self.button
-        casing = [(low, 0), (low, r), (top - 0.004, r), (top - 0.004, 0)]
-        model.add(NICKEL, turned(foot, up, casing, sides=32))
+        casing = [(low, r), (top - 0.004, r)]
+        model.add(NICKEL, solid(foot, up, casing, sides=32))
         cap = [
-            (top - 0.010, 0),
             (top - 0.010, 1.09 * r),
             (top - 0.001, 1.13 * r),
             (top, 1.06 * r),
             (top + 0.005, 0.5 * r),
-            (top + 0.005, 0),
         ]
-        model.add(SILVER, turned(foot, up, cap, sides=32))
+        model.add(SILVER, solid(foot, up, cap, sides=32))
         under = [
-            (low - 0.010, 0),
             (low - 0.010, 0.4 * r),
             (low - 0.006, 1.02 * r),
             (low - 0.003, 1.12 * r),
             (low + 0.008, 1.12 * r),
-            (low + 0.008, 0),
         ]
-        model.add(SILVER, turned(foot, up, under, sides=32))
-        felt = [(top + 0.004, 0), (top + 0.004, 0.62 * r), (top + 0.0075, 0.62 * r), (top + 0.0075, 0)]
-        model.add("felt", turned(foot, up, felt, sides=24))
+        model.add(SILVER, solid(foot, up, under, sides=32))
+        felt = [(top + 0.004, 0.62 * r), (top + 0.0075, 0.62 * r)]
+        model.add("felt", solid(foot, up, felt, sides=24))
         model.add(
             SILVER,
-            turned(
-                foot, up, [(top - 0.01, 0), (top - 0.01, 0.0034), (high - 0.004, 0.0034), (high - 0.004, 0)], sides=16
-            ),
+            solid(foot, up, [(top - 0.01, 0.0034), (high - 0.004, 0.0034)], sides=16),
             node=node,
         )
         b = self.button_r
         button = [
-            (high - 0.0088, 0),
             (high - 0.0088, 0.0042),
             (high - 0.0070, 0.85 * b),
             (high - 0.0058, b),
             (high - 0.0016, b),
             (high - 0.0004, 0.93 * b),
-            (high - 0.0004, 0),
         ]
-        model.add(SILVER, turned(foot, up, button, sides=32), node=node)
-        pearl = [(high - 0.001, 0), (high - 0.001, 0.88 * b), (high - 0.0002, 0.84 * b), (high, 0.6 * b), (high, 0)]
-        model.add("pearl", turned(foot, up, pearl, sides=32), node=node)
+        model.add(SILVER, solid(foot, up, button, sides=32), node=node)
+        pearl = [(high - 0.001, 0.88 * b), (high - 0.0002, 0.84 * b), (high, 0.6 * b)]
+        model.add("pearl", solid(foot, up, pearl, sides=32), node=node)
 
 
 def rotor(model: Model, node: str, foot: Array, axis: Array, arm: Array, radius: float, length: float) -> None:
@@ -389,10 +394,10 @@ def rotor(model: Model, node: str, foot: Array, axis: Array, arm: Array, radius:
     top = foot + (length + 0.001) * axis
     model.add(
         SILVER,
-        turned(
+        solid(
             top - 0.002 * axis,
             axis,
-            [(0, 0), (0, 0.0036), (0.008, 0.0036), (0.009, 0.0025), (0.009, 0)],
+            [(0, 0.0036), (0.008, 0.0036), (0.009, 0.0025)],
             sides=18,
             proxy=False,
         ),
@@ -408,10 +413,10 @@ def rotor(model: Model, node: str, foot: Array, axis: Array, arm: Array, radius:
     model.add(SILVER, bar, node=node)
     model.add(
         SILVER,
-        turned(
+        solid(
             top + 0.001 * axis + 0.85 * r * arm,
             axis,
-            [(0, 0), (0, 0.003), (0.008, 0.003), (0.008, 0)],
+            [(0, 0.003), (0.008, 0.003)],
             sides=14,
             proxy=False,
         ),
@@ -430,7 +435,7 @@ def paddle(model: Model, node: str, pad: Array, up: Array, along: Array, half: t
         model.add(SILVER, tube([edge - width * side, edge + width * side], thick, sides=10, proxy=False), node=node)
 
 
-def strap(line: Array, half_width: float, across: Array, node_material: str = BRASS) -> tuple[str, Shape]:
+def strap(line: Array, half_width: float, across: Array) -> Shape:
     """A bent band, thin along its bend, with a flat body for each piece."""
     thick = 0.0011
     skin = tube(
@@ -453,4 +458,4 @@ def strap(line: Array, half_width: float, across: Array, node_material: str = BR
                 "half_m": np.array([np.linalg.norm(b - a) / 2, half_width, thick]),
             }
         )
-    return node_material, replace(skin, proxies=tuple(bodies))
+    return replace(skin, proxies=tuple(bodies))

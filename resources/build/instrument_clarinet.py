@@ -26,14 +26,12 @@ from resources.build.instrument_keys import (
     Rod,
     Touch,
     Wall,
-    bodied,
     entry,
     oval,
-    slab,
     teardrop,
     with_tail,
 )
-from resources.build.instrument_mesh import bend, lengths, tube, turned, unit
+from resources.build.instrument_mesh import bend, lengths, solid, tube, turned, unit
 from resources.build.instrument_reeds import SingleReed, thumb_rest
 
 X, Y, Z = np.eye(3)
@@ -55,6 +53,8 @@ class Sizes:
     side_height: float = 0.0108
 
 
+F_SHARP, F, E = (tuple(f"key_{note}_{hand}" for hand in ("left", "right")) for note in ("F_sharp", "F", "E"))
+"""The levers of the two little fingers for a note."""
 UPPER, LOWER = 0.198, 0.417
 """Where the upper and the lower joint end, before stretching."""
 HANDS = ((0.056, 0.2115), (0.2135, 0.354))
@@ -107,10 +107,9 @@ class Clarinet:
             else teardrop((length + a) * k, (width + b) * k, (narrow + b) * k)
             for a, b in ((0.0, 0.0), (x, y))
         )
-        turn = np.radians(turn_deg)
-        lead = ahead * (np.cos(turn) * unit(self.body.axis) + np.sin(turn) * self.body.around(angle))
-        point = self.body.point(self.at(along), angle, height)
-        return slab(point, self.body.normal(angle), lead, outline, foot=foot, core=core)
+        return self.body.spatula(
+            self.at(along), angle, height, outline, ahead=ahead, turn_deg=turn_deg, foot=foot, core=core
+        )
 
     def at_end(self, touch: Touch, along: float, across: float = 0.0) -> Touch:
         """A spatula that is touched off its middle, so far along the body and to the player's left."""
@@ -118,9 +117,9 @@ class Clarinet:
         off = along * axis + across * unit(np.cross(touch.normal, axis))
         return replace(touch, point=touch.point + self.sizes.keys * off)
 
-    def tail(self, touch: Touch, rod: Rod, along: float, angle: float, height: float = 0.0045) -> Touch:
+    def tail(self, touch: Touch, rod: Rod, along: float, angle: float) -> Touch:
         """A lever's other end beyond its axle, where it meets another key."""
-        end = self.body.point(self.at(along), angle, height)
+        end = self.body.point(self.at(along), angle, 0.0045)
         return with_tail(touch, rod, end, self.body.normal(angle), 0.0016)
 
     def levers(
@@ -138,6 +137,15 @@ class Clarinet:
             self.work.key(
                 name, label, "left.little.pad", rod, self.tail(touch, rod, end, angle + beyond), travel_m=travel_m
             )
+
+    def side_keys(self, keys: list[tuple[Rod, Touch, Cup]]) -> None:
+        """The right index finger's trill keys from the fourth to the first; both of a pair go down together."""
+        work, middle, end = self.work, "right.index.side_middle", "right.index.side"
+        for number, part, key in zip((4, 3, 2, 1), (middle, middle, end, end), keys, strict=True):
+            rod, touch, cup = key
+            work.key(f"key_side_{number}", f"S{number}", part, rod, touch, [cup], travel_m=0.0035)
+        work.also(middle, "key_side_3", ("key_side_4",))
+        work.also(end, "key_side_1", ("key_side_2",))
 
 
 class Straight(Clarinet):
@@ -256,13 +264,11 @@ class Straight(Clarinet):
             rings=[self.ring(0.2400, 0.0, 0.0080), self.ring(0.2710, 0.0, 0.0082), self.ring(0.3010, 0.0, 0.0084)],
             cups=[self.cup(0.2230, -10.0, 0.0060)],
         )  # fmt: skip
-        left, right = "key_{}_left", "key_{}_right"
-        f_sharp, f, e = ((left.format(key), right.format(key)) for key in ("F_sharp", "F", "E"))
-        work.linked("pad_F_sharp", f_sharp, self.rod(0.250, 0.322, 78.0, 0.0046),
+        work.linked("pad_F_sharp", F_SHARP, self.rod(0.250, 0.322, 78.0, 0.0046),
                     cups=[self.cup(0.3140, 50.0, 0.0076)], drop_m=0.0030)  # fmt: skip
-        work.linked("pad_F", (*f, *e), self.rod(0.264, 0.378, 96.0, 0.0046),
+        work.linked("pad_F", (*F, *E), self.rod(0.264, 0.378, 96.0, 0.0046),
                     cups=[self.cup(0.3690, 50.0, 0.0088)], drop_m=0.0032)  # fmt: skip
-        work.linked("pad_E", e, self.rod(0.382, 0.406, 96.0, 0.0046),
+        work.linked("pad_E", E, self.rod(0.382, 0.406, 96.0, 0.0046),
                     cups=[self.cup(0.3960, 50.0, 0.0092)], drop_m=0.0034)  # fmt: skip
 
     def right_keys(self) -> None:
@@ -272,22 +278,23 @@ class Straight(Clarinet):
         work.key("key_B", "RB", "right.ring.pad", self.rod(0.277, 0.295, -56.0, 0.0078), sliver,
                  [self.cup(0.2860, -88.0, 0.0056)], travel_m=0.0035)  # fmt: skip
 
-        for name, label, along, angle, axle, hole in (
-            ("key_side_4", "S4", 0.2314, -72.5, 0.1920, 0.1620),
-            ("key_side_3", "S3", 0.2316, -83.0, 0.1660, 0.1380),
-            ("key_side_2", "S2", 0.2210, -68.5, 0.1440, 0.0740),
-            ("key_side_1", "S1", 0.2208, -84.0, 0.1160, 0.0560),
-        ):
-            touch = self.blade(
-                along, angle, self.sizes.side_height, 0.0105, 0.0047, rim=(0.0030, 0.0012 if label == "S3" else 0.0)
-            )
-            touch = self.at_end(touch, *{"S4": (0.0005, 0.0), "S3": (0.0005, 0.0014)}.get(label, (0.0047, 0.0)))
-            rod = self.cross(axle, angle, 0.0080, 0.0060)
-            cup = self.cup(hole, -72.0 if label in ("S4", "S2") else -96.0, 0.0052)
-            part = "right.index.side_middle" if label in ("S4", "S3") else "right.index.side"
-            work.key(name, label, part, rod, touch, [cup], travel_m=0.0035)
-        work.also("right.index.side_middle", "key_side_3", ("key_side_4",))
-        work.also("right.index.side", "key_side_1", ("key_side_2",))
+        self.side_keys(
+            [
+                (
+                    self.cross(axle, angle, 0.0080, 0.0060),
+                    self.at_end(
+                        self.blade(along, angle, self.sizes.side_height, 0.0105, 0.0047, rim=(0.0030, rim)), *end
+                    ),
+                    self.cup(hole, hole_angle, 0.0052),
+                )
+                for along, angle, axle, rim, end, hole, hole_angle in (
+                    (0.2314, -72.5, 0.1920, 0.0, (0.0005, 0.0), 0.1620, -72.0),
+                    (0.2316, -83.0, 0.1660, 0.0012, (0.0005, 0.0014), 0.1380, -96.0),
+                    (0.2210, -68.5, 0.1440, 0.0, (0.0047, 0.0), 0.0740, -72.0),
+                    (0.2208, -84.0, 0.1160, 0.0, (0.0047, 0.0), 0.0560, -96.0),
+                )
+            ]
+        )
 
         front, outer = (2.0, 0.0050), (-104.0, 0.0050)
         cluster = {
@@ -311,9 +318,8 @@ def bell(body: Wall, along: float, length: float, radius: float) -> Pieces:
     outer = [*socket, *((0.022 + (length - 0.022) * a, b) for a, b in zip(share, flare, strict=True))]
     rim = [(length, radius), (length + 0.0008, radius - 0.0012), (length + 0.0008, radius - 0.0095)]
     inside = [(length + 0.0008 - (length - 0.01) * a, (radius - 0.0095) * (1 - a) ** 1.2 + 0.0085 * a) for a in share]
-    shape = turned(start, Z, outer, sides=48)
     return [
-        ("grenadilla", bodied(shape, *shape.proxies)),
+        ("grenadilla", turned(start, Z, outer, sides=48)),
         ("grenadilla", turned(start, Z, rim, sides=48, proxy=False)),
         ("dark_plastic", turned(start, Z, inside, sides=40, proxy=False)),
         ("silver", turned(start, Z, [(0.0008, r), (0.0008, r + 0.0038), (0.0075, r + 0.0040), (0.0075, r)], sides=40,
@@ -368,15 +374,13 @@ class Bass(Clarinet):
         work, body, reed = self.work, self.body, self.sizes.reed
         work.add(reed.pieces())
         start = np.array([0.0, reed.axis_y, reed.end_z])
-        work.model.add(
-            "cork", turned(start - 0.002 * Z, Z, [(0, 0), (0, 0.0118), (0.012, 0.0118), (0.012, 0)], sides=28)
-        )
+        work.model.add("cork", solid(start - 0.002 * Z, Z, [(0, 0.0118), (0.012, 0.0118)], sides=28))
         top = np.asarray(body.start)
         neck = bend([start + 0.006 * Z, self.corner, top + 0.012 * self.down], 0.046)
         run = lengths(neck) / lengths(neck)[-1]
         work.model.add("silver", tube(neck, 0.0108 + 0.0030 * run, sides=28))
-        socket = [(-0.010, 0), (-0.010, 0.0150), (-0.008, 0.0168), (0.0005, 0.0205), (0.0005, 0)]
-        work.model.add("silver", turned(top, self.down, socket, sides=36))
+        socket = [(-0.010, 0.0150), (-0.008, 0.0168), (0.0005, 0.0205)]
+        work.model.add("silver", solid(top, self.down, socket, sides=36))
         work.model.add("grenadilla", body.skin(44))
         for along in (0.0005, 0.3000, 0.3060, self.LENGTH - 0.014):
             work.model.add("silver", body.collar(along, 0.006 if along < 0.5 else 0.0135))
@@ -395,12 +399,17 @@ class Bass(Clarinet):
         rim = [(-0.0010, 0.0745), (0.0, 0.0768), (0.0012, 0.0760), (0.0012, 0.0745)]
         work.model.add("silver", turned(line[-1], out, rim, sides=48, proxy=False))
         foot = end + 0.082 * self.down + 0.012 * self.ahead
-        flange = [(-0.004, 0), (-0.004, 0.0140), (0.022, 0.0120), (0.026, 0.0090), (0.026, 0)]
-        work.model.add("silver", turned(foot, self.down, flange, sides=24))
+        flange = [(-0.004, 0.0140), (0.022, 0.0120), (0.026, 0.0090)]
+        work.model.add("silver", solid(foot, self.down, flange, sides=24))
         stand(work, foot, self.down, PEG, -X)
         rest = thumb_rest(body, 0.3615, 180.0, reach=0.020, width=0.020)
         work.add(rest.pieces)
         work.contact("right.thumb.side", rest.point, rest.normal)
+
+    def plate(self, label: str, part: str, along: float, radius: float) -> None:
+        """A plate over a finger hole."""
+        rod = self.body.rod(along - 0.0145, along + 0.0145, -46.0, 0.0050)
+        self.work.plateau(f"hole_{label}", label, part, rod, self.cup(along, 0.0, radius))
 
     def left_hand(self) -> None:
         """Plates of the left hand, register and throat keys."""
@@ -409,12 +418,8 @@ class Bass(Clarinet):
         work.plateau("hole_T", "T", "left.thumb.pad", body.rod(0.142, 0.178, 228.0, 0.0050), thumb)
         plate = replace(self.cup(0.1720, 0.0, 0.0090), open_hole=0.0024)
         work.plateau("hole_L1", "L1", "left.index.pad", body.rod(0.158, 0.187, -46.0, 0.0050), plate, half_value=0.5)
-        for name, label, finger, along, radius in (
-            ("hole_L2", "L2", "middle", 0.2040, 0.0095),
-            ("hole_L3", "L3", "ring", 0.2360, 0.0098),
-        ):
-            work.plateau(name, label, f"left.{finger}.pad", body.rod(along - 0.0145, along + 0.0145, -46.0, 0.0050),
-                         self.cup(along, 0.0, radius))  # fmt: skip
+        self.plate("L2", "left.middle.pad", 0.2040, 0.0095)
+        self.plate("L3", "left.ring.pad", 0.2360, 0.0098)
         register = self.at_end(self.blade(0.1410, 166.0, 0.0092, 0.0160, 0.0100, narrow=0.0060), 0.0068)
         work.key("key_R", "R", "left.thumb.pad", self.cross(0.1170, 173.0), register, [self.cup(0.0600, 180.0, 0.0050)],
                  travel_m=0.0045)  # fmt: skip
@@ -442,29 +447,27 @@ class Bass(Clarinet):
     def right_hand(self) -> None:
         """Plates of the right hand, trill keys, sliver key and the five keys of the little finger."""
         work, body = self.work, self.body
-        for name, label, finger, along, radius in (
-            ("hole_R1", "R1", "index", 0.3560, 0.0100),
-            ("hole_R2", "R2", "middle", 0.3880, 0.0105),
-            ("hole_R3", "R3", "ring", 0.4190, 0.0105),
-        ):
-            work.plateau(name, label, f"right.{finger}.pad", body.rod(along - 0.0145, along + 0.0145, -46.0, 0.0050),
-                         self.cup(along, 0.0, radius))  # fmt: skip
+        self.plate("R1", "right.index.pad", 0.3560, 0.0100)
+        self.plate("R2", "right.middle.pad", 0.3880, 0.0105)
+        self.plate("R3", "right.ring.pad", 0.4190, 0.0105)
         sliver = self.blade(0.4030, -25.0, 0.0105, 0.0105, 0.0048)
         work.key("key_B", "RB", "right.ring.pad", body.rod(0.3955, 0.4105, -58.0, 0.0095), sliver,
                  [self.cup(0.4030, -90.0, 0.0080)], travel_m=0.0035)  # fmt: skip
-        for name, label, along, angle, axle, hole in (
-            ("key_side_4", "S4", 0.3505, -66.0, 0.2880, 0.2560),
-            ("key_side_3", "S3", 0.3505, -76.0, 0.2560, 0.2240),
-            ("key_side_2", "S2", 0.3476, -47.0, 0.2240, 0.1260),
-            ("key_side_1", "S1", 0.3476, -56.5, 0.1880, 0.0960),
-        ):
-            touch = self.blade(along, angle, 0.0120, 0.0092, 0.0042)
-            touch = touch if label in ("S4", "S3") else self.at_end(touch, 0.0020)
-            cup = self.cup(hole, -66.0 if label in ("S4", "S2") else -88.0, 0.0068)
-            part = "right.index.side_middle" if label in ("S4", "S3") else "right.index.side"
-            work.key(name, label, part, self.cross(axle, angle, 0.0090, 0.0066), touch, [cup], travel_m=0.0035)
-        work.also("right.index.side_middle", "key_side_3", ("key_side_4",))
-        work.also("right.index.side", "key_side_1", ("key_side_2",))
+        self.side_keys(
+            [
+                (
+                    self.cross(axle, angle, 0.0090, 0.0066),
+                    self.at_end(self.blade(along, angle, 0.0120, 0.0092, 0.0042), end),
+                    self.cup(hole, hole_angle, 0.0068),
+                )
+                for along, angle, axle, end, hole, hole_angle in (
+                    (0.3505, -66.0, 0.2880, 0.0, 0.2560, -66.0),
+                    (0.3505, -76.0, 0.2560, 0.0, 0.2240, -88.0),
+                    (0.3476, -47.0, 0.2240, 0.0020, 0.1260, -66.0),
+                    (0.3476, -56.5, 0.1880, 0.0020, 0.0960, -88.0),
+                )
+            ]
+        )
         front, outer = (4.0, 0.0060), (-98.0, 0.0060)
         for name, label, along, angle, rod, cups in (
             ("key_A_flat", "RG#", 0.4372, -34.0, body.rod(0.4325, 0.490, *front), [self.cup(0.4820, 36.0, 0.0105)]),
@@ -481,13 +484,11 @@ class Bass(Clarinet):
     def long_keys(self) -> None:
         """The pads far down the body, which the little fingers close."""
         work, body = self.work, self.body
-        left, right = "key_{}_left", "key_{}_right"
-        f_sharp, f, e = ((left.format(key), right.format(key)) for key in ("F_sharp", "F", "E"))
         low = ("key_E_flat_low",)
         for node, controls, rod, cup in (
-            ("pad_F_sharp", f_sharp, body.rod(0.352, 0.580, 52.0, 0.0055), self.cup(0.5620, 14.0, 0.0120)),
-            ("pad_F", (*f, *e, *low), body.rod(0.376, 0.640, 72.0, 0.0055), self.cup(0.6230, 30.0, 0.0130)),
-            ("pad_E", (*e, *low), body.rod(0.500, 0.700, -78.0, 0.0055), self.cup(0.6820, -34.0, 0.0135)),
+            ("pad_F_sharp", F_SHARP, body.rod(0.352, 0.580, 52.0, 0.0055), self.cup(0.5620, 14.0, 0.0120)),
+            ("pad_F", (*F, *E, *low), body.rod(0.376, 0.640, 72.0, 0.0055), self.cup(0.6230, 30.0, 0.0130)),
+            ("pad_E", (*E, *low), body.rod(0.500, 0.700, -78.0, 0.0055), self.cup(0.6820, -34.0, 0.0135)),
             ("pad_E_flat", low, body.rod(0.710, 0.765, -78.0, 0.0055), self.cup(0.7400, -34.0, 0.0140)),
         ):
             work.linked(node, controls, rod, cups=[cup], drop_m=0.0045)

@@ -19,8 +19,8 @@ import numpy as np
 
 from resources.build.instrument_endpin import Pin, stand
 from resources.build.instrument_joints import Joints
-from resources.build.instrument_keys import Cup, Keywork, Wall, bodied, cylinder, entry, oval, slab
-from resources.build.instrument_mesh import Array, bend, half_circle, joined, lengths, tube, turned, unit
+from resources.build.instrument_keys import Cup, Keywork, Wall, bodied, cylinder, entry, oval
+from resources.build.instrument_mesh import Array, bend, half_circle, joined, lengths, solid, tube, turned, unit
 from resources.build.instrument_reeds import DoubleReed
 
 X, Y, Z = np.eye(3)
@@ -98,9 +98,8 @@ class Contrabassoon:
         )
         share = lengths(line) / lengths(line)[-1]
         work.model.add("silver", tube(line, 0.0028 + 0.0036 * share, sides=16))
-        slide = [(-0.032, 0), (-0.032, 0.0080), (-0.028, 0.0092), (-0.022, 0.0080), (-0.004, 0.0086), (0.002, 0.0110),
-                 (0.002, 0)]  # fmt: skip
-        work.model.add("silver", turned(SOCKET, -UP, slide, sides=24))
+        slide = [(-0.032, 0.0080), (-0.028, 0.0092), (-0.022, 0.0080), (-0.004, 0.0086), (0.002, 0.0110)]
+        work.model.add("silver", solid(SOCKET, -UP, slide, sides=24))
 
     def joints(self) -> None:
         """The four wooden joints with their rings, and the struts between them."""
@@ -161,8 +160,7 @@ class Contrabassoon:
             rod = self.narrow.rod(along - 0.008, far + 0.008, angle, 0.0050)
             work.plateau(name, label, f"left.{finger}.pad", rod, pad(self.narrow, along, 25.0, 0.0078, rim_m=0.0075),
                          [pad(self.narrow, far, -8.0, 0.0105)], opening_m=0.0035)  # fmt: skip
-        normal = self.narrow.normal(25.0)
-        third = slab(self.narrow.point(0.233, 25.0, 0.0142), normal, -UP, oval(0.0078, 0.0120), foot=0.0)
+        third = self.narrow.spatula(0.233, 25.0, 0.0142, oval(0.0078, 0.0120), foot=0.0)
         work.key("key_E_flat_third", "Lr_es", "left.ring.pad", self.narrow.rod(0.227, 0.302, 62.0, 0.0060), third,
                  [pad(self.narrow, 0.2960, 34.0, 0.0070)], travel_m=0.0035)  # fmt: skip
         normal = unit(np.cos(np.radians(18.0)) * FRONT + np.sin(np.radians(18.0)) * LEFT)
@@ -183,18 +181,16 @@ class Contrabassoon:
             ("vent_B", "Lt_c2", 0.0095, 0.1984, pad(self.narrow, 0.1150, 190.0, 0.0056), 215.0),
             ("vent_D", "Lt_d2", 0.0110, 0.1912, pad(self.narrow, 0.0750, 200.0, 0.0056), 227.0),
         ):
-            low, high = sorted((cup.along, along))
-            work.key(name, label, "left.thumb.pad", self.narrow.rod(low - 0.006, high + 0.006, angle, 0.0045),
-                     touch(left, -0.0315, along, back, 0.0072, 0.0092), [cup], travel_m=0.0035)  # fmt: skip
+            spatula = touch(left, -0.0315, along, back, 0.0072, 0.0092)
+            JOINTS.thumb_key(work, name, label, self.narrow, cup, spatula, along, angle, 0.0035)
         for name, label, left, along, cup, angle in (
             ("key_D", "Lt_d", 0.0330, 0.1902, pad(self.second, 0.3300, 168.0, 0.0135), 140.0),
             ("key_C", "Lt_c", 0.0330, 0.1812, pad(self.second, 0.2700, 160.0, 0.0140), 126.0),
             ("key_B", "Lt_b", 0.0330, 0.1726, pad(self.second, 0.1150, 176.0, 0.0130), 112.0),
             ("key_B_flat_low", "Lt_bes", 0.0355, 0.1650, pad(self.second, 0.0850, 150.0, 0.0130), 98.0),
         ):
-            low, high = sorted((cup.along, along))
-            work.key(name, label, "left.thumb.pad", self.second.rod(low - 0.006, high + 0.006, angle, 0.0045),
-                     touch(left, -0.0300, along, back, 0.0074, 0.0105), [cup], travel_m=0.0038)  # fmt: skip
+            spatula = touch(left, -0.0300, along, back, 0.0074, 0.0105)
+            JOINTS.thumb_key(work, name, label, self.second, cup, spatula, along, angle, 0.0038)
         # As on the bassoon; for A 4 it lies on C sharp and the vent above it.
         JOINTS.thumb_over_low_keys(work, "vent_B")
 
@@ -208,38 +204,29 @@ class Contrabassoon:
             rod = self.third.rod(along - 0.008, far + 0.008, angle, 0.0050)
             work.plateau(name, label, f"right.{finger}.pad", rod, pad(self.third, along, -10.0, 0.0080),
                          [pad(self.third, far, 2.0, 0.0150)], opening_m=0.0035)  # fmt: skip
-        touch = slab(self.third.point(0.4605, -10.0, 0.0085), self.third.normal(-10.0), -UP, oval(0.0078, 0.0120),
-                     foot=0.0)  # fmt: skip
+        touch = self.third.spatula(0.4605, -10.0, 0.0085, oval(0.0078, 0.0120), foot=0.0)
         work.key("key_B_flat_third", "Rr_bes", "right.ring.pad", self.third.rod(0.455, 0.530, -52.0, 0.0060),
                  touch, [pad(self.third, 0.5230, -34.0, 0.0070)], travel_m=0.0035)  # fmt: skip
         for name, label, angle, along, wide, rod, cups in (
-            ("key_F", "Rp_f", -28.0, 0.4930, 0.0120, self.third.rod(0.488, 0.706, 12.0, 0.0110),
-             [pad(self.third, 0.6900, -14.0, 0.0170)]),
-            ("key_A_flat", "Rp_gis", -54.0, 0.4970, 0.0110, self.third.rod(0.490, 0.600, -86.0, 0.0050),
-             [pad(self.third, 0.5880, -52.0, 0.0115)]),
-            ("key_F_sharp_little", "Rp_fis", -40.0, 0.5010, 0.0110, self.third.rod(0.500, 0.660, -72.0, 0.0060),
-             []),
-        ):  # fmt: skip
-            touch = slab(
-                self.third.point(along, angle, 0.0085), self.third.normal(angle), -UP, oval(0.0076, wide), foot=0.0
-            )
-            work.key(name, label, "right.little.pad", rod, touch, cups, travel_m=0.0040)
+            ("key_F", "Rp_f", -28.0, 0.4930, 0.0120, (0.488, 0.706, 12.0, 0.0110), [(0.6900, -14.0, 0.0170)]),
+            ("key_A_flat", "Rp_gis", -54.0, 0.4970, 0.0110, (0.490, 0.600, -86.0, 0.0050), [(0.5880, -52.0, 0.0115)]),
+            ("key_F_sharp_little", "Rp_fis", -40.0, 0.5010, 0.0110, (0.500, 0.660, -72.0, 0.0060), []),
+        ):
+            touch = self.third.spatula(along, angle, 0.0085, oval(0.0076, wide), foot=0.0)
+            hung = [pad(self.third, *cup) for cup in cups]
+            work.key(name, label, "right.little.pad", self.third.rod(*rod), touch, hung, travel_m=0.0040)
 
     def right_thumb(self) -> None:
         """Three keys at the back of the third joint."""
         work, back = self.work, -FRONT
-        for name, label, left, along, size, rod, cups in (
-            ("key_E", "Rt_e", THIRD - 0.0075, 0.4185, (0.0115, 0.0125), self.third.rod(0.413, 0.790, 130.0, 0.0045),
-             [pad(self.third, 0.7700, 176.0, 0.0170)]),
-            ("key_B_flat", "Rt_bes", THIRD - 0.0040, 0.4055, (0.0115, 0.0125),
-             self.third.rod(0.370, 0.411, 146.0, 0.0045),
-             [pad(self.third, 0.3830, 112.0, 0.0090)]),
-            ("key_F_sharp", "Rt_fis", THIRD + 0.0050, 0.4310, (0.0115, 0.0130),
-             self.third.rod(0.426, 0.680, 148.0, 0.0045),
-             []),
-        ):  # fmt: skip
-            spatula = touch(left, -0.0395, along, back, *size)
-            work.key(name, label, "right.thumb.pad", rod, spatula, cups, travel_m=0.0030)
+        for name, label, left, along, wide, rod, cups in (
+            ("key_E", "Rt_e", -0.0075, 0.4185, 0.0125, (0.413, 0.790, 130.0, 0.0045), [(0.7700, 176.0, 0.0170)]),
+            ("key_B_flat", "Rt_bes", -0.0040, 0.4055, 0.0125, (0.370, 0.411, 146.0, 0.0045), [(0.3830, 112.0, 0.0090)]),
+            ("key_F_sharp", "Rt_fis", 0.0050, 0.4310, 0.0130, (0.426, 0.680, 148.0, 0.0045), []),
+        ):
+            spatula = touch(THIRD + left, -0.0395, along, back, 0.0115, wide)
+            hung = [pad(self.third, *cup) for cup in cups]
+            work.key(name, label, "right.thumb.pad", self.third.rod(*rod), spatula, hung, travel_m=0.0030)
         work.linked("cup_F_sharp", ("key_F_sharp", "key_F_sharp_little"), self.third.rod(0.650, 0.745, 226.0, 0.0045),
                     cups=[pad(self.third, 0.7300, 198.0, 0.0130)], drop_m=-0.0030, proxy_rod=False)  # fmt: skip
 

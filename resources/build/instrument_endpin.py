@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from resources.build.instrument_keys import Keywork
-from resources.build.instrument_mesh import Array, turned, unit
+from resources.build.instrument_mesh import Array, solid, turned, unit
 
 NODE = "endpin"
 
@@ -55,17 +55,19 @@ def stand(work: Keywork, start: Array, axis: Array, pin: Pin, screw: Array) -> N
     """Put tube and rod into an instrument; ``screw`` is the side the screw is at."""
     axis, r = unit(axis), pin.tube_radius
     first, last = pin.tube
-    tube = [(first, 0), (first, 0.8 * r), (first + 0.003, r), (last - 0.014, r), (last - 0.012, r + 0.0016),
-            (last - 0.001, r + 0.0016), (last, r + 0.0006), (last, 0)]  # fmt: skip
-    work.model.add("silver", turned(start, axis, tube, sides=20))
+    tube = [
+        (first, 0.8 * r), (first + 0.003, r), (last - 0.014, r), (last - 0.012, r + 0.0016), (last - 0.001, r + 0.0016),
+        (last, r + 0.0006),
+    ]  # fmt: skip
+    work.model.add("silver", solid(start, axis, tube, sides=20))
     side = unit(screw - axis * (screw @ axis))
-    shaft = [(0, 0), (0, 0.0022), (0.006, 0.0022), (0.006, 0.0060), (0.010, 0.0064), (0.012, 0.0056), (0.012, 0)]
-    work.model.add("silver", turned(start + (last - 0.0065) * axis + r * side, side, shaft, sides=12, proxy=False))
+    shaft = [(0, 0.0022), (0.006, 0.0022), (0.006, 0.0060), (0.010, 0.0064), (0.012, 0.0056)]
+    work.model.add("silver", solid(start + (last - 0.0065) * axis + r * side, side, shaft, sides=12, proxy=False))
     tip = start + pin.tip * axis
     work.model.node(NODE, tip)
     behind = pin.tip_profile[0][0]
-    rod = [(pin.upper - pin.tip, 0), (pin.upper - pin.tip, pin.radius), (-behind, pin.radius), (-behind, 0)]
-    work.model.add("nickel_silver", turned(tip, axis, rod, sides=14), node=NODE)
+    rod = [(pin.upper - pin.tip, pin.radius), (-behind, pin.radius)]
+    work.model.add("nickel_silver", solid(tip, axis, rod, sides=14), node=NODE)
     end = [(-behind, 0.0), *((-along, radius) for along, radius in pin.tip_profile), (0.0, 0.0)]
     work.model.add(pin.tip_material, turned(tip, axis, end, sides=16), node=NODE)
     work.endpin = {"node": NODE, "axis": axis, "tip_m": np.asarray(tip), "most_m": pin.most_m}

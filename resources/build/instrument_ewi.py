@@ -20,7 +20,7 @@ import itertools
 import numpy as np
 
 from resources.build.instrument_keys import Keywork, bodied, cylinder, entry, oval, slab
-from resources.build.instrument_mesh import Array, Shape, plate, torus, tube, turned, unit
+from resources.build.instrument_mesh import Array, Shape, plate, solid, torus, tube, turned, unit
 from resources.build.instrument_reeds import loft
 
 X, Y, Z = np.eye(3)
@@ -120,9 +120,8 @@ class Ewi:
         add("rubber", loft(rings, hard_deg=45.0, proxies=bodies))
         slit = plate((0, 0, -TIP_M - 0.0001), (0.0034, 0.0007, 0.0003), X, Y)
         add("leather", bodied(slit))
-        stem = [(0.0320, 0.0), (0.0320, 0.0086), (0.0324, 0.0100), (0.0350, 0.0104), (0.0385, 0.0104), (0.0410, 0.0100),
-                (0.0410, 0.0)]  # fmt: skip
-        add("silver", turned((0, 0, 0), Z, stem, sides=36))
+        stem = [(0.0320, 0.0086), (0.0324, 0.0100), (0.0350, 0.0104), (0.0385, 0.0104), (0.0410, 0.0100)]
+        add("silver", solid((0, 0, 0), Z, stem, sides=36))
 
     def body(self) -> None:
         """The casing from the neck to the lower end with its sockets."""
@@ -158,22 +157,16 @@ class Ewi:
     def round_key(self, along: float) -> Shape:
         """A round plate of metal, a little domed."""
         r, h = KEY_R, KEY_HIGH
-        profile = [(-0.0004, 0.0), (-0.0004, r + 0.0002), (h - 0.0012, r), (h - 0.0004, r - 0.0005), (h, r - 0.0020),
-                   (h, 0.0)]  # fmt: skip
+        profile = [(-0.0004, r + 0.0002), (h - 0.0012, r), (h - 0.0004, r - 0.0005), (h, r - 0.0020)]
         foot = self.front(along)
-        shape = turned(foot, Y, profile, sides=32, proxy=False)
+        shape = solid(foot, Y, profile, sides=32, proxy=False)
         return bodied(shape, cylinder(foot - 0.0004 * Y, foot + h * Y, r))
-
-    def touch(self, name: str, label: str, part: str, point: Array, normal: Array) -> None:
-        """A place that a finger covers."""
-        self.work._control(name, "hole", label, part)
-        self.work.contact(part, point, normal, control=name)
 
     def keys(self) -> None:
         """The round keys, and the crescent that the index finger touches together with the first."""
         for name, label, finger, along in KEYS:
             self.work.model.add("silver", self.round_key(along))
-            self.touch(name, label, f"{finger}.pad", self.front(along, 0.0, KEY_HIGH), Y)
+            self.work.covered(name, label, f"{finger}.pad", self.front(along, 0.0, KEY_HIGH), Y)
         first = KEYS[0][3]
         # A crescent around the lower edge of the first key.
         t = np.radians(np.linspace(28.0, 152.0, 13))
@@ -182,7 +175,7 @@ class Ewi:
         line = [np.array([p[0], half_sizes(float(p[2]))[1] + KEY_HIGH - 0.0016, p[2]]) for p in line]
         thick = 0.0016 * np.sin(t) ** 0.5
         self.work.model.add("silver", tube(line, np.maximum(thick, 0.0006), sides=12))
-        self.work._control("key_bis", "hole", "bis", "left.index.pad")
+        self.work.control("key_bis", "hole", "bis", "left.index.pad")
         self.work.contact("left.index.pad", self.front(first + KEY_R - 0.0012, 0.0, KEY_HIGH - 0.0002), Y,
                           control="key_bis", together=("key_L1",))  # fmt: skip
 
@@ -196,7 +189,7 @@ class Ewi:
         self.work.add(tab.pieces)
         into = np.array([-half + 0.002, deep - 0.006, along - 0.003])
         self.work.model.add("dark_plastic", tube([tab.point - 0.0024 * tab.normal, into], 0.0024, sides=10))
-        self.touch("key_B_flat", "Rs", "right.index.side_middle", tab.point, tab.normal)
+        self.work.covered("key_B_flat", "Rs", "right.index.side_middle", tab.point, tab.normal)
 
     def tabs(self) -> None:
         """The straight tabs of the little fingers, which stand out of the sides."""
@@ -206,7 +199,7 @@ class Ewi:
             middle = np.array([side * (half + 0.0010), deep + 0.0010, along])
             tab = slab(middle, normal, X * side, oval(0.0170, 0.0078), 0.0030, hollow_m=0.0002)
             self.work.add(tab.pieces)
-            self.touch(name, label, f"{finger}.pad", tab.point, tab.normal)
+            self.work.covered(name, label, f"{finger}.pad", tab.point, tab.normal)
         # For low B flat it lies over two tabs, on the rim of the one that is next to the other.
         low = next(row for row in self.work.contacts if row["control"] == "key_C_low")
         point, normal = np.asarray(low["point"]), np.asarray(low["normal"])
@@ -231,7 +224,7 @@ class Ewi:
             middle = np.array([0.0, high + VALLEY_M, (below + above) / 2])
             add("dark_plastic", plate(middle + 0.0020 * Y, (0.0070, 0.0020, 0.0014), X, Y))
         for number in range(1, ROLLERS):
-            self.work._control(f"octave_{number}", "hole", f"o{number}", "left.thumb.pad", hover_m=0.0)
+            self.work.control(f"octave_{number}", "hole", f"o{number}", "left.thumb.pad", hover_m=0.0)
         # Home is in the middle, so it stands first among the thumb's places.
         for number in sorted(range(1, ROLLERS), key=lambda number: abs(number - HOME_OCTAVE)):
             middle = np.array([0.0, high + VALLEY_M, (places[number - 1] + places[number]) / 2])
@@ -247,10 +240,11 @@ class Ewi:
     def bump(self, along: float, radius: float, half: float, metal: bool = False) -> None:
         """A rounded ridge across the back."""
         middle = self.rear(along, 0.0, -0.0010)
-        profile = [(0, 0), (0, radius - 0.0020), (0.0006, radius - 0.0006), (0.0020, radius),
-                   (2 * half - 0.0020, radius), (2 * half - 0.0006, radius - 0.0006), (2 * half, radius - 0.0020),
-                   (2 * half, 0)]  # fmt: skip
-        self.work.model.add("dark_plastic", turned(middle - half * X, X, profile, sides=32))
+        profile = [
+            (0, radius - 0.0020), (0.0006, radius - 0.0006), (0.0020, radius), (2 * half - 0.0020, radius),
+            (2 * half - 0.0006, radius - 0.0006), (2 * half, radius - 0.0020),
+        ]  # fmt: skip
+        self.work.model.add("dark_plastic", solid(middle - half * X, X, profile, sides=32))
         if metal:
             band = [(0, radius - 0.001), (0.0002, radius + 0.0002), (0.0138, radius + 0.0002), (0.0140, radius - 0.001)]
             self.work.model.add("silver", turned(middle - 0.0070 * X, X, band, sides=32, proxy=False))

@@ -29,11 +29,10 @@ from resources.build.instrument_keys import (
     oval,
     post,
     roller,
-    slab,
     teardrop,
     with_pieces,
 )
-from resources.build.instrument_mesh import Array, Shape, tube, turned, unit
+from resources.build.instrument_mesh import Array, Shape, tube, turned
 from resources.build.instrument_reeds import creased
 
 X, Y, Z = np.eye(3)
@@ -143,15 +142,9 @@ class Flute:
         rim = s.rise if abs(angle) < 1e-6 else 0.7 * s.rise
         return Cup(self.body, along, angle, s.cup * share, rim_m=rim, open_hole=inner, rim_material=s.body_material)
 
-    def blade(
-        self, along: float, angle: float, height: float, outline: Array, *, ahead: float = 1.0, foot: float = -0.42,
-        lean_deg: float = 0.0, turn_deg: float = 0.0,
-    ) -> Touch:  # fmt: skip
-        """A touch piece over the tube; ``turn_deg`` swings it away from the tube's direction, ``lean_deg`` tips it."""
-        turn = np.radians(turn_deg)
-        lead = ahead * (np.cos(turn) * unit(self.body.axis) + np.sin(turn) * self.body.around(angle))
-        point = self.body.point(along, angle, height)
-        return slab(point, self.body.normal(angle + lean_deg), lead, outline * self.sizes.keys, foot=foot)
+    def blade(self, along: float, angle: float, height: float, outline: Array, *, foot: float, **turns: float) -> Touch:
+        """A touch piece over the tube, of the size of this flute's keys."""
+        return self.body.spatula(along, angle, height, outline * self.sizes.keys, foot=foot, **turns)
 
     def post(self, top: Array) -> Pieces:
         """A post at the end of a common hinge, with a body of its own: no rod goes through it."""
@@ -230,23 +223,16 @@ class Flute:
         at, k = s.hole_along, s.keys
         vent = self.cup(at(13) - 0.018 * k, 0.0, share=0.55)
         first = self.cup(at(FIRST), 0.0, share=0.82)
-        self.finger("hole_L1", "L1", "left.index", first, [vent], at(13) - at(FIRST) - 0.0240 * k, 0.0080 * k)
+        self.finger("L1", "left.index", first, [vent], at(13) - at(FIRST) - 0.0240 * k, 0.0080 * k)
         # The finger that bears the tube curls around it: its pad comes to lie behind the middle of its cup.
         work.contacts[-1]["point"] -= 0.0020 * k * Z
         bearing = at(FIRST) + s.bearing[0], s.bearing[1]
         work.contact("left.index.pad_proximal", body.point(*bearing), body.normal(bearing[1]))
         self.linked("cup_A_sharp", ("key_L2", "key_R1"), at(11))
-        self.finger("key_L2", "L2", "left.middle", self.cup(at(10), open_hole=True), [], -0.0095 * k, 0.0095 * k)
+        self.finger("L2", "left.middle", self.cup(at(10), open_hole=True), [], -0.0095 * k, 0.0095 * k)
         both = [self.cup(at(8), OFFSET)]
-        self.finger(
-            "key_L3",
-            "L3",
-            "left.ring",
-            self.cup(at(9), OFFSET, open_hole=True),
-            both,
-            -0.0095 * k,
-            at(8) - at(9) + 0.0095 * k,
-        )
+        third = self.cup(at(9), OFFSET, open_hole=True)
+        self.finger("L3", "left.ring", third, both, -0.0095 * k, at(8) - at(9) + 0.0095 * k)
         for along in (at(13) - 0.026 * k, at(FIRST) + 0.0100 * k, at(8) + 0.0120 * k):
             work.add(self.post(body.point(along, HINGE, 0.0036 * k)))
 
@@ -263,7 +249,7 @@ class Flute:
         for name, label, along, length in (
             ("key_T", "T", at(12) + edge + 0.0024 * k, 0.0180),
             ("key_T_B_flat", "TBb", at(12) - edge - 0.0052 * k, 0.0140),
-        ):  # fmt: skip
+        ):
             touch = self.blade(along, -120.0, 0.0085 * k, oval(length, 0.0125), foot=0.0)
             rod = self.rod(along - 0.003 * k, along + 0.003 * k, 168.0, 0.0028)
             work.key(name, label, "left.thumb.pad", rod, touch, travel_m=0.0034)
@@ -273,13 +259,10 @@ class Flute:
             flat = replace(self.cup(at(semitones), -166.0, share=0.92), thick_m=0.0024)
             work.linked(node, controls, rod, cups=[flat], drop_m=0.7 * s.opening)
 
-    def finger(
-        self, name: str, label: str, finger: str, cup: Cup, others: list[Cup], before: float, after: float
-    ) -> None:
+    def finger(self, label: str, finger: str, cup: Cup, others: list[Cup], before: float, after: float) -> None:
         """A cup that a finger presses, on the common hinge of its hand."""
         rod = self.rod(cup.along + before, cup.along + after, HINGE)
-        name = name.replace("hole_", "key_")
-        self.work.plateau(name, label, f"{finger}.pad", rod, cup, others, opening_m=self.sizes.opening)
+        self.work.plateau(f"key_{label}", label, f"{finger}.pad", rod, cup, others, opening_m=self.sizes.opening)
 
     def linked(self, node: str, controls: tuple[str, ...], along: float) -> None:
         """A cup without a finger on the common hinge."""
@@ -293,7 +276,7 @@ class Flute:
         self.linked("cup_F_sharp", ("key_R1", "key_R2", "key_R3"), at(7))
         for sign, finger, semitones in (("R1", "index", 6), ("R2", "middle", 5), ("R3", "ring", 4)):
             cup = self.cup(at(semitones), open_hole=True)
-            self.finger(f"key_{sign}", sign, f"right.{finger}", cup, [], -0.0095 * k, 0.0095 * k)
+            self.finger(sign, f"right.{finger}", cup, [], -0.0095 * k, 0.0095 * k)
         work.contact("right.thumb.pad", body.point(at(6), -146.0), body.normal(-146.0))
         for along in (at(7) - 0.0115 * k, at(4) + 0.0110 * k):
             work.add(self.post(body.point(along, HINGE, 0.0036 * k)))

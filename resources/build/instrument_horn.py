@@ -20,9 +20,11 @@ from resources.build.instrument_brass import (
     NICKEL,
     Bell,
     Frame,
+    Z,
     arc,
     bell,
     branch,
+    contact,
     direction,
     ferrule,
     loop,
@@ -35,7 +37,7 @@ from resources.build.instrument_brass import (
     strap,
     tapered,
 )
-from resources.build.instrument_mesh import Array, Model, bend, joined, tube, turned, unit
+from resources.build.instrument_mesh import Array, Model, bend, joined, solid, tube, unit
 
 PITCH_DOWN_DEG, YAW_LEFT_DEG = 22.0, 8.0
 """The usual carriage: the mouthpiece points a little down and to the left."""
@@ -120,7 +122,7 @@ def build(double: bool = True) -> Model:
         model.node("thumb_valve", f.at((THUMB[0], PIVOT_B, THUMB[2])))
         model.node("thumb_rotor", f.at((0.390, 0.165, 0.064)))
     mouthpiece(model, 0.0092, 0.0126, 0.062, 0.018, 0.0046)
-    receiver(model, (0, 0, 0.054), Z_AXIS, 0.0066, 0.034)
+    receiver(model, (0, 0, 0.054), Z, 0.0066, 0.034)
     _leadpipe(model, f)
     _bell(model, f)
     _coils(model, f, double)
@@ -142,14 +144,11 @@ def build(double: bool = True) -> Model:
     return model
 
 
-Z_AXIS = np.array([0.0, 0.0, 1.0])
-
-
 def _leadpipe(model: Model, f: Frame) -> None:
     """From the receiver over the coil's upper edge and once round, into the first valve."""
-    straight = 0.150 * Z_AXIS
+    straight = 0.150 * Z
     top = f.at((COIL[0] - 0.01, COIL[1] - COIL_R, 0.052))
-    lead = bend([0.060 * Z_AXIS, straight, f.at((0.215, COIL[1] - COIL_R, 0.052)), top], [0.10, 0.16])
+    lead = bend([0.060 * Z, straight, f.at((0.215, COIL[1] - COIL_R, 0.052)), top], [0.10, 0.16])
     around = arc(f, (*COIL, 0.052), COIL_R, 0, 232, step_m=0.008)
     inward = bend(
         [
@@ -186,8 +185,8 @@ def _bell(model: Model, f: Frame) -> None:
     )
     model.add(BRASS, tube(tail, 0.0080, sides=16))
     ferrule(model, before[0], before[1] - before[0], 0.0078, 0.020)
-    garland = [(0, 0), (0, float(BELL.radius(0.215)) + 0.0010), (0.012, float(BELL.radius(0.203)) + 0.0016), (0.012, 0)]
-    model.add(NICKEL, turned(centre - 0.215 * out, out, garland, sides=40, proxy=False))
+    garland = [(0, float(BELL.radius(0.215)) + 0.0010), (0.012, float(BELL.radius(0.203)) + 0.0016)]
+    model.add(NICKEL, solid(centre - 0.215 * out, out, garland, sides=40, proxy=False))
 
 
 def _coils(model: Model, f: Frame, double: bool) -> None:
@@ -252,9 +251,7 @@ def _lever(model: Model, f: Frame, k: int) -> None:
     )
     model.add(NICKEL, tube(arm, 0.0022, sides=12, flat=(1.0, 1.5), side=f.way(0, 0, 1)), node=node)
     hub = f.at((a - 0.008, PIVOT_B, PIVOT_N))
-    model.add(
-        NICKEL, turned(hub, f.way(1, 0, 0), [(0, 0), (0, 0.0042), (0.016, 0.0042), (0.016, 0)], sides=18), node=node
-    )
+    model.add(NICKEL, solid(hub, f.way(1, 0, 0), [(0, 0.0042), (0.016, 0.0042)], sides=18), node=node)
     end = f.at((a, PIVOT_B + 0.016, PIVOT_N + 0.004))
     goal = f.at((ROTORS[k] + 0.006, ROTOR_B - 0.012, 0.070))
     model.add("felt", tube([end, goal], 0.0008, sides=8), node=node)
@@ -279,7 +276,7 @@ def _thumb_lever(model: Model, f: Frame) -> None:
     hub = f.at((a - 0.008, PIVOT_B, n))
     model.add(
         NICKEL,
-        turned(hub, f.way(1, 0, 0), [(0, 0), (0, 0.0042), (0.016, 0.0042), (0.016, 0)], sides=18),
+        solid(hub, f.way(1, 0, 0), [(0, 0.0042), (0.016, 0.0042)], sides=18),
         node="thumb_valve",
     )
     model.add(
@@ -299,35 +296,29 @@ def _hook(model: Model, f: Frame) -> None:
     centre = _hook_centre()
     angles = np.radians(np.linspace(-120, 110, 29))
     line = np.array([f.at((centre[0] + HOOK_R * np.cos(t), centre[1], centre[2] + HOOK_R * np.sin(t))) for t in angles])
-    material, band = strap(line, 0.0036, f.way(0, 1, 0))
-    model.add(material, band)
+    model.add(BRASS, strap(line, 0.0036, f.way(0, 1, 0)))
     foot = f.at((centre[0], centre[1], centre[2] - HOOK_R))
     model.add(BRASS, stay(foot - 0.001 * f.way(0, 0, 1), f.at((centre[0], COIL[1] - COIL_R + 0.001, 0.057)), 0.0022))
 
 
 def contacts(double: bool = True) -> list[dict[str, object]]:
     """Where a trained player's hands touch it, in the root frame."""
-    f, found = frame(), []
-
-    def touch(
-        part: str, node: str, point: Array, normal: Array, control: str | None = None, grip: str = "firm"
-    ) -> None:
-        found.append({"part": part, "node": node, "point": point, "normal": normal, "control": control, "grip": grip})
-
-    for k, finger in enumerate(("index", "middle", "ring")):
-        touch(f"left.{finger}.pad", f"valve_{k + 1}", f.at(lever_pad(k)), f.way(0, 0, 1), f"valve_{k + 1}")
-    if double:
-        touch("left.thumb.pad", "thumb_valve", f.at(THUMB), f.way(0, 0, -1), "thumb_valve")
-    else:
-        pipe = f.at((FIRST_LEVER + 0.010, COIL[1] - COIL_R, 0.052))
-        normal = f.way(0, 0.35, -0.94)
-        touch("left.thumb.pad", "root", pipe + 0.0062 * normal, normal)
-    inside = f.way(-0.17, 0, 0.985)
-    touch("left.little.pad", "root", f.at(_hook_centre()) - (HOOK_R - 0.0011) * inside, inside)
+    f = frame()
+    front, inside, off = f.way(0, 0, 1), f.way(-0.17, 0, 0.985), f.way(0, 0.35, -0.94)
+    pipe = f.at((FIRST_LEVER + 0.010, COIL[1] - COIL_R, 0.052))
     right = hand()
-    touch("right.index.side_middle", "root", *right.wall(0.085, 66.0))
-    touch("right.thumb.side", "root", *right.wall(0.072, 100.0), grip="resting")
-    return found
+    return [
+        *(
+            contact(f"left.{finger}.pad", f"valve_{k + 1}", f.at(lever_pad(k)), front, f"valve_{k + 1}")
+            for k, finger in enumerate(("index", "middle", "ring"))
+        ),
+        contact("left.thumb.pad", "thumb_valve", f.at(THUMB), -front, "thumb_valve")
+        if double
+        else contact("left.thumb.pad", "root", pipe + 0.0062 * off, off),
+        contact("left.little.pad", "root", f.at(_hook_centre()) - (HOOK_R - 0.0011) * inside, inside),
+        contact("right.index.side_middle", "root", *right.wall(0.085, 66.0)),
+        contact("right.thumb.side", "root", *right.wall(0.072, 100.0), grip="resting"),
+    ]
 
 
 INSTRUMENTS = {

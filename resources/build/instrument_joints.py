@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from resources.build.instrument_keys import Keywork, Touch, Wall, oval, slab
+from resources.build.instrument_keys import Cup, Keywork, Touch, Wall, oval, slab
 from resources.build.instrument_mesh import Array
 
 LOW_KEYS = ("key_D", "key_C", "key_B", "key_B_flat_low")
@@ -39,6 +39,15 @@ class Joints:
     def touch(self, left: float, front: float, along: float, normal: Array, length: float, width: float) -> Touch:
         """A spatula at a place of the body's own axes, its length along the body."""
         return slab(self.place(left, front, along), normal, -self.up, oval(length, width), foot=0.0)
+
+    def thumb_key(
+        self, work: Keywork, name: str, label: str, joint: Wall, cup: Cup, spatula: Touch, along: float,
+        angle_deg: float, travel_m: float, attack_s: float | None = None,
+    ) -> None:  # fmt: skip
+        """A key of the left thumb, its rod along a joint from the spatula at ``along`` to the cup."""
+        low, high = sorted((cup.along, along))
+        rod = joint.rod(low - 0.006, high + 0.006, angle_deg, 0.0045)
+        work.key(name, label, "left.thumb.pad", rod, spatula, [cup], travel_m=travel_m, attack_s=attack_s)
 
     def thumb_over_low_keys(self, work: Keywork, with_c_sharp: str) -> None:
         """The left thumb lies over two, three and all four of the low keys, and over C sharp and another key."""

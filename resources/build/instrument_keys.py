@@ -29,7 +29,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from resources.build.instrument_mesh import Array, Model, Shape, torus, tube, turned, unit
+from resources.build.instrument_mesh import Array, Model, Shape, solid, torus, tube, turned, unit
 
 Pieces = list[tuple[str, Shape]]
 """Shapes with their materials."""
@@ -88,8 +88,7 @@ class Wall:
 
     def skin(self, sides: int = 40) -> Shape:
         """The body itself, closed at both ends."""
-        first, last = self.profile[0][0], self.profile[-1][0]
-        return turned(self.start, self.axis, [(first, 0.0), *self.profile, (last, 0.0)], sides=sides)
+        return solid(self.start, self.axis, self.profile, sides=sides)
 
     def collar(self, along: float, length: float, thick: float = 0.0012) -> Shape:
         """A metal ring around the body: at a tenon's socket, a barrel's or bell's edge."""
@@ -108,6 +107,30 @@ class Wall:
         """A short rod across the body, the axle of a lever that lies along it."""
         middle, across = self.point(along, angle_deg, height), self.around(angle_deg)
         return Rod(self, middle - width / 2 * across, middle + width / 2 * across)
+
+    def spatula(
+        self,
+        along: float,
+        angle_deg: float,
+        height: float,
+        outline: Array,
+        thick: float = 0.0018,
+        *,
+        ahead: float = 1.0,
+        turn_deg: float = 0.0,
+        lean_deg: float = 0.0,
+        material: str = METAL,
+        foot: float = -0.42,
+        core: Array | None = None,
+    ) -> Touch:
+        """A `slab` over the body, its length along it, ``ahead`` of 1 away from the mouth.
+
+        ``turn_deg`` swings its length towards growing angles, ``lean_deg`` leans its top that way.
+        """
+        turn = np.radians(turn_deg)
+        lead = ahead * (np.cos(turn) * unit(self.axis) + np.sin(turn) * self.around(angle_deg))
+        centre, normal = self.point(along, angle_deg, height), self.normal(angle_deg + lean_deg)
+        return slab(centre, normal, lead, outline, thick, material=material, foot=foot, core=core)
 
     def arc(self, start: ArrayLike, end: ArrayLike, clear_m: float | None = None) -> Array:
         """A way from one point to another around the body instead of through it, nowhere lower than ``clear_m``."""
@@ -159,7 +182,7 @@ def cylinder(a: ArrayLike, b: ArrayLike, radius: float) -> dict[str, object]:
     return {"shape": "cylinder", "a_m": np.asarray(a, float), "b_m": np.asarray(b, float), "radius_m": radius}
 
 
-def post(wall: Wall, top: ArrayLike, material: str = METAL) -> Pieces:
+def post(wall: Wall, top: ArrayLike) -> Pieces:
     """A turned post with a ball that holds the end of a rod."""
     along, angle, height = wall.place(top)
     foot, out = wall.point(along, angle, -0.0008), wall.normal(angle)
@@ -169,7 +192,7 @@ def post(wall: Wall, top: ArrayLike, material: str = METAL) -> Pieces:
     profile += [(tall + r * np.sin(t), r * np.cos(t)) for t in np.radians([-35, 0, 35, 65])] + [(tall + r, 0.0)]
     shape = turned(foot, out, profile, sides=8, proxy=False)
     tall_proxy = [cylinder(foot, foot + tall * out, 0.0017)] if height > 0.0055 else []
-    return [(material, bodied(shape, *tall_proxy))]
+    return [(METAL, bodied(shape, *tall_proxy))]
 
 
 @dataclass(frozen=True)
@@ -187,16 +210,16 @@ class Touch:
         return replace(self, point=self.point + along_normal_m * self.normal)
 
 
-def oval(length: float, width: float, count: int = 18) -> Array:
+def oval(length: float, width: float) -> Array:
     """Outline of a rounded plate, (ahead, across)."""
-    t = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    t = np.linspace(0, 2 * np.pi, 18, endpoint=False)
     x, y = np.cos(t), np.sin(t)
     return np.column_stack([length / 2 * np.sign(x) * np.abs(x) ** 0.75, width / 2 * np.sign(y) * np.abs(y) ** 0.75])
 
 
-def teardrop(length: float, wide: float, narrow: float, count: int = 18) -> Array:
+def teardrop(length: float, wide: float, narrow: float) -> Array:
     """Outline that is wide ahead and narrow behind."""
-    shape = oval(length, 2.0, count)
+    shape = oval(length, 2.0)
     share = shape[:, 0] / length + 0.5
     half = (narrow + (wide - narrow) * share) / 2
     return np.column_stack([shape[:, 0], shape[:, 1] * half])
@@ -268,9 +291,7 @@ def slab(
     return Touch([(material, shape)], middle, up, start, lead)
 
 
-def pearl(
-    centre: ArrayLike, normal: ArrayLike, radius: float = 0.0080, *, material: str = METAL, inlay: str = "pearl"
-) -> Touch:
+def pearl(centre: ArrayLike, normal: ArrayLike, radius: float = 0.0080, *, material: str = METAL) -> Touch:
     """A round touch piece with a mother-of-pearl inlay, a little hollow; ``centre`` is the middle of its top."""
     up, middle = unit(normal), np.asarray(centre, float)
     r = radius
@@ -278,7 +299,7 @@ def pearl(
     disc = [(-0.0012, 0.9 * r), (0.0002, 0.9 * r), (0.0002, 0.84 * r), (-0.0001, 0.5 * r), (-0.0002, 0.0)]
     pieces = [
         (material, bodied(turned(middle, up, seat, sides=22), cylinder(middle - 0.0032 * up, middle, r))),
-        (inlay, turned(middle, up, disc, sides=22, proxy=False)),
+        ("pearl", turned(middle, up, disc, sides=22, proxy=False)),
     ]
     return Touch(pieces, middle - 0.0002 * up, up, middle - 0.0024 * up, np.eye(3)[np.argmin(np.abs(up))])
 
@@ -287,8 +308,8 @@ def roller(a: ArrayLike, b: ArrayLike, radius: float = 0.0022, *, material: str 
     """A roller between two little-finger keys."""
     start, end = np.asarray(a, float), np.asarray(b, float)
     length, r = float(np.linalg.norm(end - start)), radius
-    profile = [(0, 0), (0, 0.7 * r), (0.12 * length, r), (0.88 * length, r), (length, 0.7 * r), (length, 0)]
-    return [(material, turned(start, end - start, profile, sides=12))]
+    profile = [(0, 0.7 * r), (0.12 * length, r), (0.88 * length, r), (length, 0.7 * r)]
+    return [(material, solid(start, end - start, profile, sides=12))]
 
 
 def with_pieces(touch: Touch, pieces: Pieces) -> Touch:
@@ -298,8 +319,8 @@ def with_pieces(touch: Touch, pieces: Pieces) -> Touch:
 
 def with_tail(touch: Touch, rod: Rod, end: ArrayLike, normal: Array, radius: float) -> Touch:
     """A lever's other end beyond its axle, where a pin meets another key."""
-    profile = [(-0.001, 0), (-0.001, radius), (0.002, radius), (0.002, 0)]
-    pin = turned(end, -normal, profile, sides=8, proxy=False)
+    profile = [(-0.001, radius), (0.002, radius)]
+    pin = solid(end, -normal, profile, sides=8, proxy=False)
     return with_pieces(touch, [("silver", arm(rod.wall, rod.nearest(touch.foot), end)), ("silver", pin)])
 
 
@@ -308,8 +329,7 @@ class Cup:
     """A padded cup over a tone hole.
 
     ``radius`` is the cup's; its hole's rim is 0.75 of it. ``rim_m`` is how high the rim stands over the wall.
-    ``open_hole`` leaves a hole in the middle of the cup that the finger closes (a French flute's plateau);
-    ``inlay`` puts a pearl on it (saxophone). ``angle_deg`` None: of the key's rod.
+    ``open_hole`` leaves a hole in the middle of the cup that the finger closes (a French flute's plateau).
     """
 
     wall: Wall
@@ -319,10 +339,7 @@ class Cup:
     rim_m: float = 0.0015
     thick_m: float = CUP_THICK_M
     open_hole: float = 0.0
-    inlay: float = 0.0
-    arm: bool = True
-    hole_material: str = "dark_plastic"
-    rim_material: str | None = None
+    rim_material: str = "grenadilla"
     material: str = METAL
 
     @property
@@ -338,18 +355,13 @@ class Cup:
     def chimney(self) -> Pieces:
         """The rim of its hole, for the root."""
         return chimney(
-            self.wall, self.along, self.angle_deg, 0.72 * self.radius, self.rim_m,
-            material=self.rim_material or "grenadilla", inside=self.hole_material,
-        )  # fmt: skip
+            self.wall, self.along, self.angle_deg, 0.72 * self.radius, self.rim_m, material=self.rim_material
+        )
 
     def pieces(self, lift_m: float) -> Pieces:
         """The cup with its pad at a height over the rim."""
         base, up, r, t = self.seat + lift_m * self.normal, self.normal, self.radius, self.thick_m
-        pad_low = 0.0
-        found: Pieces = [
-            ("pad", turned(base, up, [(pad_low, 0), (pad_low, 0.93 * r), (0.4 * t, 0.93 * r), (0.4 * t, 0)], sides=16,
-                           proxy=False)),
-        ]  # fmt: skip
+        found: Pieces = [("pad", solid(base, up, [(0.0, 0.93 * r), (0.4 * t, 0.93 * r)], sides=16, proxy=False))]
         inner = self.open_hole
         top = t + (0.0004 if not inner else 0.0)
         dome = [(0.3 * t, 0.0 if not inner else 0.9 * r), (0.3 * t, 0.95 * r), (0.42 * t, r), (0.72 * t, r)]
@@ -359,24 +371,12 @@ class Cup:
         found.append((self.material, bodied(turned(base, up, dome, sides=20), whole)))
         if inner:
             disc = [(t - 0.0004, inner + 0.0002), (t - 0.0004, 0.0)]
-            found.append((self.hole_material, turned(base, up, disc, sides=18, proxy=False)))
-        if self.inlay:
-            s = self.inlay
-            holder = [(0.8 * t, 0), (0.8 * t, s), (t + 0.0012, s), (t + 0.0014, 0.92 * s), (t + 0.0014, 0)]
-            on_top = cylinder(base + t * up, base + (t + 0.0016) * up, s)
-            found.append((self.material, bodied(turned(base, up, holder, sides=20), on_top)))
-            disc = [(0.0, 0.87), (0.0017, 0.87), (0.0018, 0.80), (0.0015, 0.4), (0.0014, 0.0)]
-            inlaid = [(t + height, s * share) for height, share in disc]
-            found.append(("pearl", turned(base, up, inlaid, sides=20, proxy=False)))
+            found.append(("dark_plastic", turned(base, up, disc, sides=18, proxy=False)))
         return found
 
     def top(self, lift_m: float) -> Array:
         """Where a finger meets the cup itself."""
-        high = self.thick_m + 0.0004
-        if self.inlay:
-            high = self.thick_m + 0.0014
-        elif self.open_hole:
-            high = self.thick_m
+        high = self.thick_m if self.open_hole else self.thick_m + 0.0004
         return self.seat + (lift_m + high) * self.normal
 
 
@@ -388,7 +388,6 @@ def chimney(
     height: float,
     *,
     material: str = "grenadilla",
-    inside: str = "dark_plastic",
     lip: float = 0.0013,
     deep_m: float = 0.0008,
 ) -> Pieces:
@@ -406,7 +405,7 @@ def chimney(
     return [
         (material, bodied(turned(foot, up, outer, sides=24), cylinder(foot + low * up, foot + height * up, out))),
         (material, turned(foot, up, inner, sides=24, proxy=False)),
-        (inside, turned(foot, up, floor, sides=20, proxy=False)),
+        ("dark_plastic", turned(foot, up, floor, sides=20, proxy=False)),
     ]
 
 
@@ -437,13 +436,13 @@ class RingOn:
         return [(material, shape)]
 
 
-def arm(wall: Wall, start: ArrayLike, end: ArrayLike, *, clear_m: float = 0.0022, radius: float = ARM_R) -> Shape:
+def arm(wall: Wall, start: ArrayLike, end: ArrayLike, *, clear_m: float = 0.0022) -> Shape:
     """A flat arm around the body from a rod to what hangs on it."""
     line = wall.arc(start, end, clear_m)
     _, angle, _ = wall.place(line[0])
-    widths = np.linspace(radius * 1.1, radius * 0.9, len(line))
+    widths = np.linspace(ARM_R * 1.1, ARM_R * 0.9, len(line))
     strap = tube(line, widths, sides=8, flat=(0.62, 1.25), side=wall.normal(angle), proxy=False)
-    return bodied(strap, *tube(line, 0.85 * radius, sides=3).proxies)
+    return bodied(strap, *tube(line, 0.85 * ARM_R, sides=3).proxies)
 
 
 def turn_of(rod: Rod, point: ArrayLike, normal: ArrayLike, travel_m: float) -> tuple[Array, float]:
@@ -500,11 +499,10 @@ class Keywork:
         control: str | None = None,
         grip: str = "firm",
         together: Sequence[str] = (),
-        when: str = "always",
     ) -> None:
         """A touch in the root frame."""
         row: dict[str, object] = {"part": part, "node": node, "point": np.asarray(point, float)}
-        row |= {"normal": unit(normal), "control": control, "grip": grip, "when": when}
+        row |= {"normal": unit(normal), "control": control, "grip": grip}
         if together:
             row["together"] = list(together)
         self.contacts.append(row)
@@ -522,14 +520,18 @@ class Keywork:
         rim_m: float = 0.0022,
         half_value: float | None = None,
         material: str = "grenadilla",
-        touch_angle_deg: float | None = None,
     ) -> None:
         """A hole the finger itself closes; a ring around it is a link (`linked`) of one or more holes."""
         self.add(chimney(wall, along, angle_deg, radius, rim_m, material=material))
-        extra = {} if half_value is None else {"half_value": half_value}
-        self._control(name, "hole", label, part, **extra)
-        normal = wall.normal(angle_deg if touch_angle_deg is None else touch_angle_deg)
-        self.contact(part, wall.point(along, angle_deg, rim_m - 0.0004), normal, control=name)
+        middle = wall.point(along, angle_deg, rim_m - 0.0004)
+        self.covered(name, label, part, middle, wall.normal(angle_deg), half_value=half_value)
+
+    def covered(
+        self, name: str, label: str, part: str, point: ArrayLike, normal: ArrayLike, *, half_value: float | None = None
+    ) -> None:
+        """A place that a finger covers, at which nothing moves."""
+        self.control(name, "hole", label, part, half_value=half_value)
+        self.contact(part, point, normal, control=name)
 
     def key(
         self,
@@ -541,11 +543,8 @@ class Keywork:
         cups: Sequence[Cup] = (),
         *,
         travel_m: float = 0.004,
-        finger: str | None = None,
         clear_m: float = 0.0022,
         touch_arm: bool = True,
-        proxy_rod: bool = True,
-        kind: str = "key",
         attack_s: float | None = None,
     ) -> None:
         """A key with a touch piece; cups that it closes stand open, cups that it opens lie on their holes.
@@ -557,9 +556,8 @@ class Keywork:
         self.add(touch.pieces, name)
         if touch_arm:
             self.add([(self.metal, arm(rod.wall, rod.nearest(touch.foot), touch.foot, clear_m=clear_m))], name)
-        self._moving(name, rod, axis, angle, cups, (), clear_m, proxy_rod)
-        vent = {} if attack_s is None else {"attack_s": attack_s}
-        self._control(name, kind, label, part, finger=finger, **vent, node=name, motion=_motion(axis, angle, rod))
+        motion = self._moving(name, rod, axis, angle, cups, clear_m=clear_m)
+        self.control(name, "key", label, part, attack_s=attack_s, node=name, motion=motion)
         self.contact(part, touch.point, touch.normal, node=name, control=name)
 
     def plateau(
@@ -572,18 +570,14 @@ class Keywork:
         others: Sequence[Cup] = (),
         *,
         opening_m: float = 0.0035,
-        finger: str | None = None,
-        clear_m: float = 0.0022,
         half_value: float | None = None,
-        proxy_rod: bool = True,
     ) -> None:
         """A key whose cup the finger itself presses: flute, saxophone, bass clarinet."""
         axis, angle = turn_of(rod, cup.seat, cup.normal, opening_m)
         self.model.node(name, rod.nearest(cup.seat))
-        self._moving(name, rod, axis, angle, (cup, *others), (), clear_m, proxy_rod)
-        extra = {} if half_value is None else {"half_value": half_value}
+        motion = self._moving(name, rod, axis, angle, (cup, *others))
         kind = "key" if half_value is None else "hole"
-        self._control(name, kind, label, part, finger=finger, node=name, motion=_motion(axis, angle, rod), **extra)
+        self.control(name, kind, label, part, node=name, motion=motion, half_value=half_value)
         self.contact(part, cup.top(opening_m), cup.normal, node=name, control=name)
 
     def linked(
@@ -595,8 +589,6 @@ class Keywork:
         rings: Sequence[RingOn] = (),
         cups: Sequence[Cup] = (),
         drop_m: float = 0.0012,
-        when: str = "any",
-        clear_m: float = 0.0022,
         proxy_rod: bool = True,
     ) -> None:
         """A part other controls move: rings around holes, cups far from the finger; the first of them goes ``drop_m``.
@@ -608,8 +600,8 @@ class Keywork:
         if drop_m < 0:
             axis = -axis
         self.model.node(node, rod.nearest(lead.seat))
-        self._moving(node, rod, axis, angle, cups, rings, clear_m, proxy_rod)
-        self.links.append({"node": node, "motion": _motion(axis, angle, rod), "controls": list(controls), "when": when})
+        motion = self._moving(node, rod, axis, angle, cups, rings, proxy_rod=proxy_rod)
+        self.links.append({"node": node, "motion": motion, "controls": list(controls), "when": "any"})
 
     def also(
         self,
@@ -619,7 +611,6 @@ class Keywork:
         *,
         point: ArrayLike | None = None,
         normal: ArrayLike | None = None,
-        node: str | None = None,
     ) -> None:
         """Another finger, or the same one with other controls, works a control: where it was touched, or elsewhere."""
         known = next(row for row in self.contacts if row["control"] == control)
@@ -627,7 +618,7 @@ class Keywork:
             part,
             known["point"] if point is None else point,  # type: ignore[arg-type]
             known["normal"] if normal is None else normal,  # type: ignore[arg-type]
-            node=str(known["node"]) if node is None else node,
+            node=str(known["node"]),
             control=control,
             together=together,
         )
@@ -639,23 +630,23 @@ class Keywork:
         axis: Array,
         angle: float,
         cups: Sequence[Cup],
-        rings: Sequence[RingOn],
-        clear_m: float,
-        proxy_rod: bool,
-    ) -> None:
-        """The rod with its arms, cups and rings; posts and rims of the holes go to the root."""
+        rings: Sequence[RingOn] = (),
+        *,
+        clear_m: float = 0.0022,
+        proxy_rod: bool = True,
+    ) -> dict[str, object]:
+        """The rod with its arms, cups and rings; posts and rims of the holes go to the root. Returns its motion."""
         self.add([(self.metal, tube([rod.a, rod.b], rod.radius, sides=8, proxy=proxy_rod))], node)
         self.add([(self.metal, shape) for _, shape in rod.standing()])
         for cup in cups:
             lift = max(0.0, sink_of(rod, axis, angle, cup.seat, cup.normal))
             self.add(cup.chimney())
             self.add(cup.pieces(lift), node)
-            if cup.arm:
-                end = cup.seat + (lift + cup.thick_m * 0.8) * cup.normal
-                if cup.open_hole:
-                    off = rod.nearest(end) - end
-                    end = end + 0.85 * cup.radius * unit(off - cup.normal * (off @ cup.normal))
-                self.add([(self.metal, arm(rod.wall, rod.nearest(end), end, clear_m=clear_m))], node)
+            end = cup.seat + (lift + cup.thick_m * 0.8) * cup.normal
+            if cup.open_hole:
+                off = rod.nearest(end) - end
+                end = end + 0.85 * cup.radius * unit(off - cup.normal * (off @ cup.normal))
+            self.add([(self.metal, arm(rod.wall, rod.nearest(end), end, clear_m=clear_m))], node)
         for ring in rings:
             lift = max(0.0, sink_of(rod, axis, angle, ring.seat, ring.normal))
             middle = ring.seat + lift * ring.normal
@@ -664,23 +655,19 @@ class Keywork:
             off = near - middle
             off = unit(off - ring.normal * (off @ ring.normal))
             self.add([(self.metal, arm(rod.wall, near, middle + ring.radius * off, clear_m=0.0))], node)
+        return {"axis": axis, "angle_rad": angle, "pivot_m": rod.a}
 
-    def _control(
-        self, name: str, kind: str, label: str, part: str, *, finger: str | None = None, **more: object
-    ) -> None:
-        hand, mover = part.split(".")[:2]
+    def control(self, name: str, kind: str, label: str, part: str, **more: object) -> None:
+        """What a finger works, by the part of it that touches; ``more`` of None is left out."""
         row: dict[str, object] = {"name": name, "kind": kind, "role": "pitch", "label": label}
-        row |= {"finger": finger or f"{hand}.{mover}", "hover_m": self.hover_m, **more}
-        self.controls.append(row)
+        row |= {"finger": ".".join(part.split(".")[:2]), "hover_m": self.hover_m, **more}
+        self.controls.append({key: value for key, value in row.items() if value is not None})
 
     def tables(self) -> str:
         """The tables ``[[controls]]``, ``[[links]]`` and ``[endpin]`` of the map."""
         blocks = [("[[controls]]", row) for row in self.controls] + [("[[links]]", row) for row in self.links]
         blocks += [] if self.endpin is None else [("[endpin]", self.endpin)]
-        return "".join(
-            f"\n{heading}\n" + "".join(f"{key} = {_toml(value)}\n" for key, value in row.items())
-            for heading, row in blocks
-        )
+        return "".join(table(heading, row) for heading, row in blocks)
 
 
 def entry(
@@ -691,17 +678,19 @@ def entry(
     return lambda: made().model, lambda: made().contacts, lambda: made().tables()
 
 
-def _motion(axis: Array, angle_rad: float, rod: Rod) -> dict[str, object]:
-    return {"axis": axis, "angle_rad": angle_rad, "pivot_m": rod.a}
+def table(heading: str, row: dict[str, object]) -> str:
+    """A table of a map as TOML, after an empty line."""
+    return f"\n{heading}\n" + "".join(f"{key} = {toml(value)}\n" for key, value in row.items())
 
 
-def _toml(value: object) -> str:
+def toml(value: object) -> str:
+    """A text, a number (to a hundredth of a millimetre), a vector or an inline table as TOML."""
     if isinstance(value, str):
         return f'"{value}"'
     if isinstance(value, dict):
-        return "{ " + ", ".join(f"{key} = {_toml(inner)}" for key, inner in value.items()) + " }"
+        return "{ " + ", ".join(f"{key} = {toml(inner)}" for key, inner in value.items()) + " }"
     if isinstance(value, list | tuple | np.ndarray):
-        return "[" + ", ".join(_toml(inner) for inner in value) + "]"
+        return "[" + ", ".join(toml(inner) for inner in value) + "]"
     text = f"{float(value):.5f}".rstrip("0")  # type: ignore[arg-type]
     text = text if not text.endswith(".") else f"{text}0"
     return "0.0" if text == "-0.0" else text

@@ -9,12 +9,16 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
+
+HARD_DEG = 35.0
+TOLERANCE_M = 0.0012
+"""How far collision bodies may be off what they stand for."""
 
 
 @dataclass(frozen=True)
@@ -59,6 +63,13 @@ def unit(vector: ArrayLike) -> Array:
     """The vector with length 1."""
     array = np.asarray(vector, float)
     return array / np.linalg.norm(array)
+
+
+def square_to(way: Array) -> tuple[Array, Array]:
+    """Two directions square to one (of length 1) and to each other."""
+    across = np.eye(3)[np.argmin(np.abs(way))]
+    across = unit(across - way * (across @ way))
+    return across, np.cross(way, across)
 
 
 def bend(corners: Sequence[ArrayLike], radii: float | Sequence[float], step_m: float = 0.004) -> Array:
@@ -147,8 +158,7 @@ def tube(
     flat: tuple[float, float] = (1.0, 1.0),
     side: ArrayLike | None = None,
     proxy: bool = True,
-    hard_deg: float = 35.0,
-    tolerance_m: float = 0.0012,
+    tolerance_m: float = TOLERANCE_M,
 ) -> Shape:
     """A tube along a centre line.
 
@@ -161,7 +171,6 @@ def tube(
     flat : scale of the section along the two normals (a strap instead of a tube)
     side : direction of the first normal
     proxy : hand out capsules and cones for it
-    hard_deg : edges of the profile sharper than this stay edges
     tolerance_m : how far the capsules may be off the tube
     """
     centres = np.asarray(line, float)
@@ -174,9 +183,9 @@ def tube(
         rows = np.r_[0, np.arange(len(centres)), len(centres) - 1]
     else:
         radius_c, arc_c, rows = radius, arc, np.arange(len(centres))
-    shape = _skin(centres[rows], tangents[rows], across[rows], over[rows], arc_c, radius_c, sides, flat, hard_deg)
+    shape = _skin(centres[rows], tangents[rows], across[rows], over[rows], arc_c, radius_c, sides, flat, HARD_DEG)
     proxies = _tube_proxies(centres, radius * max(flat), tolerance_m) if proxy else ()
-    return Shape(shape.points, shape.normals, shape.uvs, shape.faces, tuple(proxies))
+    return replace(shape, proxies=tuple(proxies))
 
 
 def turned(
@@ -186,20 +195,20 @@ def turned(
     *,
     sides: int = 28,
     proxy: bool = True,
-    hard_deg: float = 35.0,
+    hard_deg: float = HARD_DEG,
 ) -> Shape:
-    """A body turned on a lathe: ``profile`` is (distance along the axis, radius), outer side to the left."""
+    """A body turned on a lathe: ``profile`` is (distance along the axis, radius), outer side to the left; its edges
+    sharper than ``hard_deg`` stay edges."""
     origin, direction = np.asarray(start, float), unit(axis)
     along = np.array([place for place, _ in profile])
     radius = np.array([r for _, r in profile])
-    across = np.eye(3)[np.argmin(np.abs(direction))]
-    across = unit(across - direction * (across @ direction))
+    across, over = square_to(direction)
     count = len(profile)
     shape = _skin(
         origin + along[:, None] * direction,
         np.tile(direction, (count, 1)),
         np.tile(across, (count, 1)),
-        np.tile(np.cross(direction, across), (count, 1)),
+        np.tile(over, (count, 1)),
         along,
         radius,
         sides,
@@ -207,7 +216,15 @@ def turned(
         hard_deg,
     )
     proxies = _turned_proxies(origin, direction, along, radius) if proxy else ()
-    return Shape(shape.points, shape.normals, shape.uvs, shape.faces, tuple(proxies))
+    return replace(shape, proxies=tuple(proxies))
+
+
+def solid(
+    start: ArrayLike, axis: ArrayLike, profile: Sequence[tuple[float, float]], *, sides: int = 28, proxy: bool = True
+) -> Shape:
+    """A turned body closed by a disc at either end: of two equal radii a cylinder."""
+    closed = [(profile[0][0], 0.0), *profile, (profile[-1][0], 0.0)]
+    return turned(start, axis, closed, sides=sides, proxy=proxy)
 
 
 def _skin(
@@ -271,9 +288,7 @@ def torus(
 ) -> Shape:
     """A ring."""
     middle, direction = np.asarray(centre, float), unit(axis)
-    across = np.eye(3)[np.argmin(np.abs(direction))]
-    across = unit(across - direction * (across @ direction))
-    over = np.cross(direction, across)
+    across, over = square_to(direction)
     u, v = np.meshgrid(np.linspace(0, 2 * np.pi, around + 1), np.linspace(0, 2 * np.pi, sides + 1), indexing="ij")
     radial = np.cos(u)[..., None] * across + np.sin(u)[..., None] * over
     normals = np.cos(v)[..., None] * radial + np.sin(v)[..., None] * direction
@@ -309,7 +324,7 @@ def plate(centre: ArrayLike, half: ArrayLike, x_axis: ArrayLike, y_axis: ArrayLi
     return Shape(np.array(points), np.array(normals), np.array(uvs), np.array(faces), (box,))
 
 
-def _tube_proxies(line: Array, radius: Array, tolerance_m: float = 0.0012) -> list[dict[str, object]]:
+def _tube_proxies(line: Array, radius: Array, tolerance_m: float) -> list[dict[str, object]]:
     """Capsules (even radius) and cones along a line, within the tolerance of it."""
     found: list[dict[str, object]] = []
     for start, end in _runs(line, radius, tolerance_m):
@@ -348,9 +363,7 @@ def _straight(line: Array, radius: Array, start: int, end: int, tolerance_m: flo
     )
 
 
-def _turned_proxies(
-    origin: Array, axis: Array, along: Array, radius: Array, tolerance_m: float = 0.0012
-) -> list[dict[str, object]]:
+def _turned_proxies(origin: Array, axis: Array, along: Array, radius: Array) -> list[dict[str, object]]:
     """Cylinders and cones that stand for the outer side of a profile (where it runs forward)."""
     outer = [0]
     for index in range(1, len(along)):
@@ -362,9 +375,9 @@ def _turned_proxies(
             outer = [kept for kept in outer if along[kept] < along[index] - 1e-5] + [index]
     places = origin + along[outer, None] * axis
     found: list[dict[str, object]] = []
-    for start, end in _runs(places, radius[outer], tolerance_m):
+    for start, end in _runs(places, radius[outer], TOLERANCE_M):
         r, s = (max(float(radius[outer[k]]), 1e-4) for k in (start, end))
-        if abs(r - s) < tolerance_m:
+        if abs(r - s) < TOLERANCE_M:
             thick = float(max(radius[outer[start : end + 1]]))
             found.append({"shape": "cylinder", "a_m": places[start], "b_m": places[end], "radius_m": thick})
         else:

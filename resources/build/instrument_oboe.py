@@ -25,14 +25,13 @@ from resources.build.instrument_keys import (
     Rod,
     Touch,
     Wall,
-    bodied,
     entry,
     oval,
     slab,
     teardrop,
     with_tail,
 )
-from resources.build.instrument_mesh import bend, lengths, tube, turned, unit
+from resources.build.instrument_mesh import bend, lengths, solid, tube, turned, unit
 from resources.build.instrument_reeds import DoubleReed, thumb_rest
 
 X, Y, Z = np.eye(3)
@@ -111,22 +110,21 @@ class Oboe:
 
     def blade(
         self, along: float, angle: float, height: float, length: float, width: float, *, narrow: float | None = None,
-        ahead: float = 1.0, turn_deg: float = 0.0, foot: float = -0.42, off: float = 0.0,
+        foot: float = -0.42, off: float = 0.0,
     ) -> Touch:  # fmt: skip
-        """A spatula over the body, ``off`` metres further than the drawing's place (which stretches, ``off`` does not).
-
-        ``turn_deg`` swings its length from the body's axis towards growing angles.
-        """
+        """A spatula over the body; ``off`` is how much further than the drawing's place, and does not stretch."""
         outline = oval(length, width) if narrow is None else teardrop(length, width, narrow)
-        turn = np.radians(turn_deg)
-        lead = ahead * (np.cos(turn) * unit(self.body.axis) + np.sin(turn) * self.body.around(angle))
-        point = self.body.point(self.at(along) + off, angle, height)
-        return slab(point, self.body.normal(angle), lead, outline, foot=foot)
+        return self.body.spatula(self.at(along) + off, angle, height, outline, foot=foot)
 
-    def lever(self, touch: Touch, rod: Rod, along: float, angle: float, height: float = 0.0045) -> Touch:
+    def lever(self, touch: Touch, rod: Rod, along: float, angle: float) -> Touch:
         """A lever's other end beyond its axle, where it meets another key."""
-        end = self.body.point(self.at(along), angle, height)
+        end = self.body.point(self.at(along), angle, 0.0045)
         return with_tail(touch, rod, end, self.body.normal(angle), 0.0015)
+
+    def plate(self, label: str, part: str, along: float, radius: float) -> None:
+        """A plate without a hole, on a short rod of its own."""
+        rod, cup = self.near(along, 0.013, -52.0), self.cup(along, 0.0, radius)
+        self.work.plateau(f"plate_{label}", label, part, rod, cup, opening_m=0.0030)
 
     def make(self) -> Keywork:
         """The whole instrument."""
@@ -145,8 +143,8 @@ class Oboe:
         if len(self.bocal):
             share = lengths(self.bocal) / lengths(self.bocal)[-1]
             work.model.add("silver", tube(self.bocal, 0.0024 + 0.0026 * share, sides=18))
-            cork = [(-0.012, 0), (-0.012, 0.0062), (0.002, 0.0068), (0.002, 0)]
-            work.model.add("cork", turned(body.start, body.axis, cork, sides=20))
+            cork = [(-0.012, 0.0062), (0.002, 0.0068)]
+            work.model.add("cork", solid(body.start, body.axis, cork, sides=20))
         work.model.add("grenadilla", body.skin())
         top = [(-0.0008, 0.0), (-0.0008, 0.0112), (0.0006, 0.0128), (0.0016, 0.0128), (0.0016, 0.0)]
         g = sizes.girth
@@ -171,9 +169,8 @@ class Oboe:
         ring = [(0.0004, first), (0.0004, outline[0][1] + 0.0009), (0.0052, outline[0][1] + 0.0010), (0.0052, first)]
         rim = [(length - 0.0036, edge - 0.002), (length - 0.0036, edge + 0.0004), (length + 0.0008, edge + 0.0003),
                (length + 0.0008, edge - 0.0022)]  # fmt: skip
-        shape = turned(start, body.axis, wood, sides=44)
         return [
-            ("grenadilla", bodied(shape, *shape.proxies)),
+            ("grenadilla", turned(start, body.axis, wood, sides=44)),
             ("dark_plastic", turned(start, body.axis, inside, sides=36, proxy=False)),
             ("silver", turned(start, body.axis, ring, sides=40, proxy=False)),
             ("silver", turned(start, body.axis, rim, sides=44, proxy=False)),
@@ -186,18 +183,8 @@ class Oboe:
         rod = self.near(0.1515, 0.016, -52.0)
         work.plateau("plate_L1", "L1", "left.index.pad", rod, self.cup(0.1490, 0.0, 0.0078, 0.0013),
                      opening_m=0.0030, half_value=0.85)  # fmt: skip
-        for name, label, finger, along, radius in (
-            ("plate_L2", "L2", "middle", 0.1830, 0.0080),
-            ("plate_L3", "L3", "ring", 0.2140, 0.0080),
-        ):
-            work.plateau(
-                name,
-                label,
-                f"left.{finger}.pad",
-                self.near(along, 0.013, -52.0),
-                self.cup(along, 0.0, radius),
-                opening_m=0.0030,
-            )
+        self.plate("L2", "left.middle.pad", 0.1830, 0.0080)
+        self.plate("L3", "left.ring.pad", 0.2140, 0.0080)
         # What the plates close besides: the small cups of C and B flat between them.
         work.linked("cup_C", ("plate_L1",), self.rod(0.112, 0.132, -52.0), cups=[self.cup(0.1260, -4.0, 0.0058)],
                     drop_m=0.0025)  # fmt: skip
@@ -232,8 +219,8 @@ class Oboe:
             if lowest and name not in self.sizes.lowest:
                 continue
             middle = self.at(0.2140) + off
-            touch = slab(body.point(middle, angle, 0.0092), body.normal(angle), -unit(body.axis), oval(length, wide),
-                         foot=-0.42 if lowest else 0.0)  # fmt: skip
+            foot = -0.42 if lowest else 0.0
+            touch = body.spatula(middle, angle, 0.0092, oval(length, wide), ahead=-1.0, foot=foot)
             if lowest:
                 rod = body.cross_rod(middle + length / 2 + 0.0035, angle, 0.0080, 0.0062)
                 touch = self.lever(touch, rod, 0.2660, 52.0)
@@ -252,19 +239,9 @@ class Oboe:
     def right_hand(self) -> None:
         """Plates of the right hand."""
         work = self.work
-        for name, label, finger, along, radius in (
-            ("plate_R1", "R1", "index", 0.2680, 0.0082),
-            ("plate_R2", "R2", "middle", 0.3040, 0.0084),
-            ("plate_R3", "R3", "ring", 0.3400, 0.0084),
-        ):
-            work.plateau(
-                name,
-                label,
-                f"right.{finger}.pad",
-                self.near(along, 0.013, -52.0),
-                self.cup(along, 0.0, radius),
-                opening_m=0.0030,
-            )
+        self.plate("R1", "right.index.pad", 0.2680, 0.0082)
+        self.plate("R2", "right.middle.pad", 0.3040, 0.0084)
+        self.plate("R3", "right.ring.pad", 0.3400, 0.0084)
         work.linked("cup_F_sharp", ("plate_R2", "plate_R3"), self.rod(0.282, 0.2895, -58.0, 0.0050),
                     cups=[self.cup(0.2850, -14.0, 0.0056)], drop_m=0.0025)  # fmt: skip
 
@@ -288,13 +265,7 @@ class Oboe:
         ):
             middle = self.at(0.3400) + off * self.sizes.little
             rod = body.rod(middle - 0.008, middle + 0.010, rod_angle, 0.0050)
-            touch = slab(
-                body.point(middle, angle, 0.0098),
-                body.normal(angle),
-                unit(body.axis),
-                oval(0.0122 * self.sizes.little, wide),
-                foot=0.0,
-            )
+            touch = body.spatula(middle, angle, 0.0098, oval(0.0122 * self.sizes.little, wide), foot=0.0)
             work.key(name, f"Rp_{label}", "right.little.pad", rod, touch, travel_m=0.0038)
 
     def long_keys(self) -> None:

@@ -60,7 +60,11 @@ ALTO = Sizes(
     holes=(0.1940, 0.2250, 0.2560, 0.3020, 0.3320, 0.3620, 0.4010), tip=(0.0110, 0.0054),
 )  # fmt: skip
 
-FINGERS = ("left.index", "left.middle", "left.ring", "right.index", "right.middle", "right.ring", "right.little")
+FINGERS = {
+    "l1": "left.index", "l2": "left.middle", "l3": "left.ring", "r1": "right.index", "r2": "right.middle",
+    "r3": "right.ring", "r4": "right.little",
+}  # fmt: skip
+"""By hole, from the top."""
 
 
 class Recorder:
@@ -168,42 +172,26 @@ class Recorder:
 
     def holes(self) -> None:
         """Finger holes, the thumb's hole, and where the right thumb holds."""
-        work, s = self.work, self.sizes
-        names = ("lt", "l1", "l2", "l3", "r1", "r2", "r3", "r4")
-        wall = self.body
-        work.contact("right.thumb.pad", wall.point(s.rest, 184.0), wall.normal(184.0))
-        self.one("hole_lt", names[0], "left.thumb", wall, s.thumb, 180.0, s.hole * 1.05, True)
-        for number, (finger, along) in enumerate(zip(FINGERS, s.holes, strict=True), start=1):
-            on = self.foot if along > s.foot else wall
-            angle = -14.0 if number == 7 else 4.0 if number in (3, 6) else 0.0
-            double = number >= 6
-            self.one(
-                f"hole_{names[number]}",
-                names[number],
-                finger,
-                on,
-                along,
-                angle,
-                s.hole * (0.72 if double else 1.0),
-                double,
-            )
+        s, wall = self.sizes, self.body
+        self.work.contact("right.thumb.pad", wall.point(s.rest, 184.0), wall.normal(184.0))
+        self.one("lt", "left.thumb", s.thumb, 180.0, 1.05)
+        for (label, finger), along in zip(FINGERS.items(), s.holes, strict=True):
+            angle = {"l3": 4.0, "r3": 4.0, "r4": -14.0}.get(label, 0.0)
+            double = label in ("r3", "r4")
+            self.one(label, finger, along, angle, 0.72 if double else 1.0, double)
 
-    def one(
-        self, name: str, label: str, finger: str, wall: Wall, along: float, angle: float, radius: float, half: bool
-    ) -> None:
+    def one(self, label: str, finger: str, along: float, angle: float, share: float, double: bool = False) -> None:
         """A hole flush with the wall; a double one has a small hole beside the first."""
         work, s = self.work, self.sizes
-        part = f"{finger}.pad"
-        material = s.body
-        work.add(chimney(wall, along, angle, radius, 0.0002, material=material, lip=0.0006, deep_m=0.0007))
-        if half and label != "lt":
-            swing = np.degrees(2.5 * radius / wall.radius(along))
-            work.add(
-                chimney(wall, along, angle - swing, 0.75 * radius, 0.0002, material=material, lip=0.0006, deep_m=0.0007)
-            )
-        row: dict[str, object] = {"half_value": 0.5} if half else {}
-        work._control(name, "hole", label, part, **row)
-        work.contact(part, wall.point(along, angle, 0.0), wall.normal(angle), control=name)
+        wall, radius = self.foot if along > s.foot else self.body, s.hole * share
+        holes = [(angle, radius)]
+        if double:
+            holes.append((angle - np.degrees(2.5 * radius / wall.radius(along)), 0.75 * radius))
+        for at, size in holes:
+            work.add(chimney(wall, along, at, size, 0.0002, material=s.body, lip=0.0006, deep_m=0.0007))
+        half_value = 0.5 if double or label == "lt" else None
+        point, normal = wall.point(along, angle, 0.0), wall.normal(angle)
+        work.covered(f"hole_{label}", label, f"{finger}.pad", point, normal, half_value=half_value)
 
 
 def wedge(half: float, high: float, start: float, length: float, radius: float, drop: float) -> Shape:

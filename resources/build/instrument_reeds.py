@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from resources.build.instrument_keys import METAL, Pieces, Touch, Wall
-from resources.build.instrument_mesh import Array, Shape, plate, tube, turned, unit
+from resources.build.instrument_mesh import Array, Shape, plate, solid, tube, turned, unit
 
 X, Y, Z = np.eye(3)
 
@@ -212,8 +212,8 @@ class SingleReed:
             for x in (-0.0038, 0.0024):
                 found.append((self.metal, tube([(x, lugs_y, z - 0.0022), (x, lugs_y, z + 0.0022)], 0.0024, sides=10,
                                                proxy=False)))  # fmt: skip
-            screw = [(0, 0), (0, 0.0012), (0.014, 0.0012), (0.014, 0.0034), (0.020, 0.0032), (0.020, 0)]
-            found.append((self.metal, turned((0.0060, lugs_y, z), -X, screw, sides=12, proxy=False)))
+            screw = [(0, 0.0012), (0.014, 0.0012), (0.014, 0.0034), (0.020, 0.0032)]
+            found.append((self.metal, solid((0.0060, lugs_y, z), -X, screw, sides=12, proxy=False)))
         return found
 
 
@@ -269,11 +269,11 @@ class DoubleReed:
             wound += [(float(turn), wide - 0.0001), (float(turn) + 0.0004, wide)]
         wound += [(thread, self.throat), (thread, 0)]
         r = self.staple_radius
-        below = [(0, 0), (0, r * 0.8), (0.002, r * 0.85), (0.003, r), (self.staple, r), (self.staple, 0)]
+        below = [(0, r * 0.8), (0.002, r * 0.85), (0.003, r), (self.staple, r)]
         return [
             ("cane", loft(rings, proxies=[reed])),
             (self.thread_material, turned(start * Z, Z, wound, sides=20)),
-            (self.staple_material, turned((start + thread) * Z, Z, below, sides=20)),
+            (self.staple_material, solid((start + thread) * Z, Z, below, sides=20)),
         ]
 
 

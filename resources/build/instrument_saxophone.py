@@ -15,7 +15,7 @@ player's right and back to the body (`Shape`); its Wall's front looks ahead, +90
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -32,10 +32,21 @@ from resources.build.instrument_keys import (
     oval,
     pearl,
     roller,
-    slab,
     with_pieces,
 )
-from resources.build.instrument_mesh import Array, Shape, bend, half_circle, joined, lengths, torus, tube, turned, unit
+from resources.build.instrument_mesh import (
+    Array,
+    Shape,
+    bend,
+    half_circle,
+    joined,
+    lengths,
+    solid,
+    torus,
+    tube,
+    turned,
+    unit,
+)
 from resources.build.instrument_reeds import SingleReed, thumb_rest
 
 X, Y, Z = np.eye(3)
@@ -197,10 +208,10 @@ class Saxophone:
     def hole(self, name: str) -> float:
         return self.layout.holes_from + HOLES[name][0] * self.layout.holes
 
-    def cup(self, name: str, angle: float, *, rim: float = 0.0030, inlay: float = 0.0) -> Cup:
+    def cup(self, name: str, angle: float) -> Cup:
         return Cup(
-            self.body, self.hole(name), angle, HOLES[name][1] * self.layout.cups, rim_m=rim, thick_m=0.0038,
-            inlay=inlay, rim_material=BRASS, material=BRASS,
+            self.body, self.hole(name), angle, HOLES[name][1] * self.layout.cups, rim_m=0.0030, thick_m=0.0038,
+            rim_material=BRASS, material=BRASS,
         )  # fmt: skip
 
     def rod(self, start: float, end: float, angle: float, height: float = 0.0, wall: Wall | None = None) -> Rod:
@@ -216,16 +227,9 @@ class Saxophone:
             self.work.model.add(BRASS, bodied(shape, *bodies))
         return found
 
-    def plate(
-        self, along: float, angle: float, height: float, length: float, width: float, *, tip_deg: float = 0.0,
-        foot: float = 0.0, wall: Wall | None = None,
-    ) -> Touch:  # fmt: skip
-        """A touch plate over the body, ``length`` along it; ``tip_deg`` leans its top away from the mouth."""
-        wall = wall or self.body
-        tip = np.radians(tip_deg)
-        normal = np.cos(tip) * wall.normal(angle) + np.sin(tip) * unit(wall.axis)
-        return slab(wall.point(along, angle, height), normal, wall.axis, oval(length, width), 0.0020, material=BRASS,
-                    foot=foot)  # fmt: skip
+    def plate(self, along: float, angle: float, height: float, length: float, width: float) -> Touch:
+        """A touch plate over the body, ``length`` along it."""
+        return self.body.spatula(along, angle, height, oval(length, width), 0.0020, material=BRASS, foot=0.0)
 
     # Parts
 
@@ -246,11 +250,15 @@ class Saxophone:
 
     def without_thin(self) -> None:
         """Posts and rims under rods and cups, and arms far from every finger, need no collision bodies of their own."""
-        parts, places = self.work.model.parts, np.array([row["point"] for row in self.work.contacts])
+        places = np.array([row["point"] for row in self.work.contacts])
+        self.without(lambda body, node: self.is_thin(body, node, places))
+
+    def without(self, needless: Callable[[dict[str, object], str], bool]) -> None:
+        """Drop the collision bodies that a function, asked in their order for a body and its node, calls needless."""
+        parts = self.work.model.parts
         for index, part in enumerate(parts):
-            kept = [body for body in part.shape.proxies if not self.is_thin(body, part.node, places)]
-            if len(kept) < len(part.shape.proxies):
-                parts[index] = replace(part, shape=bodied(part.shape, *kept))
+            kept = [body for body in part.shape.proxies if not needless(body, part.node)]
+            parts[index] = replace(part, shape=bodied(part.shape, *kept))
 
     def is_thin(self, body: dict[str, object], node: str, places: Array) -> bool:
         """Whether a collision body is a post's, an arm's or a tone hole's rim that no hand comes near."""
@@ -268,15 +276,8 @@ class Saxophone:
 
     def tubes(self) -> None:
         """Mouthpiece, neck, body, bow and bell."""
-        work, layout, body, reed = self.work, self.layout, self.body, self.layout.reed
-        work.add(reed.pieces())
-        start = np.array([0.0, reed.axis_y, reed.end_z])
-        self.beak()
-        cork = layout.neck_radius[0] + 0.0012
-        work.model.add(
-            "cork", turned(start - 0.001 * Z, Z, [(0, 0), (0, cork), (0.016, cork), (0.016, 0)], sides=24, proxy=False)
-        )
-        line = self.neck_line(start)
+        work, layout, body = self.work, self.layout, self.body
+        line = self.neck_line(self.mouthpiece(layout.neck_radius[0], 0.016))
         run = lengths(line) / lengths(line)[-1]
         thin, wide = layout.neck_radius
         self.neck = line
@@ -290,14 +291,18 @@ class Saxophone:
         screw = place + 0.006 * self.down + (top + 0.001) * body.normal(150.0)
         work.model.add(BRASS, tube([screw, screw + 0.014 * body.normal(150.0)], 0.0016, sides=8, proxy=False))
         knob = screw + 0.014 * body.normal(150.0)
-        work.model.add(BRASS, turned(knob, body.normal(150.0), [(0, 0), (0, 0.0042), (0.004, 0.0042), (0.004, 0)],
+        work.model.add(BRASS, solid(knob, body.normal(150.0), [(0, 0.0042), (0.004, 0.0042)],
                                      sides=12, proxy=False))  # fmt: skip
         work.model.add(BRASS, body.skin(28))
         self.bow_and_bell()
 
-    def beak(self) -> None:
-        """The body of the beak before the lips, which its box leaves out."""
+    def mouthpiece(self, radius: float, cork_m: float) -> Array:
+        """Mouthpiece and cork on a tube so thick; where the mouthpiece ends.
+
+        The beak gets a body before the lips, which its box leaves out.
+        """
         reed, parts = self.layout.reed, self.work.model.parts
+        self.work.add(reed.pieces())
         low, high = 0.008, reed.beak_length - reed.tip_m
         axis = reed.axis_y * Y
         cone = {"shape": "cone", "a_m": axis + low * Z, "b_m": axis + high * Z, "radius_a_m": 0.8 * reed.radius,
@@ -305,10 +310,14 @@ class Saxophone:
         index = next(index for index, part in enumerate(parts) if part.shape.proxies)
         part = parts[index]
         parts[index] = replace(part, shape=bodied(part.shape, *part.shape.proxies, cone))
+        start = np.array([0.0, reed.axis_y, reed.end_z])
+        cork = [(0, radius + 0.0012), (cork_m, radius + 0.0012)]
+        self.work.model.add("cork", solid(start - 0.001 * Z, Z, cork, sides=24, proxy=False))
+        return start
 
     def neck_line(self, start: Array) -> Array:
-        """The centre line from the mouthpiece into the body."""
-        corners = [start + 0.010 * Z, *self.neck_points[:-1], self.neck_points[-1] + 0.004 * self.down]
+        """The centre line from the mouthpiece into the socket."""
+        corners = [start + 0.010 * Z, *self.neck_points[:-1], self.socket[0] + 0.004 * self.down]
         straight = start + np.linspace(0.0, 0.010, 5)[:, None] * Z
         return joined(straight, bend(corners, list(self.layout.bends), 0.006))
 
@@ -352,8 +361,7 @@ class Saxophone:
         work.model.add(BRASS, turned(start, up, inside, sides=30, proxy=False))
         work.model.add("inner_brass", turned(start, up, [(0.10 * length, profile[2][1] - 0.0012), (0.10 * length, 0.0)],
                                              sides=32, proxy=False))  # fmt: skip
-        rolled = torus(start + (length + 0.0004) * up, up, rim, 0.0017, sides=6, around=40)
-        work.model.add(BRASS, bodied(rolled, *rolled.proxies))
+        work.model.add(BRASS, torus(start + (length + 0.0004) * up, up, rim, 0.0017, sides=6, around=40))
 
     def left_stack(self) -> None:
         """Pearls of the left hand with the cups under them, bis and front F."""
@@ -411,8 +419,8 @@ class Saxophone:
         work, body, layout = self.work, self.body, self.layout
         along, angle = layout.left + 0.008, layout.left_deg + layout.thumb_deg * self.left_share
         out = body.normal(angle)
-        rest = [(-0.002, 0), (-0.002, 0.0076), (0.0040, 0.0076), (0.0055, 0.0068), (0.0060, 0.0046), (0.0060, 0)]
-        button = turned(body.point(along, angle), out, rest, sides=24)
+        rest = [(-0.002, 0.0076), (0.0040, 0.0076), (0.0055, 0.0068), (0.0060, 0.0046)]
+        button = solid(body.point(along, angle), out, rest, sides=24)
         work.model.add("dark_plastic", button)
         work.contact("left.thumb.pad", body.point(along, angle, 0.0060), out)
         touch = self.plate(along - 0.0104, angle - 11.0, 0.0075, 0.0075, 0.0150)
@@ -445,12 +453,12 @@ class Saxophone:
         work.model.node(node, saddle)
         strap = tube(lever, 0.0021, sides=8, flat=(0.7, 1.5), side=out[first], proxy=False)
         body = list(tube(lever[:: self.layout.steps[2]], 0.0021, sides=3).proxies)
-        pad = [(-0.0018, 0), (-0.0018, 0.0046), (0.0012, 0.0046), (0.0022, 0.0030), (0.0022, 0)]
+        pad = [(-0.0018, 0.0046), (0.0012, 0.0046), (0.0022, 0.0030)]
         ring_radius = radius[last] + 0.0060
         ring = torus(line[last], unit(steps[last]), ring_radius, 0.0015, sides=6, around=28)
         work.add([
             (BRASS, bodied(strap, *body)),
-            (BRASS, turned(place + (radius[first] + 0.0050) * normal, normal, pad, sides=16, proxy=False)),
+            (BRASS, solid(place + (radius[first] + 0.0050) * normal, normal, pad, sides=16, proxy=False)),
             (BRASS, ring),
             (BRASS, tube([rod.a, rod.b], 0.0019, sides=8, proxy=False)),
         ], node)  # fmt: skip
@@ -466,13 +474,13 @@ class Saxophone:
         first = layout.left
         part = "left.index.pad_proximal"
         angle = layout.left_deg + 72.0 * self.left_share
-        for name, label, along, height, axle, cup_angle in (
-            ("key_palm_D", "pd", first + layout.palm[0], 0.0240, 86.0, 112.0),
-            ("key_palm_E_flat", "peb", first + layout.palm[1], 0.0240, 92.0, 118.0),
-            ("key_palm_F", "pf", first + layout.palm[2], 0.0240, 98.0, 124.0),
+        length = min(0.0060, round(layout.palm[1] - layout.palm[2] - 0.0004, 4))
+        for name, label, along, axle, cup_angle in (
+            ("key_palm_D", "pd", first + layout.palm[0], 86.0, 112.0),
+            ("key_palm_E_flat", "peb", first + layout.palm[1], 92.0, 118.0),
+            ("key_palm_F", "pf", first + layout.palm[2], 98.0, 124.0),
         ):
-            length = min(0.0060, round(layout.palm[1] - layout.palm[2] - 0.0004, 4))
-            touch = self.plate(along, angle, height, length, 0.0140)
+            touch = self.plate(along, angle, 0.0240, length, 0.0140)
             rod = self.rod(along + 0.004, self.hole(label) - 0.008, axle, 0.0095)
             work.key(name, label, part, rod, touch, [self.cup(label, cup_angle)], travel_m=0.0030, clear_m=0.004)
         work.also(part, "key_palm_E_flat", ("key_palm_D",))
@@ -583,21 +591,16 @@ class Saxophone:
         )
         self.guard(c)
         self.guard(sharp)
-        for node, controls, (along, radius) in (
-            ("pad_B", ("key_B", "key_B_flat"), layout.bell_cups[0]),
-            ("pad_B_flat", ("key_B_flat",), layout.bell_cups[1]),
+        (b, b_radius), (b_flat, b_flat_radius) = layout.bell_cups
+        low_a = [("pad_low_A", ("key_low_A",), 2 * b_flat - b, b_flat_radius * 1.04, 0.03)] if layout.low_a else []
+        for node, controls, along, radius, half in (
+            ("pad_B", ("key_B", "key_B_flat"), b, b_radius, b_radius),
+            ("pad_B_flat", ("key_B_flat",), b_flat, b_flat_radius, b_flat_radius),
+            *low_a,
         ):
             cup = replace(c, wall=self.bell, along=along, radius=radius, angle_deg=100.0, rim_m=0.0045)
-            rod = self.rod(along - radius, along + radius, 168.0, 0.0085, self.bell)
+            rod = self.rod(along - half, along + half, 168.0, 0.0085, self.bell)
             work.linked(node, controls, rod, cups=[cup], drop_m=0.0065)
-            self.guard(cup)
-        if layout.low_a:
-            along = 2 * layout.bell_cups[1][0] - layout.bell_cups[0][0]
-            cup = replace(
-                c, wall=self.bell, along=along, radius=layout.bell_cups[1][1] * 1.04, angle_deg=100.0, rim_m=0.0045
-            )
-            rod = self.rod(along - 0.03, along + 0.03, 168.0, 0.0085, self.bell)
-            work.linked("pad_low_A", ("key_low_A",), rod, cups=[cup], drop_m=0.0065)
             self.guard(cup)
 
     def guard(self, cup: Cup) -> None:
@@ -619,9 +622,7 @@ class Saxophone:
         self.work.model.add(BRASS, *feet)
         cross = np.array([top - reach * over, top, top + reach * over])
         self.work.model.add(BRASS, tube(cross, 0.0015, sides=6))
-        self.work.model.add(
-            "felt", turned(top, -up, [(0.0, 0), (0.0, 0.0045), (0.0024, 0.0045), (0.0024, 0)], sides=12)
-        )
+        self.work.model.add("felt", solid(top, -up, [(0.0, 0.0045), (0.0024, 0.0045)], sides=12))
 
     def fittings(self) -> None:
         """The ring of the strap and the brace to the bell."""
@@ -643,8 +644,8 @@ class Saxophone:
         plate = body.point(along, 180.0, 0.0006)
         out = body.normal(180.0)
         wide = min(0.008, 0.45 * body.radius(along))  # flat on a slim body's round
-        disc = [(-0.001, 0), (-0.001, wide), (0.0008, wide - 0.001), (0.0008, 0)]
-        work.model.add(BRASS, turned(plate, out, disc, sides=16, proxy=False))
+        disc = [(-0.001, wide), (0.0008, wide - 0.001)]
+        work.model.add(BRASS, solid(plate, out, disc, sides=16, proxy=False))
         work.model.add(BRASS, torus(plate + 0.0085 * out, body.around(180.0), 0.0075, 0.0016, sides=8, around=24))
 
 
@@ -662,12 +663,6 @@ class Baritone(Saxophone):
         receiver = corner + (layout.neck[0][1] - layout.neck[1][1]) * self.down
         self.receiver = receiver
         return [corner, receiver + self.BACK * self.front + 0.020 * self.down]
-
-    def neck_line(self, start: Array) -> Array:
-        """The centre line from the mouthpiece to the receiver."""
-        corners = [start + 0.010 * Z, self.neck_points[0], self.receiver + 0.004 * self.down]
-        straight = start + np.linspace(0.0, 0.010, 5)[:, None] * Z
-        return joined(straight, bend(corners, list(self.layout.bends), 0.006))
 
     @property
     def socket(self) -> tuple[Array, float]:
@@ -709,14 +704,8 @@ class Soprano(Saxophone):
 
     def tubes(self) -> None:
         """Mouthpiece, cork, the straight body and its bell."""
-        work, body, reed = self.work, self.body, self.layout.reed
-        work.add(reed.pieces())
-        start = np.array([0.0, reed.axis_y, reed.end_z])
-        self.beak()
-        cork = body.radius(0.0) + 0.0012
-        work.model.add(
-            "cork", turned(start - 0.001 * Z, Z, [(0, 0), (0, cork), (0.014, cork), (0.014, 0)], sides=24, proxy=False)
-        )
+        work, body = self.work, self.body
+        self.mouthpiece(body.radius(0.0), 0.014)
         work.model.add(BRASS, body.skin(28))
         for along in (0.040, 0.046, self.end - 0.006):
             work.model.add(BRASS, body.collar(along, 0.005))
@@ -752,20 +741,17 @@ class Soprano(Saxophone):
     def without_thin(self) -> None:
         """Nor do posts that stand beside another in the little room, and the rim that hardly stands out of its bell."""
         super().without_thin()
-        parts, posts = self.work.model.parts, np.empty((0, 3))
-        for index, part in enumerate(parts):
-            kept = []
-            for body in part.shape.proxies:
-                if body["shape"] == "ring" and body["radius_m"] == self.layout.bell_rim:
-                    continue
-                if body["shape"] == "cylinder" and part.node == "root" and body["radius_m"] == POST_M:
-                    middle = np.mean([body["a_m"], body["b_m"]], axis=0)
-                    if np.linalg.norm(posts - middle, axis=1).min(initial=1.0) < POST_M:
-                        continue
-                    posts = np.vstack([posts, middle])
-                kept.append(body)
-            if len(kept) < len(part.shape.proxies):
-                parts[index] = replace(part, shape=bodied(part.shape, *kept))
+        posts: list[Array] = []
+
+        def needless(body: dict[str, object], node: str) -> bool:
+            if body["shape"] == "cylinder" and node == "root" and body["radius_m"] == POST_M:
+                middle = np.mean([body["a_m"], body["b_m"]], axis=0)
+                if any(np.linalg.norm(post - middle) < POST_M for post in posts):
+                    return True
+                posts.append(middle)
+            return body["shape"] == "ring" and body["radius_m"] == self.layout.bell_rim
+
+        self.without(needless)
 
 
 ALTO = Layout()

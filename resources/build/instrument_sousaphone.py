@@ -19,15 +19,15 @@ from resources.build.instrument_brass import (
     NICKEL,
     Bell,
     Frame,
+    Z,
     bell,
+    contact,
     ferrule,
     inside_out,
-    mouthpiece,
-    receiver,
     stay,
 )
-from resources.build.instrument_mesh import Array, Model, bend, joined, lengths, tube, turned, unit
-from resources.build.instrument_tuba import TUBA_BB, Z, row_contacts, slides, thumb_ring
+from resources.build.instrument_mesh import Array, Model, bend, joined, lengths, solid, tube, unit
+from resources.build.instrument_tuba import TUBA_BB, blown, row, row_contacts, slides, thumb_ring
 
 ROW = replace(
     TUBA_BB,
@@ -77,13 +77,8 @@ def radius(degrees: float) -> float:
 def build() -> Model:
     """Build the model."""
     model, f = Model(), ROW.frame()
-    up = f.way(0, 1, 0)
-    for k in range(ROW.row):
-        model.node(f"valve_{k + 1}", f.at(ROW.valve(k, ROW.button)))
-    mouthpiece(model, ROW.rim_r, ROW.outer_r, ROW.shank + 0.012, 0.030, 0.0066)
-    receiver(model, (0, 0, ROW.shank), Z, 0.0088, 0.032)
-    for k in range(ROW.row):
-        ROW.piston.build(model, f"valve_{k + 1}", f.at(ROW.valve(k, ROW.foot)), up)
+    blown(model, ROW)
+    row(model, ROW, f)
     slides(model, ROW, f)
     thumb_ring(model, ROW, f)
     _gooseneck(model, f)
@@ -154,14 +149,12 @@ def _bell(model: Model) -> None:
     collar = int(np.argmin(np.abs(before[:, 1] - (turn[1] - ELBOW_R - 0.06)) + (before[:, 2] > STEM[2] + 0.01)))
     thick = float(grown[collar])
     profile = [
-        (-0.022, 0),
         (-0.022, thick + 0.004),
         (-0.016, thick + 0.006),
         (0.016, thick + 0.006),
         (0.022, thick + 0.004),
-        (0.022, 0),
     ]
-    model.add(NICKEL, turned(before[collar], (0, 1, 0), profile, sides=40))
+    model.add(NICKEL, solid(before[collar], (0, 1, 0), profile, sides=40))
 
 
 def _stays(model: Model, f: Frame) -> None:
@@ -194,8 +187,7 @@ def contacts() -> list[dict[str, object]]:
     r = radius(GRIP_DEG)
     around = 0.085 / r
     way = np.cos(around) * palm + np.sin(around) * ahead
-    left = {"part": "left.middle.pad", "node": "root", "point": middle + r * way, "normal": way}
-    return [*row_contacts(ROW, ROW.frame()), {**left, "control": None, "grip": "firm"}]
+    return [*row_contacts(ROW, ROW.frame()), contact("left.middle.pad", "root", middle + r * way, way)]
 
 
 INSTRUMENTS = {"sousaphone_BBb": (build, contacts)}

@@ -15,21 +15,22 @@ from functools import partial
 
 import numpy as np
 
+from resources.build.instrument_brass import BRASS, NICKEL, SILVER, Bell, X, Y, Z, brace, contact, on_round
 from resources.build.instrument_mesh import (
     Array,
     Model,
-    Shape,
     bend,
     half_circle,
     joined,
     plate,
     resampled,
+    solid,
     torus,
     tube,
     turned,
+    unit,
 )
 
-X, Y, Z = np.eye(3)
 VALVE_X = 0.018
 VALVE_APART = 0.0275
 CASING_R = 0.0098
@@ -48,18 +49,15 @@ class Layout:
     """Where the parts of one instrument are, metres along its length from the rim of the mouthpiece.
 
     ``shank`` is the visible length of the mouthpiece, ``first_valve`` the axis of the first valve, ``front`` the bow in
-    front of the leadpipe, ``bell`` the bell's rim, ``back`` the centre of its tail's bow. The bell is a Bessel horn:
-    ``flare_m`` and ``flare`` are its scale and exponent.
+    front of the leadpipe, ``rim`` the bell's rim, ``back`` the centre of its tail's bow.
     """
 
     shank: float
     first_valve: float
     front: float
-    bell: float
-    bell_r: float
+    rim: float
+    bell: Bell
     back: float
-    flare_m: float = 0.0148
-    flare: float = 0.65
     bell_x: float = 0.0375
     saddle_ahead: float = 0.0
     middle_y: float = -0.0355
@@ -87,20 +85,18 @@ class Layout:
     def hook(self) -> Array:
         return np.array([0.0, 0.0165, 0.2850 + self.shift])
 
-    def bell_radius(self, distance: Array) -> Array:
-        """Outer radius of the bell at a distance from its rim."""
-        return self.bell_r * (self.flare_m / (self.flare_m + distance)) ** self.flare
-
 
 TRUMPET_FIRST_VALVE = 0.205
-TRUMPET = Layout(shank=0.072, first_valve=TRUMPET_FIRST_VALVE, front=0.386, bell=0.520, bell_r=0.0615, back=0.130)
-TRUMPET_C = replace(TRUMPET, front=0.378, bell=0.472, back=0.140, third_bow=-0.008)
+TRUMPET = Layout(
+    shank=0.072, first_valve=TRUMPET_FIRST_VALVE, front=0.386, rim=0.520, bell=Bell(0.0615, 0.0148, 0.65), back=0.130
+)
+TRUMPET_C = replace(TRUMPET, front=0.378, rim=0.472, back=0.140, third_bow=-0.008)
 CORNET = Layout(
-    shank=0.050, first_valve=0.152, front=0.322, bell=0.395, bell_r=0.0595, back=0.048, flare_m=0.0175, flare=0.70,
+    shank=0.050, first_valve=0.152, front=0.322, rim=0.395, bell=Bell(0.0595, 0.0175, 0.70), back=0.048,
     bell_x=0.053, saddle_ahead=0.013, middle_y=-0.0380, airway="cornet",
 )  # fmt: skip
 FLUGELHORN = Layout(
-    shank=0.052, first_valve=0.163, front=0.330, bell=0.460, bell_r=0.0760, back=0.080, flare_m=0.031, flare=0.86,
+    shank=0.052, first_valve=0.163, front=0.330, rim=0.460, bell=Bell(0.0760, 0.031, 0.86), back=0.080,
     bell_x=0.054, saddle_ahead=0.011, middle_y=-0.0380, airway="flugelhorn",
 )  # fmt: skip
 
@@ -130,33 +126,33 @@ def _mouthpiece(model: Model, at: Layout) -> None:
         (0.0090, 0.0131), (0.0100, 0.0124), (0.0150, 0.0121), (0.0200, 0.0112), (0.0250, 0.0094), (0.0290, 0.0074),
         (0.0330, 0.0062), (0.0390, 0.0055), (0.0450, 0.0053), (at.shank, 0.0050), (at.shank, 0.0),
     ]  # fmt: skip
-    model.add("silver", turned((0, 0, 0), Z, profile, sides=48, hard_deg=50))
+    model.add(SILVER, turned((0, 0, 0), Z, profile, sides=48, hard_deg=50))
 
 
 def _receiver(model: Model, at: Layout) -> None:
     receiver = [
-        (0, 0), (0, 0.0074), (0.0012, 0.0079), (0.0030, 0.0079), (0.0040, 0.0074), (0.022, 0.0072), (0.030, 0.0070),
-        (0.0312, 0.0066), (0.0312, 0.0)
+        (0, 0.0074), (0.0012, 0.0079), (0.0030, 0.0079), (0.0040, 0.0074), (0.022, 0.0072), (0.030, 0.0070),
+        (0.0312, 0.0066),
     ]  # fmt: skip
-    model.add("nickel_silver", turned((0, 0, at.shank - 0.008), Z, receiver))
+    model.add(NICKEL, solid((0, 0, at.shank - 0.008), Z, receiver))
 
 
 def _ferrule(model: Model, place: tuple[float, float, float], radius: float, length: float) -> None:
-    model.add("nickel_silver", turned(place, Z, [(0, 0), (0, radius), (length, radius), (length, 0.0)]))
+    model.add(NICKEL, solid(place, Z, [(0, radius), (length, radius)]))
 
 
 def _tuning_slide(model: Model, at: Layout, low: float) -> None:
     """The leadpipe beside the valves and the bow in front of it, back to where the lower leg ends."""
-    model.add("lacquered_brass", tube([(0, 0, at.shank + 0.023), (0, 0, at.front - 0.080)], [0.0060, 0.0063]))
+    model.add(BRASS, tube([(0, 0, at.shank + 0.023), (0, 0, at.front - 0.080)], [0.0060, 0.0063]))
     _ferrule(model, (0, 0, at.front - 0.090), 0.0070, 0.022)
-    model.add("nickel_silver", tube([(0, 0, at.front - 0.081), (0, 0, at.front - 0.034)], 0.0062))
-    model.add("nickel_silver", tube([(0, low, at.front - 0.074), (0, low, at.front - 0.034)], 0.0062))
+    model.add(NICKEL, tube([(0, 0, at.front - 0.081), (0, 0, at.front - 0.034)], 0.0062))
+    model.add(NICKEL, tube([(0, low, at.front - 0.074), (0, low, at.front - 0.034)], 0.0062))
     bow = half_circle((0, 0, at.front), (0, low, at.front), Z, 28)
-    model.add("lacquered_brass", tube(joined((0, 0, at.front - 0.044), bow, (0, low, at.front - 0.044)), 0.0068))
+    model.add(BRASS, tube(joined((0, 0, at.front - 0.044), bow, (0, low, at.front - 0.044)), 0.0068))
     for y in (0.0, low):
-        ferrule = [(0, 0), (0, 0.0076), (0.0015, 0.0080), (0.0045, 0.0080), (0.006, 0.0076), (0.006, 0.0)]
-        model.add("nickel_silver", turned((0, y, at.front - 0.0465), Z, ferrule))
-    model.add("lacquered_brass", _brace((0, -0.0060, at.front - 0.023), (0, low + 0.0060, at.front - 0.023)))
+        ferrule = [(0, 0.0076), (0.0015, 0.0080), (0.0045, 0.0080), (0.006, 0.0076)]
+        model.add(NICKEL, solid((0, y, at.front - 0.0465), Z, ferrule))
+    model.add(BRASS, brace((0, -0.0060, at.front - 0.023), (0, low + 0.0060, at.front - 0.023)))
     _water_key(model, "root", np.array([0, low - 0.0066, at.front - 0.005]), back=-Z)
 
 
@@ -170,7 +166,7 @@ def _through_third_valve(model: Model, at: Layout) -> None:
         [0.02, 0.02],
     )
     # Its first stretch runs along Z but for the last bit, which differs from processor to processor.
-    model.add("lacquered_brass", tube(into_valve, 0.0066, side=Y))
+    model.add(BRASS, tube(into_valve, 0.0066, side=Y))
     _ferrule(model, (0, low, at.front - 0.084), 0.0073, 0.016)
 
 
@@ -183,7 +179,7 @@ def _wound_once_more(model: Model, at: Layout) -> None:
     leg = bend([(0, low, at.front - 0.068), (0, low, last + 0.040), (x, low, last + 0.010), (x, low, back)], 0.03)
     bow = half_circle((x, low, back), (x, lower, back), -Z, 20)
     on = bend([(x, lower, back), (x, lower, last - 0.014), (VALVE_X, lower + 0.016, last)], 0.014)
-    model.add("lacquered_brass", tube(joined(leg, bow, on), 0.0066))
+    model.add(BRASS, tube(joined(leg, bow, on), 0.0066))
     _ferrule(model, (0, low, at.front - 0.084), 0.0073, 0.016)
     for y in (low, lower):
         _ferrule(model, (x, y, back + 0.006), 0.0074, 0.012)
@@ -194,46 +190,31 @@ def _through_first_valve(model: Model, at: Layout) -> None:
     thumb and the hook."""
     _receiver(model, at)
     first, last = at.valves[0], at.valves[2]
-    model.add("nickel_silver", tube([(0, 0, at.shank + 0.020), (0, 0, first - 0.050)], 0.0056))
-    model.add("lacquered_brass", tube([(0, 0, first - 0.070), (0, 0, first - 0.020)], 0.0068))
+    model.add(NICKEL, tube([(0, 0, at.shank + 0.020), (0, 0, first - 0.050)], 0.0056))
+    model.add(BRASS, tube([(0, 0, first - 0.070), (0, 0, first - 0.020)], 0.0068))
     into_valve = bend([(0, 0, first - 0.030), (0, 0, first - 0.012), (VALVE_X, -0.012, first)], 0.010)
-    model.add("lacquered_brass", tube(into_valve, 0.0064))
+    model.add(BRASS, tube(into_valve, 0.0064))
     screw = [(0, 0), (0, 0.0022), (0.008, 0.0022), (0.009, 0.0055), (0.011, 0.0055), (0.012, 0.0)]
-    model.add("nickel_silver", turned((0, 0.005, first - 0.064), Y, screw, sides=18))
-    model.add("lacquered_brass", tube([(0, 0, first - 0.012), (0, 0, last + 0.036)], 0.0062))
-    model.add("lacquered_brass", _brace((0.0040, 0, last), (VALVE_X - CASING_R + 0.001, 0, last), 0.0024))
-
-
-def _brace(start: tuple[float, float, float], end: tuple[float, float, float], thick: float = 0.0022) -> Shape:
-    """A turned stay between two tubes, with a flange at either end and a bead in the middle."""
-    a, b = np.array(start), np.array(end)
-    length = float(np.linalg.norm(b - a))
-    t, m = thick, length / 2
-    profile = [
-        (-0.001, 0), (-0.001, 2.3 * t), (0.0012, 2.2 * t), (0.0022, 1.15 * t), (0.0035, t), (m - 2 * t, t),
-        (m - t, 1.5 * t), (m, 1.7 * t), (m + t, 1.5 * t), (m + 2 * t, t), (length - 0.0035, t),
-        (length - 0.0022, 1.15 * t), (length - 0.0012, 2.2 * t), (length + 0.001, 2.3 * t), (length + 0.001, 0),
-    ]  # fmt: skip
-    return turned(a, b - a, profile, sides=18)
+    model.add(NICKEL, turned((0, 0.005, first - 0.064), Y, screw, sides=18))
+    model.add(BRASS, tube([(0, 0, first - 0.012), (0, 0, last + 0.036)], 0.0062))
+    model.add(BRASS, brace((0.0040, 0, last), (VALVE_X - CASING_R + 0.001, 0, last), 0.0024))
 
 
 def _water_key(model: Model, node: str, place: Array, back: Array) -> None:
     """Nipple, lever and thumb plate under a bow."""
     down = -Y
     model.add(
-        "lacquered_brass",
-        turned(place - 0.001 * down, down, [(0, 0), (0, 0.0035), (0.004, 0.0035), (0.004, 0)]),
+        BRASS,
+        solid(place - 0.001 * down, down, [(0, 0.0035), (0.004, 0.0035)]),
         node=node,
     )
-    model.add(
-        "cork", turned(place + 0.003 * down, down, [(0, 0), (0, 0.0030), (0.0014, 0.0030), (0.0014, 0)]), node=node
-    )
+    model.add("cork", solid(place + 0.003 * down, down, [(0, 0.0030), (0.0014, 0.0030)]), node=node)
     arm = bend(
         [place + 0.0048 * down, place + 0.0052 * down + 0.014 * back, place + 0.0022 * down + 0.032 * back], 0.012
     )
-    model.add("nickel_silver", tube(arm, 0.0022, flat=(0.6, 1.2), side=Y, sides=12), node=node)
+    model.add(NICKEL, tube(arm, 0.0022, flat=(0.6, 1.2), side=Y, sides=12), node=node)
     model.add(
-        "nickel_silver",
+        NICKEL,
         tube(
             [place + 0.003 * down + 0.013 * back - 0.0042 * X, place + 0.003 * down + 0.013 * back + 0.0042 * X],
             0.0017,
@@ -247,74 +228,66 @@ def _valves(model: Model, at: Layout) -> None:
     for index, z in enumerate(at.valves, start=1):
         foot = np.array([VALVE_X, 0, z])
         casing = [
-            (-0.0885, 0), (-0.0885, CASING_R), (-0.030, CASING_R), (-0.0295, 0.0101), (-0.0265, 0.0101),
-            (-0.026, CASING_R), (0.0285, CASING_R), (0.0285, 0),
+            (-0.0885, CASING_R), (-0.030, CASING_R), (-0.0295, 0.0101), (-0.0265, 0.0101), (-0.026, CASING_R),
+            (0.0285, CASING_R),
         ]  # fmt: skip
-        model.add("nickel_silver" if index else "", turned(foot, Y, casing, sides=40))
+        model.add(NICKEL, solid(foot, Y, casing, sides=40))
         top = [
-            (0.0265, 0), (0.0265, 0.0106), (0.0275, 0.0112), (0.0325, 0.0112), (0.0335, 0.0106), (0.0355, 0.0090),
-            (0.0375, 0.0060), (0.0380, 0.0050), (0.0380, 0),
+            (0.0265, 0.0106), (0.0275, 0.0112), (0.0325, 0.0112), (0.0335, 0.0106), (0.0355, 0.0090), (0.0375, 0.0060),
+            (0.0380, 0.0050),
         ]  # fmt: skip
-        model.add("silver", turned(foot, Y, top, sides=40))
+        model.add(SILVER, solid(foot, Y, top, sides=40))
         bottom = [
-            (-0.1010, 0), (-0.1010, 0.0028), (-0.0995, 0.0036), (-0.0985, 0.0036), (-0.0975, 0.0085),
-            (-0.0960, 0.0106), (-0.0885, 0.0112), (-0.0870, 0.0112), (-0.0860, 0.0106), (-0.0860, 0),
+            (-0.1010, 0.0028), (-0.0995, 0.0036), (-0.0985, 0.0036), (-0.0975, 0.0085), (-0.0960, 0.0106),
+            (-0.0885, 0.0112), (-0.0870, 0.0112), (-0.0860, 0.0106),
         ]  # fmt: skip
-        model.add("silver", turned(foot, Y, bottom, sides=40))
-        model.add("felt", turned(foot, Y, [(0.0378, 0), (0.0378, 0.0062), (0.0404, 0.0062), (0.0404, 0)]))
+        model.add(SILVER, solid(foot, Y, bottom, sides=40))
+        model.add("felt", solid(foot, Y, [(0.0378, 0.0062), (0.0404, 0.0062)]))
         node = f"valve_{index}"
-        model.add(
-            "silver", turned(foot, Y, [(0.020, 0), (0.020, 0.0026), (0.0615, 0.0026), (0.0615, 0)], sides=18), node=node
-        )
-        model.add(
-            "nickel_silver", turned(foot, Y, [(-0.065, 0), (-0.065, 0.0084), (0.020, 0.0084), (0.020, 0)]), node=node
-        )
+        model.add(SILVER, solid(foot, Y, [(0.020, 0.0026), (0.0615, 0.0026)], sides=18), node=node)
+        model.add(NICKEL, solid(foot, Y, [(-0.065, 0.0084), (0.020, 0.0084)]), node=node)
         button = [
-            (0.0590, 0), (0.0590, 0.0034), (0.0600, 0.0050), (0.0612, 0.0078), (0.0622, 0.0085), (0.0664, 0.0085),
-            (0.0674, 0.0080), (0.0678, 0.0074), (0.0676, 0.0070), (0.0676, 0),
+            (0.0590, 0.0034), (0.0600, 0.0050), (0.0612, 0.0078), (0.0622, 0.0085), (0.0664, 0.0085), (0.0674, 0.0080),
+            (0.0678, 0.0074), (0.0676, 0.0070),
         ]  # fmt: skip
-        model.add("silver", turned(foot, Y, button, sides=36), node=node)
+        model.add(SILVER, solid(foot, Y, button, sides=36), node=node)
         pearl = [
-            (0.0670, 0),
             (0.0670, 0.0071),
             (0.0677, 0.0071),
             (0.0679, 0.0066),
             (BUTTON_TOP_Y, 0.0050),
-            (BUTTON_TOP_Y, 0),
         ]
-        model.add("pearl", turned(foot, Y, pearl, sides=36), node=node)
+        model.add("pearl", solid(foot, Y, pearl, sides=36), node=node)
     for low, high, y in ((0, 1, -0.045), (1, 2, -0.040), (0, 1, -0.066), (1, 2, -0.064)):
         knuckle = [(VALVE_X, y, at.valves[low]), (VALVE_X, y, at.valves[high])]
-        model.add("lacquered_brass", tube(knuckle, 0.0062))
+        model.add(BRASS, tube(knuckle, 0.0062))
     for z in (at.valves[0], at.valves[2]):
-        model.add("lacquered_brass", turned((0.003, 0, z), X, [(0, 0), (0, 0.004), (0.009, 0.004), (0.009, 0)]))
+        model.add(BRASS, solid((0.003, 0, z), X, [(0, 0.004), (0.009, 0.004)]))
 
 
 def _bell(model: Model, at: Layout) -> None:
     line, start = TAILS[at.airway](at)
     first_r = 0.0064
     begin = float(line[-1, 2]) + 0.002
-    stem = resampled(np.array([(at.bell_x, 0, begin), (at.bell_x, 0, at.bell - 0.22)]), 0.02)
-    flare_z = at.bell - np.geomspace(0.0005, 0.22, 44)[::-1]
+    stem = resampled(np.array([(at.bell_x, 0, begin), (at.bell_x, 0, at.rim - 0.22)]), 0.02)
+    flare_z = at.rim - np.geomspace(0.0005, 0.22, 44)[::-1]
     stem = joined(line, stem, np.column_stack([np.full_like(flare_z, at.bell_x), np.zeros_like(flare_z), flare_z]))
     share = np.linspace(0, 1, len(line))
-    radius = first_r + share * (float(at.bell_radius(np.array(at.bell - begin))) - first_r)
-    radii = np.r_[radius, at.bell_radius(at.bell - stem[len(line) :, 2])]
-    model.add("lacquered_brass", tube(stem, radii, sides=56, closed=False))
-    around = torus((at.bell_x, 0, at.bell), Z, at.bell_r - 0.0006, 0.0011, around=64, sides=12)
-    model.add("lacquered_brass", around)
-    inner_z = at.bell - np.geomspace(0.0005, 0.22, 36)
+    radius = first_r + share * (float(at.bell.radius(at.rim - begin)) - first_r)
+    radii = np.r_[radius, at.bell.radius(at.rim - stem[len(line) :, 2])]
+    model.add(BRASS, tube(stem, radii, sides=56, closed=False))
+    around = torus((at.bell_x, 0, at.rim), Z, at.bell.rim_r - 0.0006, 0.0011, around=64, sides=12)
+    model.add(BRASS, around)
+    inner_z = at.rim - np.geomspace(0.0005, 0.22, 36)
     inside = np.column_stack([np.full_like(inner_z, at.bell_x), np.zeros_like(inner_z), inner_z])
     model.add(
-        "inner_brass", tube(inside, at.bell_radius(at.bell - inner_z) - 0.0006, sides=56, closed=False, proxy=False)
+        "inner_brass", tube(inside, at.bell.radius(at.rim - inner_z) - 0.0006, sides=56, closed=False, proxy=False)
     )
     for z in (at.first_valve - 0.042, at.front - 0.056):
-        edge = at.bell_x - float(at.bell_radius(np.array(at.bell - z)))
-        model.add("lacquered_brass", _brace((0.0060, 0, z), (edge, 0, z)))
+        edge = at.bell_x - float(at.bell.radius(at.rim - z))
+        model.add(BRASS, brace((0.0060, 0, z), (edge, 0, z)))
     low = start - float(np.interp(0.5, share, radius)) + 0.0066
-    model.add(
-        "lacquered_brass", _brace((at.bell_x, low, at.back + 0.010), (at.bell_x, -0.0073, at.back + 0.010), 0.0018)
-    )
+    model.add(BRASS, brace((at.bell_x, low, at.back + 0.010), (at.bell_x, -0.0073, at.back + 0.010), 0.0018))
 
 
 def _plain_tail(at: Layout) -> tuple[Array, float]:
@@ -354,21 +327,17 @@ def _wide_tail(at: Layout) -> tuple[Array, float]:
 def _first_slide(model: Model, at: Layout) -> None:
     x, ahead = SLIDE_X, at.shift
     for y in FIRST_Y:
-        model.add("nickel_silver", tube([(x, y, 0.156 + ahead), (x, y, 0.199 + ahead)], 0.0055))
-        model.add(
-            "nickel_silver", turned((x, y, 0.1905 + ahead), Z, [(0, 0), (0, 0.0066), (0.012, 0.0066), (0.012, 0)])
-        )
+        model.add(NICKEL, tube([(x, y, 0.156 + ahead), (x, y, 0.199 + ahead)], 0.0055))
+        model.add(NICKEL, solid((x, y, 0.1905 + ahead), Z, [(0, 0.0066), (0.012, 0.0066)]))
     bow = half_circle((x, FIRST_Y[0], 0.1520 + ahead), (x, FIRST_Y[1], 0.1520 + ahead), -Z)
     model.add(
-        "lacquered_brass",
+        BRASS,
         tube(joined((x, FIRST_Y[0], 0.1890 + ahead), bow, (x, FIRST_Y[1], 0.1890 + ahead)), 0.0062),
         node="first_slide",
     )
     angles = np.radians(np.linspace(168, 372, 26))
     cradle = at.saddle + SADDLE_R * np.column_stack([np.zeros_like(angles), np.sin(angles), np.cos(angles)])
-    model.add(
-        "nickel_silver", tube(cradle, SADDLE_THICK, flat=(1.0, 3.2), side=Y, sides=16, proxy=False), node="first_slide"
-    )
+    model.add(NICKEL, tube(cradle, SADDLE_THICK, flat=(1.0, 3.2), side=Y, sides=16, proxy=False), node="first_slide")
     _strap_proxies(model, "first_slide", cradle, SADDLE_THICK, 3.2 * SADDLE_THICK)
 
 
@@ -388,19 +357,17 @@ def _second_slide(model: Model, at: Layout) -> None:
     ahead = np.array([-0.985, -0.10, 0.14]) / np.linalg.norm([-0.985, -0.10, 0.14])
     upper, lower = np.array([VALVE_X, -0.038, z]), np.array([VALVE_X, -0.060, z])
     for start in (upper, lower):
-        model.add("nickel_silver", tube([start + 0.006 * ahead, start + 0.030 * ahead], 0.0056))
-        model.add(
-            "nickel_silver", turned(start + 0.007 * ahead, ahead, [(0, 0), (0, 0.0066), (0.011, 0.0066), (0.011, 0)])
-        )
+        model.add(NICKEL, tube([start + 0.006 * ahead, start + 0.030 * ahead], 0.0056))
+        model.add(NICKEL, solid(start + 0.007 * ahead, ahead, [(0, 0.0066), (0.011, 0.0066)]))
     bow = half_circle(upper + 0.034 * ahead, lower + 0.034 * ahead, ahead)
-    model.add("lacquered_brass", tube(joined(upper + 0.020 * ahead, bow, lower + 0.020 * ahead), 0.0062))
+    model.add(BRASS, tube(joined(upper + 0.020 * ahead, bow, lower + 0.020 * ahead), 0.0062))
     knob = (upper + lower) / 2 + (0.034 + 0.011 + 0.0058) * ahead
     model.add(
-        "nickel_silver",
-        turned(
+        NICKEL,
+        solid(
             knob,
             ahead,
-            [(0, 0), (0, 0.0022), (0.004, 0.0018), (0.0055, 0.0042), (0.008, 0.0044), (0.009, 0.0030), (0.009, 0)],
+            [(0, 0.0022), (0.004, 0.0018), (0.0055, 0.0042), (0.008, 0.0044), (0.009, 0.0030)],
         ),
     )
 
@@ -409,21 +376,19 @@ def _third_slide(model: Model, at: Layout) -> None:
     x, ahead = SLIDE_X, at.shift
     end = ahead + at.third_bow
     for y in THIRD_Y:
-        model.add("nickel_silver", tube([(x, y, 0.266 + ahead), (x, y, 0.352 + end)], 0.0055))
-        model.add("nickel_silver", turned((x, y, 0.267 + ahead), Z, [(0, 0), (0, 0.0066), (0.026, 0.0066), (0.026, 0)]))
+        model.add(NICKEL, tube([(x, y, 0.266 + ahead), (x, y, 0.352 + end)], 0.0055))
+        model.add(NICKEL, solid((x, y, 0.267 + ahead), Z, [(0, 0.0066), (0.026, 0.0066)]))
     bow = half_circle((x, THIRD_Y[0], 0.3700 + end), (x, THIRD_Y[1], 0.3700 + end), Z)
     model.add(
-        "lacquered_brass",
+        BRASS,
         tube(joined((x, THIRD_Y[0], 0.2945 + ahead), bow, (x, THIRD_Y[1], 0.2945 + ahead)), 0.0062),
         node="third_slide",
     )
-    model.add("nickel_silver", torus(at.ring, X, RING_R, RING_THICK), node="third_slide")
+    model.add(NICKEL, torus(at.ring, X, RING_R, RING_THICK), node="third_slide")
+    model.add(NICKEL, plate((x, THIRD_Y[0] + 0.0062, at.ring[2]), (0.0025, 0.0012, 0.006), X, Y), node="third_slide")
     model.add(
-        "nickel_silver", plate((x, THIRD_Y[0] + 0.0062, at.ring[2]), (0.0025, 0.0012, 0.006), X, Y), node="third_slide"
-    )
-    model.add(
-        "lacquered_brass",
-        _brace((x, THIRD_Y[0] - 0.006, 0.355 + end), (x, THIRD_Y[1] + 0.006, 0.355 + end), 0.0018),
+        BRASS,
+        brace((x, THIRD_Y[0] - 0.006, 0.355 + end), (x, THIRD_Y[1] + 0.006, 0.355 + end), 0.0018),
         node="third_slide",
     )
     _water_key(model, "third_slide", np.array([x, THIRD_Y[1] - 0.0060, 0.366 + end]), back=-Z)
@@ -432,50 +397,30 @@ def _third_slide(model: Model, at: Layout) -> None:
 def _hook(model: Model, at: Layout) -> None:
     angles = np.radians(np.linspace(-100, 135, 30))
     strap = at.hook + HOOK_R * np.column_stack([np.zeros_like(angles), np.sin(angles), np.cos(angles)])
-    model.add("lacquered_brass", tube(strap, 0.0011, flat=(1.0, 3.2), side=Y, sides=16, proxy=False))
+    model.add(BRASS, tube(strap, 0.0011, flat=(1.0, 3.2), side=Y, sides=16, proxy=False))
     _strap_proxies(model, "root", strap, 0.0011, 3.2 * 0.0011)
-    model.add("lacquered_brass", plate((0, 0.0062, at.hook[2]), (0.0036, 0.0010, 0.009), X, Y))
-
-
-def _on(centre: Array, radius: float, normal: Array) -> tuple[Array, Array]:
-    direction = normal / np.linalg.norm(normal)
-    return centre + radius * direction, direction
+    model.add(BRASS, plate((0, 0.0062, at.hook[2]), (0.0036, 0.0010, 0.009), X, Y))
 
 
 def contacts(at: Layout = TRUMPET) -> list[dict[str, object]]:
     """Where a trained player's hands touch it, in the root frame."""
-    found: list[dict[str, object]] = []
-
-    def touch(part: str, node: str, place: tuple[Array, Array], control: str | None = None, grip: str = "firm") -> None:
-        found.append(
-            {"part": part, "node": node, "point": place[0], "normal": place[1], "control": control, "grip": grip}
-        )
-
-    for finger, index in (("index", 1), ("middle", 2), ("ring", 3)):
-        top = np.array([VALVE_X, BUTTON_TOP_Y, at.valves[index - 1]])
-        touch(f"right.{finger}.pad", f"valve_{index}", (top, Y), f"valve_{index}")
-    # Under the leadpipe, between the first two valves: it opposes the fingers.
-    touch(
-        "right.thumb.pad", "root", _on(np.array([0, 0, at.first_valve + 0.0138]), 0.0062, np.array([-0.7, -0.714, 0]))
-    )
-    # The hook is open towards the player: the little finger lies in it and presses down.
-    inside = np.array([0, 0.985, -0.174])
-    inside /= np.linalg.norm(inside)
-    touch("right.little.pad", "root", (at.hook - (HOOK_R - 0.0011) * inside, inside))
-    touch(
-        "left.index.pad", "root", _on(np.array([VALVE_X, -0.0185, at.valves[2]]), CASING_R, np.array([-0.42, 0, 0.907]))
-    )
-    touch(
-        "left.middle.pad",
-        "root",
-        _on(np.array([VALVE_X, at.middle_y, at.valves[2]]), CASING_R, np.array([-0.42, 0, 0.907])),
-    )
-    within = np.array([0, 0.65, 0.76])
-    within /= np.linalg.norm(within)
-    touch("left.ring.pad", "third_slide", (at.ring - (RING_R - RING_THICK) * within, within), "third_slide")
-    ahead = np.array([0, 0.6, -0.8])
-    touch("left.thumb.pad", "first_slide", (at.saddle - (SADDLE_R - SADDLE_THICK) * ahead, ahead), "first_slide")
-    return found
+    first, _, last = at.valves
+    inside, within, ahead = unit([0, 0.985, -0.174]), unit([0, 0.65, 0.76]), np.array([0, 0.6, -0.8])
+    casing = np.array([-0.42, 0, 0.907])
+    return [
+        *(
+            contact(f"right.{finger}.pad", f"valve_{k}", np.array([VALVE_X, BUTTON_TOP_Y, z]), Y, f"valve_{k}")
+            for k, (finger, z) in enumerate(zip(("index", "middle", "ring"), at.valves, strict=True), start=1)
+        ),
+        # Under the leadpipe, between the first two valves: it opposes the fingers.
+        contact("right.thumb.pad", "root", *on_round(Z * (first + 0.0138), 0.0062, np.array([-0.7, -0.714, 0]))),
+        # The hook is open towards the player: the little finger lies in it and presses down.
+        contact("right.little.pad", "root", at.hook - (HOOK_R - 0.0011) * inside, inside),
+        contact("left.index.pad", "root", *on_round(np.array([VALVE_X, -0.0185, last]), CASING_R, casing)),
+        contact("left.middle.pad", "root", *on_round(np.array([VALVE_X, at.middle_y, last]), CASING_R, casing)),
+        contact("left.ring.pad", "third_slide", at.ring - (RING_R - RING_THICK) * within, within, "third_slide"),
+        contact("left.thumb.pad", "first_slide", at.saddle - (SADDLE_R - SADDLE_THICK) * ahead, ahead, "first_slide"),
+    ]
 
 
 AIRWAYS = {"trumpet": _through_third_valve, "cornet": _wound_once_more, "flugelhorn": _through_first_valve}

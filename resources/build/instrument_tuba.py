@@ -23,19 +23,20 @@ from resources.build.instrument_brass import (
     Bell,
     Frame,
     Piston,
+    Z,
     arc,
     bell,
     branch,
+    contact,
     ferrule,
     loop,
     mouthpiece,
+    on_round,
     receiver,
     stay,
     tapered,
 )
-from resources.build.instrument_mesh import Array, Model, bend, joined, torus, tube, unit
-
-Z = np.array([0.0, 0.0, 1.0])
+from resources.build.instrument_mesh import Model, bend, joined, torus, tube, unit
 
 
 @dataclass(frozen=True)
@@ -185,21 +186,28 @@ TUBA_EB = replace(
 def build(at: Layout) -> Model:
     """Build the model."""
     model, f = Model(), at.frame()
-    up = f.way(0, 1, 0)
-    for k in range(at.row):
-        model.node(f"valve_{k + 1}", f.at(at.valve(k, at.button)))
-    if at.side_valve:
-        model.node("valve_4", f.at(at.side_valve))
-    mouthpiece(model, at.rim_r, at.outer_r, at.shank + 0.012, 0.030, 0.0066)
-    receiver(model, (0, 0, at.shank), Z, 0.0088, 0.032)
-    for k in range(at.row):
-        at.piston.build(model, f"valve_{k + 1}", f.at(at.valve(k, at.foot)), up)
+    blown(model, at)
+    row(model, at, f)
     airway(model, at, f)
     slides(model, at, f)
     if at.side_valve:
         _side_valve(model, at, f)
     thumb_ring(model, at, f)
     return model
+
+
+def blown(model: Model, at: Layout) -> None:
+    """Mouthpiece and receiver."""
+    mouthpiece(model, at.rim_r, at.outer_r, at.shank + 0.012, 0.030, 0.0066)
+    receiver(model, (0, 0, at.shank), Z, 0.0088, 0.032)
+
+
+def row(model: Model, at: Layout, f: Frame) -> None:
+    """The pistons side by side."""
+    for k in range(at.row):
+        node = f"valve_{k + 1}"
+        model.node(node, f.at(at.valve(k, at.button)))
+        at.piston.build(model, node, f.at(at.valve(k, at.foot)), f.way(0, 1, 0))
 
 
 def airway(model: Model, at: Layout, f: Frame) -> None:
@@ -286,6 +294,7 @@ def _side_valve(model: Model, at: Layout, f: Frame) -> None:
     """The fourth valve, for the left hand, with its tubing to the branch."""
     u, top, w = at.side_valve
     foot, up = f.at((u, top - at.piston.button, w)), f.way(0, 1, 0)
+    model.node("valve_4", f.at(at.side_valve))
     at.piston.build(model, "valve_4", foot, up)
     r = at.bore
     v = top - at.piston.button - 0.060
@@ -336,54 +345,33 @@ def thumb_ring(model: Model, at: Layout, f: Frame) -> None:
 def row_contacts(at: Layout, f: Frame) -> list[dict[str, object]]:
     """Where the right hand touches: the fingers on the row of valves, the thumb in its ring."""
     up, inward = f.way(0, 1, 0), unit(f.way(-1, 0, 0.25))
-    found: list[dict[str, object]] = [
-        {
-            "part": f"right.{finger}.pad",
-            "node": f"valve_{k + 1}",
-            "point": f.at(at.valve(k, at.button)),
-            "normal": up,
-            "control": f"valve_{k + 1}",
-            "grip": "firm",
-        }
+    found = [
+        contact(f"right.{finger}.pad", f"valve_{k + 1}", f.at(at.valve(k, at.button)), up, f"valve_{k + 1}")
         for k, finger in enumerate(("index", "middle", "ring", "little")[: at.row])
     ]
     edge = f.at(_ring_place(at)) - (RING_R - RING_THICK) * inward
-    thumb = {"part": "right.thumb.pad", "node": "root", "point": edge, "normal": inward}
-    return [*found, {**thumb, "control": None, "grip": "firm"}]
+    return [*found, contact("right.thumb.pad", "root", edge, inward)]
 
 
 def contacts(at: Layout) -> list[dict[str, object]]:
     """Where a trained player's hands touch it, in the root frame."""
     f = at.frame()
-    found, up = row_contacts(at, f), f.way(0, 1, 0)
-
-    def touch(
-        part: str, node: str, point: Array, normal: Array, control: str | None = None, grip: str = "firm"
-    ) -> None:
-        found.append({"part": part, "node": node, "point": point, "normal": normal, "control": control, "grip": grip})
-
+    row = row_contacts(at, f)
     if at.side_valve:
         u, top, w = at.side_valve
-        touch("left.index.pad", "valve_4", f.at(at.side_valve), up, "valve_4")
-        foot = top - at.piston.button
-        for part, v, way in (
-            ("left.middle.pad", foot + at.side_grip[0], f.way(0.6, 0, 0.8)),
-            ("left.thumb.pad", foot + at.side_grip[1], f.way(-0.55, 0, -0.84)),
-        ):
-            touch(
-                part,
-                "root",
-                f.at((u, v, w)) + at.piston.casing_r * way,
-                way,
-                grip="firm" if "middle" in part else "resting",
-            )
-    else:
-        v, degrees = at.left_grip
-        radius = _branch_radius(at, v)
-        around = np.radians(min(degrees + np.degrees(0.085 / radius), 165.0))
-        way = f.way(-np.cos(around), 0, np.sin(around))
-        touch("left.middle.pad", "root", f.at((0.0, v, 0.0)) + radius * way, way)
-    return found
+        foot, radius = top - at.piston.button, at.piston.casing_r
+        middle, thumb = (f.at((u, foot + v, w)) for v in at.side_grip)
+        return [
+            *row,
+            contact("left.index.pad", "valve_4", f.at(at.side_valve), f.way(0, 1, 0), "valve_4"),
+            contact("left.middle.pad", "root", *on_round(middle, radius, f.way(0.6, 0, 0.8))),
+            contact("left.thumb.pad", "root", *on_round(thumb, radius, f.way(-0.55, 0, -0.84)), grip="resting"),
+        ]
+    v, degrees = at.left_grip
+    radius = _branch_radius(at, v)
+    around = np.radians(min(degrees + np.degrees(0.085 / radius), 165.0))
+    way = f.way(-np.cos(around), 0, np.sin(around))
+    return [*row, contact("left.middle.pad", "root", *on_round(f.at((0.0, v, 0.0)), radius, way))]
 
 
 def _branch_radius(at: Layout, v: float) -> float:

@@ -18,15 +18,14 @@ from resources.build.instrument_brass import (
     NICKEL,
     Bell,
     Frame,
+    contact,
     loop,
-    mouthpiece,
     paddle,
-    receiver,
     rotor,
     stay,
 )
-from resources.build.instrument_mesh import Array, Model, bend, tube, turned
-from resources.build.instrument_tuba import TUBA_BB, Layout, Z, airway
+from resources.build.instrument_mesh import Model, bend, solid, tube
+from resources.build.instrument_tuba import TUBA_BB, Layout, airway, blown
 
 LEVER_APART, LEVER_WAY = 0.021, 0.009
 PAD_U, PIVOT_U = 0.050, 0.100
@@ -92,8 +91,7 @@ def build(at: Rotary) -> Model:
         model.node(f"rotor_{k + 1}", f.at((at.first_valve, _rotor_v(at, k), 0.034)))
     model.node("valve_5", f.at((THUMB[0], THUMB_PIVOT_V, THUMB_PIVOT_W)))
     model.node("rotor_5", f.at((FIFTH[0], FIFTH[1], FIFTH[2] + FIFTH_LONG)))
-    mouthpiece(model, at.rim_r, at.outer_r, at.shank + 0.012, 0.030, 0.0066)
-    receiver(model, (0, 0, at.shank), Z, 0.0088, 0.032)
+    blown(model, at)
     airway(model, at, f)
     for k in range(4):
         _valve(model, at, f, k)
@@ -109,8 +107,8 @@ def _band(model: Model, at: Rotary, f: Frame) -> None:
     top = at.left_grip[0] - 0.026
     low = top - 0.014
     upper, lower = (float(at.bell.radius(at.rim - v)) + 0.0010 for v in (top, low))
-    profile = [(0, 0), (0, lower), (0.007, (upper + lower) / 2), (top - low, upper), (top - low, 0)]
-    model.add(NICKEL, turned(f.at((at.width, low, 0.0)), f.way(0, 1, 0), profile, sides=48, proxy=False))
+    profile = [(0, lower), (0.007, (upper + lower) / 2), (top - low, upper)]
+    model.add(NICKEL, solid(f.at((at.width, low, 0.0)), f.way(0, 1, 0), profile, sides=48, proxy=False))
 
 
 def _valve(model: Model, at: Rotary, f: Frame, k: int) -> None:
@@ -135,8 +133,8 @@ def _lever(model: Model, at: Rotary, f: Frame, k: int) -> None:
         0.03,
     )
     model.add(NICKEL, tube(arm, 0.0024, sides=12), node=node)
-    hub = [(0, 0), (0, 0.0046), (0.016, 0.0046), (0.016, 0)]
-    model.add(NICKEL, turned(f.at((PIVOT_U, v - 0.008, PIVOT_W)), f.way(0, 1, 0), hub, sides=18), node=node)
+    hub = [(0, 0.0046), (0.016, 0.0046)]
+    model.add(NICKEL, solid(f.at((PIVOT_U, v - 0.008, PIVOT_W)), f.way(0, 1, 0), hub, sides=18), node=node)
     goal = f.at((at.first_valve - 0.014, _rotor_v(at, k) - 0.012, 0.042))
     model.add(NICKEL, tube([f.at((PIVOT_U + 0.016, v, PIVOT_W)), goal], 0.0013, sides=8), node=node)
 
@@ -153,8 +151,8 @@ def _fifth(model: Model, at: Rotary, f: Frame) -> None:
     under = THUMB[2] - 0.0028
     arm = [f.at((THUMB[0], THUMB[1] + 0.006, under)), f.at((THUMB[0], THUMB_PIVOT_V - 0.010, under - 0.002)), top]
     model.add(NICKEL, tube(bend(arm, 0.010), 0.0024, sides=12), node="valve_5")
-    hub = [(0, 0), (0, 0.0046), (0.016, 0.0046), (0.016, 0)]
-    model.add(NICKEL, turned(top - 0.008 * across, across, hub, sides=18), node="valve_5")
+    hub = [(0, 0.0046), (0.016, 0.0046)]
+    model.add(NICKEL, solid(top - 0.008 * across, across, hub, sides=18), node="valve_5")
     goal = f.at((u - 0.010, v + 0.014, w + FIFTH_LONG + 0.006))
     start = top + 0.008 * f.way(0, 1, 0)
     model.add(NICKEL, tube([top, start], 0.0018, sides=10), node="valve_5")
@@ -177,22 +175,20 @@ def _axle(model: Model, at: Rotary, f: Frame) -> None:
 
 def contacts(at: Rotary) -> list[dict[str, object]]:
     """Where a trained player's hands touch it, in the root frame."""
-    f, found = at.frame(), []
-
-    def touch(
-        part: str, node: str, point: Array, normal: Array, control: str | None = None, grip: str = "firm"
-    ) -> None:
-        found.append({"part": part, "node": node, "point": point, "normal": normal, "control": control, "grip": grip})
-
-    for k, finger in enumerate(("index", "middle", "ring", "little")):
-        touch(f"right.{finger}.pad", f"valve_{k + 1}", f.at(_pad(k)), f.way(0, 0, 1), f"valve_{k + 1}")
-    touch("right.thumb.pad", "valve_5", f.at(THUMB), f.way(0, 0, 1), "valve_5")
+    f = at.frame()
+    front = f.way(0, 0, 1)
     v, degrees = at.left_grip
     radius = float(at.bell.radius(at.rim - v))
     turn = np.radians(degrees) + 0.085 / radius
     way = f.way(np.cos(turn), 0, np.sin(turn))
-    touch("left.middle.pad", "root", f.at((at.width, v, 0.0)) + radius * way, way)
-    return found
+    return [
+        *(
+            contact(f"right.{finger}.pad", f"valve_{k + 1}", f.at(_pad(k)), front, f"valve_{k + 1}")
+            for k, finger in enumerate(("index", "middle", "ring", "little"))
+        ),
+        contact("right.thumb.pad", "valve_5", f.at(THUMB), front, "valve_5"),
+        contact("left.middle.pad", "root", f.at((at.width, v, 0.0)) + radius * way, way),
+    ]
 
 
 INSTRUMENTS = {

@@ -13,11 +13,10 @@ from hypothesis import strategies as st
 
 from app.choreography.model_file import decode_model
 from app.errors import AppError
-from app.formats.bvh import decode_bvh, encode_bvh
-from app.formats.fbx import encode_scene
+from app.formats.bvh import decode_bvh
 from app.formats.fbx.read import decode_scene
-from app.formats.gltf import decode_gltf
-from app.formats.gltf.write import encode_glb
+from app.formats.gltf.read import decode_gltf
+from tests.support.encoded import encode_bvh, encode_glb, encode_scene
 from tests.unit.choreography.test_model_file import CONTENT
 from tests.unit.formats import scenes
 from tests.unit.formats.gltf.test_read import character

@@ -16,9 +16,10 @@ from app.editor.tokens import DARK
 from app.project.model import Project, map_choices, project_from_score
 from app.score.read import read_midi
 from app.shell.language import Language
-from app.shell.theme import apply_font, apply_theme
+from app.shell.theme import apply_theme
 from instrument_maps.load import bundled_maps
 from tests.support.tasks import ImmediateTasks
+from widgets.common.font import apply_font
 
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
 

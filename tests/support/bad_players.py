@@ -73,7 +73,7 @@ def _figure() -> bytes:
 
 
 BAD_CHARACTERS: dict[str, tuple[Callable[[OwnFolders], str], str]] = {
-    "not installed": (lambda own: "nobody", "the character 'nobody' of trumpet is not installed"),
+    "not installed": (lambda own: "unknown", "the character 'unknown' of trumpet is not installed"),
     "file gone": (lambda own: own.add_character(None), "mori.glb, referenced in "),
     "description damaged": (lambda own: own.add_character(_figure(), "file = "), "mori.toml"),
     "file damaged": (lambda own: own.add_character(_truncated(_figure())), "mori.glb is damaged"),

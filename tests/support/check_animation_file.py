@@ -790,24 +790,26 @@ def r_usd(a):
     sk = [p for p in st.Traverse() if p.IsA(UsdSkel.Skeleton)]
     if not sk:
         raise RuntimeError('no Skeleton prim')
-    cache = UsdSkel.Cache(); q = cache.GetSkelQuery(UsdSkel.Skeleton(sk[0]))
+    cache = UsdSkel.Cache()
     mpu = UsdGeom.GetStageMetersPerUnit(st); zup = UsdGeom.GetStageUpAxis(st) == 'Z'
-    names = [str(j).split('/')[-1] for j in q.GetJointOrder()]
-    topo = q.GetTopology(); tps = st.GetTimeCodesPerSecond(); s0 = st.GetStartTimeCode(); pos, wts = [], {}
-    an = q.GetAnimQuery()
-    for t in a['times']:
-        tc = Usd.TimeCode(s0 + t * tps)
-        m = q.ComputeJointSkelTransforms(tc)
-        xf = UsdGeom.Xformable(sk[0]).ComputeLocalToWorldTransform(tc)
-        o = {}
-        for n, x in zip(names, m):
-            v = (x * xf).ExtractTranslation()
-            o[n] = [100 * mpu * c for c in ((v[0], v[2], -v[1]) if zup else v)]
-        pos.append(o)
-        if an:
-            for k, v in zip(an.GetBlendShapeOrder(), an.ComputeBlendShapeWeights(tc)):
-                wts.setdefault(str(k), []).append(float(v))
-    return {'bones': names, 'parent': {n: (names[topo.GetParent(i)] if topo.GetParent(i) >= 0 else None) for i, n in enumerate(names)}, 'animated': len(names),
+    tps = st.GetTimeCodesPerSecond(); s0 = st.GetStartTimeCode(); pos, wts = [{} for _ in a['times']], {}
+    names, par = [], {}
+    for p in sk:
+        q = cache.GetSkelQuery(UsdSkel.Skeleton(p))
+        own = [str(j).split('/')[-1] for j in q.GetJointOrder()]
+        topo = q.GetTopology(); an = q.GetAnimQuery()
+        names += own
+        par |= {n: (own[topo.GetParent(i)] if topo.GetParent(i) >= 0 else None) for i, n in enumerate(own)}
+        for o, t in zip(pos, a['times']):
+            tc = Usd.TimeCode(s0 + t * tps)
+            xf = UsdGeom.Xformable(p).ComputeLocalToWorldTransform(tc)
+            for n, x in zip(own, q.ComputeJointSkelTransforms(tc)):
+                v = (x * xf).ExtractTranslation()
+                o[n] = [100 * mpu * c for c in ((v[0], v[2], -v[1]) if zup else v)]
+            if an:
+                for k, v in zip(an.GetBlendShapeOrder(), an.ComputeBlendShapeWeights(tc)):
+                    wts.setdefault(str(k), []).append(float(v))
+    return {'bones': names, 'parent': par, 'animated': len(names),
             'duration': (st.GetEndTimeCode() - s0) / tps, 'fps': st.GetFramesPerSecond(), 'pos': pos, 'weights': wts, 'note': ''}
 
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from app.formats.fbx import write_scene
+from app.formats.fbx.write import write_scene
 from app.formats.scene import Bone, Material, MorphTarget, Scene, SkinnedMesh
 from app.rig import quaternion
 from app.rig.mesh import Mesh

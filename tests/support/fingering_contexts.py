@@ -163,7 +163,7 @@ def main() -> None:
             if not context.held_out and not is_right(context, labels):
                 shown = list(dict.fromkeys(zip(context.notes, labels, strict=True)))
                 print(f"{context.map} | {context.name} | {' ; '.join('='.join(one) for one in shown)}")
-                print(f"    wanted {context.answer}")
+                print(f"    expected {context.answer}")
 
 
 if __name__ == "__main__":

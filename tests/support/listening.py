@@ -19,7 +19,7 @@ QUIET_S = 5.0
 
 
 class Ear:
-    """Everything a link has told, in order."""
+    """Everything a link has reported, in order."""
 
     def __init__(self, link: RecorderLink) -> None:
         self.link = link

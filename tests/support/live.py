@@ -14,6 +14,7 @@ from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
+from app.performance.live import LiveMotion
 from app.performance.play_along import PlayAlong
 from app.plan.model import PlayerPlan
 from app.project.model import project_from_score
@@ -160,3 +161,20 @@ def motion_of(poses: list[Pose], first_s: float) -> Motion:
         instrument_position_m=np.array([pose.instrument_position_m for pose in poses]),
         instrument_rotation=np.array([pose.instrument_rotation for pose in poses]),
     )
+
+
+def ready_spans(live: LiveMotion, player_id: str) -> tuple[tuple[float, float], ...]:
+    """Where a player's motion is made, as spans of seconds in order."""
+    shown = live._shown
+    track = shown.tracks.get(player_id)
+    if track is None:
+        return ()
+    grid, spans = shown.grid, list[tuple[int, int]]()
+    for index in sorted(track.chunks):
+        if spans and spans[-1][1] == index:
+            spans[-1] = (spans[-1][0], index + 1)
+        else:
+            spans.append((index, index + 1))
+    step_s = grid.length * grid.fps.denominator / grid.fps.numerator
+    end_s = grid.start_s + grid.frames * grid.fps.denominator / grid.fps.numerator
+    return tuple((grid.start_s + first * step_s, min(grid.start_s + last * step_s, end_s)) for first, last in spans)

@@ -71,7 +71,7 @@ def _faults_of(widget: QWidget) -> Iterator[str]:
         if min(widget.width(), widget.height()) < LEAST_TARGET_PX:
             yield f"{widget.width()} x {widget.height()} is hard to hit"
         if not isinstance(widget, QCheckBox | QRadioButton) and not _name(widget):
-            yield "nobody says what it is"
+            yield "its function is not stated"
 
 
 def _cut(widget: QWidget) -> Iterator[str]:
@@ -245,7 +245,7 @@ class Look:
         lost = Recoverable(self.folder / "a.suisou", None, "work", 1.0e9, 400, is_file_changed=True)
         self.window._offer_recovery(lost)
         files = self.program.editor.files
-        files.risk = Message("autosave.nowhere", {"folder": "/home/nobody/.local/state", "reason": "disk full"})
+        files.risk = Message("autosave.nowhere", {"folder": "/home/user/.local/state", "reason": "disk full"})
         self.session.notice(files.risk, Severity.ERROR)
         files.changed.emit()
         self.at("banner")

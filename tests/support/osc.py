@@ -108,7 +108,7 @@ def frames(packets: list[tuple[float, bytes]]) -> list[Frame]:
                 assert not found[-1].applied
                 found[-1].face[str(name)] = values[0]
             else:
-                raise ValueError(f"nobody knows {message.address}")
+                raise ValueError(f"unknown address {message.address}")
     return found
 
 

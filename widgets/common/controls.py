@@ -6,9 +6,11 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QCheckBox, QHeaderView, QPushButton, QToolButton, QTreeWidget, QWidget
+from PySide6.QtGui import QIcon
+from PySide6.QtWidgets import QCheckBox, QDialogButtonBox, QHeaderView, QPushButton, QToolButton, QTreeWidget, QWidget
 
 from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
 from widgets.common.icons import icon
 from widgets.common.plain import Label
 
@@ -31,6 +33,20 @@ def wrapped(label: AnyLabel) -> AnyLabel:
     """The label, of as many lines as its text needs."""
     label.setWordWrap(True)
     return label
+
+
+def sized(label: AnyLabel, size_pt: float) -> AnyLabel:
+    """The label, in letters of this size."""
+    font = label.font()
+    font.setPointSizeF(size_pt)
+    label.setFont(font)
+    return label
+
+
+def small(button: AnyWidget) -> AnyWidget:
+    """The button, just large enough to be hit."""
+    button.setFixedSize(LEAST_TARGET_PX, LEAST_TARGET_PX)
+    return button
 
 
 class Retranslated(_Mixin):
@@ -130,11 +146,15 @@ class IconButton(Retranslated, QToolButton):
         Called without arguments when it is clicked.
     name : str
         Object name.
+    dim : bool
+        Whether the picture has the colour of dim text.
     """
 
-    def __init__(self, session: Session, picture: str, tip_id: str, run: Callable[[], object], name: str) -> None:
+    def __init__(
+        self, session: Session, picture: str, tip_id: str, run: Callable[[], object], name: str, dim: bool = False
+    ) -> None:
         super().__init__()
-        self._session, self._picture, self._tip_id = session, picture, tip_id
+        self._session, self._picture, self._tip_id, self._dim = session, picture, tip_id, dim
         self.setObjectName(name)
         self.clicked.connect(lambda _checked: run())
         session.theme_changed.connect(self._draw)
@@ -142,11 +162,33 @@ class IconButton(Retranslated, QToolButton):
         self.retranslate()
 
     def _draw(self) -> None:
-        self.setIcon(icon(self._picture, self._session.tokens))
+        tokens = self._session.tokens
+        self.setIcon(icon(self._picture, tokens, tokens.text_dim if self._dim else None))
 
     def retranslate(self) -> None:
         self.setToolTip(self.tr(self._tip_id))
         self.setAccessibleName(self.toolTip())
+
+
+class OkCancel(Retranslated, QDialogButtonBox):
+    """What agrees to a dialog and what leaves it, with the texts of two ids.
+
+    Attributes
+    ----------
+    ok : QPushButton
+    """
+
+    def __init__(self, ok_id: str, cancel_id: str) -> None:
+        super().__init__(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
+        self._ok_id, self._cancel_id = ok_id, cancel_id
+        self.ok = self.button(QDialogButtonBox.StandardButton.Ok)
+        for button in self.buttons():
+            button.setIcon(QIcon())
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        self.ok.setText(self.tr(self._ok_id))
+        self.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr(self._cancel_id))
 
 
 class Check(Retranslated, QCheckBox):

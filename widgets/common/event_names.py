@@ -2,62 +2,49 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from app.editor.translated import tr
+
+_KINDS: Final = {
+    "breath": "event.breath",
+    "within": "event.breath",
+    "preparation": "event.preparation",
+    "cue": "event.cue",
+    "expression": "event.expression",
+    "sway": "event.sway",
+    "weight_shift": "event.weight_shift",
+    "bell_height": "event.bell_height",
+    "lower_instrument": "event.instrument_lowered",
+    "pose": "event.pose",
+    "vary": "event.performed_anew",
+}
+_EXPRESSIONS: Final = {
+    "neutral": "expression_name.neutral",
+    "strained": "expression_name.strained",
+    "puffed": "expression_name.puffed",
+    "brows_up": "expression_name.brows_up",
+    "smile": "expression_name.smile",
+}
+_TARGETS: Final = {
+    "bell": "pose_name.bell",
+    "head": "pose_name.head",
+    "left_elbow": "pose_name.left_elbow",
+    "right_elbow": "pose_name.right_elbow",
+    "torso": "pose_name.torso",
+}
 
 
 def kind_name(kind: str) -> str:
     """The name of a kind of event: the first part of its id."""
-    match kind:
-        case "breath" | "within":
-            return tr("event.breath")
-        case "preparation":
-            return tr("event.preparation")
-        case "cue":
-            return tr("event.cue")
-        case "expression":
-            return tr("event.expression")
-        case "sway":
-            return tr("event.sway")
-        case "weight_shift":
-            return tr("event.weight_shift")
-        case "bell_height":
-            return tr("event.bell_height")
-        case "lower_instrument":
-            return tr("event.instrument_lowered")
-        case "pose":
-            return tr("event.pose")
-        case "vary":
-            return tr("event.performed_anew")
-    return kind
+    return tr(_KINDS[kind]) if kind in _KINDS else kind
 
 
 def expression_name(name: str) -> str:
     """The name of a bundled expression; custom are called what they are called."""
-    match name:
-        case "neutral":
-            return tr("expression_name.neutral")
-        case "strained":
-            return tr("expression_name.strained")
-        case "puffed":
-            return tr("expression_name.puffed")
-        case "brows_up":
-            return tr("expression_name.brows_up")
-        case "smile":
-            return tr("expression_name.smile")
-    return name
+    return tr(_EXPRESSIONS[name]) if name in _EXPRESSIONS else name
 
 
 def pose_name(target: str) -> str:
     """The name of what is held differently."""
-    match target:
-        case "bell":
-            return tr("pose_name.bell")
-        case "head":
-            return tr("pose_name.head")
-        case "left_elbow":
-            return tr("pose_name.left_elbow")
-        case "right_elbow":
-            return tr("pose_name.right_elbow")
-        case "torso":
-            return tr("pose_name.torso")
-    return target
+    return tr(_TARGETS[target]) if target in _TARGETS else target

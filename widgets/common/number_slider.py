@@ -25,6 +25,7 @@ from PySide6.QtWidgets import QLineEdit, QMenu, QSizePolicy, QWidget
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX, Tokens
+from widgets.common.controls import named
 from widgets.common.numbers import MIXED, number_from, number_text
 
 DRAG_PX = 3
@@ -45,6 +46,8 @@ _STEP_KEYS = {
 }
 _TYPE_KEYS = (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_F2)
 _RESET_KEYS = (Qt.Key.Key_Backspace, Qt.Key.Key_Delete)
+_STARTS = tuple("0123456789.-+(")
+"""Characters that begin a number."""
 
 
 class NumberSlider(QWidget):
@@ -124,9 +127,7 @@ class NumberSlider(QWidget):
         self._dragging = False
         self._after_drag: tuple[float, bool] | None = None
         self._field: QLineEdit | None = None
-        self._wheel_rest = QTimer(self)
-        self._wheel_rest.setSingleShot(True)
-        self._wheel_rest.setInterval(WHEEL_REST_MS)
+        self._wheel_rest = QTimer(self, singleShot=True, interval=WHEEL_REST_MS)
         self._wheel_rest.timeout.connect(self._end)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setCursor(Qt.CursorShape.SizeHorCursor)
@@ -240,8 +241,7 @@ class NumberSlider(QWidget):
         """Open the field to type in, with the value selected, or beginning with ``text``."""
         if not self.isEnabled():
             return
-        field = QLineEdit(self)
-        field.setObjectName("number_field")
+        field = named(QLineEdit(self), "number_field")
         field.setFrame(False)
         field.setAlignment(Qt.AlignmentFlag.AlignRight)
         field.setTextMargins(4, 0, 4, 0)
@@ -275,6 +275,11 @@ class NumberSlider(QWidget):
         self._value, self._mixed = kept, False
         self.update()
         self.changed.emit(kept, token)
+
+    def _step_by(self, count: float, modifiers: Qt.KeyboardModifier) -> None:
+        fine = FINE if modifiers & Qt.KeyboardModifier.ShiftModifier else 1.0
+        self._token = self._token or object()
+        self._want(self._value + count * max(self._step * fine, 10.0**-self._decimals), self._token)
 
     def _kept(self, value: float) -> float:
         """Within the range, and no finer than is shown."""
@@ -316,8 +321,7 @@ class NumberSlider(QWidget):
         self._end()
 
     def _menu_entries(self) -> QMenu:
-        menu = QMenu(self)
-        menu.setObjectName("number_menu")
+        menu = named(QMenu(self), "number_menu")
         for text, slot in (
             (self.tr("number_slider.type_value"), lambda: self.type_value()),
             (self.tr("number_slider.copy_value"), self.copy),
@@ -425,7 +429,7 @@ class NumberSlider(QWidget):
         key = Qt.Key(event.key())
         special = key in _STEP_KEYS or key in _TYPE_KEYS or key in _RESET_KEYS
         escape = key == Qt.Key.Key_Escape and self._press is not None
-        return special or escape or key in (Qt.Key.Key_Home, Qt.Key.Key_End) or event.text() in _starts()
+        return special or escape or key in (Qt.Key.Key_Home, Qt.Key.Key_End) or event.text() in _STARTS
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         key = Qt.Key(event.key())
@@ -438,10 +442,7 @@ class NumberSlider(QWidget):
         elif not self._takes(event):
             super().keyPressEvent(event)
         elif key in _STEP_KEYS:
-            fine = FINE if event.modifiers() & Qt.KeyboardModifier.ShiftModifier else 1.0
-            least = 10.0**-self._decimals
-            self._token = self._token or object()
-            self._want(self._value + _STEP_KEYS[key] * max(self._step * fine, least), self._token)
+            self._step_by(_STEP_KEYS[key], event.modifiers())
         elif key in _TYPE_KEYS:
             self.type_value()
         elif key in _RESET_KEYS:
@@ -508,10 +509,8 @@ class NumberSlider(QWidget):
             event.ignore()
             return
         notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
-        fine = FINE if event.modifiers() & Qt.KeyboardModifier.ShiftModifier else 1.0
-        self._token = self._token or object()
         self._wheel_rest.start()
-        self._want(self._value + notches * max(self._step * fine, 10.0**-self._decimals), self._token)
+        self._step_by(notches, event.modifiers())
         event.accept()
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
@@ -554,8 +553,3 @@ class NumberSlider(QWidget):
         else:
             return False
         return True
-
-
-def _starts() -> tuple[str, ...]:
-    """Characters that begin a number."""
-    return tuple("0123456789.-+(")

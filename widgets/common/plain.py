@@ -7,9 +7,14 @@ shown comes from files. Labels and message boxes of the program's own are plain 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import TypeAlias
+
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QHelpEvent
 from PySide6.QtWidgets import QComboBox, QLabel, QMessageBox, QToolTip, QWidget
+
+Role: TypeAlias = QMessageBox.ButtonRole
 
 
 class Label(QLabel):
@@ -27,6 +32,43 @@ class MessageBox(QMessageBox):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setTextFormat(Qt.TextFormat.PlainText)
+
+
+def ask(
+    parent: QWidget | None,
+    name: str,
+    title: str,
+    text: str,
+    explanation: str,
+    answers: Mapping[str, Role],
+    usual: Role = Role.RejectRole,
+) -> Role:
+    """Ask in a message box, and wait for the answer.
+
+    Parameters
+    ----------
+    parent : QWidget or None
+    name : str
+        Object name.
+    title, text, explanation : str
+    answers : mapping of str to Role
+        Roles by the buttons' texts; the one that rejects is what Escape presses.
+    usual : Role
+        What Return presses.
+    """
+    box = MessageBox(parent)
+    box.setObjectName(name)
+    box.setIcon(MessageBox.Icon.NoIcon)
+    box.setWindowTitle(title)
+    box.setText(text)
+    box.setInformativeText(explanation)
+    buttons = {role: box.addButton(answer, role) for answer, role in answers.items()}
+    box.setDefaultButton(buttons[usual])
+    box.setEscapeButton(buttons[Role.RejectRole])
+    box.exec()
+    role = box.buttonRole(box.clickedButton())
+    box.deleteLater()
+    return role
 
 
 class ComboBox(QComboBox):

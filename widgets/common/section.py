@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
+from widgets.common.layouts import STRETCH, in_column, in_row, panel
 
 _CHEVRON_PX = 4.0
 
@@ -26,10 +27,7 @@ class SectionHeader(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_Hover)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(0, 0, 4, 0)
-        self._row.setSpacing(2)
-        self._row.addStretch(1)
+        self._row = in_row(STRETCH, of=self, margins=(0, 0, 4, 0), spacing=2)
         session.theme_changed.connect(self.update)
 
     @property
@@ -146,15 +144,9 @@ class Section(QWidget):
         self.setObjectName(name)
         self._session, self._remembers = session, remembers
         self.header = SectionHeader(session)
-        self._content = QWidget()
-        self.body = QVBoxLayout(self._content)
-        self.body.setContentsMargins(8, 6, 8, 8)
-        self.body.setSpacing(4)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(0)
-        outer.addWidget(self.header)
-        outer.addWidget(self._content)
+        self.body = in_column(margins=(8, 6, 8, 8), spacing=4)
+        self._content = panel(self.body)
+        in_column(self.header, self._content, of=self, margins=0, spacing=0)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.header.toggled.connect(self._content.setVisible)
         was_folded = session.folded.get(name, folded) if remembers else folded

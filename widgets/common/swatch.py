@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QColorDialog, QMenu, QPushButton, QWidget
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
+from widgets.common.controls import named
 
 
 class ColourSwatch(QPushButton):
@@ -38,8 +39,7 @@ class ColourSwatch(QPushButton):
 
     def offer(self) -> None:
         """Open the list of colours."""
-        menu = QMenu(self)
-        menu.setObjectName("colour_menu")
+        menu = named(QMenu(self), "colour_menu")
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         menu.addAction(self.tr("colour_swatch.automatic"), lambda: self.chosen.emit(""))
         menu.addSeparator()

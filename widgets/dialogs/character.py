@@ -14,7 +14,6 @@ from PySide6.QtGui import QColor, QImage, QKeyEvent, QKeySequence, QPixmap
 from PySide6.QtWidgets import (
     QCheckBox,
     QDialog,
-    QDialogButtonBox,
     QLineEdit,
     QScrollArea,
     QTabWidget,
@@ -28,7 +27,7 @@ from app.encoding import shown
 from app.errors import AppError, Message
 from app.rig.figure import Figure
 from widgets.common.character_picture import Crop, Seen, picture, seen
-from widgets.common.controls import Button, ColumnList, Retranslated, named, wrapped
+from widgets.common.controls import Button, ColumnList, OkCancel, Retranslated, named, wrapped
 from widgets.common.icons import icon
 from widgets.common.layouts import STRETCH, in_column, in_form, in_row, panel
 from widgets.common.plain import Label, verbatim, verbatim_title
@@ -94,7 +93,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._seen: tuple[tuple[object, ...], Seen] | None = None
         """A character ready to be drawn, and what it was made from."""
         self._drawing = False
-        self._wants_picture = False
+        self._picture_requested = False
         self.title = named(QLineEdit(draft.title), "character_title")
         self._source, self._picture = wrapped(Label()), named(Label(), "character_picture")
         self._reported = named(wrapped(Label()), "character_status")
@@ -111,7 +110,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._redo = Button("character_dialog.redo", self.redo, "character_redo")
         self._reset = Button("character_dialog.reset_all", self._start_anew, "character_reset")
         self.give = named(QCheckBox(), "character_give")
-        self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
+        self._buttons = OkCancel("character_dialog.keep_character", "character_dialog.cancel")
         self._soon = QTimer(self, singleShot=True, interval=_SOON_MS)
         self._soon.timeout.connect(self._draw)
         self._build()
@@ -289,8 +288,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._undo.setEnabled(self._steps.can_undo)
         self._redo.setEnabled(self._steps.can_redo)
         self._reset.setEnabled(bool(self.draft.joints or self.draft.morphs))
-        ok = self._buttons.button(QDialogButtonBox.StandardButton.Ok)
-        ok.setEnabled(not made.lacking and bool(self.draft.title.strip()))
+        self._buttons.ok.setEnabled(not made.lacking and bool(self.draft.title.strip()))
         self._show_choice()
         self._ask_picture()
 
@@ -317,7 +315,7 @@ class CharacterDialog(Retranslated, QDialog):
 
     def _draw(self) -> None:
         if self._drawing:
-            self._wants_picture = True
+            self._picture_requested = True
             return
         if self._made.lacking:
             self._picture.setText(self.tr("character_dialog.no_picture_yet"))
@@ -348,8 +346,8 @@ class CharacterDialog(Retranslated, QDialog):
 
     def _drawn(self) -> None:
         self._drawing = False
-        if self._wants_picture:
-            self._wants_picture = False
+        if self._picture_requested:
+            self._picture_requested = False
             self._ask_picture()
 
     # Words
@@ -369,8 +367,6 @@ class CharacterDialog(Retranslated, QDialog):
         self.body.setAccessibleName(self.tr("character_dialog.joints_of_body"))
         self.give.setText(verbatim(self.tr("character_dialog.give_it_to").format(players=self._offered)))
         self.give.setVisible(bool(self._offered))
-        self._buttons.button(QDialogButtonBox.StandardButton.Ok).setText(self.tr("character_dialog.keep_character"))
-        self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("character_dialog.cancel"))
         self.faces.retranslate()
         self._show()
 

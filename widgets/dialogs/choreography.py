@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QPlainTextEdit,
     QTabWidget,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -24,9 +23,9 @@ from app.errors import AppError, Message
 from app.performance.ensemble import Performance
 from app.project.document import Change
 from app.project.performers import Dancer
-from widgets.common.controls import Button, Retranslated
+from widgets.common.controls import Button, Retranslated, named, wrapped
 from widgets.common.dance_figures import Floats
-from widgets.common.layouts import STRETCH, in_column, in_row
+from widgets.common.layouts import STRETCH, in_column, in_row, panel
 from widgets.common.percussion_names import percussion_names
 from widgets.common.plain import Label, verbatim_title
 from widgets.common.text import sentence
@@ -95,16 +94,18 @@ class ChoreographyDialog(Retranslated, QDialog):
         self._shown: Shown | None = None
         self._error: AppError | None = None
         self._asked: tuple[Performance, Dancer] | None = None
-        self._heading, self._use = Label(), Label()
-        self._hints = {name: Label() for name in ("motions", "transitions", "graph", "percussion")}
-        self._details = {name: Label() for name in self._hints}
-        self.tabs = QTabWidget()
-        self.gallery = MotionGallery(session)
-        self.transitions = ProbabilityTable(session, _MOTION_ROW_PX)
-        self.graph = TransitionGraph(session)
-        self.percussion = ProbabilityTable(session, _SOUND_ROW_PX)
-        self.credits = QPlainTextEdit()
-        self._close = Button("choreography_dialog.close", self.close)
+        self._heading = wrapped(named(Label(), "choreography_heading"))
+        self._use = wrapped(named(Label(), "choreography_use"))
+        names = ("motions", "transitions", "graph", "percussion")
+        self._hints = {name: wrapped(Label()) for name in names}
+        self._details = {name: named(wrapped(Label()), f"choreography_{name}_details") for name in names}
+        self.tabs = named(QTabWidget(), "choreography_tabs")
+        self.gallery = named(MotionGallery(session), "choreography_motions")
+        self.transitions = named(ProbabilityTable(session, _MOTION_ROW_PX), "choreography_transitions")
+        self.graph = named(TransitionGraph(session), "choreography_graph")
+        self.percussion = named(ProbabilityTable(session, _SOUND_ROW_PX), "choreography_percussion")
+        self.credits = named(QPlainTextEdit(), "choreography_credits")
+        self._close = Button("choreography_dialog.close", self.close, "choreography_close")
         self._build()
         self.gallery.selected.connect(lambda state: self._details["motions"].setText(self._about(state)))
         self.graph.pointed.connect(lambda state: self._details["graph"].setText(self._about(state)))
@@ -119,45 +120,16 @@ class ChoreographyDialog(Retranslated, QDialog):
         self._ask()
 
     def _build(self) -> None:
-        views: dict[str, QWidget] = {
-            "motions": self.gallery,
-            "transitions": self.transitions,
-            "graph": self.graph,
-            "percussion": self.percussion,
-        }
-        names: dict[str, QWidget] = {
-            "choreography_tabs": self.tabs,
-            "choreography_heading": self._heading,
-            "choreography_use": self._use,
-            "choreography_credits": self.credits,
-            "choreography_close": self._close,
-            **{f"choreography_{name}": view for name, view in views.items()},
-            **{f"choreography_{name}_details": label for name, label in self._details.items()},
-        }
-        for name, widget in names.items():
-            widget.setObjectName(name)
-        for name, view in views.items():
-            page = QWidget()
-            column = QVBoxLayout(page)
-            column.setContentsMargins(0, 10, 0, 0)
-            column.setSpacing(8)
-            for label in (self._hints[name], self._details[name]):
-                label.setWordWrap(True)
-            column.addWidget(self._hints[name])
-            column.addWidget(view, 1)
-            column.addWidget(self._details[name])
-            self.tabs.addTab(page, "")
+        views: tuple[QWidget, ...] = (self.gallery, self.transitions, self.graph, self.percussion)
+        for view, hint, details in zip(views, self._hints.values(), self._details.values(), strict=True):
+            self.tabs.addTab(panel(in_column(hint, (view, 1), details, margins=(0, 10, 0, 0), spacing=8)), "")
         # Of two lines, so that the cards stay where they are.
         for name in ("motions", "graph"):
             self._details[name].setMinimumHeight(2 * self._details[name].fontMetrics().lineSpacing() + 2)
             self._details[name].setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
-        page = QWidget()
         self.credits.setReadOnly(True)
         self.credits.setTabChangesFocus(True)
-        in_column(self.credits, of=page, margins=(0, 10, 0, 0))
-        self.tabs.addTab(page, "")
-        self._heading.setWordWrap(True)
-        self._use.setWordWrap(True)
+        self.tabs.addTab(panel(in_column(self.credits, margins=(0, 10, 0, 0))), "")
         bottom = in_row(STRETCH, self._close)
         in_column(self._heading, self._use, (self.tabs, 1), bottom, of=self, margins=14, spacing=8)
 
@@ -279,7 +251,8 @@ class ChoreographyDialog(Retranslated, QDialog):
             return ""
         model, names = shown.model, percussion_names()
         sources = ", ".join(
-            f"{_stem(model.sources[source].motion_name)} ({count})" for source, count in shown.motions[state].sources
+            f"{Path(model.sources[source].motion_name).stem} ({count})"
+            for source, count in shown.motions[state].sources
         )
         parts = [
             self.tr("choreography_dialog.basic_motion").format(number=state + 1),
@@ -352,10 +325,6 @@ def _finder(performance: Performance, dancer: Dancer) -> Callable[[Progress, Sto
         )
 
     return work
-
-
-def _stem(name: str) -> str:
-    return Path(name).stem
 
 
 def _percent(share: float) -> str:

@@ -10,10 +10,11 @@ from typing import Literal
 
 from app.encoding import shown
 from app.errors import Message
+from app.export.file_names import REPORT, file_names, sound_name, stage_names
 from app.export.formats import Format
 from app.export.report import Report
 from app.export.request import Request
-from app.export.run import REPORT, export, file_names, sound_name
+from app.export.run import export
 from app.export.unreal.project import UnrealProject, find_project
 from app.export.unreal.run import export_into, plan_export
 from app.performance.ensemble import Performance
@@ -45,8 +46,8 @@ class Foreseen:
 
 @dataclass(frozen=True)
 class Done:
-    """What an export has done: how many files, the folder to show, who is excluded, what to look at; whether Unreal
-    has a plug-in now that it loads when its editor starts."""
+    """The result of an export: the number of files, the folder to show, the excluded players, the warnings; whether
+    Unreal has a plug-in now that it loads when its editor starts."""
 
     count: int
     folder: Path
@@ -64,6 +65,7 @@ def foresee(
     formats: frozenset[Format],
     source: str,
     sound: bool,
+    stage: bool = False,
 ) -> Foreseen:
     """What an export will do.
 
@@ -75,6 +77,8 @@ def foresee(
         Name of the piece's file.
     sound : bool
         Whether a folder gets the sound; an Unreal project always does.
+    stage : bool
+        Whether a folder gets the whole stage in one file; an Unreal project does not need it.
 
     Raises
     ------
@@ -101,6 +105,8 @@ def foresee(
     requested = [name for player_id in everything for name in names[player_id].values()] + [REPORT]
     if sound:
         requested.append(sound_name(source))
+    if stage:
+        requested += stage_names(performance, formats, source).values()
     return Foreseen(len(requested), tuple(name for name in requested if os.path.exists(place / name)))
 
 

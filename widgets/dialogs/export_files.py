@@ -26,7 +26,7 @@ from app.performance.span import bars_span, whole_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
 from app.project.performers import Player
 from metadata.load import load_bone_names
-from widgets.common.controls import Button, Caption, named
+from widgets.common.controls import Button, Caption, named, wrapped
 from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
@@ -108,8 +108,7 @@ class ExportDialog(WorkingDialog):
             self._rate.addItem(frame_rate_text(rate), str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(self._project.fps)))
         self._skeleton = SkeletonChooser(session, self._chosen_players)
-        self._files = named(Label(), "export_outcome")
-        self._files.setWordWrap(True)
+        self._files = wrapped(named(Label(), "export_outcome"))
         self._files.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         # The excluded players of an orchestra may take more lines than there is room for.
         self._outcome = QScrollArea()
@@ -119,8 +118,7 @@ class ExportDialog(WorkingDialog):
         self._outcome.setMinimumHeight(OUTCOME_PX)
         self._share = [0.0]
         """What is written of the whole, set by the thread."""
-        self._timer = QTimer(self)
-        self._timer.setInterval(SHOW_MS)
+        self._timer = QTimer(self, interval=SHOW_MS)
         self._timer.timeout.connect(lambda: self._show_share(self._share[0]))
         self._lay_out()
         for chooser in (self._skeleton, self._place, self._range, self._formats):
@@ -190,6 +188,7 @@ class ExportDialog(WorkingDialog):
             source=self._source,
             creator=self._creator,
             sound=self._formats.sound,
+            stage=self._formats.stage,
             bvh_names=self._bvh_names.currentData(),
             skeleton=self._skeleton.choice,
             asset=self._skeleton.asset,
@@ -297,6 +296,7 @@ class ExportDialog(WorkingDialog):
             self._formats.formats,
             self._source,
             self._formats.sound,
+            self._formats.stage,
         )
         lines = []
         if seen.project is not None:

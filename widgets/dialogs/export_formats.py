@@ -1,4 +1,4 @@
-"""Which kinds of file an export writes into a folder, and whether the sound is among them."""
+"""Which kinds of file an export writes into a folder, and whether the stage and the sound are among them."""
 
 from __future__ import annotations
 
@@ -38,12 +38,14 @@ class FormatChooser(Retranslated, QWidget):
             box.setChecked(name in USUAL_FORMATS)
             box.setEnabled(name not in self._missing)
         self._sound = named(Check("format_chooser.sound_wav"), "export_sound")
+        self._stage = named(Check("format_chooser.whole_stage_in_one_file"), "export_stage")
+        self._stage.setChecked(True)
         layout = QGridLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setHorizontalSpacing(18)
-        for index, box in enumerate((*self._boxes.values(), self._sound)):
+        for index, box in enumerate((*self._boxes.values(), self._sound, self._stage)):
             layout.addWidget(box, *divmod(index, _COLUMNS), Qt.AlignmentFlag.AlignLeft)
-            box.toggled.connect(self.changed)
+            box.toggled.connect(self._change)
         layout.setColumnStretch(_COLUMNS, 1)
         self.retranslate()
 
@@ -56,6 +58,15 @@ class FormatChooser(Retranslated, QWidget):
     def sound(self) -> bool:
         """Whether the sound is written too."""
         return self._sound.isChecked()
+
+    @property
+    def stage(self) -> bool:
+        """Whether everyone is also written into one file; no ticked kind of file may be able to hold it."""
+        return self._stage.isChecked() and self._stage.isEnabledTo(self)
+
+    def _change(self) -> None:
+        self._stage.setEnabled(any(FILE_FORMATS[name].write_stage is not None for name in self.formats))
+        self.changed.emit()
 
     def retranslate(self) -> None:
         """Set every text anew."""

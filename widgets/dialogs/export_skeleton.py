@@ -23,7 +23,7 @@ from app.performance.bodies import character_of
 from app.performance.cast import attempt
 from app.project.performers import Player
 from app.rig.read_figure import SUFFIXES, read_figure
-from widgets.common.controls import Button, Retranslated, named
+from widgets.common.controls import Button, Retranslated, named, wrapped
 from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import ComboBox, Label
@@ -66,8 +66,7 @@ class SkeletonChooser(Retranslated, QWidget):
         self._asset = named(PathEdit(), "export_asset")
         self._asset.setClearButtonEnabled(True)
         self._choose = Button("skeleton_chooser.choose", self._choose_asset)
-        self._reported = named(Label(), "export_differences")
-        self._reported.setWordWrap(True)
+        self._reported = wrapped(named(Label(), "export_differences"))
         asset = in_row((self._asset, 1), self._choose)
         in_column(self._box, asset, self._reported, of=self, margins=0)
         self._box.currentIndexChanged.connect(self.compare)

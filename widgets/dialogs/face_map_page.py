@@ -9,7 +9,6 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -67,8 +66,7 @@ class FaceMapPage(QWidget):
         self._add = named(Combo(), "face_add")
         self._add.chosen.connect(self._add_part)
         self._reset = Button("face_map_page.automatic", lambda: self.changed.emit(self._face, None, None), "face_reset")
-        self._column = QVBoxLayout()
-        self._column.setSpacing(4)
+        self._column = in_column(spacing=4)
         self._build()
         session.theme_changed.connect(self._show)
         self.retranslate()

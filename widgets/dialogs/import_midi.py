@@ -5,20 +5,18 @@ What comes of the choices is worked out beside the window: a file can ask for mi
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from threading import Event
 
 import msgspec
 import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QPoint, QRectF, QSize, Qt, QTimer
-from PySide6.QtGui import QColor, QIcon, QPainter, QPaintEvent
+from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
     QDialog,
-    QDialogButtonBox,
-    QHBoxLayout,
     QHeaderView,
     QLineEdit,
     QListWidget,
@@ -47,9 +45,10 @@ from app.score.model import UnplayedPart
 from app.score.parts import PartAssignment, stream_name
 from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
-from widgets.common.controls import Button, Check, Retranslated, named
+from instrument_maps.score_order import in_score_order
+from widgets.common.controls import Button, Check, OkCancel, Retranslated, named
 from widgets.common.instrument_name import character_name, instrument_name
-from widgets.common.layouts import in_column, in_row
+from widgets.common.layouts import STRETCH, in_column, in_row, panel
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
 
@@ -94,14 +93,11 @@ class ImportDialog(Retranslated, QDialog):
         self._outcome: Outcome | None = None
         """Of the newest rows for which it is known."""
         self._closing = Event()
-        self._slow = QTimer(self)
-        self._slow.setSingleShot(True)
-        self._slow.setInterval(_SLOW_MS)
+        self._slow = QTimer(self, singleShot=True, interval=_SLOW_MS)
         self._slow.timeout.connect(self._show_slow)
         self._filled = 0
         """So many rows of the table have their widgets."""
-        self._filling = QTimer(self)
-        self._filling.setInterval(0)
+        self._filling = QTimer(self, interval=0)
         self._filling.timeout.connect(lambda: self._fill_more(_ROWS_LATER))
         self._end_tick = max((max(stream.end_ticks) for stream in contents.streams), default=1)
 
@@ -132,21 +128,11 @@ class ImportDialog(Retranslated, QDialog):
         self._warnings.setWordWrap(True)
         self._warnings.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
         self._warnings.setMaximumHeight(110)
-        self._buttons = QDialogButtonBox(
-            QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel, Qt.Orientation.Horizontal
-        )
-        for button in self._buttons.buttons():
-            button.setIcon(QIcon())
+        self._buttons = OkCancel("import_dialog.import", "import_dialog.cancel")
         self._buttons.accepted.connect(self.accept)
         self._buttons.rejected.connect(self.reject)
 
-        tools = QHBoxLayout()
-        tools.addWidget(self._merge)
-        tools.addWidget(self._separate)
-        tools.addSpacing(12)
-        tools.addWidget(self._dancer)
-        tools.addStretch()
-        tools.addWidget(self._summary)
+        tools = in_row(self._merge, self._separate, 12, self._dancer, STRETCH, self._summary)
         in_column(self._heading, (self._table, 1), tools, self._warning_title, self._warnings, self._buttons, of=self)
         self._table.itemSelectionChanged.connect(self._show_tools)
         self.retranslate()
@@ -207,8 +193,6 @@ class ImportDialog(Retranslated, QDialog):
             ]
         )
         self._dancer.setToolTip(self.tr("import_dialog.dancer_who_moves_to_percussion"))
-        self._buttons.button(QDialogButtonBox.StandardButton.Ok).setText(self.tr("import_dialog.import"))
-        self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("import_dialog.cancel"))
         self._fill()
 
     def _selected(self) -> list[int]:
@@ -218,7 +202,7 @@ class ImportDialog(Retranslated, QDialog):
         self._table.setRowCount(0)
         self._table.setRowCount(len(self._rows))
         self._filled = 0
-        self._instruments = [(instrument_name(table), id_) for id_, table in self._maps.items()]
+        self._instruments = [(instrument_name(table), table.id) for table in in_score_order(self._maps.values())]
         self._characters = [(character_name(id_), id_) for id_ in characters()]
         self._fill_more(_ROWS_AT_ONCE)
         self._show_tools()
@@ -290,45 +274,44 @@ class ImportDialog(Retranslated, QDialog):
         count.setContentsMargins(6, 0, 6, 0)
         self._table.setCellWidget(place, _NOTES, count)
 
-        split = named(ComboBox(), f"split_{place}")
-        split.addItem(self.tr("import_dialog.automatic"), "sustained")
-        split.addItem(self.tr("import_dialog.share_among_players"), "every")
-        split.addItem(self.tr("import_dialog.one_player"), "never")
-        split.setCurrentIndex(split.findData(row.assignment.split))
+        usual, assignment = self.tr("import_dialog.automatic"), row.assignment
+        splits = (
+            (usual, "sustained"),
+            (self.tr("import_dialog.share_among_players"), "every"),
+            (self.tr("import_dialog.one_player"), "never"),
+        )
+        split = self._choice(place, _SPLIT, "split", splits, assignment.split)
         split.setToolTip(self.tr("import_dialog.automatic_another_player_for_notes"))
-        split.currentIndexChanged.connect(lambda _, box=split: self._assignment(place, split=box.currentData()))
-        self._table.setCellWidget(place, _SPLIT, split)
+        split.currentIndexChanged.connect(lambda: self._assignment(place, split=split.currentData()))
 
-        instrument = named(ComboBox(), f"instrument_{place}")
+        instruments = ((usual, None), *self._instruments)
+        instrument = self._choice(place, _INSTRUMENT, "instrument", instruments, assignment.map_id)
         instrument.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         instrument.setMinimumContentsLength(_INSTRUMENT_LETTERS)
-        instrument.addItem(self.tr("import_dialog.automatic"), None)
-        for text, id_ in self._instruments:
-            instrument.addItem(text, id_)
-        instrument.setCurrentIndex(max(instrument.findData(row.assignment.map_id), 0))
-        instrument.currentIndexChanged.connect(lambda _, box=instrument: self._choose(place, box.currentData()))
+        instrument.currentIndexChanged.connect(lambda: self._choose(place, instrument.currentData()))
         instrument.currentTextChanged.connect(lambda text: instrument.setToolTip(self._tip(place) or text))
-        self._table.setCellWidget(place, _INSTRUMENT, instrument)
 
-        pitches = named(ComboBox(), f"pitches_{place}")
-        pitches.addItem(self.tr("import_dialog.sounding"), False)
-        pitches.addItem(self.tr("import_dialog.written"), True)
-        pitches.setCurrentIndex(1 if row.assignment.written else 0)
-        pitches.currentIndexChanged.connect(
-            lambda _, box=pitches: self._assignment(place, written=bool(box.currentData()))
-        )
+        kinds = ((self.tr("import_dialog.sounding"), False), (self.tr("import_dialog.written"), True))
+        pitches = self._choice(place, _PITCHES, "pitches", kinds, assignment.written)
         pitches.setToolTip(self.tr("import_dialog.which_pitches_file_has_of"))
-        self._table.setCellWidget(place, _PITCHES, pitches)
+        pitches.currentIndexChanged.connect(lambda: self._assignment(place, written=bool(pitches.currentData())))
 
-        character = named(ComboBox(), f"character_{place}")
-        character.addItem(self.tr("import_dialog.automatic"), None)
-        for text, id_ in self._characters:
-            character.addItem(text, id_)
-        character.setCurrentIndex(max(character.findData(row.character_id), 0))
-        character.currentIndexChanged.connect(lambda _, box=character: self._set(place, character_id=box.currentData()))
-        self._table.setCellWidget(place, _CHARACTER, character)
+        figures = ((usual, None), *self._characters)
+        character = self._choice(place, _CHARACTER, "character", figures, row.character_id)
+        character.currentIndexChanged.connect(lambda: self._set(place, character_id=character.currentData()))
         self._enable(place)
         self._show_instruments(place)
+
+    def _choice(
+        self, place: int, column: int, name: str, options: Iterable[tuple[str, object]], chosen: object
+    ) -> ComboBox:
+        """A cell with options by their texts; the first where what is chosen is not among them."""
+        box = named(ComboBox(), f"{name}_{place}")
+        for text, value in options:
+            box.addItem(text, value)
+        box.setCurrentIndex(max(box.findData(chosen), 0))
+        self._table.setCellWidget(place, column, box)
+        return box
 
     def _played_on(self, assignment: PartAssignment) -> list[InstrumentMap]:
         """What a row is played on, were it requested; nothing where that is not known yet."""
@@ -409,7 +392,7 @@ class ImportDialog(Retranslated, QDialog):
         """Say what will come of it: the reader's warnings where nothing was changed, the players in any case."""
         outcome = self._outcome
         asking = [row for row in self._rows if row.requested and self._asks(row)]
-        self._buttons.button(QDialogButtonBox.StandardButton.Ok).setEnabled(outcome is not None and not asking)
+        self._buttons.ok.setEnabled(outcome is not None and not asking)
         self._warnings.clear()
         if outcome is not None:
             if asking:
@@ -490,6 +473,4 @@ class _Tick(QCheckBox):
 
 
 def _centred(widget: QWidget) -> QWidget:
-    holder = QWidget()
-    in_row((widget, 0, Qt.AlignmentFlag.AlignCenter), of=holder, margins=(8, 0, 8, 0))
-    return holder
+    return panel(in_row((widget, 0, Qt.AlignmentFlag.AlignCenter), margins=(8, 0, 8, 0)))

@@ -6,7 +6,6 @@ What the bundled map says stays what it is: a change makes a map of the user's o
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 
 import msgspec
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSize, Qt, Signal
@@ -20,7 +19,6 @@ from PySide6.QtWidgets import (
     QLineEdit,
     QListWidget,
     QListWidgetItem,
-    QPushButton,
     QSplitter,
     QStyledItemDelegate,
     QStyleOptionViewItem,
@@ -35,15 +33,15 @@ from app.messages.pitches import LETTERS, pitch_name
 from instrument_maps import fingering_table as edit
 from instrument_maps.library import library
 from instrument_maps.model import Fingering, InstrumentMap
-from widgets.common.controls import Caption, Retranslated, named
+from widgets.common.controls import Button, Caption, Retranslated, named, wrapped
 from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
 from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
-from widgets.common.layouts import STRETCH, in_column, in_row
+from widgets.common.layouts import STRETCH, in_column, in_row, panel
 from widgets.common.paths import show_folder
 from widgets.common.pitch import syllables
-from widgets.common.plain import Label, MessageBox
+from widgets.common.plain import Label, Role, ask
 from widgets.common.text import message_text
 from widgets.dialogs.fingering_draft import Draft, base_of
 
@@ -66,19 +64,34 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._drafts: dict[str, Draft] = {}
         self._filling = False
         self._list = named(QListWidget(), "instruments_list")
-        self._wrong, self._facts, self._file, self._problem = Label(), Label(), Label(), Label()
-        self._wrong.setObjectName("instruments_wrong")
-        self._title, self._id = Label(), Label()
-        self._title.setObjectName("instruments_title")
+        self._wrong, self._facts = (
+            wrapped(named(Label(), "instruments_wrong")),
+            wrapped(named(Label(), "instruments_facts")),
+        )
+        self._file, self._problem = wrapped(Label()), wrapped(named(Label(), "instruments_problem"))
+        self._title, self._id = named(Label(), "instruments_title"), Label()
         self._title.setStyleSheet("font-weight: bold;")
-        self._facts.setObjectName("instruments_facts")
-        self._problem.setObjectName("instruments_problem")
         self._table = named(QTableWidget(0, 6), "instruments_fingerings")
         self._diagram = named(FingeringDiagram(session), "instruments_diagram")
         self._diagram.set_editable(True)
-        self._hint = Caption("instruments_dialog.click_keys_to_change_fingering")
-        names = ("up", "down", "add", "remove", "revert", "revert_all", "undo", "redo", "folder", "save", "close")
-        self._buttons = {name: QPushButton() for name in names}
+        self._hint = wrapped(Caption("instruments_dialog.click_keys_to_change_fingering"))
+        self._does: dict[str, tuple[str, Callable[[], object]]] = {
+            "up": ("instruments_dialog.higher_choice", lambda: self._move(-1)),
+            "down": ("instruments_dialog.lower_choice", lambda: self._move(1)),
+            "add": ("instruments_dialog.add_alternate", self._add),
+            "remove": ("instruments_dialog.remove", self._remove),
+            "revert": ("instruments_dialog.revert_this_note", self._revert),
+            "revert_all": ("instruments_dialog.revert_all_notes", self._revert_all),
+            "undo": ("instruments_dialog.undo", lambda: self._step(-1)),
+            "redo": ("instruments_dialog.redo", lambda: self._step(1)),
+            "folder": ("instruments_dialog.show_my_folder", self._open_folder),
+            "save": ("instruments_dialog.save_as_my_own", self.save),
+            "close": ("instruments_dialog.close", self.close),
+        }
+        """The text and the work of each button."""
+        self._buttons = {
+            name: Button(text_id, run, f"instruments_{name}") for name, (text_id, run) in self._does.items()
+        }
         self._build()
         self._connect()
         self.retranslate()
@@ -88,11 +101,6 @@ class InstrumentsDialog(Retranslated, QDialog):
     # Building
 
     def _build(self) -> None:
-        for name, button in self._buttons.items():
-            button.setObjectName(f"instruments_{name}")
-            button.setAutoDefault(False)
-        for label in (self._wrong, self._facts, self._file, self._problem, self._hint):
-            label.setWordWrap(True)
         for label in (self._wrong, self._file):
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         table = self._table
@@ -110,50 +118,20 @@ class InstrumentsDialog(Retranslated, QDialog):
         edits = QGridLayout()
         for place, name in enumerate(("up", "down", "add", "remove", "revert", "revert_all", "undo", "redo")):
             edits.addWidget(self._buttons[name], place // 2, place % 2)
-        side = QWidget()
-        in_column(self._diagram, self._hint, edits, self._problem, STRETCH, of=side, margins=(8, 0, 0, 0))
-        work = QSplitter()
-        work.addWidget(table)
-        work.addWidget(side)
-        work.setStretchFactor(0, 1)
-        work.setSizes([560, 320])
-        work.setChildrenCollapsible(False)
-        right = QWidget()
+        side = in_column(self._diagram, self._hint, edits, self._problem, STRETCH, margins=(8, 0, 0, 0))
+        work = _split(table, panel(side), (560, 320), stretches=0)
         heading = in_row(self._title, (self._id, 1), spacing=12)
-        in_column(self._wrong, heading, self._facts, self._file, (work, 1), of=right, margins=(8, 0, 0, 0))
-        everything = QSplitter()
-        everything.addWidget(self._list)
-        everything.addWidget(right)
-        everything.setStretchFactor(1, 1)
-        everything.setSizes([230, 900])
-        everything.setChildrenCollapsible(False)
+        right = in_column(self._wrong, heading, self._facts, self._file, (work, 1), margins=(8, 0, 0, 0))
+        everything = _split(self._list, panel(right), (230, 900), stretches=1)
         foot = in_row(self._buttons["folder"], STRETCH, self._buttons["save"], self._buttons["close"])
         in_column((everything, 1), foot, of=self)
 
     def _connect(self) -> None:
-        does: dict[str, Callable[[], object]] = {
-            "up": lambda: self._move(-1),
-            "down": lambda: self._move(1),
-            "add": self._add,
-            "remove": self._remove,
-            "revert": self._revert,
-            "revert_all": self._revert_all,
-            "undo": lambda: self._step(-1),
-            "redo": lambda: self._step(1),
-            "folder": self._open_folder,
-            "save": self.save,
-            "close": self.close,
-        }
-        for name, run in does.items():
-            self._buttons[name].clicked.connect(partial(_call, run))
-        for keys, run in (
-            (QKeySequence.StandardKey.Undo, does["undo"]),
-            (QKeySequence.StandardKey.Redo, does["redo"]),
-            (QKeySequence.StandardKey.Save, does["save"]),
-        ):
-            QShortcut(QKeySequence(keys), self).activated.connect(partial(_call, run))
-        for keys_text, run in (("Alt+Up", does["up"]), ("Alt+Down", does["down"])):
-            QShortcut(QKeySequence(keys_text), self).activated.connect(partial(_call, run))
+        standard = QKeySequence.StandardKey
+        for keys, name in ((standard.Undo, "undo"), (standard.Redo, "redo"), (standard.Save, "save")):
+            QShortcut(QKeySequence(keys), self).activated.connect(self._does[name][1])
+        for text, name in (("Alt+Up", "up"), ("Alt+Down", "down")):
+            QShortcut(QKeySequence(text), self).activated.connect(self._does[name][1])
         self._list.currentRowChanged.connect(lambda _: self._show())
         self._table.itemSelectionChanged.connect(self._show_row)
         self._table.itemChanged.connect(self._edited)
@@ -167,9 +145,9 @@ class InstrumentsDialog(Retranslated, QDialog):
     def _fill_list(self, chosen: str) -> None:
         self._list.blockSignals(True)
         self._list.clear()
-        for id, instrument in library().maps.items():
+        for instrument in library().in_score_order:
             item = QListWidgetItem(instrument_name(instrument))
-            item.setData(_PLACE, id)
+            item.setData(_PLACE, instrument.id)
             self._list.addItem(item)
         self._list.blockSignals(False)
         places = [self._list.item(row).data(_PLACE) for row in range(self._list.count())]
@@ -485,21 +463,6 @@ class InstrumentsDialog(Retranslated, QDialog):
     def retranslate(self) -> None:
         """Set every text."""
         self.setWindowTitle(self.tr("instruments_dialog.instruments"))
-        texts = {
-            "up": self.tr("instruments_dialog.higher_choice"),
-            "down": self.tr("instruments_dialog.lower_choice"),
-            "add": self.tr("instruments_dialog.add_alternate"),
-            "remove": self.tr("instruments_dialog.remove"),
-            "revert": self.tr("instruments_dialog.revert_this_note"),
-            "revert_all": self.tr("instruments_dialog.revert_all_notes"),
-            "undo": self.tr("instruments_dialog.undo"),
-            "redo": self.tr("instruments_dialog.redo"),
-            "folder": self.tr("instruments_dialog.show_my_folder"),
-            "save": self.tr("instruments_dialog.save_as_my_own"),
-            "close": self.tr("instruments_dialog.close"),
-        }
-        for name, text in texts.items():
-            self._buttons[name].setText(text)
         self._table.setHorizontalHeaderLabels(
             [
                 self.tr("instruments_dialog.written"),
@@ -534,15 +497,20 @@ class InstrumentsDialog(Retranslated, QDialog):
 
     def ask(self, count: int) -> str:
         """``"save"``, ``"discard"`` or ``"cancel"``."""
-        box = MessageBox(self)
-        box.setWindowTitle(self.tr("instruments_dialog.instruments"))
-        box.setText(self.tr("instruments_dialog.instruments_with_fingerings_that_are").format(count=count))
-        save = box.addButton(self.tr("instruments_dialog.save"), MessageBox.ButtonRole.AcceptRole)
-        discard = box.addButton(self.tr("instruments_dialog.discard"), MessageBox.ButtonRole.DestructiveRole)
-        box.setEscapeButton(box.addButton(self.tr("instruments_dialog.cancel"), MessageBox.ButtonRole.RejectRole))
-        box.exec()
-        clicked = box.clickedButton()
-        return "save" if clicked is save else "discard" if clicked is discard else "cancel"
+        role = ask(
+            self,
+            "instruments_unsaved",
+            self.tr("instruments_dialog.instruments"),
+            self.tr("instruments_dialog.instruments_with_fingerings_that_are").format(count=count),
+            "",
+            {
+                self.tr("instruments_dialog.save"): Role.AcceptRole,
+                self.tr("instruments_dialog.discard"): Role.DestructiveRole,
+                self.tr("instruments_dialog.cancel"): Role.RejectRole,
+            },
+            usual=Role.AcceptRole,
+        )
+        return "save" if role == Role.AcceptRole else "discard" if role == Role.DestructiveRole else "cancel"
 
     def _save_all(self, drafts: list[Draft]) -> bool:
         for draft in drafts:
@@ -581,5 +549,12 @@ def _named(path: str, table: edit.Table, name: Callable[[int], str]) -> str:
     return path
 
 
-def _call(run: Callable[[], object], *_: object) -> None:
-    run()
+def _split(left: QWidget, right: QWidget, sizes_px: tuple[int, int], stretches: int) -> QSplitter:
+    """Two widgets side by side, of which one takes the room that is left over."""
+    splitter = QSplitter()
+    splitter.addWidget(left)
+    splitter.addWidget(right)
+    splitter.setStretchFactor(stretches, 1)
+    splitter.setSizes(sizes_px)
+    splitter.setChildrenCollapsible(False)
+    return splitter

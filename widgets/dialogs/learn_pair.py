@@ -13,7 +13,7 @@ from app.choreography.read_motion import guesses
 from app.choreography.read_pair import CREDITS_SUFFIX
 from app.encoding import shown
 from app.formats.rates import exact_rate
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
@@ -45,8 +45,7 @@ class PairForm(Retranslated, QWidget):
         self._choose = {name: QPushButton() for name in _FILES}
         self._offset = AutomaticNumber("learn_offset", -_LONGEST_S, _LONGEST_S, step=0.01, decimals=3)
         self._fps = AutomaticNumber("learn_fps", 1.0, 1000.0, step=1.0, decimals=3)
-        self._notes = named(Label(), "learn_pair_notes")
-        self._notes.setWordWrap(True)
+        self._notes = wrapped(named(Label(), "learn_pair_notes"))
         self._notes.setAlignment(Qt.AlignmentFlag.AlignTop)
         room = QScrollArea()
         room.setFrameShape(QScrollArea.Shape.NoFrame)

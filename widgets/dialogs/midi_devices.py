@@ -215,7 +215,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._start_learning()
 
     def _learn_bite(self, breath: Learned, bite: BiteSource | None) -> None:
-        """Say what was found; who has bitten nothing keeps what was known of the bite."""
+        """Show what was found; without a bite, the known calibration of the bite stays."""
         if bite is not None:
             self._wire(bite=bite)
             text = self.tr("midi_devices_dialog.found_breath_bite_channel")

@@ -21,10 +21,10 @@ from app.editor.tasks import Progress, StopRequested
 from app.editor.viewport_state import View
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
-from app.export.video import video_into
+from app.export.video import SOUND_RATE_HZ, video_into
 from app.performance.span import FrameSpan, cut_span, whole_span
-from app.project.frame_rate import USUAL_RATES, frame_rate_text
-from widgets.common.controls import Button, Check, named
+from app.project.frame_rate import USUAL_FILM_RATE, USUAL_RATES, frame_rate_text
+from widgets.common.controls import Button, Check, named, wrapped
 from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import PathEdit, ask_where_to_save, show_folder
 from widgets.common.plain import ComboBox, Label
@@ -32,14 +32,15 @@ from widgets.common.text import message_text
 from widgets.dialogs.working import WorkingDialog
 
 Pictures = npt.NDArray[np.uint8]
-Render = Callable[[int, int, float, View | None], Pictures]
-"""Width, height, time in seconds, view (None: as the viewport shows it now) to a picture (H, W, 3 or 4)."""
+Draw = Callable[[float], Pictures]
+"""Time in seconds to a picture (H, W, 3 or 4)."""
+Film = Callable[[int, int, tuple[float, float], View | None], Draw]
+"""Width, height, span in seconds, view (None: as the viewport shows it now) to what draws the pictures in order."""
 Sound = Callable[[float, float, int], npt.NDArray[np.float32]]
 """Start, end in seconds and samples per second to (N, 2) samples of the sound; runs beside the window."""
 
 SIZES: Final = ((1280, 720), (1920, 1080), (2560, 1440), (3840, 2160), (1080, 1920))
 _WHOLE, _LOOP, _SELECTION = "whole", "loop", "selection"
-_SOUND_RATE = 48_000
 _AHEAD = 8
 """Pictures drawn before the encoder has taken them."""
 
@@ -50,8 +51,8 @@ class PlayblastDialog(WorkingDialog):
     Parameters
     ----------
     session : Session
-    render : Render
-        Called in the window's thread.
+    film : Film
+        Called in the window's thread, as what it returns is.
     sound : Sound
     path : Path
         Proposed file.
@@ -61,17 +62,17 @@ class PlayblastDialog(WorkingDialog):
     filmed = Signal(object)
     """The film's path."""
 
-    def __init__(
-        self, session: Session, render: Render, sound: Sound, path: Path, parent: QWidget | None = None
-    ) -> None:
+    def __init__(self, session: Session, film: Film, sound: Sound, path: Path, parent: QWidget | None = None) -> None:
         super().__init__("playblast", "playblast", parent)
-        self._session, self._render, self._sound = session, render, sound
+        self._session, self._film, self._sound = session, film, sound
         self._performance = session.performance
         self._pictures: queue.Queue[Pictures] = queue.Queue(_AHEAD)
         self._trouble: AppError | None = None
         """Why a picture could not be drawn."""
         self._span: FrameSpan | None = None
         self._drawn = 0
+        self._draw_at: Draw | None = None
+        """Draws the film's pictures."""
 
         self._size = named(ComboBox(), "playblast_size")
         for width, height in SIZES:
@@ -79,21 +80,19 @@ class PlayblastDialog(WorkingDialog):
         self._rate = named(ComboBox(), "playblast_rate")
         for rate in sorted({*USUAL_RATES, session.project.fps}):
             self._rate.addItem(frame_rate_text(rate), str(rate))
-        self._rate.setCurrentIndex(self._rate.findData(str(min(session.project.fps, Fraction(30)))))
+        self._rate.setCurrentIndex(self._rate.findData(str(min(session.project.fps, USUAL_FILM_RATE))))
         self._range = named(ComboBox(), "playblast_range")
         self._view = named(ComboBox(), "playblast_view")
         self._with_sound = named(Check("playblast_dialog.include_audio"), "playblast_sound")
         self._with_sound.setChecked(True)
         self._file = named(PathEdit(path), "playblast_file")
         self._choose = Button("playblast_dialog.choose", self._choose_file)
-        self._state = named(Label(), "playblast_state")
-        self._state.setWordWrap(True)
+        self._state = wrapped(named(Label(), "playblast_state"))
         self._state.setMinimumHeight(40)
         self._file.textChanged.connect(self._show_state)
 
         # One picture in each turn of the event loop: the window stays alive.
-        self._timer = QTimer(self)
-        self._timer.setInterval(0)
+        self._timer = QTimer(self, interval=0)
         self._timer.timeout.connect(self._draw)
 
         file = in_row((self._file, 1), self._choose)
@@ -118,7 +117,7 @@ class PlayblastDialog(WorkingDialog):
             return
         self._performance = self._session.performance
         self._span = span = self._requested_span()
-        self._drawn, self._trouble = 0, None
+        self._drawn, self._trouble, self._draw_at = 0, None, None
         # The thread gets what it needs, not the dialog.
         self._pictures = pictures = queue.Queue[Pictures](_AHEAD)
         self._show.hide()
@@ -130,8 +129,8 @@ class PlayblastDialog(WorkingDialog):
         with_sound, sound = self._with_sound.isChecked(), self._sound
 
         def work(progress: Progress, stop_requested: StopRequested) -> Path:
-            samples = sound(span.first_frame_s, span.end_s, _SOUND_RATE) if with_sound else None
-            with video_into(path, (size[0], size[1]), span.fps, samples, _SOUND_RATE) as film:
+            samples = sound(span.first_frame_s, span.end_s, SOUND_RATE_HZ) if with_sound else None
+            with video_into(path, (size[0], size[1]), span.fps, samples) as film:
                 for index in range(span.count):
                     film.write(_next(pictures, lambda: stop.is_set() or stop_requested()))
                     progress((index + 1) / span.count)
@@ -153,9 +152,11 @@ class PlayblastDialog(WorkingDialog):
             return
         self._timer.setInterval(0)
         time_s = span.first_frame_s + self._drawn * span.fps.denominator / span.fps.numerator
-        width, height = self._size.currentData()
         try:
-            picture = self._render(width, height, time_s, self._view.currentData())
+            if self._draw_at is None:
+                width, height = self._size.currentData()
+                self._draw_at = self._film(width, height, (span.first_frame_s, span.end_s), self._view.currentData())
+            picture = self._draw_at(time_s)
         except Exception as error:
             # The encoder stops and takes back what it has written.
             self._stop.set()
@@ -179,6 +180,7 @@ class PlayblastDialog(WorkingDialog):
 
     def _finish(self) -> None:
         self._timer.stop()
+        self._draw_at = None
         self._set_running(False)
         if self._trouble is not None:
             self._failed(self._trouble)

@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QFormLayout,
-    QHBoxLayout,
     QLineEdit,
     QPushButton,
     QRadioButton,
@@ -26,7 +25,7 @@ from app.editor.translated import tr
 from app.encoding import shown
 from instrument_maps.library import library, own_folder
 from widgets.common.controls import Caption, Retranslated, named
-from widgets.common.layouts import STRETCH, in_column, in_row
+from widgets.common.layouts import STRETCH, in_column, in_row, panel
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
@@ -122,26 +121,19 @@ class PreferencesDialog(Retranslated, QDialog):
         self.refresh()
 
     def _list(self, choice: Choice) -> QWidget:
-        field = self._lists[choice.name] = ComboBox()
-        field.setObjectName(f"preferences_{choice.name}")
+        field = self._lists[choice.name] = named(ComboBox(), f"preferences_{choice.name}")
         field.addItems([word for _, word in choice.options])
         field.activated.connect(lambda index: choice.choose(choice.options[index][0]))
         return field
 
     def _options(self, choice: Choice) -> QWidget:
-        field = QWidget()
+        radios = [named(QRadioButton(), f"preferences_{choice.name}_{value}") for value, _ in choice.options]
+        field = panel(in_row(*radios, STRETCH, margins=0, spacing=16))
         group = QButtonGroup(field)
-        line = QHBoxLayout(field)
-        line.setContentsMargins(0, 0, 0, 0)
-        line.setSpacing(16)
-        radios = self._radios[choice.name] = []
-        for value, _ in choice.options:
-            radio = named(QRadioButton(), f"preferences_{choice.name}_{value}")
+        for radio, (value, _) in zip(radios, choice.options, strict=True):
             radio.clicked.connect(partial(_call, choice.choose, value))
             group.addButton(radio)
-            line.addWidget(radio)
-            radios.append(radio)
-        line.addStretch(1)
+        self._radios[choice.name] = radios
         return field
 
     def _instruments_page(self) -> QWidget:

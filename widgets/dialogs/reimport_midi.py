@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QColor, QIcon
+from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QDialog,
-    QDialogButtonBox,
     QHeaderView,
     QListWidget,
     QTableWidget,
@@ -22,7 +21,7 @@ from app.plan.corrections import Correction
 from app.project.model import Project
 from app.project.reimport import Conflict, Reimport
 from app.score.model import Note
-from widgets.common.controls import Caption, Retranslated, named
+from widgets.common.controls import Caption, OkCancel, Retranslated, named, wrapped
 from widgets.common.layouts import in_column
 from widgets.common.plain import Label
 
@@ -59,8 +58,7 @@ class ReimportDialog(Retranslated, QDialog):
         self.setObjectName("reimport_midi")
         self._before, self._outcome, self._file = before, outcome, file
         self._title, self._note_title, self._tokens = title, note_title, tokens
-        self._heading = Label()
-        self._heading.setWordWrap(True)
+        self._heading = wrapped(Label())
         self._table = named(QTableWidget(0, 5), "reimport_parts")
         self._table.verticalHeader().hide()
         self._table.setShowGrid(False)
@@ -69,23 +67,14 @@ class ReimportDialog(Retranslated, QDialog):
         self._table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         self._table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self._table.horizontalHeader().setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-        self._players = named(Label(), "reimport_players")
-        self._players.setWordWrap(True)
-        self._conflict_title = Label()
-        self._conflict_title.setWordWrap(True)
+        self._players, self._conflict_title = named(wrapped(Label()), "reimport_players"), wrapped(Label())
+        self._orphan_title = wrapped(Caption("reimport_dialog.these_corrections_have_lost_their"))
         self._conflicts = named(QListWidget(), "reimport_conflicts")
-        self._conflicts.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
-        self._conflicts.setMaximumHeight(140)
-        self._orphan_title = Caption("reimport_dialog.these_corrections_have_lost_their")
-        self._orphan_title.setWordWrap(True)
         self._orphans = named(QListWidget(), "reimport_orphans")
-        self._orphans.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
-        self._orphans.setMaximumHeight(140)
-        self._buttons = QDialogButtonBox(
-            QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel, Qt.Orientation.Horizontal
-        )
-        for button in self._buttons.buttons():
-            button.setIcon(QIcon())
+        for items in (self._conflicts, self._orphans):
+            items.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
+            items.setMaximumHeight(140)
+        self._buttons = OkCancel("reimport_dialog.re_import", "reimport_dialog.cancel")
         self._buttons.accepted.connect(self.accept)
         self._buttons.rejected.connect(self.reject)
         in_column(
@@ -156,10 +145,7 @@ class ReimportDialog(Retranslated, QDialog):
             self._orphans.addItem(f"{player.name}: {self._title(orphan.correction)}")
         for widget in (self._orphan_title, self._orphans):
             widget.setVisible(bool(outcome.orphans))
-        ok = self._buttons.button(QDialogButtonBox.StandardButton.Ok)
-        ok.setText(self.tr("reimport_dialog.re_import"))
-        ok.setEnabled(outcome.project is not self._before)
-        self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("reimport_dialog.cancel"))
+        self._buttons.ok.setEnabled(outcome.project is not self._before)
 
     def _about_note(self, conflict: Conflict) -> str:
         """What happens to a note: as the user has it → as the file has it."""

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.editor.session import Session
-from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named
+from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named, wrapped
 from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
 
@@ -94,8 +94,7 @@ class ShortcutsPage(Retranslated, QWidget):
         self.back = Button("shortcuts_page.default", self._back, "shortcut_back")
         self.take = Button("shortcuts_page.remove_keys", self._take, "shortcut_take")
         self.give = Button("shortcuts_page.assign", self._give, "shortcut_give")
-        self.reported = named(Label(), "shortcut_status")
-        self.reported.setWordWrap(True)
+        self.reported = wrapped(named(Label(), "shortcut_status"))
         line = in_row(self._label, (self.edit, 1), self.give, self.take, self.back)
         bottom = in_row((self.reported, 1), self.all_back)
         in_column(self.search, (self.list, 1), line, bottom, of=self)

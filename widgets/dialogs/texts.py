@@ -248,6 +248,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "format_chooser.fbx_characters_and_instruments": ("FBX (characters and instruments)", "FBX（キャラクターと楽器）"),
     "format_chooser.glb_characters_and_instruments": ("GLB (characters and instruments)", "GLB（キャラクターと楽器）"),
     "format_chooser.sound_wav": ("Audio (WAV)", "オーディオ（WAV）"),
+    "format_chooser.whole_stage_in_one_file": ("Whole stage in one file", "ステージ全体を 1 ファイルに"),
     "format_chooser.usd_characters_and_instruments": ("USD (characters and instruments)", "USD（キャラクターと楽器）"),
     "format_chooser.usd_package_usd_core_is": (
         "USD (requires the usd-core package)",

@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QToolButton, QWidget
 
 from app.editor.session import Session
-from widgets.common.controls import named
+from widgets.common.controls import named, wrapped
 from widgets.common.icons import icon
 from widgets.common.layouts import in_row
 from widgets.common.plain import Label
@@ -29,8 +29,7 @@ class ByHandLine(QWidget):
         self._session = session
         self._generated: str | None = None
         self._yours = ""
-        self._text = Label()
-        self._text.setWordWrap(True)
+        self._text = wrapped(Label())
         self._button = named(QToolButton(), "revert")
         self._button.clicked.connect(self.reverted)
         in_row((self._text, 1), (self._button, 0, Qt.AlignmentFlag.AlignTop), of=self, margins=(10, 2, 0, 2), spacing=4)

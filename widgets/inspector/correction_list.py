@@ -17,7 +17,7 @@ from app.project.edit.corrections import take_back
 from app.project.model import Project
 from app.project.performers import Player
 from app.project.reimport import orphaned, reattached
-from widgets.common.controls import Button, Caption, PictureButton, Retranslated, named
+from widgets.common.controls import Button, Caption, PictureButton, Retranslated, named, wrapped
 from widgets.common.layouts import in_column, in_row
 from widgets.common.text import message_text
 from widgets.inspector.generated import Generated
@@ -45,8 +45,7 @@ class CorrectionList(Retranslated, QWidget):
         super().__init__(parent)
         self._session, self._generated = session, generated
         self.list = named(LineList(session), "correction_list")
-        self._empty = Caption("correction_list.nothing_was_changed_by_hand")
-        self._empty.setWordWrap(True)
+        self._empty = wrapped(Caption("correction_list.nothing_was_changed_by_hand"))
         self._empty.setMargin(12)
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
         revert = ("correction_list.revert", self._revert_selected, "revert_selected")

@@ -51,10 +51,18 @@ class EventSection(Retranslated, QWidget):
         self._connect()
         self.retranslate()
 
-    def _number(self, name: str, low: float, high: float, step: float, decimals: int, slides: bool) -> NumberSlider:
-        slider = named(
-            NumberSlider(self._session, low, high, step=step, decimals=decimals, slides=slides), f"event_{name}"
-        )
+    def _number(
+        self,
+        name: str,
+        low: float,
+        high: float,
+        step: float,
+        decimals: int,
+        slides: bool,
+        fills: tuple[float, float] | None = None,
+    ) -> NumberSlider:
+        slider = NumberSlider(self._session, low, high, step=step, decimals=decimals, slides=slides, fills=fills)
+        slider.setObjectName(f"event_{name}")
         slider.released.connect(self._session.document.end_gesture)
         self._numbers[name] = slider
         return slider
@@ -76,10 +84,7 @@ class EventSection(Retranslated, QWidget):
         fades = QGridLayout()
         fades.setSpacing(4)
         for column, name in enumerate(("fade_in_s", "fade_out_s")):
-            slider = named(NumberSlider(self._session, 0, 60, step=0.05, decimals=2, fills=(0.0, 3.0)), f"event_{name}")
-            slider.released.connect(self._session.document.end_gesture)
-            self._numbers[name] = slider
-            fades.addWidget(slider, 0, column)
+            fades.addWidget(self._number(name, 0, 60, 0.05, 2, True, fills=(0.0, 3.0)), 0, column)
         body.addLayout(fades)
         body.addWidget(self._by_hand)
         body.addWidget(self._why)

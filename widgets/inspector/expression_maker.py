@@ -7,7 +7,7 @@ from collections.abc import Callable
 import msgspec
 import shiboken6
 from PySide6.QtCore import QCoreApplication, QEvent, Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLineEdit, QToolButton, QWidget
 
 from app.editor.session import Session, Severity
 from app.errors import AppError, Message
@@ -22,7 +22,7 @@ from widgets.common.combo import Combo, Option
 from widgets.common.controls import Check, Retranslated, named
 from widgets.common.event_names import expression_name
 from widgets.common.icons import icon
-from widgets.common.layouts import in_column, in_row
+from widgets.common.layouts import in_column, in_row, panel
 from widgets.common.morph_names import morph_name
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
@@ -102,10 +102,8 @@ class ExpressionMaker(Retranslated, QWidget):
             slider.setObjectName(f"expression_{name}")
             fades.addWidget(slider, 0, column)
         body.addLayout(fades)
-        self._faces = QWidget()
-        self._faces_layout = QVBoxLayout(self._faces)
-        self._faces_layout.setContentsMargins(0, 4, 0, 0)
-        self._faces_layout.setSpacing(0)
+        self._faces_layout = in_column(margins=(0, 4, 0, 0), spacing=0)
+        self._faces = panel(self._faces_layout)
         body.addWidget(self._faces)
         in_column(self._section, of=self, margins=0)
 

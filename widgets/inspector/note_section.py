@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QGridLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.editor.session import Session
 from app.errors import MapError, Message
@@ -21,7 +21,7 @@ from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import words_of_tags
 from widgets.common.fingering_text import short_label
 from widgets.common.flow import FlowLayout
-from widgets.common.layouts import in_column
+from widgets.common.layouts import in_column, panel
 from widgets.common.number_slider import NumberSlider
 from widgets.common.pitch import pitch_text
 from widgets.common.plain import Label
@@ -51,16 +51,15 @@ class NoteSection(Retranslated, QWidget):
             "length": NumberSlider(session, 0.001, 100_000, decimals=3, step=0.125, slides=False, resets=False),
             "velocity": NumberSlider(session, 1, 127, decimals=0, step=1, resets=False),
         }
-        self._lips = {name: NumberSlider(session, 0, 1, step=0.05) for name in EMBOUCHURE}
+        self._lips = {name: named(NumberSlider(session, 0, 1, step=0.05), f"embouchure_{name}") for name in EMBOUCHURE}
         self._diagram = named(FingeringDiagram(session), "fingering_diagram")
         self._chips = FlowLayout()
         self._chip_labels: tuple[tuple[str, str], ...] = ()
         self._chip_of: dict[str, Chip] = {}
         self._fingering_title, self._lips_title = Caption("note_section.fingering"), Caption("note_section.embouchure")
         self._why, self._problems = Label(), Label()
-        self._fingering_by_hand, self._lips_by_hand = ByHandLine(session), ByHandLine(session)
-        self._fingering_by_hand.setObjectName("fingering_by_hand")
-        self._lips_by_hand.setObjectName("embouchure_by_hand")
+        self._fingering_by_hand = named(ByHandLine(session), "fingering_by_hand")
+        self._lips_by_hand = named(ByHandLine(session), "embouchure_by_hand")
         self._build()
         self._connect()
         self.retranslate()
@@ -69,27 +68,15 @@ class NoteSection(Retranslated, QWidget):
         grid = QGridLayout()
         grid.setSpacing(4)
         for number, (name, slider) in enumerate(self._numbers.items()):
-            slider.setObjectName(f"note_{name}")
-            grid.addWidget(slider, number // 2, number % 2)
+            grid.addWidget(named(slider, f"note_{name}"), number // 2, number % 2)
         body = self._section.body
         body.addLayout(grid)
-        self._fingering = QWidget()
-        fingering = in_column(of=self._fingering, margins=(0, 4, 0, 0), spacing=4)
-        chips = named(QWidget(), "fingering_chips")
-        chips.setLayout(self._chips)
-        self._chips_box = chips
-        for widget in (self._fingering_title, chips, self._diagram, self._fingering_by_hand, self._why):
-            fingering.addWidget(widget)
+        self._chips_box = named(panel(self._chips), "fingering_chips")
+        fingering = (self._fingering_title, self._chips_box, self._diagram, self._fingering_by_hand, self._why)
+        self._fingering = panel(in_column(*fingering, margins=(0, 4, 0, 0), spacing=4))
         body.addWidget(self._fingering)
-        self._lips_box = QWidget()
-        lips = QVBoxLayout(self._lips_box)
-        lips.setContentsMargins(0, 4, 0, 0)
-        lips.setSpacing(4)
-        lips.addWidget(self._lips_title)
-        for name, slider in self._lips.items():
-            slider.setObjectName(f"embouchure_{name}")
-            lips.addWidget(slider)
-        lips.addWidget(self._lips_by_hand)
+        lips = (self._lips_title, *self._lips.values(), self._lips_by_hand)
+        self._lips_box = panel(in_column(*lips, margins=(0, 4, 0, 0), spacing=4))
         body.addWidget(self._lips_box)
         body.addWidget(self._problems)
         for label in (self._why, self._problems):

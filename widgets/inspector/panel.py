@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QScrollArea, QSplitter, QTabWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QScrollArea, QSplitter, QTabWidget, QWidget
 
 from app.editor.session import Session
 from app.project.document import Change
-from widgets.common.controls import Retranslated, named
-from widgets.common.layouts import in_column
+from widgets.common.controls import Retranslated, named, wrapped
+from widgets.common.layouts import STRETCH, in_column, panel
 from widgets.common.plain import Label
 from widgets.inspector.correction_list import CorrectionList
 from widgets.inspector.event_section import EventSection
@@ -39,8 +39,7 @@ class InspectorPanel(Retranslated, QWidget):
         self._events = EventSection(session, self._generated)
         self._take = TakeSection(session)
         self._maker = ExpressionMaker(session)
-        self._empty = Label()
-        self._empty.setWordWrap(True)
+        self._empty = wrapped(Label())
         self._empty.setMargin(16)
         self._problems = ProblemList(session)
         self._corrections = CorrectionList(session, self._generated)
@@ -64,18 +63,12 @@ class InspectorPanel(Retranslated, QWidget):
         self._problems.show_problems()
 
     def _build(self) -> None:
-        upper = QWidget()
-        layout = QVBoxLayout(upper)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        for widget in (self._notes, self._events, self._take, self._empty, self._maker):
-            layout.addWidget(widget)
-        layout.addStretch(1)
+        sections = (self._notes, self._events, self._take, self._empty, self._maker)
         scroll = QScrollArea()
         scroll.setWidgetResizable(True)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        scroll.setWidget(upper)
+        scroll.setWidget(panel(in_column(*sections, STRETCH, margins=0, spacing=0)))
         for page in (self._problems, self._corrections, self._history):
             self._tabs.addTab(page, "")
         self._tabs.setDocumentMode(True)

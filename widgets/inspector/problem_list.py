@@ -13,7 +13,7 @@ from app.plan.model import Problem
 from app.project.performers import Dancer, Player
 from app.score.model import Score
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.text import sentence
@@ -55,8 +55,7 @@ class ProblemList(Retranslated, QWidget):
         self._who.setObjectName("problems_who")
         self._kind.setObjectName("problems_kind")
         self.list = named(LineList(session), "problem_list")
-        self._empty = Label()
-        self._empty.setWordWrap(True)
+        self._empty = wrapped(Label())
         self._empty.setContentsMargins(12, 4, 12, 4)
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
         filters = in_row((self._who, 1), (self._kind, 1), margins=(6, 6, 6, 4), spacing=4)

@@ -20,7 +20,7 @@ _OF_NOTES = ("fingering:", "embouchure:")
 
 @dataclass(frozen=True)
 class SelectedNotes:
-    """The selected notes of the player that matters most: in front, else the first who plays some of them.
+    """The selected notes of the active player, else of the first that plays some of them.
 
     Attributes
     ----------

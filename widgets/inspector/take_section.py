@@ -9,7 +9,7 @@ from typing import Final
 
 import msgspec
 from PySide6.QtCore import QSize
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPushButton, QToolButton, QWidget
+from PySide6.QtWidgets import QLineEdit, QToolButton, QWidget
 
 from app.editor.grids import GRIDS
 from app.editor.session import Session
@@ -20,8 +20,8 @@ from app.project.limits import CLEANING
 from app.project.performers import Player
 from app.score.take import Cleaning, Take
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Retranslated, named
-from widgets.common.layouts import in_column, in_row
+from widgets.common.controls import Button, Retranslated, named, wrapped
+from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.common.section import Section
@@ -33,21 +33,48 @@ BUTTONS: Final = ("takes.listen", "takes.listen_alone", "takes.whole", "takes.re
 
 @dataclass(frozen=True)
 class _Number:
-    """How a number of the cleaning is shown: so many of the unit in one of the value's."""
+    """How a number of the cleaning is shown: so many of the unit in one of the value's; text and tip by their ids."""
 
     field: str
     scale: float
     most: float
     step: float
+    text_id: str
+    tip_id: str
 
 
 NUMBERS: Final = (
-    _Number("ghost_s", 1000.0, 300.0, 5.0),
-    _Number("ghost_loudness", 100.0, 100.0, 1.0),
-    _Number("double_s", 1000.0, 100.0, 5.0),
-    _Number("overlap_s", 1000.0, 100.0, 5.0),
-    _Number("quantise", 100.0, 100.0, 5.0),
-    _Number("align", 100.0, 100.0, 5.0),
+    _Number(
+        "ghost_s",
+        1000.0,
+        300.0,
+        5.0,
+        "take_section.ghost_notes_shorter_than",
+        "take_section.soft_notes_shorter_than_this",
+    ),
+    _Number(
+        "ghost_loudness", 100.0, 100.0, 1.0, "take_section.and_softer_than", "take_section.soft_breath_stays_below_this"
+    ),
+    _Number(
+        "double_s",
+        1000.0,
+        100.0,
+        5.0,
+        "take_section.doubled_notes_within",
+        "take_section.same_note_struck_again_within",
+    ),
+    _Number(
+        "overlap_s",
+        1000.0,
+        100.0,
+        5.0,
+        "take_section.legato_overlap_at_most",
+        "take_section.note_that_sounds_longer_into",
+    ),
+    _Number("quantise", 100.0, 100.0, 5.0, "take_section.quantise", "take_section.how_far_notes_are_drawn"),
+    _Number(
+        "align", 100.0, 100.0, 5.0, "take_section.draw_to_score", "take_section.how_far_notes_are_drawn_to_those_of"
+    ),
 )
 
 
@@ -63,13 +90,13 @@ class TakeSection(Retranslated, QWidget):
         self._cleaning = Section(session, "inspector_cleaning", self)
         self._name = named(QLineEdit(), "take_name")
         self._swatch = named(ColourSwatch(session), "take_swatch")
-        self._about, self._counts = Label(), Label()
+        self._about, self._counts = wrapped(Label()), wrapped(Label())
         self._buttons = {id: QToolButton() for id in BUTTONS}
         self._sliders: dict[str, NumberSlider] = {}
         self._grid = named(Combo(), "take_grid_quarters")
-        self._usual, self._beats = QPushButton(), QPushButton()
-        self._usual.setObjectName("take_usual")
-        self._beats.setObjectName("take_beats")
+        usual_tip, beats_tip = "take_section.clean_this_take_as_every", "take_section.for_take_without_click_piece"
+        self._usual = Button("take_section.as_usual", self._clean_as_usual, "take_usual", usual_tip)
+        self._beats = Button("take_section.find_beats", self._find_beats, "take_beats", beats_tip)
         self._build()
         self._connect()
         self.retranslate()
@@ -77,18 +104,13 @@ class TakeSection(Retranslated, QWidget):
 
     def _build(self) -> None:
         line = in_row((self._name, 1), self._swatch, spacing=4)
-        buttons = QHBoxLayout()
-        buttons.setSpacing(2)
         for id, button in self._buttons.items():
             button.setObjectName(id.replace(".", "_"))
             button.setMinimumSize(QSize(LEAST_TARGET_PX + 2, LEAST_TARGET_PX + 2))
             button.setAutoRaise(True)
-            buttons.addWidget(button)
-        buttons.addStretch(1)
+        buttons = in_row(*self._buttons.values(), STRETCH, spacing=2)
         body = self._section.body
         body.addLayout(line)
-        for label in (self._about, self._counts):
-            label.setWordWrap(True)
         body.addWidget(self._about)
         body.addLayout(buttons)
         body = self._cleaning.body
@@ -127,10 +149,14 @@ class TakeSection(Retranslated, QWidget):
             )
             slider.released.connect(session.document.end_gesture)
         self._grid.chosen.connect(lambda id: self._clean(None, grid_quarters=float(Fraction(id))))
-        self._usual.clicked.connect(lambda: session.actions["takes.usual_cleaning"].trigger())
-        self._beats.clicked.connect(lambda: session.actions["takes.find_beats"].trigger())
         session.theme_changed.connect(self._apply_theme)
         self._apply_theme()
+
+    def _clean_as_usual(self) -> None:
+        self._session.actions["takes.usual_cleaning"].trigger()
+
+    def _find_beats(self) -> None:
+        self._session.actions["takes.find_beats"].trigger()
 
     # Showing
 
@@ -237,41 +263,9 @@ class TakeSection(Retranslated, QWidget):
         self._swatch.setAccessibleName(self.tr("take_section.colour_of_take"))
         self._swatch.setToolTip(self.tr("take_section.colour_of_take"))
         self._cleaning.header.set_texts(self.tr("take_section.cleaning"))
-        ms, percent = self.tr("take_section.milliseconds"), "%"
-        texts = {
-            "ghost_s": (
-                self.tr("take_section.ghost_notes_shorter_than"),
-                ms,
-                self.tr("take_section.soft_notes_shorter_than_this"),
-            ),
-            "ghost_loudness": (
-                self.tr("take_section.and_softer_than"),
-                percent,
-                self.tr("take_section.soft_breath_stays_below_this"),
-            ),
-            "double_s": (
-                self.tr("take_section.doubled_notes_within"),
-                ms,
-                self.tr("take_section.same_note_struck_again_within"),
-            ),
-            "overlap_s": (
-                self.tr("take_section.legato_overlap_at_most"),
-                ms,
-                self.tr("take_section.note_that_sounds_longer_into"),
-            ),
-            "quantise": (self.tr("take_section.quantise"), percent, self.tr("take_section.how_far_notes_are_drawn")),
-            "align": (
-                self.tr("take_section.draw_to_score"),
-                percent,
-                self.tr("take_section.how_far_notes_are_drawn_to_those_of"),
-            ),
-        }
-        for field, (label, unit, tip) in texts.items():
-            self._sliders[field].set_texts(label, unit, tip)
+        for number in NUMBERS:
+            unit = self.tr("take_section.milliseconds") if number.field.endswith("_s") else "%"
+            self._sliders[number.field].set_texts(self.tr(number.text_id), unit, self.tr(number.tip_id))
         self._grid.setAccessibleName(self.tr("take_section.grid_of_quantising"))
         self._grid.setToolTip(self.tr("take_section.grid_of_quantising"))
-        self._usual.setText(self.tr("take_section.as_usual"))
-        self._usual.setToolTip(self.tr("take_section.clean_this_take_as_every"))
-        self._beats.setText(self.tr("take_section.find_beats"))
-        self._beats.setToolTip(self.tr("take_section.for_take_without_click_piece"))
         self.show_take()

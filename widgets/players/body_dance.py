@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from app.choreography.library import bundled_choreographies
 from app.choreography.model_file import SUFFIX
@@ -18,8 +18,8 @@ from app.project.edit.players import parameter_edit, reset_parameters, set_param
 from app.project.model import Project
 from app.project.performers import Player
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import IconButton, Retranslated
-from widgets.common.layouts import in_row
+from widgets.common.controls import IconButton, Retranslated, named
+from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import ask_for_file
 from widgets.common.plain import Label
 from widgets.common.text import parameter_text
@@ -43,8 +43,7 @@ class BodyDanceRows(Retranslated, QWidget):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self._label, self._choreography = Label(), Combo()
-        self._choreography.setObjectName("parameter_choreography")
+        self._label, self._choreography = Label(), named(Combo(), "parameter_choreography")
         self._label.setBuddy(self._choreography)
         self._sliders = {one.name: ParameterSlider(session, one) for one in rows_of("dance")}
         self._dice = IconButton(session, "dice", "body_dance_rows.another_dance_for_each", self._vary, "dance_dice")
@@ -59,13 +58,8 @@ class BodyDanceRows(Retranslated, QWidget):
     def _build(self) -> None:
         choice = in_row(self._label, (self._choreography, 1), spacing=4)
         variation = in_row((self._sliders[_VARIATION], 1), self._dice, spacing=4)
-        rows = QVBoxLayout(self)
-        rows.setContentsMargins(0, 0, 0, 0)
-        rows.addLayout(choice)
-        for name, slider in self._sliders.items():
-            if name != _VARIATION:
-                rows.addWidget(slider)
-        rows.addLayout(variation)
+        others = (slider for name, slider in self._sliders.items() if name != _VARIATION)
+        in_column(choice, *others, variation, of=self, margins=0)
 
     # Showing
 

@@ -4,39 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import (
-    QEvent,
-    QItemSelectionModel,
-    QModelIndex,
-    QPersistentModelIndex,
-    QRect,
-    QRectF,
-    QSize,
-    Qt,
-    Signal,
-)
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QPainter, QPen, QStandardItem, QStandardItemModel
-from PySide6.QtWidgets import (
-    QAbstractItemView,
-    QLineEdit,
-    QStyle,
-    QStyledItemDelegate,
-    QStyleOptionViewItem,
-    QToolTip,
-    QWidget,
-)
+from PySide6.QtCore import QItemSelectionModel, QModelIndex, QPoint, QRect, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QStandardItem, QStandardItemModel
+from PySide6.QtWidgets import QAbstractItemView, QLineEdit, QStyle, QStyleOptionViewItem, QWidget
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.project.performers import Dancer
 from widgets.common.controls import named
-from widgets.common.icons import icon
-from widgets.players.ordered_list import ID_ROLE, OrderedList
-
-AnyIndex = QModelIndex | QPersistentModelIndex
+from widgets.players.ordered_list import ID_ROLE, AnyIndex, OrderedList, RowDelegate
 
 _COLOUR, _PROBLEMS = ID_ROLE + 1, ID_ROLE + 2
-_BAR_PX = 5
 
 
 class DancerList(OrderedList):
@@ -104,13 +82,13 @@ class DancerList(OrderedList):
             self.chosen.emit(str(index.data(ID_ROLE)))
 
 
-class _RowDelegate(QStyledItemDelegate):
+class _RowDelegate(RowDelegate):
     """Draws a row: colour, name and number of problems."""
 
-    def __init__(self, session: Session, view: DancerList) -> None:
-        super().__init__(view)
-        self._session = session
-        self._view = view
+    def tip(self, index: AnyIndex, box: QRect, at: QPoint) -> str:
+        count = int(index.data(_PROBLEMS) or 0)
+        problems = [self.tr("row_delegate.problems").format(count=count)] if count else []
+        return "\n".join([str(index.data()), *problems])
 
     # Qt's own names
 
@@ -121,38 +99,16 @@ class _RowDelegate(QStyledItemDelegate):
         tokens, box = self._session.tokens, option.rect
         selected = bool(option.state & QStyle.StateFlag.State_Selected)
         painter.save()
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        if selected:
-            fill = QColor(tokens.accent)
-            fill.setAlphaF(0.28)
-            painter.fillRect(box, fill)
-        elif option.state & QStyle.StateFlag.State_MouseOver:
-            painter.fillRect(box, QColor(tokens.raised))
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(QColor(str(index.data(_COLOUR))))
-        painter.drawRoundedRect(QRectF(box.left() + 4, box.top() + 4, _BAR_PX, box.height() - 8), 2, 2)
+        self.paint_ground(painter, option, str(index.data(_COLOUR)), 0.28, 4)
         room = box.adjusted(16, 0, -6, 0)
-        count = int(index.data(_PROBLEMS) or 0)
-        if count:
-            width = round(QFontMetricsF(self._view.font()).horizontalAdvance(str(count))) + 20
-            spot = QRect(room.right() - width, room.top(), width, room.height())
-            icon("problem", tokens, tokens.warning).paint(painter, QRect(spot.left(), spot.center().y() - 7, 16, 16))
-            painter.setFont(self._view.font())
-            painter.setPen(QColor(tokens.warning))
-            painter.drawText(spot, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, str(count))
-            room.setRight(spot.left() - 6)
+        room.setRight(self.paint_problems(painter, room, int(index.data(_PROBLEMS) or 0), self._view.font()))
         font = QFont(self._view.font())
         font.setBold(selected)
         painter.setFont(font)
         painter.setPen(QColor(tokens.text))
         name = QFontMetricsF(font).elidedText(str(index.data()), Qt.TextElideMode.ElideRight, room.width())
         painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, name)
-        painter.setPen(QColor(tokens.line))
-        painter.drawLine(box.bottomLeft(), box.bottomRight())
-        if selected and self._view.hasFocus():
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(QPen(QColor(tokens.accent), 1.5))
-            painter.drawRoundedRect(QRectF(box).adjusted(1, 1, -1, -1.5), 3, 3)
+        self.paint_frame(painter, box, selected)
         painter.restore()
 
     def createEditor(self, parent: QWidget, option: QStyleOptionViewItem, index: AnyIndex) -> QWidget:
@@ -160,15 +116,3 @@ class _RowDelegate(QStyledItemDelegate):
 
     def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: AnyIndex) -> None:
         editor.setGeometry(option.rect.adjusted(13, 1, -2, -2))
-
-    def helpEvent(
-        self, event: QHelpEvent, view: QAbstractItemView, option: QStyleOptionViewItem, index: AnyIndex
-    ) -> bool:
-        if event.type() != QEvent.Type.ToolTip or not index.isValid():
-            return False
-        lines = [str(index.data())]
-        count = int(index.data(_PROBLEMS) or 0)
-        if count:
-            lines.append(self.tr("row_delegate.problems").format(count=count))
-        QToolTip.showText(event.globalPos(), "\n".join(lines), view)
-        return True

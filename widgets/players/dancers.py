@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QTimer
@@ -61,10 +62,11 @@ class DancersSection(Retranslated, QWidget):
         self.setObjectName("dancers")
         self._session = session
         self._section = Section(session, "players_dancers", self)
+        duplicate, remove = partial(duplicate_dancer, session), partial(remove_dancer, session)
         self._tools = {
             "add": self._tool("add", "dancers_section.add_dancer", self.offer),
-            "duplicate": self._tool("duplicate", "dancers_section.duplicate_another_one_dances_same", self._duplicate),
-            "remove": self._tool("delete", "dancers_section.remove_selected_dancer", self._remove),
+            "duplicate": self._tool("duplicate", "dancers_section.duplicate_another_one_dances_same", duplicate),
+            "remove": self._tool("delete", "dancers_section.remove_selected_dancer", remove),
         }
         self.list = named(DancerList(session), "dancer_list")
         self._form = QWidget()
@@ -258,12 +260,6 @@ class DancersSection(Retranslated, QWidget):
             self._choreography.show_option(dancer.choreography)
             return
         self._edit("choreography", lambda project, id: edit.set_choreography(project, (id,), path))
-
-    def _duplicate(self) -> None:
-        duplicate_dancer(self._session)
-
-    def _remove(self) -> None:
-        remove_dancer(self._session)
 
     def _move(self, dancer_ids: tuple[str, ...], before: int) -> None:
         self._session.attempt(

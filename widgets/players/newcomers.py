@@ -1,4 +1,4 @@
-"""Players and dancers who come and dancers who go: the edit, and who is selected afterwards."""
+"""Adding players and dancers and removing dancers: the edit, and the selection afterwards."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def add_player(session: Session, instrument_id: str) -> None:
 
 
 def add_dancer(session: Session, choreography: str, name: str) -> None:
-    """Add a dancer of a choreography, who is selected then."""
+    """Add a dancer of a choreography and select it."""
     made: list[str] = []
 
     def add(project: Project) -> Project:
@@ -42,7 +42,7 @@ def add_dancer(session: Session, choreography: str, name: str) -> None:
 
 
 def duplicate_dancer(session: Session) -> None:
-    """Let another one dance what the selected dancer dances, who is selected then."""
+    """Duplicate the selected dancer and select the copy."""
     dancer, made = session.dancer, list[str]()
     if dancer is None:
         return

@@ -2,16 +2,38 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, TypeAlias
 
-from PySide6.QtCore import QItemSelectionModel, QPoint, QRect, Qt, Signal
-from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent
-from PySide6.QtWidgets import QAbstractItemView, QApplication, QListView, QWidget
+from PySide6.QtCore import (
+    QEvent,
+    QItemSelectionModel,
+    QModelIndex,
+    QPersistentModelIndex,
+    QPoint,
+    QRect,
+    QRectF,
+    Qt,
+    Signal,
+)
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QApplication,
+    QListView,
+    QStyle,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QToolTip,
+    QWidget,
+)
 
 from app.editor.session import Session
+from widgets.common.icons import icon
 
 ID_ROLE: Final = Qt.ItemDataRole.UserRole + 1
 """A row's id, str."""
+AnyIndex: TypeAlias = QModelIndex | QPersistentModelIndex
+_BAR_PX = 5
 
 
 class OrderedList(QListView):
@@ -146,3 +168,81 @@ class OrderedList(QListView):
             QRect(0, (box.bottom() if last else box.top()) - 1, self.viewport().width(), 3),
             QColor(self._session.tokens.accent),
         )
+
+
+class RowDelegate(QStyledItemDelegate):
+    """Draws what the rows of both lists have: colour, selection, number of problems, frame of the keyboard.
+
+    Parameters
+    ----------
+    session : Session
+    view : OrderedList
+    """
+
+    def __init__(self, session: Session, view: OrderedList) -> None:
+        super().__init__(view)
+        self._session, self._view = session, view
+
+    def paint_ground(
+        self, painter: QPainter, option: QStyleOptionViewItem, colour: str, opacity: float, inset_px: int
+    ) -> None:
+        """What lies below the texts.
+
+        Parameters
+        ----------
+        painter : QPainter
+        option : QStyleOptionViewItem
+        colour : str
+            Of the bar at the left.
+        opacity : float
+            Of the accent, where the row is selected.
+        inset_px : int
+            Room above and below the bar.
+        """
+        tokens, box = self._session.tokens, option.rect
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if option.state & QStyle.StateFlag.State_Selected:
+            fill = QColor(tokens.accent)
+            fill.setAlphaF(opacity)
+            painter.fillRect(box, fill)
+        elif option.state & QStyle.StateFlag.State_MouseOver:
+            painter.fillRect(box, QColor(tokens.raised))
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(colour))
+        bar = QRectF(box.left() + 4, box.top() + inset_px, _BAR_PX, box.height() - 2 * inset_px)
+        painter.drawRoundedRect(bar, 2, 2)
+
+    def paint_problems(self, painter: QPainter, room: QRect, count: int, font: QFont) -> int:
+        """A mark and the number of problems at the right; returns where the room left of them ends, in pixels."""
+        if not count:
+            return room.right()
+        tokens, text = self._session.tokens, str(count)
+        width = round(QFontMetricsF(font).horizontalAdvance(text)) + 20
+        spot = QRect(room.right() - width, room.top(), width, room.height())
+        icon("problem", tokens, tokens.warning).paint(painter, QRect(spot.left(), spot.center().y() - 7, 16, 16))
+        painter.setFont(font)
+        painter.setPen(QColor(tokens.warning))
+        painter.drawText(spot, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, text)
+        return spot.left() - 6
+
+    def paint_frame(self, painter: QPainter, box: QRect, is_front: bool) -> None:
+        """The line below, and a frame where the keyboard is."""
+        tokens = self._session.tokens
+        painter.setPen(QColor(tokens.line))
+        painter.drawLine(box.bottomLeft(), box.bottomRight())
+        if is_front and self._view.hasFocus():
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(QColor(tokens.accent), 1.5))
+            painter.drawRoundedRect(QRectF(box).adjusted(1, 1, -1, -1.5), 3, 3)
+
+    def tip(self, index: AnyIndex, box: QRect, at: QPoint) -> str:
+        """What is told of a row in this box at this place."""
+        raise NotImplementedError
+
+    def helpEvent(
+        self, event: QHelpEvent, view: QAbstractItemView, option: QStyleOptionViewItem, index: AnyIndex
+    ) -> bool:
+        if event.type() != QEvent.Type.ToolTip or not index.isValid():
+            return False
+        QToolTip.showText(event.globalPos(), self.tip(index, option.rect, event.pos()), view)
+        return True

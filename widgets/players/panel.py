@@ -1,4 +1,4 @@
-"""The players' panel: who plays, what they are like, where they stand."""
+"""The players' panel: the players, their parameters and their places."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from app.errors import Message
 from app.project.document import Change
 from app.project.edit import players as edit
 from app.project.edit.generation import vary_players
-from instrument_maps.library import all_maps
-from widgets.common.controls import Caption, IconButton, PictureButton, Retranslated, named
+from instrument_maps.library import all_maps, library
+from widgets.common.controls import Caption, IconButton, PictureButton, Retranslated, named, wrapped
 from widgets.common.instrument_name import instrument_name
 from widgets.common.layouts import STRETCH, in_column, in_row, panel
 from widgets.common.menus import offer_actions, passing_menu
@@ -74,8 +74,7 @@ class PlayersPanel(Retranslated, QWidget):
             "remove": self._tool("delete", "players_panel.remove_selected_players", self._remove),
         }
         self.list = named(PlayerList(session), "player_list")
-        self._empty = Caption("players_panel.no_players_yet_add_player")
-        self._empty.setWordWrap(True)
+        self._empty = wrapped(Caption("players_panel.no_players_yet_add_player"))
         self._empty.setContentsMargins(12, 4, 12, 4)
         self._parameters = ParameterSections(session)
         self._stage = StageSection(session)
@@ -266,7 +265,7 @@ class PlayersPanel(Retranslated, QWidget):
 
     def _offer_instruments(self) -> None:
         menu = passing_menu(self, "instrument_menu")
-        for instrument in all_maps().values():
+        for instrument in library().in_score_order:
             action = menu.addAction(verbatim(instrument_name(instrument)))
             action.triggered.connect(lambda _=False, id=instrument.id: self.add(id))
         button = self._tools["add"]

@@ -19,7 +19,7 @@ from app.project.edit.players import parameter_edit
 from app.project.model import Project
 from app.project.performers import Player
 from app.rig.character_library import bundled_characters, characters
-from instrument_maps.library import all_maps
+from instrument_maps.library import library
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import IconButton, Retranslated
 from widgets.common.instrument_name import character_name, instrument_name
@@ -273,7 +273,7 @@ class ParameterSections(Retranslated, QWidget):
         self.show_players()
 
     def _show_instruments(self) -> None:
-        self._instrument.set_options([Option(map.id, instrument_name(map)) for map in all_maps().values()])
+        self._instrument.set_options([Option(map.id, instrument_name(map)) for map in library().in_score_order])
 
     def _instruments_changed(self) -> None:
         self._show_instruments()

@@ -7,11 +7,9 @@ from typing import Any
 
 from PySide6.QtCore import (
     QAbstractListModel,
-    QEvent,
     QItemSelection,
     QItemSelectionModel,
     QModelIndex,
-    QPersistentModelIndex,
     QPoint,
     QRect,
     QRectF,
@@ -19,36 +17,17 @@ from PySide6.QtCore import (
     Qt,
     Signal,
 )
-from PySide6.QtGui import (
-    QColor,
-    QFont,
-    QFontMetricsF,
-    QHelpEvent,
-    QMouseEvent,
-    QPainter,
-    QPen,
-)
-from PySide6.QtWidgets import (
-    QAbstractItemView,
-    QLineEdit,
-    QStyle,
-    QStyledItemDelegate,
-    QStyleOptionViewItem,
-    QToolTip,
-    QWidget,
-)
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QMouseEvent, QPainter, QPen
+from PySide6.QtWidgets import QAbstractItemView, QLineEdit, QStyleOptionViewItem, QWidget
 
 from app.editor.session import Session
 from app.project.performers import Player
 from widgets.common.controls import named
 from widgets.common.icons import icon
-from widgets.players.ordered_list import ID_ROLE, OrderedList
-
-AnyIndex = QModelIndex | QPersistentModelIndex
+from widgets.players.ordered_list import ID_ROLE, AnyIndex, OrderedList, RowDelegate
 
 ROW_PX = 40
 BUTTON_PX = 26
-_BAR_PX = 5
 _ROW = Qt.ItemDataRole.UserRole
 
 
@@ -143,13 +122,8 @@ class PlayerModel(QAbstractListModel):
         return Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsEditable
 
 
-class _RowDelegate(QStyledItemDelegate):
-    """Draws a row: colour, name, instrument, crown, problems, who is recorded, mute and solo."""
-
-    def __init__(self, session: Session, view: PlayerList) -> None:
-        super().__init__(view)
-        self._session = session
-        self._view = view
+class _RowDelegate(RowDelegate):
+    """Draws a row: colour, name, instrument, leader's crown, problems, record arm, mute and solo."""
 
     def buttons(self, row: QRect) -> tuple[QRect, QRect]:
         """Where mute and solo are."""
@@ -158,7 +132,7 @@ class _RowDelegate(QStyledItemDelegate):
         return solo.translated(-BUTTON_PX - 2, 0), solo
 
     def arm_button(self, row: QRect) -> QRect:
-        """Where the mark of who is recorded is; nowhere while there is nothing to record from."""
+        """Rectangle of the record-arm mark; empty while there is no device to record from."""
         if not self._session.recording.port:
             return QRect()
         return self.buttons(row)[0].translated(-BUTTON_PX - 2, 0)
@@ -174,16 +148,7 @@ class _RowDelegate(QStyledItemDelegate):
         tokens, box = self._session.tokens, option.rect
         in_front = self._session.players[:1] == (row.player.id,)
         painter.save()
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        if option.state & QStyle.StateFlag.State_Selected:
-            fill = QColor(tokens.accent)
-            fill.setAlphaF(0.28 if in_front else 0.14)
-            painter.fillRect(box, fill)
-        elif option.state & QStyle.StateFlag.State_MouseOver:
-            painter.fillRect(box, QColor(tokens.raised))
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(QColor(row.colour))
-        painter.drawRoundedRect(QRectF(box.left() + 4, box.top() + 5, _BAR_PX, box.height() - 10), 2, 2)
+        self.paint_ground(painter, option, row.colour, 0.28 if in_front else 0.14, 5)
         mute, solo = self.buttons(box)
         self._paint_button(painter, mute, "M", row.player.muted, tokens.warning)
         self._paint_button(painter, solo, "S", row.player.soloed, tokens.good)
@@ -192,28 +157,14 @@ class _RowDelegate(QStyledItemDelegate):
             self._paint_arm(painter, arm, row.player.id, in_front)
         left = (arm if arm.isValid() else mute).left()
         self._paint_texts(painter, box.adjusted(16, 3, -(box.right() - left) - 4, -3), row, in_front)
-        painter.setPen(QColor(tokens.line))
-        painter.drawLine(box.bottomLeft(), box.bottomRight())
-        if in_front and self._view.hasFocus():
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(QPen(QColor(tokens.accent), 1.5))
-            painter.drawRoundedRect(QRectF(box).adjusted(1, 1, -1, -1.5), 3, 3)
+        self.paint_frame(painter, box, in_front)
         painter.restore()
 
     def _paint_texts(self, painter: QPainter, room: QRect, row: Row, in_front: bool) -> None:
         tokens = self._session.tokens
         font, small = QFont(self._view.font()), self._small_font()
         font.setBold(in_front)
-        right = room.right()
-        if row.problems:
-            text = str(row.problems)
-            width = round(QFontMetricsF(small).horizontalAdvance(text)) + 20
-            spot = QRect(right - width, room.top(), width, room.height())
-            icon("problem", tokens, tokens.warning).paint(painter, QRect(spot.left(), spot.center().y() - 7, 16, 16))
-            painter.setFont(small)
-            painter.setPen(QColor(tokens.warning))
-            painter.drawText(spot, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, text)
-            right = spot.left() - 6
+        right = self.paint_problems(painter, room, row.problems, small)
         name_px = right - room.left() - (20 if row.leads else 0)
         name = QFontMetricsF(font).elidedText(row.player.name, Qt.TextElideMode.ElideRight, name_px)
         half = room.height() // 2
@@ -263,33 +214,24 @@ class _RowDelegate(QStyledItemDelegate):
         count = 3 if self.arm_button(box).isValid() else 2
         editor.setGeometry(box.adjusted(13, 3, -count * (BUTTON_PX + 2) - 8, -4))
 
-    def helpEvent(
-        self, event: QHelpEvent, view: QAbstractItemView, option: QStyleOptionViewItem, index: AnyIndex
-    ) -> bool:
-        if event.type() != QEvent.Type.ToolTip or not index.isValid():
-            return False
+    def tip(self, index: AnyIndex, box: QRect, at: QPoint) -> str:
         row: Row = index.data(_ROW)
-        mute, solo = self.buttons(option.rect)
-        if mute.contains(event.pos()):
-            text = self.tr("row_delegate.mute_silent_but_still")
-        elif solo.contains(event.pos()):
-            text = self.tr("row_delegate.solo_only_these_sound")
-        elif self.arm_button(option.rect).contains(event.pos()):
+        mute, solo = self.buttons(box)
+        if mute.contains(at):
+            return self.tr("row_delegate.mute_silent_but_still")
+        if solo.contains(at):
+            return self.tr("row_delegate.solo_only_these_sound")
+        if self.arm_button(box).contains(at):
             armed = self._session.recording.armed == row.player.id
-            text = self.tr("row_delegate.is_armed")
-            if not armed:
-                text = self.tr("row_delegate.arm_for_recording")
-        else:
-            lines = [row.player.name, row.instrument]
-            if row.leads:
-                lines.append(self.tr("row_delegate.gives_entries"))
-            if row.unseen:
-                lines.append(row.unseen)
-            if row.problems:
-                lines.append(self.tr("row_delegate.problems").format(count=row.problems))
-            text = "\n".join(lines)
-        QToolTip.showText(event.globalPos(), text, view)
-        return True
+            return self.tr("row_delegate.is_armed") if armed else self.tr("row_delegate.arm_for_recording")
+        lines = [row.player.name, row.instrument]
+        if row.leads:
+            lines.append(self.tr("row_delegate.gives_entries"))
+        if row.unseen:
+            lines.append(row.unseen)
+        if row.problems:
+            lines.append(self.tr("row_delegate.problems").format(count=row.problems))
+        return "\n".join(lines)
 
 
 class PlayerList(OrderedList):

@@ -6,16 +6,15 @@ from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QMouseEvent, QPainter, QPen, QWheelEvent
+from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QHelpEvent, QMouseEvent, QPainter, QPen
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TEXT_PT
 from app.score.model import Score
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import GUTTER_PX
-from widgets.timeline.pictured import Pictured
+from widgets.timeline.strip import Strip
 
 FLAGS_PX = 20
 LEAST_FLAG_PX = 32.0
@@ -70,29 +69,13 @@ def lay_flags(score: Score, axis: TimeAxis, metrics: QFontMetricsF, left_px: flo
     return flags
 
 
-class Flags(Pictured):
-    """The row of flags.
-
-    Signals
-    -------
-    sought(float)
-        The playhead is requested at this time (seconds): a flag was clicked, or a place between flags.
-    """
-
-    sought = Signal(float)
+class Flags(Strip):
+    """The row of flags; a click on one or between them seeks."""
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+        super().__init__(session, axis, FLAGS_PX, parent)
         self.setObjectName("flags")
-        self.session = session
-        self.axis = axis
         self._flags: list[Flag] = []
-        self.setFixedHeight(FLAGS_PX)
-        self.setMouseTracking(True)
-        font = QFont(self.font())
-        if 0 < font.pointSizeF() < LEAST_TEXT_PT:
-            font.setPointSizeF(LEAST_TEXT_PT)
-            self.setFont(font)
         axis.changed.connect(self.redraw)
         session.changed.connect(self._piece_set)
         session.theme_changed.connect(self.redraw)
@@ -107,12 +90,6 @@ class Flags(Pictured):
 
     # Qt overrides
 
-    def sizeHint(self) -> QSize:
-        return QSize(800, FLAGS_PX)
-
-    def ground(self) -> QColor:
-        return QColor(self.session.tokens.surface)
-
     def draw(self, painter: QPainter, room: QRectF) -> None:
         tokens, score = self.session.tokens, self.session.project.score
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -120,7 +97,7 @@ class Flags(Pictured):
         painter.setClipRect(room.adjusted(GUTTER_PX, 0.0, 0.0, 0.0))
         self._flags = lay_flags(score, self.axis, QFontMetricsF(self.font()), GUTTER_PX, float(self.width()))
         for flag in self._flags:
-            x = GUTTER_PX + self.axis.x_px(score.tempo_map.seconds(float(flag.tick)))
+            x = self.x_px(flag.tick)
             # What began before the left edge is said more quietly.
             colour = QColor(tokens.text_dim if x < GUTTER_PX else tokens.text)
             shade = QColor(tokens.text_dim)
@@ -135,22 +112,12 @@ class Flags(Pictured):
     def mousePressEvent(self, event: QMouseEvent) -> None:
         if event.button() == Qt.MouseButton.LeftButton and event.position().x() >= GUTTER_PX:
             flag = self._flag_at(event.position())
-            tempo_map = self.session.project.score.tempo_map
-            self.sought.emit(
-                self.axis.seconds(event.position().x() - GUTTER_PX)
-                if flag is None
-                else tempo_map.seconds(float(flag.tick))
-            )
+            between_s = self.axis.seconds(event.position().x() - GUTTER_PX)
+            self.sought.emit(between_s if flag is None else self.seconds_of(flag.tick))
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         over = self._flag_at(event.position()) is not None
         self.setCursor(Qt.CursorShape.PointingHandCursor if over else Qt.CursorShape.ArrowCursor)
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        event.accept()
-        notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
-        zooms = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
-        self.axis.turn_wheel(notches, event.position().x() - GUTTER_PX, zooms)
 
     def tip(self, flag: Flag) -> str:
         """All of a flag's text, and its bar."""

@@ -102,8 +102,7 @@ class Lane(QWidget):
         row.addStretch(0)
         self.setMinimumHeight(self.least_height_px)
 
-        self._autoscroll = QTimer(self)
-        self._autoscroll.setInterval(AUTOSCROLL_MS)
+        self._autoscroll = QTimer(self, interval=AUTOSCROLL_MS)
         self._autoscroll.timeout.connect(self._scroll_past_the_edge)
         self.background = Background(self)
         axis.changed.connect(self._axis_changed)

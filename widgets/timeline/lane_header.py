@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QSizePolicy, QToolButton, QWidget
 
 from app.editor.tokens import Tokens
 from app.editor.translated import tr
 from widgets.common.controls import named
-from widgets.common.layouts import STRETCH, in_column
+from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import Label
 
 GUTTER_PX = 144
@@ -30,15 +30,9 @@ class LaneHeader(QWidget):
         self.name_fold(False)
         self.title = named(Label(parent=self), "lane_title")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self.title_row = QHBoxLayout()
-        self.title_row.setContentsMargins(0, 0, 0, 0)
-        self.title_row.setSpacing(2)
-        self.title_row.addWidget(self.fold_button)
-        self.title_row.addWidget(self.title, 1)
-        self.controls = QVBoxLayout()
+        self.title_row = in_row(self.fold_button, (self.title, 1), margins=0, spacing=2)
+        self.controls = in_column(margins=(4, 0, 4, 2), spacing=2)
         """Below the title: a lane's own small controls go here."""
-        self.controls.setContentsMargins(4, 0, 4, 2)
-        self.controls.setSpacing(2)
         in_column(self.title_row, self.controls, STRETCH, of=self, margins=(2, 1, 4, 0), spacing=0)
 
     def name_fold(self, folded: bool) -> None:

@@ -18,7 +18,7 @@ from app.editor.timeline_view import Ghosts, Tool
 from app.errors import FileError
 from app.formats.json_data import decode_json
 from app.project.document import Change
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import IconButton, Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
 from widgets.common.menus import passing_menu
@@ -149,29 +149,22 @@ class TimelinePanel(Retranslated, QWidget):
         self.lanes_button.setMenu(self._lanes_menu)
         self.time_bar = named(QScrollBar(Qt.Orientation.Horizontal, self), "time_bar")
         self.time_bar.valueChanged.connect(self._scrolled)
-        self.zoom_buttons = {name: QToolButton(self) for name in ("zoom_out", "zoom_in", "fit")}
-        row = in_row(self.lanes_button, (self.time_bar, 1), margins=(2, 1, 2, 1), spacing=2)
-        for name, button in self.zoom_buttons.items():
-            button.setObjectName(name)
+        zooms = (
+            ("zoom_out", "timeline_panel.zoom_out_ctrl_wheel", self.zoom_out),
+            ("zoom_in", "timeline_panel.zoom_in_ctrl_wheel", self.zoom_in),
+            ("fit", "timeline_panel.show_whole_piece_double_click", self.fit),
+        )
+        self.zoom_buttons = {name: IconButton(self.session, name, tip_id, run, name) for name, tip_id, run in zooms}
+        for button in self.zoom_buttons.values():
             button.setAutoRaise(True)
             button.setFixedSize(QSize(26, 24))
-            row.addWidget(button)
-        self.zoom_buttons["zoom_out"].clicked.connect(self.zoom_out)
-        self.zoom_buttons["zoom_in"].clicked.connect(self.zoom_in)
-        self.zoom_buttons["fit"].clicked.connect(self.fit)
-        return row
+        zoom_bar = self.zoom_buttons.values()
+        return in_row(self.lanes_button, (self.time_bar, 1), *zoom_bar, margins=(2, 1, 2, 1), spacing=2)
 
     def retranslate(self) -> None:
         """Set every text anew."""
         self.lanes_button.setText(self.tr("timeline_panel.lanes"))
         self.lanes_button.setToolTip(self.tr("timeline_panel.which_lanes_are_shown_and"))
-        for name, text in (
-            ("zoom_out", self.tr("timeline_panel.zoom_out_ctrl_wheel")),
-            ("zoom_in", self.tr("timeline_panel.zoom_in_ctrl_wheel")),
-            ("fit", self.tr("timeline_panel.show_whole_piece_double_click")),
-        ):
-            self.zoom_buttons[name].setToolTip(text)
-            self.zoom_buttons[name].setAccessibleName(text)
 
     # What commands ask for
 
@@ -318,6 +311,7 @@ class TimelinePanel(Retranslated, QWidget):
         if change.opened or change.before.score is not change.after.score:
             self._set_limits()
         if change.opened:
+            self.set_tool(Tool.SELECT)
             self._show_beginning()
             self._fitted = False
 
@@ -356,10 +350,7 @@ class TimelinePanel(Retranslated, QWidget):
             self.playhead.raise_()
 
     def _theme_set(self) -> None:
-        tokens = self.session.tokens
-        for name, button in self.zoom_buttons.items():
-            button.setIcon(icon(name, tokens))
-        self.lanes_button.setIcon(icon("layout", tokens))
+        self.lanes_button.setIcon(icon("layout", self.session.tokens))
         self.playhead.update()
 
     # Qt overrides

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 from PySide6.QtCore import QEvent, QRectF, Qt
@@ -62,17 +62,21 @@ class PlotOwner(Protocol):
     def hover(self, mouse: LaneMouse | None) -> None: ...
 
 
-class LaneItem:
+AnyLane = TypeVar("AnyLane", bound=LaneView)
+
+
+class LaneItem(Generic[AnyLane]):
     """Something drawn over the whole plot in pixels. Override `paint_px`, and draw only what meets ``exposed``.
 
     Parameters
     ----------
     lane : LaneView
+        Or what more the item draws of its lane, where it says so.
     z : float
         What has more lies above.
     """
 
-    def __init__(self, lane: LaneView, z: float = 0.0) -> None:
+    def __init__(self, lane: AnyLane, z: float = 0.0) -> None:
         self.lane = lane
         self.z = z
         lane.plot.add(self)
@@ -86,7 +90,7 @@ class LaneItem:
         raise NotImplementedError
 
 
-class Background(LaneItem):
+class Background(LaneItem[LaneView]):
     """Lines of bars, beats and the grid; the loop and the selected span as shades."""
 
     def __init__(self, lane: LaneView) -> None:
@@ -133,13 +137,13 @@ class Plot(Pictured):
     def __init__(self, lane: PlotOwner, parent: QWidget) -> None:
         super().__init__(parent)
         self._lane = lane
-        self._items: list[LaneItem] = []
+        self._items: list[LaneItem[Any]] = []
         self.setMinimumSize(40, 0)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
 
-    def add(self, item: LaneItem) -> None:
+    def add(self, item: LaneItem[Any]) -> None:
         """Draw this too."""
         self._items.append(item)
         self._items.sort(key=lambda each: each.z)

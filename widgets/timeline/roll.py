@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QEvent, QLineF, QRectF, Qt, Signal
@@ -26,7 +27,6 @@ from widgets.timeline.drawing import rect
 from widgets.timeline.keyboard import KEYBOARD_PX, Keyboard
 from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
 from widgets.timeline.model.gestures import Gesture
-from widgets.timeline.model.lines import beat_of_tick
 from widgets.timeline.model.note_table import Behind, Floats, Sounding
 from widgets.timeline.model.roll import (
     Integers,
@@ -73,7 +73,6 @@ class PianoRoll(Lane):
         self.model = RollModel(session, axis)
         self._gesture: Gesture | None = None
         self._tool = Tool.SELECT
-        self._panned_y: float | None = None
         self._velocity = FIRST_VELOCITY
         super().__init__(session, axis, parent)
         self.keyboard = Keyboard(self)
@@ -81,7 +80,7 @@ class PianoRoll(Lane):
         self.notes = Notes(self)
         self.labels = Labels(self)
         self.lasso = Lasso(self)
-        self.hint_item = Hint(self, 5.0)
+        Hint(self, 5.0)
         self._set_font()
         session.pitch_display.changed.connect(self.keyboard.update)
         session.problems_changed.connect(self.performance_changed)
@@ -356,10 +355,8 @@ class PianoRoll(Lane):
         """Say what is under the mouse: place and pitch, or the note; problems of a note as a tool tip."""
         score = self.session.project.score
         tick = mouse.tick if note is None else note.onset_tick
-        bar = score.metre_map.bar_of_tick(int(tick // 1))
-        beat = beat_of_tick(score, tick)
         pitch = self.pitch_text(int(mouse.value // 1))
-        text = self.tr("piano_roll.bar_beat").format(pitch=pitch, bar=bar, beat=beat)
+        text = self.tr("piano_roll.pitch_place").format(pitch=pitch, place=score.metre_map.label(int(tick // 1)))
         problems = ""
         if note is not None:
             text += self.tr("piano_roll.velocity_2").format(velocity=note.velocity)
@@ -405,7 +402,7 @@ class PianoRoll(Lane):
         self.title.setToolTip(self.tr("piano_roll.notes_of_player_in_front"))
         self.keyboard.update()
 
-    def _redraw(self, item: LaneItem) -> None:
+    def _redraw(self, item: LaneItem[Any]) -> None:
         item.update()
 
     def _set_font(self) -> None:

@@ -47,14 +47,6 @@ class RollView(LaneView, Protocol):
     def hint(self) -> str: ...
 
 
-class RollItem(LaneItem):
-    """Something drawn over the roll."""
-
-    def __init__(self, roll: RollView, z: float = 0.0) -> None:
-        super().__init__(roll, z)
-        self.roll = roll
-
-
 def mixed(colour: str, other: str, share: float) -> QColor:
     """A colour, ``share`` 0..1 of the way to another."""
     a, b = QColor(colour), QColor(other)
@@ -63,11 +55,11 @@ def mixed(colour: str, other: str, share: float) -> QColor:
     )
 
 
-class Rows(RollItem):
+class Rows(LaneItem[RollView]):
     """Rows of black keys, lines at every C, and where the instrument in front cannot go."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane = self.roll
+        lane = self.lane
         tokens = lane.session.tokens
         bottom, top = lane.y_range
         height = lane.row_px
@@ -93,7 +85,7 @@ class Rows(RollItem):
             painter.fillRect(QRectF(exposed.left(), below, exposed.width(), rest) & exposed, shade)
 
 
-class Notes(RollItem):
+class Notes(LaneItem[RollView]):
     """All players' notes as rectangles."""
 
     def __init__(self, lane: RollView) -> None:
@@ -103,7 +95,7 @@ class Notes(RollItem):
         the playhead passing by leave them as they are."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane = self.roll
+        lane = self.lane
         painter.setPen(Qt.PenStyle.NoPen)
         self._show_behind(painter, exposed)
         front = lane.model.front()
@@ -120,7 +112,7 @@ class Notes(RollItem):
         self._draw_selected(painter, table, exposed, colour)
 
     def _show_behind(self, painter: QPainter, exposed: QRectF) -> None:
-        lane = self.roll
+        lane = self.lane
         behind = lane.model.ghosts()
         if not behind.tables:
             return
@@ -135,7 +127,7 @@ class Notes(RollItem):
                 self._draw_selected(painter, table, exposed, colour)
 
     def _draw_selected(self, painter: QPainter, table: NoteTable, exposed: QRectF, colour: str) -> None:
-        lane = self.roll
+        lane = self.lane
         flags = lane.model.selected(table)
         if flags is None:
             return
@@ -151,7 +143,7 @@ class Notes(RollItem):
     def _draw(self, painter: QPainter, table: NoteTable, rows: Integers, shade: QColor) -> None:
         if not len(rows):
             return
-        fill_rects(painter, *self.roll.boxes(table, rows), shade)
+        fill_rects(painter, *self.lane.boxes(table, rows), shade)
 
 
 def _shade(colour: str, alpha: int) -> QColor:
@@ -232,7 +224,7 @@ def _premultiplied(shade: QColor) -> int:
     return (alpha << 24) | (red << 16) | (green << 8) | blue
 
 
-class Labels(RollItem):
+class Labels(LaneItem[RollView]):
     """Fingerings on the notes of the player in front, marks of what was pinned by hand, and of problems."""
 
     def __init__(self, lane: RollView) -> None:
@@ -277,7 +269,7 @@ class Labels(RollItem):
         self._problems = frozenset(place for place in places if place is not None)
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane = self.roll
+        lane = self.lane
         front = lane.model.front()
         if front is None:
             return
@@ -291,7 +283,7 @@ class Labels(RollItem):
         self._paint_fingerings(painter, table, wider, colour)
 
     def _paint_problems(self, painter: QPainter, table: NoteTable, rows: Integers) -> None:
-        lane = self.roll
+        lane = self.lane
         found = [place for place in rows.tolist() if place in self._problems] if self._problems else []
         if not found:
             return
@@ -305,7 +297,7 @@ class Labels(RollItem):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
 
     def _paint_fingerings(self, painter: QPainter, table: NoteTable, exposed: QRectF, colour: str) -> None:
-        lane = self.roll
+        lane = self.lane
         visible = table.visible(lane.axis.seconds(exposed.left()), lane.axis.seconds(exposed.right()))
         first, last = np.searchsorted(self._fingered, (visible.start, visible.stop)).tolist()
         row_px = lane.row_px
@@ -357,7 +349,7 @@ class Labels(RollItem):
         return known
 
 
-class Lasso(RollItem):
+class Lasso(LaneItem[RollView]):
     """The rectangle that is drawn over what shall be selected, and the line where a note would be cut."""
 
     def __init__(self, lane: RollView) -> None:
@@ -384,11 +376,11 @@ class Lasso(RollItem):
             painter.drawLine(self.cut)
 
 
-class Hint(RollItem):
+class Hint(LaneItem[RollView]):
     """What to do where nothing is yet."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane = self.roll
+        lane = self.lane
         text = lane.hint()
         if text:
             painter.setFont(lane.font())

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
     QFocusEvent,
-    QFont,
     QFontMetricsF,
     QKeyEvent,
     QMouseEvent,
@@ -17,13 +16,11 @@ from PySide6.QtGui import (
     QPen,
     QPolygonF,
     QResizeEvent,
-    QWheelEvent,
 )
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 
 from app.editor.selection import Selection
 from app.editor.session import Session, Severity, TimeDisplay
-from app.editor.tokens import LEAST_TEXT_PT
 from app.errors import Message
 from widgets.common.controls import Retranslated
 from widgets.common.menus import add_actions
@@ -37,9 +34,9 @@ from widgets.timeline.model.lines import Lines
 from widgets.timeline.model.ruler import Labels, bar_labels, clock_labels, frame_labels, mark_text, removal, typed
 from widgets.timeline.model.ruler_gestures import HoldEdge, HoldMark, HoldPlayhead, Seek
 from widgets.timeline.model.view import Floats
-from widgets.timeline.pictured import Pictured
 from widgets.timeline.ruler_labels import Mark, MarkEditor, lay_marks
 from widgets.timeline.ruler_unit import UnitButton
+from widgets.timeline.strip import Strip
 
 MARKS_PX = 22
 SCALE_PX = 24
@@ -50,22 +47,12 @@ GRIP_PX = 5.0
 """So near to an edge of the loop, or to the playhead, a press takes hold of it."""
 
 
-class Ruler(Retranslated, Pictured):
-    """The ruler over the lanes.
-
-    Signals
-    -------
-    sought(float)
-        The playhead is requested at this time (seconds).
-    """
-
-    sought = Signal(float)
+class Ruler(Retranslated, Strip):
+    """The ruler over the lanes."""
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+        super().__init__(session, axis, MARKS_PX + SCALE_PX, parent)
         self.setObjectName("ruler")
-        self.session = session
-        self.axis = axis
         self._marks: list[Mark] = []
         self._gesture: Gesture | None = None
         self._chosen: tuple[str, int] | None = None
@@ -73,8 +60,6 @@ class Ruler(Retranslated, Pictured):
         self._panned_px: float | None = None
         self._span = session.selection.span
         self._recorded: tuple[object, ...] = ()
-        self.setMouseTracking(True)
-        self.setFixedHeight(MARKS_PX + SCALE_PX)
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
 
         self.unit_button = UnitButton(session, self)
@@ -92,10 +77,6 @@ class Ruler(Retranslated, Pictured):
         session.recording.changed.connect(self._recording_set)
         session.playhead_changed.connect(self._playhead_set)
         self._head_x = 0.0
-        font = QFont(self.font())
-        if 0 < font.pointSizeF() < LEAST_TEXT_PT:
-            font.setPointSizeF(LEAST_TEXT_PT)
-            self.setFont(font)
         self.redraw()
 
     def retranslate(self) -> None:
@@ -115,14 +96,11 @@ class Ruler(Retranslated, Pictured):
     def _tick_at(self, mouse: LaneMouse, free: bool) -> int:
         return max(snapped(self.session.grid, self.session.project.score, mouse.tick, free), 0)
 
-    def _seconds_of(self, tick: int) -> float:
-        return self.session.project.score.tempo_map.seconds(float(tick))
-
     def _mark_at(self, place: QPointF) -> Mark | None:
         return next((mark for mark in reversed(self._marks) if mark.rect.contains(place)), None)
 
     def _place_of(self, tick: int) -> float:
-        return self._seconds_of(max(tick, 0))
+        return self.seconds_of(max(tick, 0))
 
     # Drawing
 
@@ -133,7 +111,7 @@ class Ruler(Retranslated, Pictured):
         self._marks = lay_marks(score, self.axis, metrics, GUTTER_PX, float(self.width()), MARKS_PX)
         for mark in self._marks:
             held = (mark.kind, mark.tick) == self._chosen
-            x = self._x(self._seconds_of(mark.tick))
+            x = self.x_px(mark.tick)
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(QColor(tokens.accent if held else tokens.raised))
             painter.drawRoundedRect(mark.rect, 3.0, 3.0)
@@ -176,7 +154,7 @@ class Ruler(Retranslated, Pictured):
         tokens = self.session.tokens
         span = self.session.selection.span
         if span is not None:
-            self._band(painter, self._seconds_of(span[0]), self._seconds_of(span[1]), tokens.accent, 0.0)
+            self._band(painter, self.seconds_of(span[0]), self.seconds_of(span[1]), tokens.accent, 0.0)
         if self.session.loop_s is not None:
             self._band(painter, *self.session.loop_s, tokens.good, LOOP_PX)
         punch = self._punch_s()
@@ -188,7 +166,7 @@ class Ruler(Retranslated, Pictured):
         recording = self.session.recording
         if not recording.punch or recording.punch_ticks is None:
             return None
-        return self._seconds_of(recording.punch_ticks[0]), self._seconds_of(recording.punch_ticks[1])
+        return self.seconds_of(recording.punch_ticks[0]), self.seconds_of(recording.punch_ticks[1])
 
     def _paint_take(self, painter: QPainter) -> None:
         """What is recorded already of the running take, or of its pass."""
@@ -244,7 +222,7 @@ class Ruler(Retranslated, Pictured):
     def edit_mark(self, kind: str, tick: int) -> None:
         """Type the tempo or the metre at a tick; where there is none, add one."""
         mark = next((mark for mark in self._marks if (mark.kind, mark.tick) == (kind, tick)), None)
-        left = mark.rect.left() if mark is not None else self._x(self._seconds_of(tick))
+        left = mark.rect.left() if mark is not None else self.x_px(tick)
         self._editor.open(kind, tick, mark_text(self.session.project.score, kind, tick), left, MARKS_PX + 2)
 
     def _type(self, kind: str, tick: int, text: str) -> None:
@@ -352,12 +330,6 @@ class Ruler(Retranslated, Pictured):
 
     # Qt overrides
 
-    def sizeHint(self) -> QSize:
-        return QSize(800, MARKS_PX + SCALE_PX)
-
-    def ground(self) -> QColor:
-        return QColor(self.session.tokens.surface)
-
     def draw(self, painter: QPainter, room: QRectF) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setFont(self.font())
@@ -433,12 +405,6 @@ class Ruler(Retranslated, Pictured):
             menu = self.context_menu(QPointF(event.pos()))
             menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
             menu.popup(event.globalPos())
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        event.accept()
-        notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
-        zooms = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
-        self.axis.turn_wheel(notches, event.position().x() - GUTTER_PX, zooms)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape and self._gesture is not None:

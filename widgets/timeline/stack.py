@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
-from PySide6.QtWidgets import QFrame, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QScrollArea, QWidget
 
 from app.editor.session import Session
+from widgets.common.layouts import STRETCH, in_column, panel
 from widgets.timeline.lane import FOLDED_PX, Lane
 
 HANDLE_PX = 4
@@ -74,17 +75,13 @@ class LaneStack(QScrollArea):
         self._elastic = elastic
         self._order = list(lanes)
         self._set_px: dict[str, int] = {}
-        inner = QWidget()
-        self._column = QVBoxLayout(inner)
-        self._column.setContentsMargins(0, 0, 0, 0)
-        self._column.setSpacing(0)
+        self._column = in_column(STRETCH, margins=0, spacing=0)
         self._handles = {lane.id: Handle(self, lane) for lane in lanes}
         for lane in lanes:
             lane.installEventFilter(self)
             lane.fold_changed.connect(self.arrange)
             lane.height_asked.connect(self.arrange)
-        self._column.addStretch(1)
-        self.setWidget(inner)
+        self.setWidget(panel(self._column))
         self._fill()
 
     @property

@@ -102,7 +102,6 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Tempo in quarter notes per minute. Enter to apply, Esc to cancel.",
         "テンポ（1 分あたりの四分音符の数）。Enter で確定、Esc で取り消し。",
     ),
-    "piano_roll.bar_beat": ("{pitch} · bar {bar}, beat {beat}", "{pitch} · {bar} 小節 {beat} 拍"),
     "piano_roll.click_to_select_all_its": (
         "{pitch}: click to select all notes of this pitch",
         "{pitch}: クリックでこの音高の音符をすべて選択",
@@ -120,6 +119,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Notes of the active player; the others are shown behind",
         "アクティブな奏者の音符（ほかの奏者は背面に表示）",
     ),
+    "piano_roll.pitch_place": ("{pitch} · {place}", "{pitch} · {place}"),
     "piano_roll.velocity": ("Velocity {velocity}", "ベロシティ {velocity}"),
     "piano_roll.velocity_2": (" · velocity {velocity}", " · ベロシティ {velocity}"),
     "problems_lane.problems": ("Problems", "問題"),

@@ -6,7 +6,7 @@ from math import ceil, floor
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
 from app.editor.grids import GRIDS
 from app.editor.listening import LEAST_SPEED, MOST_SPEED, SOURCES
@@ -17,6 +17,7 @@ from app.project.grid import Grid
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.icons import icon, pixmap
+from widgets.common.layouts import STRETCH, in_row
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.transport.beat_light import BeatLight
@@ -39,8 +40,7 @@ RECORD_MENU = (
 )
 """What the record button's menu offers."""
 
-_ROOMY_PX = 1250
-"""With less room the hint is a picture alone."""
+_SPACING_PX = 3
 
 
 class TransportBar(Retranslated, QWidget):
@@ -108,40 +108,32 @@ class TransportBar(Retranslated, QWidget):
             button.setCheckable(True)
 
     def _build(self) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(4, 1, 4, 1)
-        row.setSpacing(3)
-        for id, _ in BUTTONS:
-            row.addWidget(self.buttons[id])
-        row.addSpacing(3)
-        for field, least_px, most_px in ((self.bars, 78, 112), (self.clock, 84, 112), (self.frames, 66, 92)):
-            field.setMinimumWidth(least_px)
-            field.setMaximumWidth(most_px)
-            row.addWidget(field, 3)
+        widths_px: dict[QWidget, tuple[int, int]] = {
+            self.bars: (78, 112),
+            self.clock: (84, 112),
+            self.frames: (66, 92),
+            self.source: (100, 190),
+            self.snap: (66, 90),
+        }
+        for widget, (least_px, most_px) in widths_px.items():
+            widget.setMinimumWidth(least_px)
+            widget.setMaximumWidth(most_px)
+        for slider in (self.volume, self.speed):
+            slider.setMaximumWidth(150)
+        for combo in (self.source, self.snap):
+            combo.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self.tempo.setMinimumWidth(84)
         self.tempo.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        row.addWidget(self.tempo)
-        row.addSpacing(3)
-        row.addWidget(self.buttons["play.click"])
-        row.addWidget(self.beat)
-        row.addWidget(self.take_text)
-        for slider, least_px, most_px in ((self.volume, 84, 150), (self.speed, 84, 150)):
-            slider.setMinimumWidth(least_px)
-            slider.setMaximumWidth(most_px)
-            row.addWidget(slider, 3)
-        for combo, least_px, most_px in ((self.source, 100, 190), (self.snap, 66, 90)):
-            combo.setMinimumWidth(least_px)
-            combo.setMaximumWidth(most_px)
-            combo.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
-        row.addWidget(self.source, 2)
-        row.addSpacing(3)
-        row.addWidget(self.snap_button)
-        row.addWidget(self.snap, 1)
-        row.addSpacing(3)
-        row.addWidget(self.buttons["play.follow"])
-        row.addStretch(1)
-        row.addWidget(self.silent_sign)
-        row.addWidget(self.silent_text)
+        buttons = [self.buttons[id] for id, _ in BUTTONS]
+        places = ((self.bars, 3), (self.clock, 3), (self.frames, 3), self.tempo)
+        beats = (self.buttons["play.click"], self.beat, self.take_text)
+        sound = ((self.volume, 3), (self.speed, 3), (self.source, 2))
+        snap = (self.snap_button, (self.snap, 1), 3, self.buttons["play.follow"])
+        parts = (*buttons, 3, *places, 3, *beats, *sound, 3, *snap, STRETCH, self.silent_sign, self.silent_text)
+        in_row(*parts, of=self, margins=(4, 1, 4, 1), spacing=_SPACING_PX)
+        layout = self.layout()
+        assert layout is not None
+        layout.setSizeConstraint(QLayout.SizeConstraint.SetNoConstraint)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def _connect(self) -> None:
@@ -237,6 +229,7 @@ class TransportBar(Retranslated, QWidget):
         if text != self.take_text.text():
             self.take_text.setText(text)
             self.take_text.setVisible(bool(text))
+            self._fit()
 
     def _show_state(self) -> None:
         session, listening = self._session, self._session.listening
@@ -255,7 +248,36 @@ class TransportBar(Retranslated, QWidget):
         quarters = session.grid.quarters
         self.snap.show_option(next((name for name, step in GRIDS.items() if step == quarters), None))
         self.silent_sign.setVisible(listening.silent)
-        self.silent_text.setVisible(listening.silent and self.width() >= _ROOMY_PX)
+        self._fit()
+
+    def _spare(self) -> dict[QWidget, int]:
+        """What is also elsewhere, and the width that each needs, pixels; the last goes first."""
+        return {
+            widget: max(widget.minimumWidth(), widget.minimumSizeHint().width()) + _SPACING_PX
+            for widget in (self.clock, self.tempo, self.silent_text)
+        }
+
+    def _least_px(self) -> int:
+        """Width without what is also elsewhere."""
+        layout = self.layout()
+        assert layout is not None
+        items = [item for index in range(layout.count()) if (item := layout.itemAt(index)) is not None]
+        spare = self._spare()
+        kept = [item for item in items if not item.isEmpty() and item.widget() not in spare]
+        spaces = sum(item.sizeHint().width() for item in items if item.spacerItem() is not None)
+        margins = layout.contentsMargins()
+        widths = sum(item.minimumSize().width() + _SPACING_PX for item in kept)
+        return margins.left() + margins.right() + widths + spaces
+
+    def _fit(self) -> None:
+        """Where there is no room for all, leave out what is also elsewhere, so that every control keeps its name."""
+        room = self.width() - self._least_px()
+        for widget, width in self._spare().items():
+            if widget is self.silent_text and not self._session.listening.silent:
+                widget.hide()
+                continue
+            room -= width
+            widget.setVisible(room >= 0)
 
     def _apply_theme(self) -> None:
         tokens = self._session.tokens
@@ -294,6 +316,9 @@ class TransportBar(Retranslated, QWidget):
         self.speed.set_texts(
             self.tr("transport_bar.speed"), "%", self.tr("transport_bar.speed_pitch_stays_double_click")
         )
+        for slider in (self.volume, self.speed):
+            # A slider without its name is not found.
+            slider.setMinimumWidth(min(slider.sizeHint().width(), slider.maximumWidth()))
         self.source.setToolTip(self.tr("transport_bar.playback_source"))
         self.source.setAccessibleName(self.tr("transport_bar.playback_source"))
         self.source.set_options(
@@ -333,4 +358,4 @@ class TransportBar(Retranslated, QWidget):
         self._show_state()
 
     def minimumSizeHint(self) -> QSize:
-        return QSize(super().minimumSizeHint().width(), LEAST_TARGET_PX + 8)
+        return QSize(self._least_px(), LEAST_TARGET_PX + 8)

@@ -7,18 +7,11 @@ import re
 import unicodedata
 
 from app.editor.session import Session
-from app.score.model import Score
 from widgets.common.number_slider import NumberSlider
 
 _CLOCK = re.compile(r"^\s*(-?)(?:(?:(\d+)\s*:\s*)?(\d+)\s*:\s*)?(\d+(?:\.\d*)?|\.\d+)\s*$")
 MOST_S = 12 * 3600.0
 """Beyond any performance: typed times are kept below it."""
-
-
-def bars_text(score: Score, tick: int) -> str:
-    """``"12|3|240"``: bar, beat, ticks; always all three, so that they stand still while it plays."""
-    bar, beat, rest = score.metre_map.place_of_tick(tick)
-    return f"{bar}|{beat}|{rest:03d}".replace("-", "−")
 
 
 def clock_text(time_s: float) -> str:
@@ -51,7 +44,7 @@ class BarsField(NumberSlider):
         super().__init__(session, -1e7, 1e9, default=0.0, step=1.0, decimals=0, slides=False)
         self.setObjectName("bars_field")
         self.set_wording(
-            lambda tick: bars_text(session.project.score, round(tick)),
+            lambda tick: session.project.score.metre_map.label(round(tick)),
             lambda text: _float(session.project.score.metre_map.tick_of_label(text)),
         )
 

@@ -13,9 +13,9 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from app.editor.poses import Posed
 from app.errors import AppError
 from app.performance.bodies import body_of, character_of, lies_at, model_of, suited_to
+from app.performance.chunks import Pose
 from app.project.casting import StagePosition
 from app.project.performers import Dancer, Player
 from app.rig import quaternion
@@ -204,7 +204,7 @@ class Stage:
     ----------
     bones : (N, B, 3, 4) float32
         ``world_from_rest`` of joints, then of the instrument's nodes (from `first_node`), then of the seat and of
-        the stand; of who has no pose all 0.
+        the stand; all 0 for performers without a pose.
     joints : (N, J, 3, 4) float64
         ``world_from_joint``.
     heads : (N,) int
@@ -223,7 +223,7 @@ class Stage:
         self.bones = np.zeros((count, self.stand_bone + 1, 3, 4), np.float32)
         self.joints = np.zeros((count, self.first_node, 3, 4))
         self.heads = np.array([member.kit.character.skeleton.index("head") for member in members], np.intp)
-        self.poses: list[Posed | None] = [None] * count
+        self.poses: list[Pose | None] = [None] * count
         self.shown = np.zeros(count, dtype=bool)
         skeletons = [member.kit.character.skeleton for member in members]
         self._troupes = [
@@ -244,7 +244,7 @@ class Stage:
                 self.bones[row, self.stand_bone, :, 1] *= member.stand_m[1]
                 self.bones[row, self.stand_bone, :, 3] = _moved(member.world_from_player, member.stand_m)
 
-    def pose(self, poses: Mapping[str, Posed | None]) -> bool:
+    def pose(self, poses: Mapping[str, Pose | None]) -> bool:
         """Put everyone into their poses; whether anything is other than before."""
         fresh = False
         for row, member in enumerate(self.members):
@@ -273,7 +273,7 @@ class Stage:
         self.bones[:, self.first_node : self.seat_bone] = self._instruments.matrices(held)
         return True
 
-    def _take(self, row: int, pose: Posed) -> None:
+    def _take(self, row: int, pose: Pose) -> None:
         self.poses[row] = pose
         self.shown[row] = True
         self._rotations[row, : len(pose.rotations)] = pose.rotations
@@ -288,6 +288,11 @@ class Stage:
             if member.player_id == player_id:
                 return row
         return None
+
+    def rows(self, player_ids: Sequence[str]) -> list[int]:
+        """The rows of players, in their order; without those who are not here."""
+        rows = [self.index(player_id) for player_id in player_ids]
+        return [row for row in rows if row is not None]
 
     def joint_m(self, row: int, name: str) -> Floats:
         """Where a joint is (3,)."""

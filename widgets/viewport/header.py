@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Final
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QResizeEvent, QShowEvent
@@ -16,12 +17,23 @@ from widgets.common.icons import icon
 from widgets.common.layouts import in_row
 from widgets.common.plain import Label
 
-_SHOWN_ICONS: dict[Shown, str] = {
-    "names": "player",
-    "skeleton": "skeleton",
-    "contacts": "contacts",
-    "wireframe": "wireframe",
+_VIEWS: Final[dict[View, tuple[str, str]]] = {
+    "ensemble": ("header.ensemble", "header.everyone_from_audience"),
+    "front": ("header.front", "header.selected_players_from_their_front"),
+    "side": ("header.side", "header.selected_players_from_their_right"),
+    "top": ("header.top", "header.selected_players_from_above"),
+    "hands": ("header.hands", "header.hands_of_player_in_front"),
+    "mouth": ("header.mouth", "header.mouth_of_player_in_front"),
+    "feet": ("header.feet", "header.feet_of_player_in_front"),
 }
+"""Texts and tips of the views, by their ids."""
+_SHOWN: Final[dict[Shown, tuple[str, str]]] = {
+    "names": ("header.players_names", "player"),
+    "skeleton": ("header.skeleton", "skeleton"),
+    "contacts": ("header.contact_points_and_their_distances", "contacts"),
+    "wireframe": ("header.wireframe", "wireframe"),
+}
+"""Texts, by their ids, and pictures of what is drawn beside the players."""
 FULL_SCREEN = "application.full_screen"
 """The shell's: only a window can fill the screen."""
 
@@ -38,6 +50,7 @@ class Header(Retranslated, QWidget):
         super().__init__(parent)
         self.setObjectName("viewport_header")
         self._session = session
+        self._pictures: dict[QToolButton, str] = {}
         self._views: dict[View, QToolButton] = {}
         self._group = QButtonGroup(self)
         self._group.setExclusive(True)
@@ -54,10 +67,10 @@ class Header(Retranslated, QWidget):
             self._views[view] = button
             row = self._view_menu.addAction("")
             row.setCheckable(True)
-            row.triggered.connect(partial(self._choose_view, view))
+            row.triggered.connect(partial(session.viewport.set_view, view))
             rows.addAction(row)
             self._view_rows[view] = row
-        self._folded = self._button("viewport_view")
+        self._folded = self._button("viewport_view", "camera")
         self._folded.setMenu(self._view_menu)
         self._folded.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._folded.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
@@ -66,10 +79,10 @@ class Header(Retranslated, QWidget):
         self._note = named(Label(parent=self), "viewport_note")
         self._note.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._note.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self._pose = self._button("viewport_pose", checkable=True)
+        self._pose = self._button("viewport_pose", "pose", checkable=True)
         self._pose.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self._pose.clicked.connect(session.viewport.set_posing)
-        self._frame = self._button("viewport_frame")
+        self._frame = self._button("viewport_frame", "frame")
         self._frame.clicked.connect(partial(session.viewport.frame, True))
         self._show_menu = named(QMenu(self), "viewport_show_menu")
         self._show_rows: dict[Shown, QAction] = {}
@@ -78,10 +91,10 @@ class Header(Retranslated, QWidget):
             row.setCheckable(True)
             row.triggered.connect(partial(session.viewport.show, what))
             self._show_rows[what] = row
-        self._show = self._button("viewport_show")
+        self._show = self._button("viewport_show", "eye")
         self._show.setMenu(self._show_menu)
         self._show.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        self._full = self._button("viewport_full_screen")
+        self._full = self._button("viewport_full_screen", "full_screen")
         self._full.clicked.connect(self._toggle_full_screen)
         in_row(
             self._segments,
@@ -119,38 +132,16 @@ class Header(Retranslated, QWidget):
 
     def retranslate(self) -> None:
         """Set all texts again."""
-        texts: dict[View, str] = {
-            "ensemble": self.tr("header.ensemble"),
-            "front": self.tr("header.front"),
-            "side": self.tr("header.side"),
-            "top": self.tr("header.top"),
-            "hands": self.tr("header.hands"),
-            "mouth": self.tr("header.mouth"),
-            "feet": self.tr("header.feet"),
-        }
-        tips: dict[View, str] = {
-            "ensemble": self.tr("header.everyone_from_audience"),
-            "front": self.tr("header.selected_players_from_their_front"),
-            "side": self.tr("header.selected_players_from_their_right"),
-            "top": self.tr("header.selected_players_from_above"),
-            "hands": self.tr("header.hands_of_player_in_front"),
-            "mouth": self.tr("header.mouth_of_player_in_front"),
-            "feet": self.tr("header.feet_of_player_in_front"),
-        }
         for view, button in self._views.items():
-            button.setText(texts[view])
-            button.setToolTip(self._tip(tips[view], f"viewport.{view}"))
-            self._view_rows[view].setText(texts[view])
+            text_id, tip_id = _VIEWS[view]
+            text = self.tr(text_id)
+            button.setText(text)
+            button.setToolTip(self._tip(self.tr(tip_id), f"viewport.{view}"))
+            self._view_rows[view].setText(text)
         self._folded.setToolTip(self.tr("header.view"))
-        self._folded.setText(texts[self._session.viewport.view])
-        shown: dict[Shown, str] = {
-            "names": self.tr("header.players_names"),
-            "skeleton": self.tr("header.skeleton"),
-            "contacts": self.tr("header.contact_points_and_their_distances"),
-            "wireframe": self.tr("header.wireframe"),
-        }
+        self._folded.setText(self._view_rows[self._session.viewport.view].text())
         for what, row in self._show_rows.items():
-            row.setText(shown[what])
+            row.setText(self.tr(_SHOWN[what][0]))
         self._pose.setText(self.tr("header.pose"))
         self._pose.setToolTip(self._tip(self.tr("header.hold_bell_head_elbows_or"), "viewport.pose"))
         self._frame.setToolTip(self._tip(self.tr("header.frame_selected_players"), "viewport.frame"))
@@ -169,11 +160,10 @@ class Header(Retranslated, QWidget):
     def _toggle_full_screen(self) -> None:
         self._session.actions[FULL_SCREEN].trigger()
 
-    def _choose_view(self, view: View) -> None:
-        self._session.viewport.set_view(view)
-
-    def _button(self, name: str, checkable: bool = False) -> QToolButton:
+    def _button(self, name: str, picture: str = "", checkable: bool = False) -> QToolButton:
         button = named(QToolButton(self), name)
+        if picture:
+            self._pictures[button] = picture
         button.setCheckable(checkable)
         button.setAutoRaise(True)
         button.setMinimumSize(LEAST_TARGET_PX + 2, LEAST_TARGET_PX + 2)
@@ -183,13 +173,10 @@ class Header(Retranslated, QWidget):
 
     def _apply_theme(self) -> None:
         tokens = self._session.tokens
-        self._folded.setIcon(icon("camera", tokens))
-        self._pose.setIcon(icon("pose", tokens))
-        self._frame.setIcon(icon("frame", tokens))
-        self._show.setIcon(icon("eye", tokens))
-        self._full.setIcon(icon("full_screen", tokens))
+        for button, picture in self._pictures.items():
+            button.setIcon(icon(picture, tokens))
         for what, row in self._show_rows.items():
-            row.setIcon(icon(_SHOWN_ICONS[what], tokens))
+            row.setIcon(icon(_SHOWN[what][1], tokens))
         self._note.setStyleSheet(f"color: {tokens.text_dim};")
 
     def _fold(self) -> None:

@@ -180,7 +180,7 @@ def _paint_names(
     places, depths = camera.project(np.array([name.at_m for name in names]), *size)
     metrics = {bold: QFontMetricsF(_font(painter, 9.0, bold)) for bold in (False, True)}
     taken: list[QRectF] = []
-    # The selected players first, then who is near; a name that would cover another is left out.
+    # The selected players first, then the nearest; a name that would cover another is left out.
     for index in sorted(range(len(names)), key=lambda index: (not names[index].in_front, depths[index])):
         name, place = names[index], places[index]
         if depths[index] <= 0.0 or not (-50.0 < place[0] < size[0] + 50.0 and 0.0 < place[1] < size[1]):

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from time import perf_counter
 
 import numpy as np
@@ -17,12 +18,13 @@ from app.editor.session import Session
 from app.editor.viewport_state import SHOWN, VIEWS, View
 from app.errors import AppError
 from app.project.document import Change
-from widgets.common.controls import Retranslated, named
+from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.layouts import in_column
 from widgets.common.menus import passing_menu
 from widgets.common.plain import Label
-from widgets.viewport.camera import Camera, frame, triple
+from widgets.viewport.camera import Camera, frame
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
+from widgets.viewport.cast import Stage
 from widgets.viewport.eye import Eye
 from widgets.viewport.figures import Loaded, cast_key
 from widgets.viewport.header import Header
@@ -33,9 +35,12 @@ from widgets.viewport.pointer import Pointer
 from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.renderer import Emphasis, Renderer
 from widgets.viewport.scene import Scene
-from widgets.viewport.views import bounds, in_the_way, tracked, view_camera
+from widgets.viewport.shot import Shot, times_looked_at
+from widgets.viewport.views import bounds, in_the_way, steady_camera, tracked, view_camera
 
 Floats = npt.NDArray[np.float64]
+Draw = Callable[[float], npt.NDArray[np.uint8]]
+"""Draws a film's picture of a time in seconds (height, width, 4)."""
 
 FRAME_MS = 16
 WAIT_MS = 90
@@ -71,13 +76,12 @@ class ViewportPanel(Retranslated, QWidget):
         self._tool = PoseTool(session)
         self.scene = Scene(session, poses, self._tool, self)
         self._settle_until_s = 0.0
-        self._elsewhere: tuple[Camera, View] | None = None
-        """Camera and view of a picture that is not the window's, while it is drawn."""
+        self._elsewhere: tuple[Camera, Shot] | None = None
+        """Camera and shot of a picture that is not the window's, while it is drawn."""
 
         self.header = Header(session, self)
         self._stack = QStackedWidget(self)
-        self._reason = named(Label(parent=self._stack), "viewport_reason")
-        self._reason.setWordWrap(True)
+        self._reason = wrapped(named(Label(parent=self._stack), "viewport_reason"))
         self._reason.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._reason.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._reason.setMargin(24)
@@ -88,14 +92,11 @@ class ViewportPanel(Retranslated, QWidget):
         self._layer: Layer | None = None
         self._pointer: Pointer | None = None
         self._failure = self._start_gl()
-        self._ticker = QTimer(self)
-        self._ticker.setInterval(FRAME_MS)
+        self._ticker = QTimer(self, interval=FRAME_MS)
         self._ticker.timeout.connect(self._tick)
-        self._waiter = QTimer(self)
-        self._waiter.setInterval(WAIT_MS)
+        self._waiter = QTimer(self, interval=WAIT_MS)
         self._waiter.timeout.connect(self.poses_changed)
-        self._live = QTimer(self)
-        self._live.setInterval(FRAME_MS)
+        self._live = QTimer(self, interval=FRAME_MS)
         self._live.timeout.connect(self._show_live)
         self._listen()
         self._apply_theme()
@@ -189,36 +190,58 @@ class ViewportPanel(Retranslated, QWidget):
         self._update()
 
     def render_image(self, width: int, height: int, time_s: float, view: View | None = None) -> npt.NDArray[np.uint8]:
-        """A picture of a moment, with the names and marks that are shown.
+        """A picture of a moment, with the names and marks that are shown: see `film`."""
+        return self.film(width, height, (time_s, time_s), view)(time_s)
+
+    def film(
+        self,
+        width: int,
+        height: int,
+        span_s: tuple[float, float],
+        view: View | None = None,
+        player_ids: tuple[str, ...] | None = None,
+    ) -> Draw:
+        """What draws a film's pictures, in their order, with the names and marks that are shown.
 
         Parameters
         ----------
         width, height : int
             Pixels.
-        time_s : float
-            Seconds of the performance.
+        span_s : (float, float)
+            Seconds of the performance in which all pictures lie.
         view : View, optional
             The camera as it stands if absent.
+        player_ids : tuple of str, optional
+            Players or dancers that the view is about; the selected players if absent.
 
         Returns
         -------
-        (height, width, 4) uint8
+        callable
+            Gets a time in seconds and gives a picture (height, width, 4) uint8.
 
         Raises
         ------
         AppError
-            ``picture.no_gl`` (reason), ``picture.loading``.
+            ``picture.no_gl`` (reason), ``picture.loading``; what is returned raises them too.
         """
-        canvas, stage = self._canvas, self.scene.stage
-        if canvas is None:
+        self._require_stage()
+        shot = self._shot(view, width / height, span_s, self._session.players if player_ids is None else player_ids)
+        return partial(self._render, width, height, shot)
+
+    def _require_stage(self) -> tuple[Canvas, Stage]:
+        if self._canvas is None:
             raise AppError("picture.no_gl", reason=self._failure or "")
-        if stage is None:
+        if self.scene.stage is None:
             raise AppError("picture.loading")
+        return self._canvas, self.scene.stage
+
+    def _render(self, width: int, height: int, shot: Shot, time_s: float) -> npt.NDArray[np.uint8]:
+        canvas, stage = self._require_stage()
         shown = self.scene.poses()
         self.scene.pose_now(time_s)
         try:
-            camera, of = self._camera_for(view, width / height)
-            self._elsewhere = (camera, of)
+            camera = shot.camera_at(stage, time_s)
+            self._elsewhere = (camera, shot)
             picture = canvas.render_image(width, height)
             if picture is None:
                 raise AppError("picture.no_gl", reason=self._failure or "QOpenGLContext")
@@ -236,16 +259,24 @@ class ViewportPanel(Retranslated, QWidget):
             self._elsewhere = None
             self.scene.take(shown)
 
-    def _camera_for(self, view: View | None, aspect: float) -> tuple[Camera, View]:
-        """The camera of a picture: a view's own, or the window's, exactly where it would come to rest."""
-        stage, camera = self.scene.stage, self._eye.camera
-        assert stage is not None
-        if view is not None:
-            return view_camera(view, stage, self.scene.rows(), replace(camera, fov_deg=Camera().fov_deg), aspect), view
-        middle = self._tracked()
-        if middle is not None:
-            camera = replace(camera, target_m=triple(self._eye.centred(middle)))
-        return camera, self._eye.view
+    def _shot(self, view: View | None, aspect: float, span_s: tuple[float, float], player_ids: tuple[str, ...]) -> Shot:
+        """How a film is seen: by a view, or as the window's camera stands."""
+        if view is None:
+            return Shot(self._eye.view, self._eye.camera, player_ids, self._eye.centred(np.zeros(3)))
+        _, stage = self._require_stage()
+        shown = self.scene.poses()
+        looked_at = tuple(shown) if view == "ensemble" else player_ids
+
+        def posed() -> Iterator[Stage]:
+            for time_s in times_looked_at(len(looked_at), *span_s):
+                self.scene.pose_now(time_s, looked_at)
+                yield stage
+
+        try:
+            camera = replace(self._eye.camera, fov_deg=Camera().fov_deg)
+            return Shot(view, steady_camera(view, posed(), stage.rows(player_ids), camera, aspect), player_ids)
+        finally:
+            self.scene.take(shown)
 
     # GL
 
@@ -285,15 +316,18 @@ class ViewportPanel(Retranslated, QWidget):
     def _picture(self, width: int, height: int) -> Picture:
         """What to draw: asked by the canvas."""
         stage, pointer, session = self.scene.stage, self._pointer, self._session
-        camera, view = self._elsewhere or (self._eye.camera, self._eye.view)
         here = self._elsewhere is None
+        camera, view, rows = self._eye.camera, self._eye.view, self.scene.rows()
+        if self._elsewhere is not None and stage is not None:
+            camera, shot = self._elsewhere
+            view, rows = shot.view, stage.rows(shot.player_ids)
         moving = (
             session.playing or self._live.isActive() or self._eye.flying or (pointer is not None and pointer.dragging)
         )
         emphasis = Emphasis(
             rings=self.scene.rings(),
             hovered=pointer.hovered if pointer is not None and here else None,
-            in_the_way=in_the_way(view, stage, self.scene.rows(), camera) if stage is not None else frozenset(),
+            in_the_way=in_the_way(view, stage, rows, camera) if stage is not None else frozenset(),
             wireframe=session.viewport.shows("wireframe"),
             in_motion=moving and here,
         )
@@ -421,7 +455,7 @@ class ViewportPanel(Retranslated, QWidget):
 
     def _show_live(self) -> None:
         if not self._session.live_players.is_shown:
-            # Whoever was played is back in the performance.
+            # The players that were played live return to the performance.
             self._live.stop()
             self.refresh()
         # While the performance plays the playhead's changes draw already.

@@ -346,7 +346,7 @@ class Renderer:
         self._bones.set_data(rows)
         capsules = limbs.capsules()
         self._limb_rows[:, :-1] = capsules.reshape(count, -1, 4)
-        # Of who has no body of their own there is the instrument alone.
+        # Of a player without a body of its own only the instrument is drawn.
         first = [0 if member.has_body else HELD for member in stage.members]
         middle = capsules[np.arange(count), first, 0, :3]
         self._limb_rows[:, -1, :3] = middle
@@ -376,7 +376,7 @@ class Renderer:
         program["u_glow"] = look.glow
 
     def _draw_near(self, stage: Stage, shapes: Shapes, level: npt.NDArray[np.intp], mode: str) -> None:
-        """Everyone who is drawn alone; things of one kind in a row, so that buffers are bound once."""
+        """All performers that are drawn singly; things of one kind in a row, so that buffers are bound once."""
         near = [int(row) for row in np.flatnonzero((level >= 0) & (level < LEVELS - 1))]
         if not near:
             return

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,10 +10,11 @@ import numpy.typing as npt
 from PySide6.QtCore import QObject, Signal
 
 from app.editor.live_poses import LivePoses
-from app.editor.poses import Posed, Poses, same
+from app.editor.poses import Poses, same
 from app.editor.session import Session, Severity
 from app.errors import Message
 from app.performance.cast import LeftOut
+from app.performance.chunks import Pose
 from app.project.performers import Dancer, Player
 from widgets.common.text import message_text
 from widgets.viewport.camera import Camera
@@ -123,18 +124,19 @@ class Scene(QObject):
             self.missing = any(pose is None for pose in asked)
             self.take(dict(zip(player_ids, asked, strict=True)))
 
-    def pose_now(self, time_s: float) -> None:
-        """Put everyone into the pose of a time, made here where it is not there yet."""
-        self.take({member.player_id: self._poses.pose_now(member.player_id, time_s) for member in self._members()})
+    def pose_now(self, time_s: float, player_ids: Sequence[str] | None = None) -> None:
+        """Put everyone, or some, into the pose of a time, made here where it is not there yet."""
+        asked = [member.player_id for member in self._members()] if player_ids is None else player_ids
+        self.take({player_id: self._poses.pose_now(player_id, time_s) for player_id in asked})
 
-    def poses(self) -> dict[str, Posed | None]:
+    def poses(self) -> dict[str, Pose | None]:
         """Everyone's pose of now."""
         stage = self.stage
         if stage is None:
             return {}
         return {member.player_id: pose for member, pose in zip(stage.members, stage.poses, strict=True)}
 
-    def take(self, poses: Mapping[str, Posed | None]) -> None:
+    def take(self, poses: Mapping[str, Pose | None]) -> None:
         """Put players into poses."""
         stage = self.stage
         if stage is not None:
@@ -158,14 +160,10 @@ class Scene(QObject):
 
     def rows(self) -> list[int]:
         """Rows of the selected players, the one in front first."""
-        stage = self.stage
-        if stage is None:
-            return []
-        rows = [stage.index(player_id) for player_id in self._session.players]
-        return [row for row in rows if row is not None]
+        return [] if self.stage is None else self.stage.rows(self._session.players)
 
     def visible(self, selected: bool) -> list[int]:
-        """Rows of who has a pose: the selected players, or everyone."""
+        """Rows of performers with a pose: the selected players, or all."""
         stage = self.stage
         if stage is None:
             return []

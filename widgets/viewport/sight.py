@@ -29,33 +29,35 @@ _UNUSUAL = 0.3
 """How many of the fingers must be gained for a turn by 90 degrees from the usual direction."""
 
 
-def clearest(stage: Stage, row: int, usual: Direction, turn_rad: float) -> Direction:
+def directions(usual: Direction) -> list[Direction]:
+    """The directions to choose from, the usual one first; in degrees."""
+    return [usual, *((side, height) for side in _SIDES_DEG for height in _HEIGHTS_DEG)]
+
+
+def clearest(gained: Floats, usual: Direction) -> Direction:
     """The direction near the usual one from which most of the fingers are not hidden by the instrument.
 
     Parameters
     ----------
-    stage : Stage
-    row : int
-        The player.
+    gained : (D,) float64
+        Which share of the fingers is seen from each of `directions`.
     usual : tuple of float
         Where to look from unless too much is hidden, in degrees.
-    turn_rad : float
-        Which way the player faces, from +Z towards +X.
     """
-    found = [usual, *((side, height) for side in _SIDES_DEG for height in _HEIGHTS_DEG)]
-    gained = seen(stage, row, found, turn_rad)
     if gained[0] >= _ENOUGH:
         return usual
+    found = directions(usual)
     turned = [math.hypot(side - usual[0], height - usual[1]) / 90.0 for side, height in found]
     return found[int(np.argmax(gained - _UNUSUAL * np.array(turned)))]
 
 
-def seen(stage: Stage, row: int, directions: Sequence[Direction], turn_rad: float) -> Floats:
-    """Which share (D,) of the player's fingers is seen from each direction past the instrument."""
+def seen(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_rad: float) -> Floats:
+    """Which share (D,) of the player's fingers is seen from each direction past the instrument; ``turn_rad`` is which
+    way the player faces, from +Z towards +X."""
     kit = stage.members[row].kit
     held = stage.node_matrix(row)
     places_m = _fingers(stage, row)
-    towards = np.array([_unit(math.radians(side) + turn_rad, math.radians(height)) for side, height in directions])
+    towards = np.array([_unit(math.radians(side) + turn_rad, math.radians(height)) for side, height in towards_deg])
     lines = places_m.mean(axis=0) + _EYE_M * towards[:, None] - places_m
     lengths = np.linalg.norm(lines, axis=2)
     steps = np.arange(_SKIN_M, _EYE_M, _STEP_M)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +14,7 @@ from app.rig.stature import face_size, hand_size
 from widgets.viewport.camera import Camera, frame
 from widgets.viewport.cast import Stage
 from widgets.viewport.limbs import model_bounds
-from widgets.viewport.sight import clearest
+from widgets.viewport.sight import clearest, directions, seen
 
 Floats = npt.NDArray[np.float64]
 
@@ -50,21 +50,43 @@ def view_camera(view: View, stage: Stage, rows: Sequence[int], camera: Camera, a
     aspect : float
         Width over height.
     """
-    everyone = [row for row in range(len(stage.members)) if stage.shown[row]]
-    chosen = everyone if view == "ensemble" else [row for row in rows if stage.shown[row]]
-    if not chosen:
+    return steady_camera(view, (stage,), rows, camera, aspect)
+
+
+def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camera: Camera, aspect: float) -> Camera:
+    """The camera of a view that suits several poses: one direction, and everyone in the picture in each of them.
+
+    Parameters
+    ----------
+    posed : iterable of Stage
+        The same stage, in another pose each time that it is given out.
+    """
+    clear, halves, boxes = list[Floats](), list[Floats](), list[tuple[Floats, Floats]]()
+    turn, middle, usual = 0.0, None, _DIRECTIONS_DEG[view]
+    for stage in posed:
+        everyone = [row for row in range(len(stage.members)) if stage.shown[row]]
+        chosen = everyone if view == "ensemble" else [row for row in rows if stage.shown[row]]
+        if not chosen:
+            continue
+        turn = 0.0 if view == "ensemble" else turn_rad(stage, chosen[0])
+        if view == "hands":
+            clear.append(seen(stage, chosen[0], directions(usual), turn))
+        middle = tracked(view, stage, chosen[0])
+        if middle is None:
+            boxes.append(bounds(stage, chosen))
+        else:
+            halves.append(_half(view, stage, chosen[0]))
+    if not boxes and not halves:
         return camera
-    turn = 0.0 if view == "ensemble" else turn_rad(stage, chosen[0])
-    side_deg, pitch_deg = _DIRECTIONS_DEG[view]
-    if view == "hands":
-        side_deg, pitch_deg = clearest(stage, chosen[0], (side_deg, pitch_deg), turn)
+    side_deg, pitch_deg = clearest(np.mean(clear, axis=0), usual) if clear else usual
     yaw = math.radians(side_deg) + turn
     camera = replace(camera, yaw_rad=math.remainder(yaw, 2.0 * math.pi), pitch_rad=math.radians(pitch_deg))
-    middle = tracked(view, stage, chosen[0])
-    if middle is None:
-        return frame(camera, *bounds(stage, chosen), aspect, 1.04 if view == "ensemble" else 1.08)
-    half = _half(view, stage, chosen[0])
-    return frame(camera, middle - half, middle + half, aspect, 1.0)
+    if middle is not None:
+        half = np.max(halves, axis=0)
+        return frame(camera, middle - half, middle + half, aspect, 1.0)
+    low = np.min([box[0] for box in boxes], axis=0)
+    high = np.max([box[1] for box in boxes], axis=0)
+    return frame(camera, low, high, aspect, 1.04 if view == "ensemble" else 1.08)
 
 
 def tracked(view: View, stage: Stage, row: int) -> Floats | None:

@@ -2,44 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import replace
 
-from app.editor.poses import Floats, Posed, Poses
+from app.editor.poses import Poses
 from app.editor.session import Session
-
-
-@dataclass(frozen=True, eq=False)
-class WornFace:
-    """A pose with another face."""
-
-    body: Posed
-    morphs: Mapping[str, float]
-
-    @property
-    def rotations(self) -> Floats:
-        """As the body's."""
-        return self.body.rotations
-
-    @property
-    def hips_m(self) -> Floats:
-        """As the body's."""
-        return self.body.hips_m
-
-    @property
-    def controls(self) -> Mapping[str, float]:
-        """As the body's."""
-        return self.body.controls
-
-    @property
-    def instrument_position_m(self) -> Floats:
-        """As the body's."""
-        return self.body.instrument_position_m
-
-    @property
-    def instrument_rotation(self) -> Floats:
-        """As the body's."""
-        return self.body.instrument_rotation
+from app.performance.chunks import Pose
 
 
 class WornFaces:
@@ -54,19 +22,19 @@ class WornFaces:
     def __init__(self, session: Session, poses: Poses) -> None:
         self._session, self._poses = session, poses
 
-    def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Posed | None]:
+    def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
         """See `Poses.poses`."""
         found = self._poses.poses(player_ids, time_s)
         if self._session.preview_morphs is None:
             return found
         return [self._worn(player_id, pose) for player_id, pose in zip(player_ids, found, strict=True)]
 
-    def pose_now(self, player_id: str, time_s: float) -> Posed | None:
+    def pose_now(self, player_id: str, time_s: float) -> Pose | None:
         """See `Poses.pose_now`."""
         return self._worn(player_id, self._poses.pose_now(player_id, time_s))
 
-    def _worn(self, player_id: str, pose: Posed | None) -> Posed | None:
+    def _worn(self, player_id: str, pose: Pose | None) -> Pose | None:
         morphs = self._session.preview_morphs
         if pose is None or morphs is None or player_id != next(iter(self._session.players), None):
             return pose
-        return WornFace(pose, morphs)
+        return replace(pose, morphs=morphs)

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Final
 
-from app.export.unreal.names import asset_name, unique
+from app.export.unreal.names import asset_name
+from app.formats.names import numbered
 from app.project.model import Project
 from app.project.performers import Dancer, Player
 
@@ -110,11 +111,11 @@ def layout_of(project: Project, piece: str) -> Layout:
     """Where everything of a project's piece is."""
     players, dancers = project.players, project.dancers
     count = len(players)
-    own = unique(asset_name(player.name, "Player") for player in players)
+    own = numbered(asset_name(player.name, "Player") for player in players)
     named = dict(zip((player.id for player in players), own, strict=True))
     held = [f"{named[project.musician(player).id]}_{asset_name(player.instrument_id, 'held')}" for player in players]
     # Dancers come last, so that a new player does not rename theirs.
-    names = unique([*own, *held, *(asset_name(dancer.name, "Dancer") for dancer in dancers)])
+    names = numbered([*own, *held, *(asset_name(dancer.name, "Dancer") for dancer in dancers)])
     content = f"{CONTENT}/{piece}"
     doubling = {player.id for player in players} - {musician.id for musician in project.bodies}
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 import hashlib
 import re
 import unicodedata
-from collections.abc import Iterable
 from typing import Final
 
 LONGEST: Final = 32
@@ -43,20 +42,6 @@ def asset_name(text: str, otherwise: str) -> str:
         return name
     mark = hashlib.sha256(unicodedata.normalize("NFC", text).encode("utf-8", "surrogatepass")).hexdigest()[:8]
     return f"{name[: LONGEST - 9].rstrip('_')}_{mark}"
-
-
-def unique(names: Iterable[str]) -> tuple[str, ...]:
-    """The names in their order, with numbers where two would be one to a system that knows no case."""
-    taken: set[str] = set()
-    result = []
-    for name in names:
-        candidate, number = name, 1
-        while candidate.casefold() in taken:
-            number += 1
-            candidate = f"{name}_{number}"
-        taken.add(candidate.casefold())
-        result.append(candidate)
-    return tuple(result)
 
 
 def _spelt(text: str) -> tuple[str, bool]:

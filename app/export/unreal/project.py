@@ -18,7 +18,7 @@ from typing import Final
 
 from app.encoding import shown
 from app.errors import FileError, shortened
-from app.formats.files import read_file
+from app.formats.files import cannot_read, read_file
 
 LEAST_ENGINE: Final = (5, 2)
 """Before, a sequence had other functions to add tracks."""
@@ -66,7 +66,7 @@ def find_project(path: Path) -> UnrealProject:
         found = _project_file(path)
         content = _content(found)
     except OSError as error:
-        raise FileError("file.cannot_read", file=os.fspath(path), reason=error.strerror or str(error)) from error
+        raise cannot_read(path, error) from error
     engine = content.get("EngineAssociation", "")
     if not isinstance(engine, str):
         raise FileError("unreal.not_a_project", file=os.fspath(found), detail="EngineAssociation is no text")

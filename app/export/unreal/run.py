@@ -11,7 +11,6 @@ Messages: those of `app.export.request`, `app.export.tree` and the other modules
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
@@ -20,12 +19,12 @@ import msgspec
 import numpy as np
 
 from app.audio.track import RATE_HZ
-from app.errors import Cancelled, FileError, Message
+from app.errors import Cancelled, Message
 from app.export.character import CENTIMETRES
+from app.export.file_names import REPORT as EXPORTED_REPORT
 from app.export.instrument import instrument_bones
 from app.export.report import Report, encode_report
 from app.export.request import ExportCast, Request, cast_of
-from app.export.run import REPORT as EXPORTED_REPORT
 from app.export.run import Progress, write_cast
 from app.export.sound import write_sound
 from app.export.targets import written_meshes
@@ -46,6 +45,7 @@ from app.export.unreal.layout import (
 from app.export.unreal.manifest import Changes, OwnFile, changes, encode_manifest, own_file
 from app.export.unreal.plugin import requested_plugin
 from app.export.unreal.project import UnrealProject, require_writable
+from app.formats.files import cannot_read
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.performers import Dancer
@@ -130,8 +130,7 @@ def plan_export(
             for folder, coming in done
         ]
     except OSError as error:
-        reason = error.strerror or str(error)
-        raise FileError("file.cannot_read", file=os.fspath(project.folder), reason=reason) from error
+        raise cannot_read(project.folder, error) from error
     plan = Plan(
         layout=layout,
         written=tuple(sorted(folder / path for folder, coming in done for path in coming)),
@@ -158,7 +157,7 @@ def export_into(
     Parameters
     ----------
     request : Request
-        Its folder, its formats and whether it includes the sound do not count.
+        Its folder, its formats and whether it includes the sound and the stage do not count.
     project : UnrealProject
     wording : callable
         Words a message for the report.
@@ -171,7 +170,7 @@ def export_into(
     Cancelled
     """
     recover(project.folder, project.folder / SOURCES)
-    request = replace(request, formats=frozenset(("fbx",)), sound=False)
+    request = replace(request, formats=frozenset(("fbx",)), sound=False, stage=False)
     cast = cast_of(request, wording, stop_requested)
     left_out = tuple(one.player.id for one in cast.left_out)
     performer_ids = cast.player_ids + cast.dancer_ids

@@ -11,7 +11,7 @@ import struct
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import BinaryIO, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -89,26 +89,14 @@ def pack_array(values: npt.NDArray[np.generic], *, compress: bool = True) -> Pac
     return PackedArray(code + struct.pack("<III", len(values), encoding, len(raw)) + raw)
 
 
-def write_elements(stream: BinaryIO, elements: Sequence[Element]) -> None:
-    """Write a whole file.
+def element_pieces(elements: Sequence[Element]) -> list[bytes | bytearray]:
+    """A whole file in pieces; big arrays are not copied.
 
     Parameters
     ----------
-    stream : binary file
-        Written from its current position, which must be the start of the file.
     elements : sequence of Element
         The top level. Their order is kept; FileId and CreationTime must be `FILE_ID` and `CREATION_TIME`.
     """
-    stream.writelines(_file_chunks(elements))
-
-
-def encode_elements(elements: Sequence[Element]) -> bytes:
-    """Bytes of a whole file, as `write_elements` writes them."""
-    return b"".join(_file_chunks(elements))
-
-
-def _file_chunks(elements: Sequence[Element]) -> list[bytes | bytearray]:
-    """The file in pieces; big arrays are not copied."""
     writer = _Writer(VERSION)
     writer.file(elements)
     if writer.position > _LARGEST_OFFSET:

@@ -22,10 +22,13 @@ import os
 import signal
 import subprocess
 import zipfile
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any, Final
+from functools import partial
+from typing import Any, Final, TypeVar
 
+import msgspec
 import numpy as np
 import numpy.typing as npt
 
@@ -36,12 +39,12 @@ from app.own_process import own_process
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
+T = TypeVar("T")
 
 MOST_BYTES: Final = 2**30
 """Of a file; characters have a hundredth of it."""
 PATIENCE_S: Final = 180.0
 MOTION: Final = "motion"
-TRANSFORM: Final = 10
 """As in the child, which this process does not import."""
 UNREADABLE, NO_MEMORY = 3, 4
 """What the child's end means."""
@@ -179,18 +182,7 @@ class FbxMotion:
 
 def read_foreign_motion(path: str | os.PathLike[str]) -> FbxMotion:
     """Read the longest animation of an FBX file of any program. Raises as `read_foreign_fbx`."""
-    file = os.fspath(path)
-    content, arrays = _read(file, path, MOTION)
-    try:
-        nodes = _nodes(content)
-        bound = tuple((entry["node"], _matrix(entry["world_from_bone"])) for entry in content["bound"])
-        if any(not 0 <= node < len(nodes) for node, _ in bound):
-            raise ValueError("a skin without a bone")
-        empty = np.zeros((0, len(nodes), TRANSFORM))
-        transforms = _finite(arrays[content["transforms"]]) if content["frames"] else empty
-        return FbxMotion(nodes, bound, exact_rate(content["fps"]), transforms)
-    except (ValueError, KeyError, IndexError, TypeError) as error:
-        raise FileError("fbx.foreign_damaged", file=file, detail=str(error)) from error
+    return _read(path, FbxMotion, _checked_motion, MOTION)
 
 
 def read_foreign_fbx(path: str | os.PathLike[str]) -> FbxContent:
@@ -201,26 +193,20 @@ def read_foreign_fbx(path: str | os.PathLike[str]) -> FbxContent:
     FileError
         If it cannot be read, is no FBX file, is damaged or absurdly large.
     """
+    return _read(path, FbxContent, _checked_content)
+
+
+def _read(path: str | os.PathLike[str], kind: type[T], checked: Callable[[T], T], *arguments: str) -> T:
+    """What the child prints of a file: a description, in which arrays go by their names. Raises FileError."""
     file = os.fspath(path)
-    content, arrays = _read(file, path)
-    try:
-        return _content(content, arrays)
-    except (ValueError, KeyError, IndexError, TypeError) as error:
-        raise FileError("fbx.foreign_damaged", file=file, detail=str(error)) from error
-
-
-def _read(
-    file: str, path: str | os.PathLike[str], *arguments: str
-) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
-    """The description and the arrays that the child prints. Raises FileError."""
     printed = _child(read_file(path, MOST_BYTES), file, *arguments)
     try:
         with np.load(io.BytesIO(printed), allow_pickle=False) as packed:
             arrays = {name: packed[name] for name in packed.files}
-        content: dict[str, Any] = json.loads(arrays.pop("description").tobytes())
-    except (ValueError, KeyError, zipfile.BadZipFile) as error:
+        content = json.loads(arrays.pop("description").tobytes())
+        return checked(msgspec.convert(content, kind, dec_hook=partial(_value, arrays)))
+    except (ValueError, KeyError, IndexError, TypeError, zipfile.BadZipFile) as error:
         raise FileError("fbx.foreign_damaged", file=file, detail=str(error)) from error
-    return content, arrays
 
 
 def _child(data: bytes, file: str, *arguments: str) -> bytes:
@@ -250,103 +236,68 @@ def _child(data: bytes, file: str, *arguments: str) -> bytes:
     return ended.stdout
 
 
-def _content(content: dict[str, Any], arrays: dict[str, npt.NDArray[Any]]) -> FbxContent:
-    nodes = _nodes(content)
-    return FbxContent(nodes, tuple(_mesh(mesh, arrays, len(nodes)) for mesh in content["meshes"]))
+def _value(arrays: Mapping[str, npt.NDArray[Any]], kind: type, given: Any) -> Any:
+    """A rate, an array by its name, values by corner by the names of both, or a matrix by its rows."""
+    if kind is Fraction:
+        return exact_rate(given)
+    if isinstance(given, str):
+        found = arrays[given]
+    elif isinstance(given[0], str):
+        values, indices = (arrays[name] for name in given)
+        found = np.nan_to_num(values[_within(indices, len(values))] if len(values) else values)
+    else:
+        found = np.vstack([np.array(given, dtype=np.float64), (0.0, 0.0, 0.0, 1.0)])
+    if not np.isfinite(found).all():
+        raise ValueError("a number is not finite")
+    return found.astype(np.int64 if kind == IntArray else np.float64)
 
 
-def _nodes(content: dict[str, Any]) -> tuple[FbxNode, ...]:
-    nodes = tuple(
-        FbxNode(
-            node["name"],
-            node["parent"],
-            node["kind"],
-            node["visible"],
-            _matrix(node["world_from_node"]),
-            _matrix(node["world_from_geometry"]),
-        )
-        for node in content["nodes"]
-    )
+def _checked_motion(motion: FbxMotion) -> FbxMotion:
+    _check_nodes(motion.nodes, [node for node, _ in motion.bound])
+    return motion
+
+
+def _checked_content(content: FbxContent) -> FbxContent:
+    clusters = (cluster for mesh in content.meshes for skin in mesh.skins for cluster in skin)
+    _check_nodes(content.nodes, [cluster.node for cluster in clusters])
+    return replace(content, meshes=tuple(map(_checked_mesh, content.meshes)))
+
+
+def _check_nodes(nodes: Sequence[FbxNode], skinned: Sequence[int]) -> None:
     for index, node in enumerate(nodes):
         if not -1 <= node.parent < index:
             raise ValueError(f"node {node.name!r} stands before its parent")
-    return nodes
-
-
-def _matrix(rows: list[list[float]]) -> FloatArray:
-    result = np.eye(4)
-    result[:3] = np.array(rows, dtype=np.float64)
-    if not np.isfinite(result).all():
-        raise ValueError("a transform is not finite")
-    return result
-
-
-def _mesh(mesh: dict[str, Any], arrays: dict[str, npt.NDArray[Any]], node_count: int) -> FbxMesh:
-    points = _finite(arrays[mesh["points"]])
-    corners = _within(arrays[mesh["corners"]], len(points))
-    faces = arrays[mesh["faces"]]
-    if len(faces) and (faces.min() < 0 or faces.sum(axis=1).max() > len(corners)):
-        raise ValueError(f"polygons of {mesh['name']!r}")
-    face_materials = arrays[mesh["face_materials"]]
-    materials = tuple(
-        FbxMaterial(entry["name"], tuple(entry["color"]), entry["metallic"], entry["roughness"])
-        for entry in mesh["materials"]
-    )
-    if len(face_materials) != len(faces) or not len(materials):
-        face_materials = np.zeros(len(faces), dtype=np.int64)
-    return FbxMesh(
-        name=mesh["name"],
-        nodes=tuple(mesh["nodes"]),
-        points=points,
-        corners=corners,
-        faces=faces,
-        face_materials=np.clip(face_materials, 0, max(len(materials) - 1, 0)),
-        normals=_by_corner(mesh["normals"], arrays, len(corners)),
-        uvs=_by_corner(mesh["uvs"], arrays, len(corners)),
-        materials=materials,
-        skins=tuple(
-            tuple(_cluster(entry, arrays, len(points), node_count) for entry in skin) for skin in mesh["skins"]
-        ),
-        morphs=tuple(
-            FbxMorph(
-                entry["name"],
-                _within(arrays[entry["points"]], len(points)),
-                _finite(arrays[entry["deltas"]][: len(arrays[entry["points"]])]),
-            )
-            for entry in mesh["morphs"]
-        ),
-    )
-
-
-def _cluster(entry: dict[str, Any], arrays: dict[str, npt.NDArray[Any]], points: int, nodes: int) -> FbxCluster:
-    if not 0 <= entry["node"] < nodes:
+    if any(not 0 <= node < len(nodes) for node in skinned):
         raise ValueError("a skin without a bone")
-    return FbxCluster(
-        node=entry["node"],
-        bone_from_mesh=_matrix(entry["bone_from_mesh"]),
-        world_from_bone=_matrix(entry["world_from_bone"]),
-        points=_within(arrays[entry["points"]], points),
-        weights=_finite(arrays[entry["weights"]]),
+
+
+def _checked_mesh(mesh: FbxMesh) -> FbxMesh:
+    points, corners, faces = len(mesh.points), len(mesh.corners), mesh.faces
+    for indices in (
+        mesh.corners,
+        *(one.points for skin in mesh.skins for one in skin),
+        *(m.points for m in mesh.morphs),
+    ):
+        _within(indices, points)
+    if len(faces) and (faces.min() < 0 or faces.sum(axis=1).max() > corners):
+        raise ValueError(f"polygons of {mesh.name!r}")
+    known = len(mesh.face_materials) == len(faces) and len(mesh.materials) > 0
+    return replace(
+        mesh,
+        face_materials=np.clip(mesh.face_materials, 0, len(mesh.materials) - 1)
+        if known
+        else np.zeros(len(faces), np.int64),
+        normals=_of_every_corner(mesh.normals, corners),
+        uvs=_of_every_corner(mesh.uvs, corners),
+        morphs=tuple(replace(morph, deltas=morph.deltas[: len(morph.points)]) for morph in mesh.morphs),
     )
 
 
-def _by_corner(names: list[str] | None, arrays: dict[str, npt.NDArray[Any]], corners: int) -> FloatArray | None:
-    if names is None:
-        return None
-    values, indices = (arrays[name] for name in names)
-    if len(indices) != corners or not len(values):
-        return None
-    result: FloatArray = np.nan_to_num(values[_within(indices, len(values))])
-    return result
+def _of_every_corner(values: FloatArray | None, corners: int) -> FloatArray | None:
+    return values if values is not None and len(values) == corners else None
 
 
-def _within(indices: npt.NDArray[Any], count: int) -> IntArray:
+def _within(indices: npt.NDArray[Any], count: int) -> npt.NDArray[Any]:
     if len(indices) and (indices.min() < 0 or indices.max() >= count):
         raise ValueError("an index points outside")
-    return indices.astype(np.int64)
-
-
-def _finite(values: npt.NDArray[Any]) -> FloatArray:
-    if not np.isfinite(values).all():
-        raise ValueError("a number is not finite")
-    return values.astype(np.float64)
+    return indices

@@ -138,7 +138,7 @@ def _material(material: Any) -> dict[str, Any]:
     )
     return {
         "name": material.name,
-        "color": [color.x, color.y, color.z, opacity],
+        "base_color": [color.x, color.y, color.z, opacity],
         "roughness": roughness,
         "metallic": metallic,
     }
@@ -209,7 +209,6 @@ def _nodes(scene: Any, written: _Written) -> list[dict[str, Any]]:
         {
             "name": node.name,
             "parent": -1 if (parent := _keep(node.parent)) is None else parent.typed_id,
-            "is_root": node.is_root,
             "kind": _keep(node.attrib_type).name,
             "visible": bool(node.visible),
             "world_from_node": _matrix(node.node_to_world),
@@ -234,17 +233,17 @@ def read_motion(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]
     written = _Written(FREE_MOTION_NUMBERS + NUMBERS_PER_BYTE * len(data))
     nodes = _nodes(scene, written)
     bound = [
-        {"node": node.typed_id, "world_from_bone": _matrix(cluster.bind_to_world)}
+        (node.typed_id, _matrix(cluster.bind_to_world))
         for skin in _every(scene.skin_deformers)
         for cluster in _every(skin.clusters)
         if (node := _keep(cluster.bone_node)) is not None
     ]
     fps = float(_keep(scene.settings).frames_per_second)
     fps = fps if USUAL_FPS[0] <= fps <= USUAL_FPS[1] else OTHERWISE_FPS
-    content = {"nodes": nodes, "bound": bound, "fps": fps, "frames": 0}
+    content = {"nodes": nodes, "bound": bound, "fps": fps}
     stacks = _every(scene.anim_stacks)
     if not stacks:
-        return content, written.arrays
+        return {**content, "transforms": written.add(np.empty((0, len(nodes), TRANSFORM)))}, written.arrays
     stack = max(stacks, key=lambda one: float(one.time_end) - float(one.time_begin))
     length_s = float(stack.time_end) - float(stack.time_begin)
     if not 0.0 <= length_s < MOST_S:
@@ -258,7 +257,7 @@ def read_motion(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]
             # Tuples of tuples, which may be freed.
             moved, turned, scaled = ufbx.evaluate_transform(anim, node, float(stack.time_begin) + frame / fps)
             values[frame, at] = (*moved, *turned, *scaled)
-    return {**content, "frames": frames, "transforms": written.add(values)}, written.arrays
+    return {**content, "transforms": written.add(values)}, written.arrays
 
 
 def _limit(size: int, free_cpu_s: int) -> None:

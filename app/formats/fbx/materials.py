@@ -1,4 +1,17 @@
-"""Metallic-roughness surfaces as the Phong materials that FBX 7.4 knows, and back."""
+"""Metallic-roughness surfaces in FBX, and back.
+
+FBX 7.4 itself knows Phong surfaces only, so one surface is said in several ways; each reader takes its own:
+
+- Blender's importer in Python takes the colour from DiffuseColor alone, metallic from ReflectionFactor, roughness from
+  Shininess as ``1 - sqrt(Shininess) / 10`` and the reflectance of what is no metal from SpecularFactor
+  (``io_scene_fbx/import_fbx.py``, Blender 5.0); assimp takes roughness from ShininessExponent in the same way.
+- The FBX SDK, and with it Unreal, takes colours times their factors; Unreal's older importer finds colours of a Phong
+  or Lambert surface only, so it must remain one.
+- ufbx (Blender's newer importer, Godot), FBX2glTF and Unity take a 3ds Max Physical Material by the numbers of its
+  class and its parameters; ufbx does so where the surface is not called Phong.
+
+Our own reader takes what Blender's in Python takes.
+"""
 
 from __future__ import annotations
 
@@ -9,51 +22,46 @@ from app.formats.scene import Material
 
 DIELECTRIC_REFLECTANCE = 0.04
 """Of skin, cloth and lacquer at normal incidence (glTF 2.0, appendix B)."""
-_SHININESS = (2.0, 256.0)
+_BLENDER_SPECULAR = 0.25
+"""SpecularFactor of that reflectance in Blender."""
 # A metal without any diffuse part is black in viewers that have nothing to reflect.
 _METAL_DIFFUSE = 0.4
+
+SHADING_MODEL = "PHONG"
+"""The FBX SDK knows it in any case of letters (measured on 2019.2), ufbx as "Phong" and "phong" only."""
+PHYSICAL_MATERIAL = {"ClassIDa": 1030429932, "ClassIDb": -559038463, "SuperClassID": 3072}
+"""What 3ds Max calls its Physical Material; the parameters are below ``3dsMax|Parameters``."""
 
 
 @dataclass(frozen=True)
 class Phong:
-    """A Phong surface; colours are linear RGB from 0 to 1, shininess is the Phong exponent."""
+    """A Phong surface: linear RGB from 0 to 1, each with a factor, and the exponent of its highlights."""
 
     diffuse_rgb: tuple[float, float, float]
+    diffuse_factor: float
     specular_rgb: tuple[float, float, float]
+    specular_factor: float
     shininess: float
-    opacity: float
 
 
 def phong(material: Material) -> Phong:
-    """The nearest Phong surface: a metal's colour is in its reflection, and roughness alpha = r^2 gives the exponent
-    ``2 / alpha^2 - 2`` (Walter et al. 2007, the Phong lobe as wide as a Beckmann lobe)."""
-    red, green, blue, opacity = material.base_color
+    """The nearest Phong surface: a metal's colour is in its reflection."""
+    red, green, blue, _ = material.base_color
     metallic = material.metallic
+    factor = _BLENDER_SPECULAR + (1.0 - _BLENDER_SPECULAR) * metallic
 
     def reflected(channel: float) -> float:
-        return DIELECTRIC_REFLECTANCE * (1.0 - metallic) + channel * metallic
+        return (DIELECTRIC_REFLECTANCE * (1.0 - metallic) + channel * metallic) / factor
 
-    diffuse = 1.0 - (1.0 - _METAL_DIFFUSE) * metallic
-    exponent = 2.0 / max(material.roughness, 0.05) ** 4 - 2.0
     return Phong(
-        diffuse_rgb=(red * diffuse, green * diffuse, blue * diffuse),
+        diffuse_rgb=(red, green, blue),
+        diffuse_factor=1.0 - (1.0 - _METAL_DIFFUSE) * metallic,
         specular_rgb=(reflected(red), reflected(green), reflected(blue)),
-        shininess=min(max(exponent, _SHININESS[0]), _SHININESS[1]),
-        opacity=opacity,
+        specular_factor=factor,
+        shininess=100.0 * (1.0 - material.roughness) ** 2,
     )
 
 
-def metallic_roughness(name: str, surface: Phong) -> Material:
-    """The surface whose `phong` this is, as far as that shows: a roughness beyond the exponent's bounds is lost, and
-    so is whether both sides show. Of two metallic values that look alike it is the smaller."""
-    # Summed over the channels, specular = 0.04 (1 - m) + m diffuse / (1 - 0.6 m): a quadratic equation for m.
-    lost, plain = 1.0 - _METAL_DIFFUSE, 3.0 * DIELECTRIC_REFLECTANCE
-    diffuse, beyond = sum(surface.diffuse_rgb), sum(surface.specular_rgb) - plain
-    linear, quadratic = diffuse + lost * beyond - plain, lost * plain
-    root = math.sqrt(max(linear**2 + 4.0 * quadratic * beyond, 0.0))
-    candidates = [(-linear - root) / (2.0 * quadratic), (-linear + root) / (2.0 * quadratic)]
-    metallic = min((value for value in candidates if value > -1e-9), default=0.0)
-    metallic = min(max(metallic, 0.0), 1.0)
-    red, green, blue = (min(channel / (1.0 - lost * metallic), 1.0) for channel in surface.diffuse_rgb)
-    roughness = (2.0 / (max(surface.shininess, 0.0) + 2.0)) ** 0.25
-    return Material(name, (red, green, blue, surface.opacity), metallic, roughness)
+def roughness_of(shininess: float) -> float:
+    """The roughness that a surface of that `phong` has."""
+    return min(max(1.0 - math.sqrt(max(shininess, 0.0)) / 10.0, 0.0), 1.0)

@@ -1,7 +1,7 @@
 """Binary FBX file -> scene: for reading back what `app.formats.fbx.write` wrote.
 
 It understands what that writes: bones in centimetres without scaling, pivots or pre-rotations, directly under the
-scene, and keys on every frame. Anything else is refused, never quietly misread.
+scene or those of each figure under a Null, and keys on every frame. Anything else is refused, never quietly misread.
 
 Messages, beside those of `app.formats.fbx.decode` (all with ``file``):
 ``file.cannot_read`` (reason): "{file} cannot be read: {reason}";
@@ -13,7 +13,9 @@ Messages, beside those of `app.formats.fbx.decode` (all with ``file``):
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from fractions import Fraction
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -24,12 +26,17 @@ from app.formats.fbx import ticks
 from app.formats.fbx.decode import read_elements
 from app.formats.fbx.encode import Element
 from app.formats.fbx.graph import FbxObject, Float64Array, ObjectGraph, numbers, properties_of
-from app.formats.fbx.materials import Phong, metallic_roughness
+from app.formats.fbx.materials import roughness_of
 from app.formats.fbx.write import EULER_ORDER
 from app.formats.files import read_file
-from app.formats.scene import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh, check_scene
+from app.formats.scene import Bone, Clip, Material, MorphTarget, Place, Scene, SkinnedMesh, checked_scenes
 
 MOST_BYTES = 2**30
+_ANIMATED = {
+    "Lcl Rotation": ("LimbNode", 3),
+    "Lcl Translation": ("LimbNode", 3),
+    "DeformPercent": ("BlendShapeChannel", 1),
+}
 # Frames times bones, and vertices times influences: far beyond any real file, small enough for any computer.
 _MOST_VALUES = 2**25
 
@@ -49,54 +56,97 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     FileError
         If the file is no such file.
     """
-    file = os.fspath(path)
-    data = read_file(path, MOST_BYTES)
-    return decode_scene(data, file)
+    return decode_scene(read_file(path, MOST_BYTES), os.fspath(path))
+
+
+def read_scenes(path: str | os.PathLike[str]) -> tuple[Scene, ...]:
+    """Read a file as `write_scenes` writes it; see `read_scene`."""
+    return decode_scenes(read_file(path, MOST_BYTES), os.fspath(path))
 
 
 def decode_scene(data: bytes, file: str) -> Scene:
     """Scene of a file's bytes, as `read_scene`."""
+    scenes = decode_scenes(data, file)
+    if len(scenes) != 1:
+        raise FileError("fbx.unsupported", file=file, what=f"{len(scenes)} figures in one file")
+    return scenes[0]
+
+
+def decode_scenes(data: bytes, file: str) -> tuple[Scene, ...]:
+    """Scenes of a file's bytes, as `read_scenes`."""
     root = read_elements(data, file)
     graph = ObjectGraph(root, file)
-    bones, bone_of_model = _bones(graph)
-    meshes = tuple(_mesh(graph, model, bone_of_model) for model in graph.of_kind("Model", "Mesh"))
-    clip = _clip(graph, root, bones, bone_of_model)
     creator = root.child("Creator")
-    scene = Scene(bones, meshes, clip, graph.only(creator, str) if creator is not None else "")
+    made_by = graph.only(creator, str) if creator is not None else ""
+    take = _take(graph, root)
+    nodes = graph.of_kind("Model", "Null")
+    if any(parent for node in nodes for parent, _ in graph.parents.get(node.id, ())):
+        raise FileError("fbx.unsupported", file=file, what="a figure within another")
+    figures: list[FbxObject | None] = [*nodes] if nodes else [None]
+    scenes = tuple(_figure(graph, node, take, made_by) for node in figures)
+    found = sum(len(scene.bones) + len(scene.meshes) for scene in scenes)
+    if found != len(graph.of_kind("Model", "LimbNode")) + len(graph.of_kind("Model", "Mesh")):
+        raise FileError("fbx.unsupported", file=file, what="a bone or mesh outside the figures")
     try:
-        check_scene(scene)
+        return tuple(checked_scenes(scenes))
     except ValueError as error:
         raise FileError("fbx.contradiction", file=file, detail=str(error)) from error
-    return scene
+
+
+def _figure(graph: ObjectGraph, node: FbxObject | None, take: _Take | None, creator: str) -> Scene:
+    """What hangs from a node; from the file's root where there is none."""
+    bones, bone_of_model = _bones(graph, node)
+    place, node_from_world, models = None, np.eye(4, dtype=np.float64), graph.of_kind("Model", "Mesh")
+    if node is not None:
+        translation, rotation = _placement(graph, node)
+        place = Place(translation, euler.quaternions(rotation[::-1], EULER_ORDER))
+        node_from_world[:] = np.linalg.inv(place.matrix)
+        models = graph.below(node, "Model", "Mesh")
+    meshes = tuple(_mesh(graph, model, bone_of_model, node_from_world) for model in models)
+    clip = None
+    if take is not None:
+        channels = {
+            channel.id: channel.name
+            for model in models
+            for shape in graph.below(model, "Geometry")
+            for channel in _channels(graph, shape)
+        }
+        clip = _clip(graph, take, bones, bone_of_model, channels)
+    return Scene(bones, meshes, clip, creator, "" if node is None else node.name, place)
 
 
 # ------------------------------------------------------------------------------------------------------------ bones
 
 
-def _bones(graph: ObjectGraph) -> tuple[tuple[Bone, ...], dict[int, int]]:
-    """Bones with parents first, and the index of each model."""
+def _bones(graph: ObjectGraph, node: FbxObject | None) -> tuple[tuple[Bone, ...], dict[int, int]]:
+    """Bones below a node with parents first, and the index of each model."""
+    top = 0 if node is None else node.id
     models = graph.of_kind("Model", "LimbNode")
     is_bone = {model.id for model in models}
     parent_of: dict[int, int] = {}
     for model in models:
         above = [parent for parent, to in graph.parents.get(model.id, ()) if not to]
         bone_above = [parent for parent in above if parent in is_bone]
-        if not bone_above and any(graph.objects[p].kind == "Model" for p in above if p in graph.objects):
+        nodes = [graph.objects[parent] for parent in above if parent in graph.objects and parent not in is_bone]
+        nodes = [one for one in nodes if one.kind == "Model"]
+        if not bone_above and any(one.sub_class != "Null" for one in nodes):
             raise FileError("fbx.unsupported", file=graph.file, what=f"a node above the bone {model.name}")
-        parent_of[model.id] = bone_above[0] if bone_above else 0
-    index: dict[int, int] = {0: -1}
+        parent_of[model.id] = (*bone_above, *(one.id for one in nodes), 0)[0]
+    index: dict[int, int] = {top: -1}
     bones: list[Bone] = []
     for model in models:
         chain = [model.id]
-        while parent_of[chain[-1]] and parent_of[chain[-1]] not in index:
+        while parent_of[chain[-1]] in is_bone and parent_of[chain[-1]] not in index:
             chain.append(parent_of[chain[-1]])
             if len(chain) > len(models):
                 raise FileError("fbx.contradiction", file=graph.file, detail=f"{model.name} is its own ancestor")
+        if parent_of[chain[-1]] not in index:
+            continue  # of another figure
         for key in reversed(chain):
             if key not in index:
                 index[key] = len(bones)
                 bones.append(_bone(graph, graph.objects[key], index[parent_of[key]]))
-    del index[0]
+    del index[top]
     return tuple(bones), index
 
 
@@ -123,7 +173,9 @@ def _placement(graph: ObjectGraph, model: FbxObject) -> tuple[Float64Array, Floa
 # ----------------------------------------------------------------------------------------------------------- meshes
 
 
-def _mesh(graph: ObjectGraph, model: FbxObject, bone_of_model: dict[int, int]) -> SkinnedMesh:
+def _mesh(
+    graph: ObjectGraph, model: FbxObject, bone_of_model: dict[int, int], node_from_world: Float64Array
+) -> SkinnedMesh:
     if any(np.concatenate(_placement(graph, model))):
         raise FileError("fbx.unsupported", file=graph.file, what=f"place of the mesh {model.name}")
     shapes = graph.below(model, "Geometry", "Mesh")
@@ -144,7 +196,7 @@ def _mesh(graph: ObjectGraph, model: FbxObject, bone_of_model: dict[int, int]) -
         face_materials=_face_materials(graph, element, len(faces)),
         joint_indices=joint_indices,
         weights=weights,
-        world_from_bone_bind=binds,
+        world_from_bone_bind=node_from_world @ binds,
         morphs=_morphs(graph, shapes[0]),
     )
 
@@ -184,16 +236,17 @@ def _face_materials(graph: ObjectGraph, element: Element, face_count: int) -> np
 
 def _material(material: FbxObject) -> Material:
     properties = {name: numbers(values) for name, values in properties_of(material.element).items()}
-
-    def color(name: str) -> tuple[float, float, float]:
-        values = properties.get(name, [])
-        return (values[0], values[1], values[2]) if len(values) == 3 else (0.0, 0.0, 0.0)
+    red, green, blue = (*properties.get("DiffuseColor", []), 0.0, 0.0, 0.0)[:3]
 
     def number(name: str, otherwise: float) -> float:
         return next(iter(properties.get(name, [])), otherwise)
 
-    surface = Phong(color("DiffuseColor"), color("SpecularColor"), number("Shininess", 20.0), number("Opacity", 1.0))
-    return metallic_roughness(material.name, surface)
+    return Material(
+        material.name,
+        (red, green, blue, number("Opacity", 1.0)),
+        number("ReflectionFactor", 0.0),
+        roughness_of(number("Shininess", 20.0)),
+    )
 
 
 def _skin(
@@ -242,24 +295,38 @@ def _bind_pose(graph: ObjectGraph, bone_of_model: dict[int, int]) -> Float64Arra
     return binds
 
 
+def _channels(graph: ObjectGraph, shape: FbxObject) -> Iterator[FbxObject]:
+    """Channels of the morphs of a mesh's shape."""
+    for deformer in graph.below(shape, "Deformer", "BlendShape"):
+        yield from graph.below(deformer, "Deformer", "BlendShapeChannel")
+
+
 def _morphs(graph: ObjectGraph, shape: FbxObject) -> tuple[MorphTarget, ...]:
     morphs = []
-    for deformer in graph.below(shape, "Deformer", "BlendShape"):
-        for channel in graph.below(deformer, "Deformer", "BlendShapeChannel"):
-            targets = graph.below(channel, "Geometry", "Shape")
-            if len(targets) != 1:
-                raise FileError("fbx.unsupported", file=graph.file, what=f"{len(targets)} shapes in {channel.name}")
-            element = targets[0].element
-            normals = graph.floats(element, "Normals", 3) if element.child("Normals") is not None else None
-            indices = graph.integers(element, "Indexes")
-            morphs.append(MorphTarget(channel.name, indices, graph.floats(element, "Vertices", 3), normals))
+    for channel in _channels(graph, shape):
+        targets = graph.below(channel, "Geometry", "Shape")
+        if len(targets) != 1:
+            raise FileError("fbx.unsupported", file=graph.file, what=f"{len(targets)} shapes in {channel.name}")
+        element = targets[0].element
+        normals = graph.floats(element, "Normals", 3) if element.child("Normals") is not None else None
+        indices = graph.integers(element, "Indexes")
+        morphs.append(MorphTarget(channel.name, indices, graph.floats(element, "Vertices", 3), normals))
     return tuple(morphs)
 
 
 # -------------------------------------------------------------------------------------------------------- animation
 
 
-def _clip(graph: ObjectGraph, root: Element, bones: tuple[Bone, ...], bone_of_model: dict[int, int]) -> Clip | None:
+class _Take(NamedTuple):
+    """The file's one animation: its curves (F, channels) by what they move and which property of it."""
+
+    name: str
+    fps: Fraction
+    frames: int
+    curves: dict[tuple[int, str], Float64Array]
+
+
+def _take(graph: ObjectGraph, root: Element) -> _Take | None:
     stacks = graph.of_kind("AnimationStack", "")
     if not stacks:
         return None
@@ -269,26 +336,39 @@ def _clip(graph: ObjectGraph, root: Element, bones: tuple[Bone, ...], bone_of_mo
     if fps is None:
         raise FileError("fbx.missing", file=graph.file, what="frame rate")
     frames, curves = _curves(graph, stacks[0], fps)
+    for (target, to_property), values in curves.items():
+        moved = graph.objects[target].sub_class if target in graph.objects else ""
+        if _ANIMATED.get(to_property) != (moved, values.shape[1]):
+            raise FileError("fbx.unsupported", file=graph.file, what=f"animation of {to_property}")
+    return _Take(stacks[0].name, fps, frames, curves)
+
+
+def _clip(
+    graph: ObjectGraph,
+    take: _Take,
+    bones: tuple[Bone, ...],
+    bone_of_model: dict[int, int],
+    name_of_channel: dict[int, str],
+) -> Clip:
+    """What a take does with some bones and morphs."""
+    frames = take.frames
     if frames * len(bones) > _MOST_VALUES:
         raise FileError("fbx.unsupported", file=graph.file, what=f"{frames} frames of {len(bones)} bones")
     rotations = np.empty((frames, len(bones), 4))
     rotations[:] = [bone.rotation_xyzw for bone in bones]
     translations: dict[int, Float64Array] = {}
     weights: dict[str, Float64Array] = {}
-    for (target, to_property), values in curves.items():
-        if target in bone_of_model and to_property in ("Lcl Rotation", "Lcl Translation") and values.shape[1] == 3:
-            if to_property == "Lcl Rotation":
-                rotations[:, bone_of_model[target]] = euler.quaternions(values[:, ::-1], EULER_ORDER)
-            else:
-                translations[bone_of_model[target]] = values
-        elif to_property == "DeformPercent" and target in graph.objects and values.shape[1] == 1:
-            name, weight = graph.objects[target].name, values[:, 0] / 100.0
+    for (target, to_property), values in take.curves.items():
+        if target in bone_of_model and to_property == "Lcl Rotation":
+            rotations[:, bone_of_model[target]] = euler.quaternions(values[:, ::-1], EULER_ORDER)
+        elif target in bone_of_model and to_property == "Lcl Translation":
+            translations[bone_of_model[target]] = values
+        elif target in name_of_channel:
+            name, weight = name_of_channel[target], values[:, 0] / 100.0
             if name in weights and not np.array_equal(weights[name], weight):
                 raise FileError("fbx.contradiction", file=graph.file, detail=f"two different curves of {name}")
             weights[name] = weight
-        else:
-            raise FileError("fbx.unsupported", file=graph.file, what=f"animation of {to_property}")
-    return Clip(stacks[0].name, fps, frames, rotations, translations, weights)
+    return Clip(take.name, take.fps, frames, rotations, translations, weights)
 
 
 def _curves(graph: ObjectGraph, stack: FbxObject, fps: Fraction) -> tuple[int, dict[tuple[int, str], Float64Array]]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from fractions import Fraction
 
 import numpy as np
 
 from app.formats.fbx import encode, ticks
 from app.formats.fbx.encode import Element, Property
-from app.formats.scene import Clip
 
 
 def integer(name: str, value: int) -> Element:
@@ -62,7 +62,7 @@ def header(creator: str) -> Element:
     )
 
 
-def global_settings(clip: Clip | None, last_tick: int) -> Element:
+def global_settings(rate: Fraction | None, last_tick: int) -> Element:
     """Axes (Y up, right-handed), unit (centimetres), frame rate and time span."""
     axes = (
         ("UpAxis", 1), ("UpAxisSign", 1), ("FrontAxis", 2), ("FrontAxisSign", 1), ("CoordAxis", 0),
@@ -73,12 +73,12 @@ def global_settings(clip: Clip | None, last_tick: int) -> Element:
         property_row("UnitScaleFactor", "double", "Number", "", 1.0),
         property_row("OriginalUnitScaleFactor", "double", "Number", "", 1.0),
     ]
-    if clip is not None:
+    if rate is not None:
         rows += [
-            property_row("TimeMode", "enum", "", "", np.int32(ticks.time_mode(clip.fps))),
+            property_row("TimeMode", "enum", "", "", np.int32(ticks.time_mode(rate))),
             property_row("TimeSpanStart", "KTime", "Time", "", np.int64(0)),
             property_row("TimeSpanStop", "KTime", "Time", "", np.int64(last_tick)),
-            property_row("CustomFrameRate", "double", "Number", "", float(clip.fps)),
+            property_row("CustomFrameRate", "double", "Number", "", float(rate)),
         ]
     return Element("GlobalSettings", (), (integer("Version", 1000), property_block(*rows)))
 

@@ -1,12 +1,14 @@
-"""Scene -> binary FBX 7.4 file.
+"""Scenes -> binary FBX 7.4 file.
 
 The layout is what the FBX SDK 2019.2, ufbx, Blender, assimp and three.js all read alike: no pivots, no scaling, bones
-as LimbNodes under one root, Euler angles in the default order, a key on every frame.
+as LimbNodes under one root, Euler angles in the default order, a key on every frame. Several scenes share one take; the
+bones and meshes of each are below a Null of its name at its place, which Blender makes the armature.
 """
 
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,9 +17,9 @@ import numpy.typing as npt
 from app.formats.atomic import atomic_write
 from app.formats.euler import euler_degrees
 from app.formats.fbx import encode, ticks
-from app.formats.fbx.encode import Element, PackedArray, Property, encode_elements, pack_array, write_elements
+from app.formats.fbx.encode import Element, PackedArray, Property, element_pieces, pack_array
 from app.formats.fbx.geometry import geometry, morph_geometry, skin_clusters
-from app.formats.fbx.materials import phong
+from app.formats.fbx.materials import PHYSICAL_MATERIAL, SHADING_MODEL, phong
 from app.formats.fbx.sections import (
     definitions,
     documents,
@@ -28,7 +30,7 @@ from app.formats.fbx.sections import (
     property_row,
     takes,
 )
-from app.formats.scene import Bone, Clip, FloatArray, Material, Scene, SkinnedMesh, check_scene
+from app.formats.scene import Bone, Clip, FloatArray, Material, Place, Scene, SkinnedMesh, checked_scenes
 
 # FBX calls this order XYZ: x turns first, so the matrix is Rz Ry Rx.
 EULER_ORDER = "ZYX"
@@ -41,7 +43,7 @@ _KEY_DATA = np.array([0.0, 0.0, 9.419963346924634e-30, 0.0], dtype=np.float32)
 
 
 def write_scene(path: str | os.PathLike[str], scene: Scene) -> None:
-    """Write a scene as a binary FBX file, whole or not at all.
+    """Write a scene as a binary FBX file, whole or not at all; the same scene always gives the same.
 
     Parameters
     ----------
@@ -55,31 +57,35 @@ def write_scene(path: str | os.PathLike[str], scene: Scene) -> None:
     ValueError
         If the scene contradicts itself.
     """
-    elements = scene_elements(scene)
+    write_scenes(path, (scene,))
+
+
+def write_scenes(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
+    """Write scenes into one file as `write_scene`; each is let go when the next is asked for."""
+    pieces = element_pieces(scene_elements(scenes))
     with atomic_write(path) as stream:
-        write_elements(stream, elements)
+        stream.writelines(pieces)
 
 
-def encode_scene(scene: Scene) -> bytes:
-    """Bytes that `write_scene` writes; the same scene always gives the same."""
-    return encode_elements(scene_elements(scene))
-
-
-def scene_elements(scene: Scene) -> tuple[Element, ...]:
+def scene_elements(scenes: Iterable[Scene]) -> tuple[Element, ...]:
     """Top level of the file, in the order that every reader expects."""
-    check_scene(scene)
     graph = _Graph()
-    _add_skeleton_and_meshes(graph, scene)
-    last_tick = 0
-    if scene.clip is not None:
-        last_tick = _add_clip(graph, scene, scene.clip)
-    take = scene.clip.name if scene.clip is not None else ""
+    curves: _Curves | None = None
+    creator, take, rate, last_tick = "", "", None, 0
+    for scene in checked_scenes(scenes):
+        creator = scene.creator
+        figure = _add_figure(graph, scene)
+        if scene.clip is not None:
+            if curves is None:
+                take, rate = scene.clip.name, scene.clip.fps
+                last_tick, curves = _add_take(graph, scene.clip)
+            _add_clip(curves, figure, scene.clip)
     return (
-        header(scene.creator),
+        header(creator),
         Element("FileId", (encode.FILE_ID,)),
         Element("CreationTime", (encode.CREATION_TIME,)),
-        Element("Creator", (scene.creator,)),
-        global_settings(scene.clip, last_tick),
+        Element("Creator", (creator,)),
+        global_settings(rate, last_tick),
         documents(graph.new_id(), take),
         Element("References", (), ()),
         definitions(graph.objects),
@@ -98,8 +104,7 @@ class _Graph:
 
     objects: list[Element] = field(default_factory=list)
     connections: list[Element] = field(default_factory=list)
-    bone_ids: list[int] = field(default_factory=list)
-    channel_ids: dict[str, list[int]] = field(default_factory=dict)
+    materials: dict[Material, int] = field(default_factory=dict)
     last_id: int = _FIRST_ID
 
     def new_id(self) -> int:
@@ -127,27 +132,57 @@ def _vector(name: str, values: FloatArray) -> Element:
 # --------------------------------------------------------------------------------------------- skeleton and meshes
 
 
-def _add_skeleton_and_meshes(graph: _Graph, scene: Scene) -> None:
+@dataclass
+class _Figure:
+    """One scene in the graph.
+
+    Attributes
+    ----------
+    node : int
+        What its root bone and meshes hang from: a node of its own, or the file's root.
+    bone_ids : list of int
+    channel_ids : dict of str to list of int
+        Channels that a morph of that name drives.
+    """
+
+    node: int = 0
+    bone_ids: list[int] = field(default_factory=list)
+    channel_ids: dict[str, list[int]] = field(default_factory=dict)
+
+
+def _add_figure(graph: _Graph, scene: Scene) -> _Figure:
+    figure = _Figure()
+    world_from_node = np.eye(4)
+    if scene.place is not None:
+        figure.node = graph.add("Model", scene.name, "Model", "Null", _placed(scene.place))
+        graph.connect(figure.node, 0)
+        world_from_node = scene.place.matrix
     for bone in scene.bones:
-        _add_bone(graph, bone)
+        _add_bone(graph, figure, bone)
     if scene.meshes:
-        binds = _unconnected_binds(scene)
-        materials: dict[Material, int] = {}
-        mesh_ids = [_add_mesh(graph, mesh, binds, materials) for mesh in scene.meshes]
-        nodes = [_pose_node(graph.bone_ids[index], bind) for index, bind in enumerate(binds)]
-        nodes = [_pose_node(mesh_id, np.eye(4)) for mesh_id in mesh_ids] + nodes
+        binds = world_from_node @ _unconnected_binds(scene)
+        mesh_ids = [_add_mesh(graph, figure, mesh, binds, world_from_node) for mesh in scene.meshes]
+        nodes = [_pose_node(mesh_id, world_from_node) for mesh_id in mesh_ids]
+        nodes += [_pose_node(bone_id, bind) for bone_id, bind in zip(figure.bone_ids, binds, strict=True)]
+        if figure.node:
+            nodes.insert(0, _pose_node(figure.node, world_from_node))
         header = (Element("Type", ("BindPose",)), integer("Version", 100), integer("NbPoseNodes", len(nodes)))
-        graph.add("Pose", "BindPose", "Pose", "BindPose", (*header, *nodes))
+        graph.add("Pose", scene.name if figure.node else "BindPose", "Pose", "BindPose", (*header, *nodes))
+    return figure
 
 
-def _add_bone(graph: _Graph, bone: Bone) -> None:
+def _add_bone(graph: _Graph, figure: _Figure, bone: Bone) -> None:
     flags = (Element("TypeFlags", ("Skeleton",)),)
     attribute = graph.add("NodeAttribute", bone.name, "NodeAttribute", "LimbNode", flags)
-    rotation = euler_degrees(np.asarray(bone.rotation_xyzw)[None, None], EULER_ORDER)[0, ::-1, 0]
-    model = graph.add("Model", bone.name, "Model", "LimbNode", _model(bone.translation_cm, rotation))
-    graph.bone_ids.append(model)
-    graph.connect(model, 0 if bone.parent < 0 else graph.bone_ids[bone.parent])
+    model = graph.add("Model", bone.name, "Model", "LimbNode", _placed(Place(bone.translation_cm, bone.rotation_xyzw)))
+    graph.connect(model, figure.node if bone.parent < 0 else figure.bone_ids[bone.parent])
+    figure.bone_ids.append(model)
     graph.connect(attribute, model)
+
+
+def _placed(place: Place) -> tuple[Element, ...]:
+    rotation = euler_degrees(np.asarray(place.rotation_xyzw)[None, None], EULER_ORDER)[0, ::-1, 0]
+    return _model(place.translation_cm, rotation)
 
 
 def _model(translation_cm: FloatArray, rotation_degrees: FloatArray) -> tuple[Element, ...]:
@@ -182,52 +217,85 @@ def _unconnected_binds(scene: Scene) -> npt.NDArray[np.float64]:
     return binds
 
 
-def _add_mesh(graph: _Graph, mesh: SkinnedMesh, binds: npt.NDArray[np.float64], materials: dict[Material, int]) -> int:
+def _add_mesh(
+    graph: _Graph,
+    figure: _Figure,
+    mesh: SkinnedMesh,
+    binds: npt.NDArray[np.float64],
+    world_from_node: npt.NDArray[np.float64],
+) -> int:
     model = graph.add("Model", mesh.name, "Model", "Mesh", _model(np.zeros(3), np.zeros(3)))
-    graph.connect(model, 0)
+    graph.connect(model, figure.node)
     shape = graph.add("Geometry", mesh.name, "Geometry", "Mesh", geometry(mesh))
     graph.connect(shape, model)
     for material in mesh.materials:
-        if material not in materials:
-            materials[material] = graph.add("Material", material.name, "Material", "", _material(material))
-        graph.connect(materials[material], model)
-    _add_skin(graph, mesh, shape, binds)
+        if material not in graph.materials:
+            graph.materials[material] = graph.add("Material", material.name, "Material", "", _material(material))
+        graph.connect(graph.materials[material], model)
+    _add_skin(graph, figure, mesh, shape, binds, world_from_node)
     if mesh.morphs:
-        _add_morphs(graph, mesh, shape)
+        _add_morphs(graph, figure, mesh, shape)
     return model
 
 
 def _material(surface: Material) -> tuple[Element, ...]:
     material = phong(surface)
+    *rgb, opacity = (float(value) for value in surface.base_color)
+    transparency = 1.0 - opacity
 
-    def color(name: str, rgb: tuple[float, float, float]) -> Element:
-        return property_row(name, "Color", "", "A", *(float(value) for value in rgb))
+    def color(name: str, *values: float) -> Element:
+        return property_row(name, "Color", "", "A", *values)
 
     def number(name: str, value: float) -> Element:
         return property_row(name, "Number", "", "A", float(value))
 
-    transparency = 1.0 - material.opacity
+    def parameter(name: str, value: float) -> Element:
+        return property_row(f"3dsMax|Parameters|{name}", "Float", "", "A", float(value))
+
     return (
         integer("Version", 102),
-        Element("ShadingModel", ("Phong",)),
+        Element("ShadingModel", (SHADING_MODEL,)),
         integer("MultiLayer", 0),
         property_block(
-            color("DiffuseColor", material.diffuse_rgb),
-            number("DiffuseFactor", 1.0),
-            color("EmissiveColor", (0.0, 0.0, 0.0)),
-            color("AmbientColor", (0.0, 0.0, 0.0)),
-            color("SpecularColor", material.specular_rgb),
-            number("SpecularFactor", 1.0),
+            color("DiffuseColor", *material.diffuse_rgb),
+            number("DiffuseFactor", material.diffuse_factor),
+            color("EmissiveColor", 0.0, 0.0, 0.0),
+            color("AmbientColor", 0.0, 0.0, 0.0),
+            color("SpecularColor", *material.specular_rgb),
+            number("SpecularFactor", material.specular_factor),
             number("Shininess", material.shininess),
             number("ShininessExponent", material.shininess),
-            color("TransparentColor", (transparency,) * 3),
+            number("ReflectionFactor", surface.metallic),
+            color("TransparentColor", *[float(transparency > 0.0)] * 3),
             number("TransparencyFactor", transparency),
-            number("Opacity", material.opacity),
+            number("Opacity", opacity),
+            property_row("3dsMax", "Compound", "", ""),
+            *(
+                property_row(f"3dsMax|{name}", "int", "Integer", "", np.int32(value))
+                for name, value in PHYSICAL_MATERIAL.items()
+            ),
+            property_row("3dsMax|Parameters", "Compound", "", ""),
+            parameter("base_weight", 1.0),
+            property_row("3dsMax|Parameters|base_color", "ColorAndAlpha", "", "A", *rgb, 1.0),
+            parameter("metalness", surface.metallic),
+            parameter("roughness", surface.roughness),
+            property_row("3dsMax|Parameters|roughness_inv", "Bool", "", "A", np.int32(0)),
+            parameter("reflectivity", 1.0),
+            property_row("3dsMax|Parameters|refl_color", "ColorAndAlpha", "", "A", 1.0, 1.0, 1.0, 1.0),
+            parameter("trans_ior", 1.5),
+            parameter("cutout", opacity),
         ),
     )
 
 
-def _add_skin(graph: _Graph, mesh: SkinnedMesh, shape: int, binds: npt.NDArray[np.float64]) -> None:
+def _add_skin(
+    graph: _Graph,
+    figure: _Figure,
+    mesh: SkinnedMesh,
+    shape: int,
+    binds: npt.NDArray[np.float64],
+    world_from_node: npt.NDArray[np.float64],
+) -> None:
     skin_children = (integer("Version", 101), Element("Link_DeformAcuracy", (50.0,)))
     skin = graph.add("Deformer", mesh.name, "Deformer", "Skin", skin_children)
     graph.connect(skin, shape)
@@ -238,12 +306,12 @@ def _add_skin(graph: _Graph, mesh: SkinnedMesh, shape: int, binds: npt.NDArray[n
             Element("UserData", ("", "")),
             Element("Indexes", (indices,)),
             Element("Weights", (weights,)),
-            _matrix("Transform", np.linalg.inv(bind)),
+            _matrix("Transform", np.linalg.inv(bind) @ world_from_node),
             _matrix("TransformLink", bind),
         )
         cluster = graph.add("Deformer", mesh.name, "SubDeformer", "Cluster", children)
         graph.connect(cluster, skin)
-        graph.connect(graph.bone_ids[bone], cluster)
+        graph.connect(figure.bone_ids[bone], cluster)
 
 
 def _matrix(name: str, matrix: FloatArray) -> Element:
@@ -255,7 +323,7 @@ def _pose_node(node: int, world_from_node: FloatArray) -> Element:
     return Element("PoseNode", (), (Element("Node", (np.int64(node),)), _matrix("Matrix", world_from_node)))
 
 
-def _add_morphs(graph: _Graph, mesh: SkinnedMesh, shape: int) -> None:
+def _add_morphs(graph: _Graph, figure: _Figure, mesh: SkinnedMesh, shape: int) -> None:
     # Unreal cuts the deformer's name off the front of a channel's name, so it must not be one.
     deformer = graph.add("Deformer", f"{mesh.name}_morphs", "Deformer", "BlendShape", (integer("Version", 100),))
     graph.connect(deformer, shape)
@@ -269,14 +337,14 @@ def _add_morphs(graph: _Graph, mesh: SkinnedMesh, shape: int) -> None:
         target = graph.add("Geometry", morph.name, "Geometry", "Shape", morph_geometry(morph))
         graph.connect(channel, deformer)
         graph.connect(target, channel)
-        graph.channel_ids.setdefault(morph.name, []).append(channel)
+        figure.channel_ids.setdefault(morph.name, []).append(channel)
 
 
 # -------------------------------------------------------------------------------------------------------- animation
 
 
-def _add_clip(graph: _Graph, scene: Scene, clip: Clip) -> int:
-    """Stack, layer and all curves; returns the tick of the last key."""
+def _add_take(graph: _Graph, clip: Clip) -> tuple[int, _Curves]:
+    """Stack and layer; the tick of the last key, and what adds curves to them."""
     key_ticks = ticks.frame_ticks(clip.fps, clip.frames)
     last_tick = int(key_ticks[-1])
     spans = [
@@ -288,18 +356,19 @@ def _add_clip(graph: _Graph, scene: Scene, clip: Clip) -> int:
     stack = graph.add("AnimationStack", clip.name, "AnimStack", "", (property_block(*spans),))
     layer = graph.add("AnimationLayer", "BaseLayer", "AnimLayer", "", ())
     graph.connect(layer, stack)
-    curves = _Curves(graph, layer, pack_array(key_ticks), clip.frames)
+    return last_tick, _Curves(graph, layer, pack_array(key_ticks), clip.frames)
 
+
+def _add_clip(curves: _Curves, figure: _Figure, clip: Clip) -> None:
     rotations = euler_degrees(clip.rotations_xyzw, EULER_ORDER)
-    for bone, model in enumerate(graph.bone_ids):
+    for bone, model in enumerate(figure.bone_ids):
         if bone in clip.translations_cm:
             curves.add(model, "Lcl Translation", "T", "XYZ", np.asarray(clip.translations_cm[bone]).T)
         curves.add(model, "Lcl Rotation", "R", "XYZ", rotations[bone, ::-1])
     for name, weights in clip.morph_weights.items():
         percent = np.asarray(weights, dtype=np.float64)[None] * 100.0
-        for channel in graph.channel_ids.get(name, ()):
+        for channel in figure.channel_ids.get(name, ()):
             curves.add(channel, "DeformPercent", "DeformPercent", ("DeformPercent",), percent)
-    return last_tick
 
 
 class _Curves:

@@ -1,6 +1,7 @@
-"""Scene -> binary glTF 2.0 file (GLB).
+"""Scenes -> binary glTF 2.0 file (GLB).
 
-Metres, Y up, facing +Z; the bones are nodes below one root, the meshes lie beside it and share one skin. A mesh keeps
+Metres, Y up, facing +Z; the bones are nodes below one root, the meshes lie beside it and share one skin. Of several
+scenes each root is below a node of the scene's name at its place. A mesh keeps
 one primitive per material. Influences beyond the fourth are in a second set, the strongest in the first, so that a
 reader that knows only one set shows the nearest skin there is. The clip is one animation with a key on every frame at
 ``n / fps`` seconds; glTF knows times as float32 only, which is within 0.12 ms of the frame after an hour. What glTF has
@@ -25,7 +26,17 @@ from app.errors import FileError
 from app.formats.atomic import atomic_write
 from app.formats.continuous import continuous
 from app.formats.gltf.primitives import Primitive, primitives
-from app.formats.scene import Clip, FloatArray, IntArray, Material, MorphTarget, Scene, SkinnedMesh, check_scene
+from app.formats.scene import (
+    Clip,
+    FloatArray,
+    IntArray,
+    Material,
+    MorphTarget,
+    Place,
+    Scene,
+    SkinnedMesh,
+    checked_scenes,
+)
 from app.formats.skin import influences
 
 METRES = 0.01
@@ -44,7 +55,7 @@ Pieces = list[bytes | memoryview]
 
 
 def write_glb(path: str | os.PathLike[str], scene: Scene) -> None:
-    """Write a scene as a GLB file, whole or not at all.
+    """Write a scene as a GLB file, whole or not at all; the same scene always gives the same.
 
     Parameters
     ----------
@@ -58,21 +69,21 @@ def write_glb(path: str | os.PathLike[str], scene: Scene) -> None:
     ValueError
         If the scene contradicts itself.
     """
-    pieces = _pieces(scene)
+    write_glbs(path, (scene,))
+
+
+def write_glbs(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
+    """Write scenes into one file as `write_glb`; each is let go when the next is asked for."""
+    pieces = glb_pieces(scenes)
     if sum(_size(piece) for piece in pieces) > _MOST_BYTES:
         raise FileError("file.cannot_write", file=os.fspath(path), reason="GLB > 4 GB")
     with atomic_write(path) as stream:
         stream.writelines(pieces)
 
 
-def encode_glb(scene: Scene) -> bytes:
-    """Bytes that `write_glb` writes; the same scene always gives the same."""
-    return b"".join(_pieces(scene))
-
-
-def _pieces(scene: Scene) -> Pieces:
-    check_scene(scene)
-    document = _document(scene)
+def glb_pieces(scenes: Iterable[Scene]) -> Pieces:
+    """The file's bytes, one piece after the other."""
+    document = _document(scenes)
     binary = document.buffer.pieces()
     binary_size = sum(_size(piece) for piece in binary)
     if binary_size:
@@ -102,7 +113,8 @@ class _Buffer:
     _parts: list[list[npt.NDArray[Any]]] = field(default_factory=list)
 
     def add(self, kind: str, values: npt.NDArray[Any], target: int | None, stride: int | None) -> tuple[int, int]:
-        """Index of the view of a kind, and where in it the values are."""
+        """Index of the view of a kind and a stride, and where in it the values are."""
+        kind = f"{kind} {stride}"
         if kind not in self._index:
             self._index[kind] = len(self.views)
             self.views.append(gltf.BufferView(buffer=0, byteLength=0, byteStride=stride, target=target))
@@ -195,37 +207,56 @@ def _listed(values: npt.NDArray[Any]) -> list[float]:
 # ---------------------------------------------------------------------------------------------------------- document
 
 
-def _document(scene: Scene) -> _Document:
-    document = _Document(gltf.GLTF2(asset=gltf.Asset(version="2.0", generator=scene.creator)))
+def _document(scenes: Iterable[Scene]) -> _Document:
+    document = _Document(gltf.GLTF2(asset=gltf.Asset(version="2.0")))
     out = document.gltf
-    for bone in scene.bones:
-        rotation = np.asarray(bone.rotation_xyzw, dtype=np.float64)
-        out.nodes.append(
-            gltf.Node(
-                name=bone.name,
-                translation=_listed(np.asarray(bone.translation_cm) * METRES),
-                rotation=_listed(rotation / np.linalg.norm(rotation)),
-            )
-        )
-        if bone.parent >= 0:
-            out.nodes[bone.parent].children = [*(out.nodes[bone.parent].children or []), len(out.nodes) - 1]
-    roots = [0]
+    roots: list[int] = []
     materials: dict[Material, int] = {}
-    for mesh in scene.meshes:
-        out.meshes.append(_mesh(document, mesh, len(scene.bones), materials))
-        roots.append(len(out.nodes))
-        out.nodes.append(gltf.Node(name=mesh.name, mesh=len(out.meshes) - 1, skin=0))
+    keys: _Keys | None = None
+    for scene in checked_scenes(scenes):
+        out.asset.generator = scene.creator
+        first = _add_figure(document, scene, roots, materials)
+        if scene.clip is not None:
+            keys = _Keys(document, scene.clip) if keys is None else keys
+            keys.add_clip(scene, scene.clip, first)
     out.materials = [_material(material) for material in materials]
-    if scene.meshes:
-        # Programs call the armature so.
-        name = scene.bones[0].name if scene.clip is None else scene.clip.name
-        out.skins.append(_skin(document, scene.meshes[0].world_from_bone_bind, name))
-    if scene.clip is not None:
-        out.animations.append(_animation(document, scene, scene.clip))
     out.scenes.append(gltf.Scene(nodes=roots))
     out.scene = 0
     out.bufferViews = document.buffer.views
     return document
+
+
+def _add_figure(document: _Document, scene: Scene, roots: list[int], materials: dict[Material, int]) -> int:
+    """Add the nodes of a scene: one at its place, bones, meshes, in this order; the number of the first bone."""
+    out = document.gltf
+    roots.append(len(out.nodes))
+    if scene.place is not None:
+        out.nodes.append(_node(scene.name, scene.place))
+        out.nodes[-1].children = [len(out.nodes)]
+    first = len(out.nodes)
+    for bone in scene.bones:
+        out.nodes.append(_node(bone.name, Place(bone.translation_cm, bone.rotation_xyzw)))
+        if bone.parent >= 0:
+            parent = out.nodes[first + bone.parent]
+            parent.children = [*(parent.children or []), len(out.nodes) - 1]
+    for mesh in scene.meshes:
+        out.meshes.append(_mesh(document, mesh, len(scene.bones), materials))
+        # What stands above a skinned mesh does not move it: only the joints do.
+        roots.append(len(out.nodes))
+        out.nodes.append(gltf.Node(name=mesh.name, mesh=len(out.meshes) - 1, skin=len(out.skins)))
+    if scene.meshes:
+        # Programs call the armature as the skin.
+        out.skins.append(_skin(document, scene.meshes[0].world_from_bone_bind, scene.title, first))
+    return first
+
+
+def _node(name: str, place: Place) -> gltf.Node:
+    rotation = np.asarray(place.rotation_xyzw, dtype=np.float64)
+    return gltf.Node(
+        name=name,
+        translation=_listed(np.asarray(place.translation_cm) * METRES),
+        rotation=_listed(rotation / np.linalg.norm(rotation)),
+    )
 
 
 def _material(material: Material) -> gltf.Material:
@@ -243,7 +274,7 @@ def _material(material: Material) -> gltf.Material:
     )
 
 
-def _skin(document: _Document, world_from_bone_bind: FloatArray, name: str) -> gltf.Skin:
+def _skin(document: _Document, world_from_bone_bind: FloatArray, name: str, first: int) -> gltf.Skin:
     binds = np.array(world_from_bone_bind, dtype=np.float64)
     binds[:, :3, 3] *= METRES
     # Stored column by column, and the last row of each must be exact.
@@ -251,7 +282,9 @@ def _skin(document: _Document, world_from_bone_bind: FloatArray, name: str) -> g
     inverse[:, 3] = [0.0, 0.0, 0.0, 1.0]
     columns = inverse.transpose(0, 2, 1).reshape(-1, 16).astype(np.float32)
     accessor = document.accessor("binds", columns)
-    return gltf.Skin(name=name, inverseBindMatrices=accessor, skeleton=0, joints=list(range(len(binds))))
+    return gltf.Skin(
+        name=name, inverseBindMatrices=accessor, skeleton=first, joints=list(range(first, first + len(binds)))
+    )
 
 
 def _mesh(document: _Document, mesh: SkinnedMesh, bone_count: int, materials: dict[Material, int]) -> gltf.Mesh:
@@ -331,31 +364,40 @@ def _targets(
 # --------------------------------------------------------------------------------------------------------- animation
 
 
-def _animation(document: _Document, scene: Scene, clip: Clip) -> gltf.Animation:
-    seconds = (np.arange(clip.frames) * clip.fps.denominator / clip.fps.numerator).astype(np.float32)
-    times = document.accessor("times", seconds, bounds=True)
-    result = gltf.Animation(
-        name=clip.name,
-        samplers=[],
-        channels=[],
-        extras={"frames": clip.frames, "framesPerSecond": f"{clip.fps.numerator}/{clip.fps.denominator}"},
-    )
+class _Keys:
+    """The one animation of a file, to which clips are added."""
 
-    def add(node: int, path: str, values: npt.NDArray[np.float32], flat: bool = False) -> None:
-        output = document.accessor("keys", values, flat=flat)
-        result.samplers.append(gltf.AnimationSampler(input=times, output=output, interpolation=gltf.ANIM_LINEAR))
+    def __init__(self, document: _Document, clip: Clip) -> None:
+        seconds = (np.arange(clip.frames) * clip.fps.denominator / clip.fps.numerator).astype(np.float32)
+        self._document = document
+        self._times = document.accessor("times", seconds, bounds=True)
+        self._animation = gltf.Animation(
+            name=clip.name,
+            samplers=[],
+            channels=[],
+            extras={"frames": clip.frames, "framesPerSecond": f"{clip.fps.numerator}/{clip.fps.denominator}"},
+        )
+        document.gltf.animations.append(self._animation)
+
+    def add_clip(self, scene: Scene, clip: Clip, first: int) -> None:
+        """Add what the bones of a scene, from that node on, and the meshes after them do."""
+        for bone in range(len(scene.bones)):
+            if bone in clip.translations_cm:
+                places = (np.asarray(clip.translations_cm[bone]) * METRES).astype(np.float32)
+                self._add(first + bone, "translation", places)
+            self._add(first + bone, "rotation", continuous(clip.rotations_xyzw[:, bone]))
+        for number, mesh in enumerate(scene.meshes):
+            if any(morph.name in clip.morph_weights for morph in mesh.morphs):
+                weights = _weights(clip, (morph.name for morph in mesh.morphs))
+                self._add(first + len(scene.bones) + number, "weights", weights, flat=True)
+
+    def _add(self, node: int, path: str, values: npt.NDArray[np.float32], flat: bool = False) -> None:
+        output = self._document.accessor("keys", values, flat=flat)
+        self._animation.samplers.append(
+            gltf.AnimationSampler(input=self._times, output=output, interpolation=gltf.ANIM_LINEAR)
+        )
         target = gltf.AnimationChannelTarget(node=node, path=path)
-        result.channels.append(gltf.AnimationChannel(sampler=len(result.samplers) - 1, target=target))
-
-    for bone in range(len(scene.bones)):
-        if bone in clip.translations_cm:
-            add(bone, "translation", (np.asarray(clip.translations_cm[bone]) * METRES).astype(np.float32))
-        add(bone, "rotation", continuous(clip.rotations_xyzw[:, bone]))
-    for number, mesh in enumerate(scene.meshes):
-        if any(morph.name in clip.morph_weights for morph in mesh.morphs):
-            weights = _weights(clip, (morph.name for morph in mesh.morphs))
-            add(len(scene.bones) + number, "weights", weights, flat=True)
-    return result
+        self._animation.channels.append(gltf.AnimationChannel(sampler=len(self._animation.samplers) - 1, target=target))
 
 
 def _weights(clip: Clip, names: Iterable[str]) -> npt.NDArray[np.float32]:

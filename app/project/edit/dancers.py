@@ -23,11 +23,10 @@ from app.encoding import shown
 from app.errors import AppError, Message
 from app.project import limits
 from app.project.casting import DANCER_ROOM_M, ELBOW_M, StagePosition
-from app.project.edit.players import free_name, instrument_of
+from app.project.edit.players import free_name, instrument_of, moved_before, visible_name
 from app.project.footprint import footprint
 from app.project.ids import fresh_dancer_ids
 from app.project.model import DANCER_PARAMETERS, Project
-from app.project.names import clean_name
 from app.project.performers import Dancer
 from app.rig.character_library import bundled_characters
 
@@ -53,7 +52,7 @@ def add_dancer(project: Project, choreography: str | os.PathLike[str], name: str
     [dancer_id] = fresh_dancer_ids(project)
     dancer = Dancer(
         id=dancer_id,
-        name=free_name(_visible(name), project.performer_names()),
+        name=free_name(visible_name(name), project.performer_names()),
         choreography=checked_choreography(choreography),
         character_id=_seldom_seen(project),
         stage=StagePosition(0.0, 0.0, 0.0),
@@ -95,7 +94,7 @@ def duplicate_dancers(project: Project, dancer_ids: Collection[str]) -> tuple[Pr
 def rename_dancer(project: Project, dancer_id: str, name: str) -> Project:
     """Call a dancer something else; a name that another performer carries gets a number. Raises AppError
     ``player.no_name``."""
-    called = free_name(_visible(name), project.performer_names(but=dancer_id))
+    called = free_name(visible_name(name), project.performer_names(but=dancer_id))
     return _changed(project, (dancer_id,), {"name": called})
 
 
@@ -132,10 +131,7 @@ def place_dancers(project: Project, places: Mapping[str, StagePosition]) -> Proj
 
 def move_dancers(project: Project, dancer_ids: Collection[str], before: int) -> Project:
     """Put dancers, in their order, before the one who has the number ``before`` now; no one moves on the stage."""
-    carried = [dancer for dancer in project.dancers if dancer.id in dancer_ids]
-    ahead = [dancer for dancer in project.dancers[:before] if dancer.id not in dancer_ids]
-    behind = [dancer for dancer in project.dancers[before:] if dancer.id not in dancer_ids]
-    return _with_dancers(project, [*ahead, *carried, *behind])
+    return _with_dancers(project, moved_before(project.dancers, dancer_ids, before))
 
 
 def free_places(project: Project, count: int) -> tuple[StagePosition, ...]:
@@ -195,13 +191,6 @@ def _changed(project: Project, dancer_ids: Collection[str], fields: Mapping[str,
             for dancer in project.dancers
         ),
     )
-
-
-def _visible(name: str) -> str:
-    called = clean_name(name)[: limits.MOST_NAME]
-    if not called:
-        raise AppError("player.no_name")
-    return called
 
 
 def checked_choreography(choreography: str | os.PathLike[str]) -> str:

@@ -1,7 +1,7 @@
 """Edits of notes. Ids stay with their notes, so corrections stay where they belong.
 
 A note made here is called ``"n:<number>"``, the next one free: no file's note is called so ("track:number"), and the
-same edits give the same names. Whoever erases a note erases its corrections with it; undo brings both back.
+same edits give the same names. Erasing a note erases its corrections; undo restores both.
 
 Messages
 --------
@@ -347,13 +347,9 @@ def _edited(project: Project, part_ids: Collection[str], edit: Callable[[tuple[N
             if len(notes) != len(part.notes) or any(
                 a is not b and a != b for a, b in zip(notes, part.notes, strict=True)
             ):
-                notes.sort(key=_order)
+                notes.sort(key=lambda note: (note.onset_tick, note.pitch))
                 part = msgspec.structs.replace(part, notes=tuple(notes))
         parts.append(part)
     if all(after is before for after, before in zip(parts, project.score.parts, strict=True)):
         return project
     return with_score(project, msgspec.structs.replace(project.score, parts=tuple(parts)))
-
-
-def _order(note: Note) -> tuple[int, int]:
-    return note.onset_tick, note.pitch

@@ -1,4 +1,4 @@
-"""Edits of players: who is there, what they play, how they move, and where they stand.
+"""Edits of players: adding and removing, their parts, parameters and places.
 
 Messages
 --------
@@ -9,8 +9,9 @@ doubling.posture, doubling.together: see `app.project.doubling`.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Container, Iterable, Mapping, Sequence
 from dataclasses import replace
+from typing import TypeVar
 
 import msgspec
 
@@ -33,11 +34,13 @@ from app.project.footprint import footprint, together
 from app.project.ids import MADE_PART, fresh_note_ids, fresh_part_ids, fresh_player_ids
 from app.project.model import Project, characters_for
 from app.project.names import clean_name
-from app.project.performers import Player
+from app.project.performers import Dancer, Player
 from app.score.choose import require_map
 from app.score.model import Part
 from instrument_maps.library import all_maps, find_map
 from instrument_maps.model import InstrumentMap, Posture
+
+P = TypeVar("P", bound=Player | Dancer)
 
 
 def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap | None = None) -> PlayerParameters:
@@ -82,13 +85,7 @@ def change(project: Project, player_ids: Collection[str], **fields: object) -> P
     """
     if "character_id" in fields:
         player_ids = {*player_ids, *musicians_of(project, player_ids)}
-    result = _with_players(
-        project,
-        (
-            msgspec.structs.replace(player, **fields) if player.id in player_ids else player
-            for player in project.players
-        ),
-    )
+    result = _each(project, player_ids, lambda player: msgspec.structs.replace(player, **fields))
     return _in_one_posture(result, player_ids) if "instrument_id" in fields else result
 
 
@@ -107,43 +104,28 @@ def _in_one_posture(project: Project, player_ids: Collection[str]) -> Project:
 
 def rename(project: Project, player_id: str, name: str) -> Project:
     """Call a player something else; a name that another carries gets a number. Raises AppError ``player.no_name``."""
-    requested = clean_name(name)[: limits.MOST_NAME]
-    if not requested:
-        raise AppError("player.no_name")
-    return change(project, (player_id,), name=free_name(requested, project.performer_names(but=player_id)))
+    return change(project, (player_id,), name=free_name(visible_name(name), project.performer_names(but=player_id)))
 
 
 def set_parameters(project: Project, player_ids: Collection[str], **values: Value) -> Project:
     """Set parameters for several players, and so for their musicians; numbers are held within their
     bounds."""
-    player_ids = musicians_of(project, player_ids)
     held = {name: PARAMETERS[name].held(value) for name, value in values.items()}
-    return _with_players(
-        project,
-        (
-            msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, **held))
-            if player.id in player_ids
-            else player
-            for player in project.players
-        ),
-    )
+    return _each(project, musicians_of(project, player_ids), lambda player: _with_parameters(player, held))
 
 
 def reset_parameters(project: Project, player_ids: Collection[str], names: Collection[str] | None = None) -> Project:
     """Return parameters to what each musician was cast with; all of them where no names are given."""
-    player_ids = musicians_of(project, player_ids)
-    result = []
-    for player in project.players:
-        if player.id in player_ids:
-            cast = cast_parameters(project, player.id, instrument_of(player))
-            possible = postures_of_musician(project, player)
-            if cast.posture not in possible:
-                cast = msgspec.structs.replace(cast, posture=possible[0])
-            requested = cast.__struct_fields__ if names is None else names
-            values = {name: getattr(cast, name) for name in requested}
-            player = msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, **values))
-        result.append(player)
-    return _with_players(project, result)
+
+    def reset(player: Player) -> Player:
+        cast = cast_parameters(project, player.id, instrument_of(player))
+        possible = postures_of_musician(project, player)
+        if cast.posture not in possible:
+            cast = msgspec.structs.replace(cast, posture=possible[0])
+        requested = cast.__struct_fields__ if names is None else names
+        return _with_parameters(player, {name: getattr(cast, name) for name in requested})
+
+    return _each(project, musicians_of(project, player_ids), reset)
 
 
 def randomise(project: Project, player_ids: Collection[str], spread: float) -> Project:
@@ -184,15 +166,7 @@ def parameter_edit(parameter: str, count: int) -> Message:
 def place(project: Project, places: Mapping[str, StagePosition]) -> Project:
     """Put players somewhere on the stage, and with them their musicians."""
     places = {project.musician(player).id: places[player.id] for player in project.players if player.id in places}
-    return _with_players(
-        project,
-        (
-            msgspec.structs.replace(player, stage=places.get(player.id, player.stage))
-            if places.get(player.id, player.stage) != player.stage
-            else player
-            for player in project.players
-        ),
-    )
+    return _each(project, places, lambda player: msgspec.structs.replace(player, stage=places[player.id]))
 
 
 def arc_of(project: Project) -> tuple[StagePosition, ...]:
@@ -352,16 +326,41 @@ def remove_players(project: Project, player_ids: Collection[str]) -> Project:
 def move_players(project: Project, player_ids: Collection[str], before: int) -> Project:
     """Put players, in their order, before the one who has the number ``before`` now; the arc follows the order."""
     on_arc = _on_arc(project)
-    carried = [player for player in project.players if player.id in player_ids]
-    ahead = [player for player in project.players[:before] if player.id not in player_ids]
-    behind = [player for player in project.players[before:] if player.id not in player_ids]
-    result = _with_players(project, [*ahead, *carried, *behind])
+    result = _with_players(project, moved_before(project.players, player_ids, before))
     return arrange(result) if on_arc and result is not project else result
 
 
 def _with_players(project: Project, players: Iterable[Player]) -> Project:
     new = tuple(players)
     return project if new == project.players else replace(project, players=new)
+
+
+def _each(project: Project, player_ids: Container[str], edit: Callable[[Player], Player]) -> Project:
+    """The project with these players; an unchanged player stays the very same object."""
+    edited = {player.id: edit(player) for player in project.players if player.id in player_ids}
+    return _with_players(
+        project,
+        (player if edited.get(player.id, player) == player else edited[player.id] for player in project.players),
+    )
+
+
+def _with_parameters(player: Player, values: Mapping[str, Value]) -> Player:
+    return msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, **values))
+
+
+def moved_before(performers: Sequence[P], ids: Container[str], before: int) -> list[P]:
+    """Performers in another order: those of these ids, in their order, before the one who has a number now."""
+    ahead = [one for one in performers[:before] if one.id not in ids]
+    behind = [one for one in performers[before:] if one.id not in ids]
+    return [*ahead, *(one for one in performers if one.id in ids), *behind]
+
+
+def visible_name(name: str) -> str:
+    """A name that can be given. Raises AppError ``player.no_name``."""
+    requested = clean_name(name)[: limits.MOST_NAME]
+    if not requested:
+        raise AppError("player.no_name")
+    return requested
 
 
 def musicians_of(project: Project, player_ids: Collection[str]) -> frozenset[str]:
@@ -396,13 +395,7 @@ def join(project: Project, player_id: str, musician_id: str) -> Project:
             if seconds > TOGETHER_S:
                 raise AppError("doubling.together", player=player.name, other=other.name, seconds=round(seconds, 1))
     on_arc, ids = _on_arc(project), {player.id for player in coming}
-    result = _with_players(
-        project,
-        (
-            msgspec.structs.replace(player, doubles=musician.id) if player.id in ids else player
-            for player in project.players
-        ),
-    )
+    result = _each(project, ids, lambda player: msgspec.structs.replace(player, doubles=musician.id))
     possible = postures_of_musician(result, result.player(musician.id))
     if musician.parameters.posture not in possible:
         result = set_parameters(result, (musician.id,), posture=possible[0])
@@ -414,11 +407,7 @@ def separate(project: Project, player_ids: Collection[str]) -> Project:
     apart = [player for player in project.players if player.id in player_ids and player.doubles]
     on_arc, order = _on_arc(project), [player.id for player in project.players]
     alone = tuple(
-        msgspec.structs.replace(
-            player,
-            doubles="",
-            parameters=msgspec.structs.replace(player.parameters, seed=player_seed(project.seed, player.id)),
-        )
+        _with_parameters(msgspec.structs.replace(player, doubles=""), {"seed": player_seed(project.seed, player.id)})
         for player in apart
     )
     if not alone:

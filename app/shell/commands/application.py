@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Callable
 
-from app.editor.session import Session
+from app.editor.session import PitchDisplay
 from app.editor.tokens import THEMES
 from app.shell.action import Action
-from app.shell.editor import Editor, EditorAction
+from app.shell.editor import Editor, EditorAction, is_open
 
 
 def preferences(editor: Editor, page: str = "general") -> None:
@@ -31,38 +31,33 @@ def about(editor: Editor) -> None:
     AboutDialog(editor.settings.path, editor.window).open()
 
 
-def theme(name: str, session: Session, on: bool) -> None:
-    """Dress the editor."""
-    session.set_tokens(THEMES[name])
-
-
-def written_pitch(written: bool, session: Session, on: bool) -> None:
-    """Pitches as written, or as they sound."""
-    session.pitch_display.set(written=written)
-
-
-def middle_c(octave: int, session: Session, on: bool) -> None:
-    """The octave that middle C is in."""
-    session.pitch_display.set(middle_c_octave=octave)
-
-
-def syllables(on_syllables: bool, session: Session, on: bool) -> None:
-    """Do re mi, or letters."""
-    session.pitch_display.set(syllables=on_syllables)
-
-
-def _is_open(editor: Editor) -> bool:
-    return editor.files.is_open
-
-
 def _panel(name: str, key: str) -> EditorAction:
     return EditorAction(
         f"panel.{name}",
         lambda editor, shown: editor.window.show_panel(name, shown),
         "view/panels",
         key,
-        enabled=_is_open,
+        enabled=is_open,
         checked=lambda editor: editor.window.is_panel_shown(name),
+    )
+
+
+def _pitch(id: str, choose: Callable[[PitchDisplay], None], chosen: Callable[[PitchDisplay], bool]) -> Action:
+    return Action(
+        id,
+        lambda session, on: choose(session.pitch_display),
+        "view/pitch",
+        checked=lambda session: chosen(session.pitch_display),
+    )
+
+
+def _theme(name: str) -> Action:
+    return Action(
+        f"theme.{name}",
+        lambda session, on: session.set_tokens(THEMES[name]),
+        "view/theme",
+        checked=lambda session: session.tokens.name == name,
+        icon=name,
     )
 
 
@@ -88,7 +83,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         lambda editor, on: editor.window.set_full_screen(on),
         "view",
         "F11",
-        enabled=_is_open,
+        enabled=is_open,
         checked=lambda editor: editor.window.is_full_screen,
         icon="full_screen",
     ),
@@ -99,59 +94,17 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         "application.reset_layout",
         lambda editor: editor.window.reset_layout(),
         "view/panels",
-        enabled=_is_open,
+        enabled=is_open,
         icon="layout",
     ),
-    Action(
-        "pitch.concert",
-        partial(written_pitch, False),
-        "view/pitch",
-        checked=lambda session: not session.pitch_display.written,
-    ),
-    Action(
-        "pitch.written",
-        partial(written_pitch, True),
-        "view/pitch",
-        checked=lambda session: session.pitch_display.written,
-    ),
-    Action(
-        "pitch_octave.c4",
-        partial(middle_c, 4),
-        "view/pitch",
-        checked=lambda session: session.pitch_display.middle_c_octave == 4,
-    ),
-    Action(
-        "pitch_octave.c3",
-        partial(middle_c, 3),
-        "view/pitch",
-        checked=lambda session: session.pitch_display.middle_c_octave == 3,
-    ),
-    Action(
-        "pitch_names.letters",
-        partial(syllables, False),
-        "view/pitch",
-        checked=lambda session: not session.pitch_display.syllables,
-    ),
-    Action(
-        "pitch_names.syllables",
-        partial(syllables, True),
-        "view/pitch",
-        checked=lambda session: session.pitch_display.syllables,
-    ),
-    Action(
-        "theme.dark",
-        partial(theme, "dark"),
-        "view/theme",
-        checked=lambda session: session.tokens.name == "dark",
-        icon="dark",
-    ),
-    Action(
-        "theme.light",
-        partial(theme, "light"),
-        "view/theme",
-        checked=lambda session: session.tokens.name == "light",
-        icon="light",
-    ),
+    _pitch("pitch.concert", lambda named: named.set(written=False), lambda named: not named.written),
+    _pitch("pitch.written", lambda named: named.set(written=True), lambda named: named.written),
+    _pitch("pitch_octave.c4", lambda named: named.set(middle_c_octave=4), lambda named: named.middle_c_octave == 4),
+    _pitch("pitch_octave.c3", lambda named: named.set(middle_c_octave=3), lambda named: named.middle_c_octave == 3),
+    _pitch("pitch_names.letters", lambda named: named.set(syllables=False), lambda named: not named.syllables),
+    _pitch("pitch_names.syllables", lambda named: named.set(syllables=True), lambda named: named.syllables),
+    _theme("dark"),
+    _theme("light"),
     _language("en"),
     _language("ja"),
     EditorAction(

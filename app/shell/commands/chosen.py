@@ -1,10 +1,12 @@
-"""What a command is about: the selection, by player."""
+"""What a command is about, and when it makes sense: the selection, by player, the timeline."""
 
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Callable
 
 from app.editor.session import Session
+from app.editor.timeline_view import TimelineView
 from app.plan.model import PlayerPlan
 from app.project.performers import Player
 from app.score.model import Note
@@ -44,3 +46,44 @@ def events_by_player(session: Session) -> dict[str, list[str]]:
 def plan_of(session: Session, player_id: str) -> PlayerPlan | None:
     """A player's plan, if the plans are made already."""
     return session.performance.plans.get(player_id) if session.performance.planned else None
+
+
+def selected_ticks(session: Session) -> tuple[int, int] | None:
+    """The selected range, else what the selected notes take."""
+    selection = session.selection
+    if selection.span is not None:
+        return selection.span
+    notes = [note for part in session.project.score.parts for note in part.notes if note.id in selection.notes]
+    if not notes:
+        return None
+    return min(note.onset_tick for note in notes), max(note.end_tick for note in notes)
+
+
+def has_notes(session: Session) -> bool:
+    """Whether notes are selected."""
+    return bool(session.selection.notes)
+
+
+def has_something(session: Session) -> bool:
+    """Whether notes or events are selected."""
+    return bool(session.selection.notes or session.selection.events)
+
+
+def has_player(session: Session) -> bool:
+    """Whether a player is in front."""
+    return session.player is not None
+
+
+def has_everyone(session: Session) -> bool:
+    """Whether the piece has players."""
+    return bool(session.project.players)
+
+
+def on_timeline(run: Callable[[TimelineView], None]) -> Callable[..., None]:
+    """A command that the timeline carries out, where one is shown."""
+
+    def asked(session: Session, on: bool = True) -> None:
+        if session.timeline_view is not None:
+            run(session.timeline_view)
+
+    return asked

@@ -20,16 +20,6 @@ def add(session: Session) -> None:
     newcomers.add_dancer(session, bundled_choreographies()[0], tr("action.dancer"))
 
 
-def duplicate(session: Session) -> None:
-    """Let another one dance the same as the selected dancer."""
-    newcomers.duplicate_dancer(session)
-
-
-def remove(session: Session) -> None:
-    """Send the selected dancer away."""
-    newcomers.remove_dancer(session)
-
-
 def show_choreography(editor: Editor) -> None:
     """See what the choreography of the selected dancer has learned; once."""
     from widgets.dialogs.choreography import ChoreographyDialog
@@ -88,7 +78,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "dancers.duplicate",
-        duplicate,
+        newcomers.duplicate_dancer,
         "edit/players",
         "Ctrl+D",
         "dancers",
@@ -97,7 +87,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "dancers.remove",
-        remove,
+        newcomers.remove_dancer,
         "edit/players",
         "Del",
         "dancers",

@@ -7,16 +7,6 @@ from app.errors import Message
 from app.shell.action import Action
 
 
-def undo(session: Session) -> None:
-    """Take the last step back."""
-    session.document.undo()
-
-
-def redo(session: Session) -> None:
-    """Make the step again that was taken back last."""
-    session.document.redo()
-
-
 def _last_done(session: Session) -> Message | None:
     done = session.document.done
     return done[-1].name if done else None
@@ -30,7 +20,7 @@ def _last_undone(session: Session) -> Message | None:
 ACTIONS: tuple[Action, ...] = (
     Action(
         "edit.undo",
-        undo,
+        lambda session: session.document.undo(),
         "edit",
         "Ctrl+Z",
         enabled=lambda session: bool(session.document.done),
@@ -39,7 +29,7 @@ ACTIONS: tuple[Action, ...] = (
     ),
     Action(
         "edit.redo",
-        redo,
+        lambda session: session.document.redo(),
         "edit",
         "Ctrl+Shift+Z;Ctrl+Y",
         enabled=lambda session: bool(session.document.undone),

@@ -30,7 +30,8 @@ from app.project.edit.events import (
 from app.project.edit.notes import erase
 from app.project.model import Project
 from app.shell.action import Action
-from app.shell.commands.chosen import events_by_player, notes_by_player, plan_of
+from app.shell.commands.chosen import events_by_player, has_player, has_something, notes_by_player, plan_of
+from widgets.common.controls import named
 from widgets.common.event_names import expression_name
 from widgets.common.plain import verbatim
 
@@ -84,35 +85,24 @@ def _add(session: Session, name: Message, edits: Iterable[tuple[str, Callable[[P
         session.select(Selection(events=frozenset(keys)))
 
 
-def _has_player(session: Session) -> bool:
-    return session.player is not None
-
-
 # Adding
 
 
 def breathe(session: Session) -> None:
     """Add a breath before the selected notes, or before the next note from the playhead on."""
-    _add(
-        session,
-        Message("edit.add_breath"),
-        [
-            (plan.player_id, lambda project, plan=plan, tick=tick: add_breath(project, plan, tick))  # type: ignore[misc]
-            for plan, tick in _places(session)
-        ],
-    )
+    _add_at(session, Message("edit.add_breath"), add_breath)
 
 
 def cue(session: Session) -> None:
     """Let the player give a cue to the selected entry, or to the next one from the playhead on."""
-    _add(
-        session,
-        Message("edit.add_cue"),
-        [
-            (plan.player_id, lambda project, plan=plan, tick=tick: add_cue(project, plan, tick))  # type: ignore[misc]
-            for plan, tick in _places(session)
-        ],
-    )
+    _add_at(session, Message("edit.add_cue"), add_cue)
+
+
+def _add_at(session: Session, name: Message, edit: Callable[[Project, PlayerPlan, int], Edited]) -> None:
+    def at(plan: PlayerPlan, tick: int) -> Callable[[Project], Edited]:
+        return lambda project: edit(project, plan, tick)
+
+    _add(session, name, [(plan.player_id, at(plan, tick)) for plan, tick in _places(session)])
 
 
 def gesture(session: Session, kind: GestureKind) -> None:
@@ -162,17 +152,12 @@ def _menu() -> QMenu:
     """A menu of the editor's window; it goes when it closes."""
     windows = (window for window in QApplication.topLevelWidgets() if isinstance(window, QMainWindow))
     # Not of the palette, which may be what asks: it is about to close.
-    menu = QMenu(next(windows, QApplication.activeWindow()))
-    menu.setObjectName("choice")
+    menu = named(QMenu(next(windows, QApplication.activeWindow())), "choice")
     menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     return menu
 
 
 # Taking away
-
-
-def _has_selection(session: Session) -> bool:
-    return bool(session.selection.notes or session.selection.events)
 
 
 def delete(session: Session) -> None:
@@ -281,7 +266,7 @@ def _kind(kind: GestureKind) -> Action:
         f"gesture.{kind}",
         lambda session: gesture(session, kind),
         "edit/breaths_and_acting/add_gesture",
-        enabled=_has_player,
+        enabled=has_player,
     )
 
 
@@ -292,7 +277,7 @@ ACTIONS: tuple[Action, ...] = (
         "edit",
         "Delete",
         "timeline",
-        _has_selection,
+        has_something,
         icon="delete",
     ),
     Action(
@@ -316,7 +301,7 @@ ACTIONS: tuple[Action, ...] = (
         "edit/breaths_and_acting",
         "B",
         "timeline",
-        _has_player,
+        has_player,
         icon="breath",
     ),
     Action(
@@ -333,7 +318,7 @@ ACTIONS: tuple[Action, ...] = (
         "edit/breaths_and_acting",
         "C",
         "timeline",
-        _has_player,
+        has_player,
         icon="cue",
     ),
     Action(
@@ -342,7 +327,7 @@ ACTIONS: tuple[Action, ...] = (
         "edit/breaths_and_acting",
         "G",
         "timeline",
-        _has_player,
+        has_player,
         icon="gesture",
     ),
     Action(
@@ -351,7 +336,7 @@ ACTIONS: tuple[Action, ...] = (
         "edit/breaths_and_acting",
         "X",
         "timeline",
-        _has_player,
+        has_player,
         icon="expression",
     ),
     _kind("sway"),

@@ -19,7 +19,7 @@ from app.project.model import Project, map_choices
 from app.project.performers import Player
 from app.project.reimport import Reimport, reimport
 from app.score.read import read_midi
-from app.shell.editor import Editor, EditorAction
+from app.shell.editor import Editor, EditorAction, is_open
 from app.version import program_version
 from instrument_maps.library import all_maps
 from widgets.common.text import message_text, note_text
@@ -155,7 +155,7 @@ def playblast(editor: Editor) -> None:
 
     dialog = PlayblastDialog(
         session,
-        editor.window.viewport.render_image,
+        editor.window.viewport.film,
         lambda start_s, end_s, rate: mixdown(project, start_s, end_s, rate),
         path,
         editor.window,
@@ -171,23 +171,19 @@ def _can_film(editor: Editor) -> bool:
     return _can_export(editor) and editor.window.viewport.has_gl
 
 
-def _is_open(editor: Editor) -> bool:
-    return editor.files.is_open
-
-
 ACTIONS: tuple[EditorAction, ...] = (
     EditorAction(
         "file.reimport",
         read_again,
         "file",
         "Ctrl+Shift+I",
-        enabled=_is_open,
+        enabled=is_open,
     ),
     EditorAction(
         "file.reimport_other",
         read_another,
         "file",
-        enabled=_is_open,
+        enabled=is_open,
     ),
     EditorAction(
         "file.export_midi",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.editor.files import AUDIO_SUFFIXES, MIDI_SUFFIXES
 from app.editor.translated import tr
 from app.project.storage import SUFFIX
-from app.shell.editor import Editor, EditorAction
+from app.shell.editor import Editor, EditorAction, is_open
 
 
 def open_file(editor: Editor) -> None:
@@ -42,10 +42,6 @@ def piece_settings(editor: Editor) -> None:
     PieceSettingsDialog(editor.session, editor.window).open()
 
 
-def _is_open(editor: Editor) -> bool:
-    return editor.files.is_open
-
-
 def _can_save(editor: Editor) -> bool:
     files = editor.files
     return files.is_open and (files.path is None or not editor.session.document.is_saved)
@@ -61,10 +57,10 @@ ACTIONS: tuple[EditorAction, ...] = (
     EditorAction("file.open_example", lambda editor: editor.files.open_example(), "file"),
     EditorAction("file.open_danced_example", lambda editor: editor.files.open_danced_example(), "file"),
     EditorAction("file.save", lambda editor: editor.files.save(), "file", "Ctrl+S", enabled=_can_save, icon="save"),
-    EditorAction("file.save_as", lambda editor: editor.files.save_as(), "file", "Ctrl+Shift+S", enabled=_is_open),
+    EditorAction("file.save_as", lambda editor: editor.files.save_as(), "file", "Ctrl+Shift+S", enabled=is_open),
     EditorAction("file.import_midi", import_midi, "file", icon="import"),
-    EditorAction("file.add_audio", add_audio, "file", enabled=_is_open, icon="waveform"),
-    EditorAction("file.piece_settings", piece_settings, "file", "Alt+Return", enabled=_is_open, icon="piece"),
-    EditorAction("file.close", lambda editor: editor.files.close(), "file", "Ctrl+W", enabled=_is_open),
+    EditorAction("file.add_audio", add_audio, "file", enabled=is_open, icon="waveform"),
+    EditorAction("file.piece_settings", piece_settings, "file", "Alt+Return", enabled=is_open, icon="piece"),
+    EditorAction("file.close", lambda editor: editor.files.close(), "file", "Ctrl+W", enabled=is_open),
     EditorAction("file.quit", lambda editor: editor.window.close(), "file", "Ctrl+Q"),
 )

@@ -12,7 +12,7 @@ from app.project.model import Project
 from app.project.performers import Player
 from app.score.model import Note
 from app.shell.action import Action
-from app.shell.commands.chosen import notes_by_player, plan_of
+from app.shell.commands.chosen import has_notes, notes_by_player, plan_of
 from instrument_maps.model import Fingering
 
 TYPED_TOGETHER_S = 0.6
@@ -118,10 +118,6 @@ def cycle_fingering(session: Session) -> None:
         _pin(session, pins)
 
 
-def _has_notes(session: Session) -> bool:
-    return bool(session.selection.notes)
-
-
 def _sign(sign: str) -> Action:
     return Action(
         f"fingering.type_{sign.lower()}",
@@ -129,7 +125,7 @@ def _sign(sign: str) -> Action:
         "edit/fingering",
         sign,
         "timeline",
-        _has_notes,
+        has_notes,
     )
 
 
@@ -140,7 +136,7 @@ ACTIONS: tuple[Action, ...] = (
         "edit/fingering",
         "F",
         "timeline",
-        _has_notes,
+        has_notes,
         icon="fingering",
     ),
     _sign("0"),

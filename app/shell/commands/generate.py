@@ -6,6 +6,7 @@ from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import generation
 from app.shell.action import Action
+from app.shell.commands.chosen import has_everyone, selected_ticks
 
 LOST = "correction.orphaned"
 
@@ -26,7 +27,7 @@ def vary_players(session: Session) -> None:
 
 def vary_bars(session: Session) -> None:
     """Let the selected players perform the selected bars anew; what was corrected by hand stays."""
-    chosen, span = session.players, _span(session)
+    chosen, span = session.players, selected_ticks(session)
     if span is None:
         return
     if session.attempt(
@@ -37,22 +38,11 @@ def vary_bars(session: Session) -> None:
 
 def unvary_bars(session: Session) -> None:
     """Let the selected players perform the selected bars as at first."""
-    chosen, span = session.players, _span(session)
+    chosen, span = session.players, selected_ticks(session)
     if span is not None:
         session.attempt(
             Message("edit.unvary_span"), lambda project: generation.unvary_span(project, chosen, span[0], span[1])
         )
-
-
-def _span(session: Session) -> tuple[int, int] | None:
-    """The selected ticks, or those that the selected notes take."""
-    selection = session.selection
-    if selection.span is not None:
-        return selection.span
-    notes = [note for part in session.project.score.parts for note in part.notes if note.id in selection.notes]
-    if not notes:
-        return None
-    return min(note.onset_tick for note in notes), max(note.end_tick for note in notes)
 
 
 def _report(session: Session, player_ids: tuple[str, ...]) -> None:
@@ -81,10 +71,6 @@ def _report(session: Session, player_ids: tuple[str, ...]) -> None:
         say()
 
 
-def _has_everyone(session: Session) -> bool:
-    return bool(session.project.players)
-
-
 def _has_players(session: Session) -> bool:
     return bool(session.players)
 
@@ -97,7 +83,7 @@ def _has_varied_bars(session: Session) -> bool:
     # Whose notes are selected is asked last: it means a look at every note of the score.
     if not _has_bars(session) or not any(generation.variations(session.project, own) for own in session.players):
         return False
-    span = _span(session)
+    span = selected_ticks(session)
     return span is not None and any(
         generation.variations(session.project, player_id, span[0], span[1]) for player_id in session.players
     )
@@ -109,7 +95,7 @@ ACTIONS: tuple[Action, ...] = (
         vary_everyone,
         "generate",
         "Ctrl+Alt+G",
-        enabled=_has_everyone,
+        enabled=has_everyone,
     ),
     Action(
         "generate.players",

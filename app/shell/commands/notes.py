@@ -17,6 +17,7 @@ from app.project.edit import events as event_edits
 from app.project.edit import notes
 from app.project.model import Project
 from app.shell.action import Action
+from app.shell.commands.chosen import has_notes, has_player, has_something, on_timeline
 
 MIME_TYPE = "application/x-suisou-notes+json"
 VELOCITY_STEP = 8
@@ -24,18 +25,6 @@ VELOCITY_STEP = 8
 
 def _name(id: str, note_ids: frozenset[str]) -> Message:
     return Message(id, {"count": len(note_ids)})
-
-
-def _has_notes(session: Session) -> bool:
-    return bool(session.selection.notes)
-
-
-def _has_something(session: Session) -> bool:
-    return bool(session.selection.notes or session.selection.events)
-
-
-def _has_player(session: Session) -> bool:
-    return session.player is not None
 
 
 # Selecting
@@ -242,12 +231,6 @@ def change_velocity(session: Session, by: int) -> None:
     _edit(session, "edit.change_velocity", lambda project, ids: notes.change_velocity(project, ids, by))
 
 
-def quantise(session: Session) -> None:
-    """Draw the selected notes to a grid: the timeline asks how."""
-    if session.timeline_view is not None:
-        session.timeline_view.ask_quantise()
-
-
 # The clipboard
 
 
@@ -302,24 +285,14 @@ def _playhead_tick(session: Session) -> int:
     return snapped if near_s < 0.5 / float(session.project.fps) else round(tick)
 
 
-def set_tool(session: Session, tool: Tool, on: bool) -> None:
-    """What the left button does to notes."""
-    if session.timeline_view is not None:
-        session.timeline_view.set_tool(tool)
-
-
-def _has_tool(session: Session, tool: Tool) -> bool:
-    return session.timeline_view is not None and session.timeline_view.tool is tool
-
-
 def _tool(tool: Tool, key: str, icon: str) -> Action:
     return Action(
         f"notes.tool_{tool.value}",
-        lambda session, on: set_tool(session, tool, on),
+        on_timeline(lambda view: view.set_tool(tool)),
         "edit/tool",
         key,
         "timeline",
-        checked=lambda session: _has_tool(session, tool),
+        checked=lambda session: session.timeline_view is not None and session.timeline_view.tool is tool,
         icon=icon,
     )
 
@@ -330,7 +303,7 @@ def _row(
     keys: str = "",
     icon: str = "",
     menu: str = "edit/notes",
-    enabled: Callable[[Session], bool] = _has_notes,
+    enabled: Callable[[Session], bool] = has_notes,
 ) -> Action:
     return Action(id, run, menu, keys, "timeline", enabled=enabled, icon=icon)
 
@@ -338,7 +311,7 @@ def _row(
 ACTIONS: tuple[Action, ...] = (
     _row("notes.cut", cut, "Ctrl+X", "cut", "edit"),
     _row("notes.copy", copy, "Ctrl+C", "copy", "edit"),
-    _row("notes.paste", paste, "Ctrl+V", "paste", "edit", _has_player),
+    _row("notes.paste", paste, "Ctrl+V", "paste", "edit", has_player),
     _row("notes.duplicate", duplicate, "Ctrl+D", "duplicate", "edit"),
     _row(
         "notes.select_all",
@@ -346,7 +319,7 @@ ACTIONS: tuple[Action, ...] = (
         "Ctrl+A",
         "",
         "edit/select",
-        _has_player,
+        has_player,
     ),
     _row(
         "notes.select_none",
@@ -369,7 +342,7 @@ ACTIONS: tuple[Action, ...] = (
         "Alt+B",
         "",
         "edit/select",
-        _has_player,
+        has_player,
     ),
     _row(
         "notes.select_span",
@@ -383,9 +356,9 @@ ACTIONS: tuple[Action, ...] = (
     _tool(Tool.DRAW, "D", "pencil"),
     _tool(Tool.ERASE, "E", "eraser"),
     _tool(Tool.SPLIT, "S", "split"),
-    _row("notes.split", split, "Shift+S", "split", enabled=_has_player),
+    _row("notes.split", split, "Shift+S", "split", enabled=has_player),
     _row("notes.join", join, "J", "join"),
-    _row("notes.quantise", quantise, "Q", "quantise"),
+    _row("notes.quantise", on_timeline(lambda view: view.ask_quantise()), "Q", "quantise"),
     _row("notes.up", partial(transpose, by_pitch=1), "Up", "transpose"),
     _row("notes.down", partial(transpose, by_pitch=-1), "Down"),
     _row("notes.octave_up", partial(transpose, by_pitch=12), "Shift+Up"),
@@ -394,25 +367,25 @@ ACTIONS: tuple[Action, ...] = (
         "notes.earlier",
         partial(nudge, steps=-1),
         "Left",
-        enabled=_has_something,
+        enabled=has_something,
     ),
     _row(
         "notes.later",
         partial(nudge, steps=1),
         "Right",
-        enabled=_has_something,
+        enabled=has_something,
     ),
     _row(
         "notes.frame_earlier",
         partial(nudge_frames, frames=-1),
         "Ctrl+Left",
-        enabled=_has_something,
+        enabled=has_something,
     ),
     _row(
         "notes.frame_later",
         partial(nudge_frames, frames=1),
         "Ctrl+Right",
-        enabled=_has_something,
+        enabled=has_something,
     ),
     _row("notes.louder", partial(change_velocity, by=VELOCITY_STEP), "+;="),
     _row("notes.softer", partial(change_velocity, by=-VELOCITY_STEP), "-"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import partial
 from math import ceil, floor
 from typing import TYPE_CHECKING
 
@@ -10,6 +10,7 @@ from app.editor.session import Session
 from app.errors import Message
 from app.project.edit.piece import set_audio
 from app.shell.action import Action
+from app.shell.commands.chosen import selected_ticks
 from app.shell.editor import Editor, EditorAction
 
 if TYPE_CHECKING:
@@ -72,28 +73,22 @@ def toggle_loop(session: Session, on: bool = True) -> None:
     session.set_loop(span)
 
 
-def frame_back(session: Session) -> None:
-    """Go to the frame before."""
-    _go_frames(session, -1)
+def step_frames(session: Session, count: int) -> None:
+    """Go by a frame, to the frame's own moment: from between two frames to the nearer one in that direction."""
+    fps = float(session.project.fps)
+    frame = session.playhead_s * fps
+    near = round(frame)
+    if abs(frame - near) < _NEAR_S * fps:
+        frame = near
+    target = floor(frame) + count if count > 0 else ceil(frame) + count
+    _go(session, target / fps)
 
 
-def frame_on(session: Session) -> None:
-    """Go to the next frame."""
-    _go_frames(session, 1)
-
-
-def note_back(session: Session) -> None:
-    """Go to where the note before begins, of the player in front."""
-    onsets = [onset_s for onset_s in _onsets_s(session) if onset_s < session.playhead_s - _NEAR_S]
-    if onsets:
-        _go(session, onsets[-1])
-
-
-def note_on(session: Session) -> None:
-    """Go to where the next note begins, of the player in front."""
-    onsets = [onset_s for onset_s in _onsets_s(session) if onset_s > session.playhead_s + _NEAR_S]
-    if onsets:
-        _go(session, onsets[0])
+def step_notes(session: Session, by: int) -> None:
+    """Go to where the next note (1) or the one before (-1) begins, of the player in front."""
+    beyond = [by * at_s for at_s in _onsets_s(session) if by * (at_s - session.playhead_s) > _NEAR_S]
+    if beyond:
+        _go(session, by * min(beyond))
 
 
 def bar_back(session: Session) -> None:
@@ -108,45 +103,24 @@ def bar_on(session: Session) -> None:
     _go(session, _bar_s(session, _bar(session) + 1))
 
 
-def set_click(session: Session, on: bool) -> None:
-    """Hear the beats, or not."""
-    session.listening.set(click=on)
-
-
-def set_scrub(session: Session, on: bool) -> None:
-    """Hear the moment that the playhead is moved to, or not."""
-    session.listening.set(scrub_sound=on)
-
-
-def set_follow(session: Session, on: bool) -> None:
-    """Let the timeline follow the playhead, or not."""
-    session.set_follow(on)
-
-
 def remove_recording(session: Session) -> None:
     """Let the synthesiser play instead of the recording."""
     session.attempt(Message("edit.remove_audio"), lambda project: set_audio(project, None))
 
 
 def _speed(percent: int) -> Action:
-    def run(session: Session, on: bool = True) -> None:
-        session.listening.set(speed=percent / 100)
-
     return Action(
         f"play.speed_{percent}",
-        run,
+        lambda session, on: session.listening.set(speed=percent / 100),
         "play/speed",
         checked=lambda session: round(100 * session.listening.speed) == percent,
     )
 
 
 def _source(source: Source) -> Action:
-    def run(session: Session, on: bool = True) -> None:
-        session.listening.set(source=source)
-
     return Action(
         f"play.source_{source}",
-        run,
+        lambda session, on: session.listening.set(source=source),
         "play/sound",
         enabled=_has_recording,
         checked=lambda session: _has_recording(session) and session.listening.source == source,
@@ -176,17 +150,6 @@ def _go(session: Session, time_s: float) -> None:
     session.reveal(time_s)
 
 
-def _go_frames(session: Session, count: int) -> None:
-    """To the frame's own moment: from between two frames to the nearer one in that direction."""
-    fps = float(session.project.fps)
-    frame = session.playhead_s * fps
-    near = round(frame)
-    if abs(frame - near) < _NEAR_S * fps:
-        frame = near
-    target = floor(frame) + count if count > 0 else ceil(frame) + count
-    _go(session, target / fps)
-
-
 def _bar(session: Session) -> int:
     score = session.project.score
     # A moment that was reached by its bar line is in that bar, however it was rounded.
@@ -198,27 +161,17 @@ def _bar_s(session: Session, bar: int) -> float:
     return score.tempo_map.seconds(float(score.metre_map.tick_of_bar(bar)))
 
 
-def _onsets_s(session: Session) -> list[float]:
-    player = session.player
+def _onsets_s(session: Session) -> set[float]:
+    player, tempo_map = session.player, session.project.score.tempo_map
     if player is None:
-        return []
-    seconds: Callable[[float], float] = session.project.score.tempo_map.seconds
-    return sorted({seconds(float(note.onset_tick)) for note in session.project.part(player).notes})
+        return set()
+    return {tempo_map.seconds(float(note.onset_tick)) for note in session.project.part(player).notes}
 
 
 def _selected_s(session: Session) -> tuple[float, float] | None:
     """From the first to the last of what is selected."""
-    selection, project = session.selection, session.project
-    seconds = project.score.tempo_map.seconds
-    if selection.span is not None:
-        return seconds(float(selection.span[0])), seconds(float(selection.span[1]))
-    notes = [note for part in project.score.parts for note in part.notes if note.id in selection.notes]
-    if not notes:
-        return None
-    return (
-        seconds(float(min(note.onset_tick for note in notes))),
-        seconds(float(max(note.end_tick for note in notes))),
-    )
+    ticks, tempo_map = selected_ticks(session), session.project.score.tempo_map
+    return (tempo_map.seconds(float(ticks[0])), tempo_map.seconds(float(ticks[1]))) if ticks is not None else None
 
 
 ACTIONS: tuple[Action | EditorAction, ...] = (
@@ -251,15 +204,15 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     Action("play.to_end", to_end, "play/go", "End", icon="to_end"),
     Action(
         "play.frame_back",
-        frame_back,
+        partial(step_frames, count=-1),
         "play/go",
         ",",
         icon="previous_frame",
     ),
-    Action("play.frame_on", frame_on, "play/go", ".", icon="next_frame"),
+    Action("play.frame_on", partial(step_frames, count=1), "play/go", ".", icon="next_frame"),
     Action(
         "play.note_back",
-        note_back,
+        partial(step_notes, by=-1),
         "play/go",
         "Alt+,",
         enabled=_has_notes,
@@ -267,7 +220,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "play.note_on",
-        note_on,
+        partial(step_notes, by=1),
         "play/go",
         "Alt+.",
         enabled=_has_notes,
@@ -281,7 +234,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     _source("both"),
     Action(
         "play.click",
-        set_click,
+        lambda session, on: session.listening.set(click=on),
         "play",
         "Shift+C",
         checked=lambda session: session.listening.click,
@@ -289,14 +242,14 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "play.scrub",
-        set_scrub,
+        lambda session, on: session.listening.set(scrub_sound=on),
         "play",
         checked=lambda session: session.listening.scrub_sound,
         icon="sound",
     ),
     Action(
         "play.follow",
-        set_follow,
+        lambda session, on: session.set_follow(on),
         "play",
         checked=lambda session: session.follow,
         icon="follow",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import players as edit
@@ -9,7 +11,7 @@ from app.project.model import Project
 from app.project.performers import Player
 from app.shell.action import Action
 from app.shell.editor import EditorAction
-from instrument_maps.library import all_maps
+from instrument_maps.library import library
 from widgets.players import newcomers
 
 
@@ -24,14 +26,11 @@ def _count(id: str, players: int) -> Message:
 def add(session: Session) -> None:
     """Add a player with the instrument of the active player; in an empty project with the first instrument."""
     front = session.player
-    known = all_maps()
-    instrument_id = front.instrument_id if front is not None and front.instrument_id in known else next(iter(known))
+    known = library()
+    instrument_id = (
+        front.instrument_id if front is not None and front.instrument_id in known.maps else known.in_score_order[0].id
+    )
     newcomers.add_player(session, instrument_id)
-
-
-def duplicate(session: Session) -> None:
-    """Double the selected players."""
-    newcomers.duplicate_players(session)
 
 
 def remove(session: Session) -> None:
@@ -75,7 +74,7 @@ def _change(session: Session, field: str, on: bool, name: str) -> None:
     session.attempt(_count(name, len(chosen)), lambda project: edit.change(project, chosen, **{field: on}))
 
 
-def hear_everyone(session: Session) -> None:
+def clear_mute_and_solo(session: Session) -> None:
     """End every mute and solo."""
     everyone = [player.id for player in session.project.players]
     session.attempt(
@@ -84,17 +83,8 @@ def hear_everyone(session: Session) -> None:
     )
 
 
-def next_player(session: Session) -> None:
-    """Put the next player in front."""
-    _step(session, 1)
-
-
-def previous_player(session: Session) -> None:
-    """Put the player before in front."""
-    _step(session, -1)
-
-
-def _step(session: Session, by: int) -> None:
+def step(session: Session, by: int) -> None:
+    """Put the next player (1) or the one before (-1) in front."""
     players = session.project.players
     if session.player is None:
         return
@@ -130,7 +120,7 @@ def arrange(session: Session) -> None:
 
 
 def select_all(session: Session) -> None:
-    """Select every player; who is in front stays there."""
+    """Select every player; the active one stays active."""
     others = tuple(player.id for player in session.project.players if player.id not in session.players[:1])
     session.set_players((*session.players[:1], *others))
 
@@ -188,7 +178,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "players.duplicate",
-        duplicate,
+        newcomers.duplicate_players,
         "edit/players",
         "Ctrl+D",
         "players",
@@ -238,21 +228,21 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "players.hear_everyone",
-        hear_everyone,
+        clear_mute_and_solo,
         "edit/players",
         enabled=_is_quiet,
         icon="sound",
     ),
     Action(
         "players.next",
-        next_player,
+        partial(step, by=1),
         "edit/players",
         "Ctrl+PgDown",
         enabled=_has_several,
     ),
     Action(
         "players.previous",
-        previous_player,
+        partial(step, by=-1),
         "edit/players",
         "Ctrl+PgUp",
         enabled=_has_several,

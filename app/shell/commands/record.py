@@ -6,6 +6,7 @@ from math import ceil, floor
 
 from app.editor.session import Session
 from app.shell.action import Action
+from app.shell.commands.chosen import selected_ticks
 from app.shell.editor import Editor, EditorAction
 
 
@@ -42,12 +43,9 @@ def punch(session: Session, on: bool = True) -> None:
 
 def _span(session: Session) -> tuple[int, int] | None:
     """What is selected, as ticks: a range, notes, else the loop."""
-    selection, tempo_map = session.selection, session.project.score.tempo_map
-    if selection.span is not None:
-        return selection.span
-    notes = [note for part in session.project.score.parts for note in part.notes if note.id in selection.notes]
-    if notes:
-        return min(note.onset_tick for note in notes), max(note.end_tick for note in notes)
+    selected, tempo_map = selected_ticks(session), session.project.score.tempo_map
+    if selected is not None:
+        return selected
     if session.loop_s is not None:
         start_s, end_s = session.loop_s
         return max(floor(tempo_map.ticks(start_s) + 1e-6), 0), max(ceil(tempo_map.ticks(end_s) - 1e-6), 1)

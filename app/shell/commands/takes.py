@@ -16,13 +16,13 @@ from app.project.model import Project
 from app.project.performers import Player
 from app.score.take import Cleaning, Floats, Take
 from app.shell.action import Action
+from app.shell.commands.chosen import on_timeline
 from app.shell.editor import Editor, EditorAction
 
 
 def _takes(session: Session) -> tuple[Take, ...]:
     """The takes of the player in front, in the order of their lanes."""
-    recorded = session.project.takes.get(session.player.id) if session.player is not None else None
-    return recorded.takes if recorded is not None else ()
+    return _takes_of(session.project, session.player.id) if session.player is not None else ()
 
 
 def _chosen(session: Session) -> tuple[Player, Take] | None:
@@ -72,24 +72,6 @@ def before(session: Session) -> None:
         session.attempt(Message("edit.comp_before"), lambda project: edit.comp(project, player.id, BEFORE, *span))
 
 
-def above(session: Session) -> None:
-    """Let the part have the selected span from the take above."""
-    if session.timeline_view is not None:
-        session.timeline_view.step_take(-1)
-
-
-def below(session: Session) -> None:
-    """Let the part have the selected span from the take below."""
-    if session.timeline_view is not None:
-        session.timeline_view.step_take(1)
-
-
-def rename(session: Session) -> None:
-    """Type the name of the selected take."""
-    if session.timeline_view is not None:
-        session.timeline_view.ask_take_name()
-
-
 def remove(session: Session) -> None:
     """Throw the selected take away; what the part has of it stays."""
     chosen = _chosen(session)
@@ -101,17 +83,8 @@ def remove(session: Session) -> None:
         session.select(Selection())
 
 
-def earlier_lane(session: Session) -> None:
-    """Put the selected take above the one above it."""
-    _move(session, -1)
-
-
-def later_lane(session: Session) -> None:
-    """Put the selected take below the one below it."""
-    _move(session, 1)
-
-
-def _move(session: Session, by: int) -> None:
+def move(session: Session, by: int) -> None:
+    """Put the selected take above the one above it (-1), or below the one below it (1)."""
     chosen = _chosen(session)
     if chosen is None:
         return
@@ -226,7 +199,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "takes.above",
-        above,
+        on_timeline(lambda view: view.step_take(-1)),
         "record/takes",
         "Alt+Up",
         "timeline",
@@ -235,7 +208,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "takes.below",
-        below,
+        on_timeline(lambda view: view.step_take(1)),
         "record/takes",
         "Alt+Down",
         "timeline",
@@ -251,7 +224,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "takes.rename",
-        rename,
+        on_timeline(lambda view: view.ask_take_name()),
         "record/takes",
         "F2",
         "timeline",
@@ -260,13 +233,13 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "takes.earlier_lane",
-        earlier_lane,
+        partial(move, by=-1),
         "record/takes",
         enabled=_may_rise,
     ),
     Action(
         "takes.later_lane",
-        later_lane,
+        partial(move, by=1),
         "record/takes",
         enabled=_may_sink,
     ),

@@ -7,14 +7,7 @@ from collections.abc import Callable
 from app.editor.session import Session, TimeDisplay
 from app.editor.timeline_view import Ghosts, TimelineView
 from app.shell.action import Action
-
-
-def _asked(run: Callable[[TimelineView], None]) -> Callable[[Session], None]:
-    def asked(session: Session) -> None:
-        if session.timeline_view is not None:
-            run(session.timeline_view)
-
-    return asked
+from app.shell.commands.chosen import on_timeline
 
 
 def _has_view(session: Session) -> bool:
@@ -25,57 +18,34 @@ def _can_zoom_to_selection(session: Session) -> bool:
     return _has_view(session) and bool(session.selection)
 
 
-def _shown(ghosts: Ghosts, icon: str) -> Action:
-    def run(session: Session, on: bool) -> None:
-        if session.timeline_view is not None:
-            session.timeline_view.set_ghosts(ghosts)
+def _zoom(name: str, run: Callable[[TimelineView], None], keys: str) -> Action:
+    return Action(f"timeline.{name}", on_timeline(run), "view", keys, enabled=_has_view, icon=name)
 
+
+def _shown(ghosts: Ghosts, icon: str) -> Action:
     def checked(session: Session) -> bool:
         return session.timeline_view is not None and session.timeline_view.ghosts is ghosts
 
+    run = on_timeline(lambda view: view.set_ghosts(ghosts))
     return Action(f"timeline.{ghosts.value}", run, "view/notes", checked=checked, icon=icon)
 
 
 def _counted(display: TimeDisplay) -> Action:
-    def run(session: Session, on: bool) -> None:
-        session.set_time_display(display)
-
     return Action(
         f"timeline.count_{display}",
-        run,
+        lambda session, on: session.set_time_display(display),
         "view/time",
         checked=lambda session: session.time_display == display,
     )
 
 
 ACTIONS: tuple[Action, ...] = (
-    Action(
-        "timeline.zoom_in",
-        _asked(lambda view: view.zoom_in()),
-        "view",
-        "Ctrl++;Ctrl+=",
-        enabled=_has_view,
-        icon="zoom_in",
-    ),
-    Action(
-        "timeline.zoom_out",
-        _asked(lambda view: view.zoom_out()),
-        "view",
-        "Ctrl+-",
-        enabled=_has_view,
-        icon="zoom_out",
-    ),
-    Action(
-        "timeline.fit",
-        _asked(lambda view: view.fit()),
-        "view",
-        "Ctrl+0",
-        enabled=_has_view,
-        icon="fit",
-    ),
+    _zoom("zoom_in", lambda view: view.zoom_in(), "Ctrl++;Ctrl+="),
+    _zoom("zoom_out", lambda view: view.zoom_out(), "Ctrl+-"),
+    _zoom("fit", lambda view: view.fit(), "Ctrl+0"),
     Action(
         "timeline.zoom_selection",
-        _asked(lambda view: view.zoom_to_selection()),
+        on_timeline(lambda view: view.zoom_to_selection()),
         "view",
         "Z",
         "timeline",

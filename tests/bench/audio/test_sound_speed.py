@@ -129,7 +129,7 @@ def test_an_edit_of_a_large_score(qtbot: QtBot) -> None:
         first = msgspec.structs.replace(players[0], muted=not players[0].muted)
         session.apply(Message("edit.mute"), replace(session.project, players=(first, *players[1:])))
 
-    report("an edit, told to the sound", took_s(edit, 20))
+    report("an edit, passed to the sound", took_s(edit, 20))
     sound.deleteLater()
 
 

@@ -227,7 +227,7 @@ def test_what_a_killed_recorder_loses(tmp_path: Path) -> None:
     print(
         f"\nkill -9 of the recorder in 1,000 messages a second: {len(before)} of {len(came)} that had come until then "
         f"are in the journal, the last {(killed_ns - max(before)) / 1e6:.1f} ms old; heard again "
-        f"{(back_ns - killed_ns) / 1e6:.0f} ms after (gap told: {((again_ns or 0) - lost_ns) / 1e6:.0f} ms); of "
+        f"{(back_ns - killed_ns) / 1e6:.0f} ms after (gap reported: {((again_ns or 0) - lost_ns) / 1e6:.0f} ms); of "
         f"{len(sent)} sent {len(journal.messages)} are there"
     )
     assert before

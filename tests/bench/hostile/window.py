@@ -93,7 +93,7 @@ class ImportAnswers(Answers):
 
 
 class WatchedWindow:
-    """An editor that opens whatever it is told to.
+    """An editor that opens each file of a list.
 
     Parameters
     ----------

@@ -28,6 +28,7 @@ from app.shell.app import Program
 from app.shell.garbage import Garbage
 from tests.bench.performance.large import large_project
 from tests.gui.shell.conftest import Answers
+from tests.support.live import ready_spans
 from widgets.timeline.panel import TimelinePanel
 from widgets.viewport.canvas import Canvas
 from widgets.viewport.panel import ViewportPanel
@@ -177,7 +178,7 @@ class LargeEditor:
         live, at_s = self.program.generator.live, self.session.playhead_s
         if live.performance is not self.session.performance or not self.is_planned():
             return False
-        if not any(start_s <= at_s < end_s for start_s, end_s in live.ready_spans(player_id)):
+        if not any(start_s <= at_s < end_s for start_s, end_s in ready_spans(live, player_id)):
             return False
         scene = self.viewport.scene
         return scene.stage is not None and not scene.is_outdated(at_s)

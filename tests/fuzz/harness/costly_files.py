@@ -14,8 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from app.formats.fbx import encode
-from app.formats.fbx.encode import Element, PackedArray, encode_elements
+from app.formats.fbx.encode import Element, PackedArray
 from metadata.model import REQUIRED_JOINTS
+from tests.support.encoded import encode_elements
 
 ABOVE: Final = {
     "spine": "hips", "head": "spine", "leftUpperArm": "spine", "rightUpperArm": "spine",

@@ -13,8 +13,9 @@ import numpy as np
 
 from app.errors import AppError
 from app.formats.fbx.decode import read_elements
-from app.formats.fbx.encode import Element, Property, encode_elements
+from app.formats.fbx.encode import Element, Property
 from tests.fuzz.harness.values import FLOATS, INTEGERS, NUMBER_TEXTS, TEXTS
+from tests.support.encoded import encode_elements
 
 MOST_BYTES: Final = 100_000
 """Mutants of small seeds are cut here: what larger files cost is another question."""

@@ -232,7 +232,7 @@ def character_entry(path: Path, folder: Path) -> None:
     own = folder / "own"
     own.mkdir(exist_ok=True)
     (own / "figure.glb").write_bytes(b"glTF")
-    (own / "somebody.toml").write_bytes(path.read_bytes())
+    (own / "another.toml").write_bytes(path.read_bytes())
     (own / "other.toml").write_bytes(b'file = "figure.glb"\n')
     with accepted("read the folder"):
         library = LIBRARY.read(own)

@@ -114,7 +114,7 @@ def character_entry() -> list[bytes]:
     """What describes a user's own character."""
     return [
         b'file = "figure.glb"\n',
-        b'file = "figure.glb"\ntitle = "Somebody"\n\n[joints]\nhips = "Hips"\nleftHand = ""\n\n'
+        b'file = "figure.glb"\ntitle = "Another figure"\n\n[joints]\nhips = "Hips"\nleftHand = ""\n\n'
         b"[morphs.jawOpen]\nopen = 1.0\nwide = -0.5\n",
     ]
 
@@ -143,7 +143,7 @@ def gltf() -> list[bytes]:
 @cache
 def fbx() -> list[bytes]:
     """An instrument and a character as they are exported."""
-    from app.formats.fbx import encode_scene
+    from tests.support.encoded import encode_scene
     from tests.unit.formats import scenes
 
     return [
@@ -168,7 +168,7 @@ def foreign_fbx() -> list[bytes]:
 @cache
 def bvh() -> list[bytes]:
     """A short clip."""
-    from app.formats.bvh import encode_bvh
+    from tests.support.encoded import encode_bvh
     from tests.unit.formats.test_bvh import clip
 
     return [encode_bvh(clip(frames=3))]

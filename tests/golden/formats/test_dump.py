@@ -11,8 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from app.formats.fbx import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh, encode_scene
 from app.formats.fbx.decode import read_elements
+from app.formats.scene import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh
+from tests.support.encoded import encode_scene
 from tests.support.fbx_dump import text
 
 GOLDEN = Path(__file__).with_name("scene.txt")

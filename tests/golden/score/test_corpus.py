@@ -225,7 +225,7 @@ def test_every_wind_of_the_ensembles_finds_its_instrument(name: str, expected: l
     score = read_midi(DATA / "ensemble" / f"{name}.mid", maps=own)
     found = [part.map_id for part in score.parts]
     if missing:
-        # Of an instrument that has no map yet the parts are listed, or someone stands in and says so.
+        # Parts of an instrument without a map are listed, or played by another instrument with a warning.
         known = [map_id for map_id in expected if map_id not in missing]
         assert not Counter(known) - Counter(found)
         return

@@ -165,8 +165,23 @@ def test_all_kinds_of_file_at_once(dialog: ExportDialog, session: Session, tmp_p
     start(dialog)
     assert str(len(list((tmp_path / "out").iterdir()))) in promised
     suffixes = sorted(path.suffix for path in (tmp_path / "out").iterdir())
-    usdc = [".usdc"] * 2 if usd.usd_installed() else []
-    assert suffixes == sorted([".bvh", ".glb", ".glb", ".json", ".wav", *usdc])
+    usdc = [".usdc"] * 3 if usd.usd_installed() else []
+    assert suffixes == sorted([".bvh", ".glb", ".glb", ".glb", ".json", ".wav", *usdc])
+    assert (tmp_path / "out" / "quartet_stage.glb").exists()
+
+
+def test_a_stage_that_no_ticked_format_can_hold_is_not_written(dialog: ExportDialog, tmp_path: Path) -> None:
+    one_player_two_bars(dialog)
+    box = dialog.findChild(QCheckBox, "export_stage")
+    assert box is not None
+    assert dialog._formats.formats == {"bvh"}
+    assert not box.isEnabled()
+    assert not dialog._formats.stage
+    for ticked in (True, False):
+        QTest.mouseClick(dialog.findChild(QCheckBox, "export_glb"), Qt.MouseButton.LeftButton)
+        assert (box.isEnabled(), dialog._formats.stage) == (ticked, ticked)
+    start(dialog)
+    assert not list((tmp_path / "out").glob("*_stage*"))
 
 
 def test_bvh_files_get_the_bone_names_of_another_program(dialog: ExportDialog, tmp_path: Path) -> None:

@@ -91,7 +91,7 @@ def test_an_asset_that_fits_is_said_to_fit(dialog: ExportDialog, mannequin: Path
 def test_one_without_a_character_does_not_keep_the_others_from_an_asset(
     qt_app: QApplication, qtbot: QtBot, tmp_path: Path, mannequin: Path
 ) -> None:
-    session = Session(with_character(quartet_project(), 0, "nobody"), ImmediateTasks())
+    session = Session(with_character(quartet_project(), 0, "unknown"), ImmediateTasks())
     dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
     dialog.show()
     choose(dialog, Qt.Key.Key_Down)

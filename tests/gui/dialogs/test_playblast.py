@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -31,16 +31,20 @@ def threaded(qt_app: object) -> Iterator[Session]:
 
 
 def film(session: Session, path: Path, times: list[float], fails_at_s: float = 1e9) -> PlayblastDialog:
-    def render(width: int, height: int, time_s: float, view: View | None) -> np.ndarray:
-        if time_s > fails_at_s:
-            raise AppError("picture.no_gl", reason="of the test")
-        times.append(time_s)
-        return np.zeros((height, width, 4), np.uint8)
+    def shoot(width: int, height: int, span_s: tuple[float, float], view: View | None) -> Callable[[float], np.ndarray]:
+        def draw(time_s: float) -> np.ndarray:
+            assert span_s[0] <= time_s < span_s[1]
+            if time_s > fails_at_s:
+                raise AppError("picture.no_gl", reason="of the test")
+            times.append(time_s)
+            return np.zeros((height, width, 4), np.uint8)
+
+        return draw
 
     def sound(start_s: float, end_s: float, rate: int) -> np.ndarray:
         return np.zeros((round((end_s - start_s) * rate), 2), np.float32)
 
-    dialog = PlayblastDialog(session, render, sound, path)
+    dialog = PlayblastDialog(session, shoot, sound, path)
     dialog.show()
     box = dialog.findChild(QComboBox, "playblast_range")
     assert box is not None

@@ -134,6 +134,15 @@ def test_a_click_opens_the_field_and_return_takes_what_was_typed(slider: NumberS
     assert slider.window().focusWidget() is slider
 
 
+@pytest.mark.parametrize(("typed", "kept"), [("7", 1.0), ("-3", 0.0)])
+def test_what_is_typed_beyond_the_range_is_its_end(slider: NumberSlider, typed: str, kept: float) -> None:
+    reported = Reported(slider)
+    QTest.keyClick(slider, Qt.Key.Key_F2)
+    QTest.keyClicks(field(slider), typed)
+    QTest.keyClick(field(slider), Qt.Key.Key_Return)
+    assert (slider.value, reported.values) == (kept, [kept])
+
+
 def test_typing_begins_with_the_first_digit(slider: NumberSlider) -> None:
     QTest.keyClick(slider, Qt.Key.Key_0)
     QTest.keyClicks(field(slider), ".75")

@@ -40,6 +40,25 @@ def test_no_two_actions_have_the_same_shortcut_in_one_place(program: Program) ->
     assert clashes == {}
 
 
+def test_a_command_has_one_shortcut(program: Program) -> None:
+    """Several only where keyboards or systems differ: two Enter keys, plus without Shift, two ways to redo."""
+    several = {row.id for row in program.editor.table.rows.values() if ";" in row.shortcut}
+    assert several == {"edit.redo", "notes.louder", "play.bar", "timeline.zoom_in"}
+
+
+def test_menus_show_a_command_with_one_shortcut(program: Program) -> None:
+    """A command of one name in two menus, those of the panels and of the main window, has the same shortcut in both."""
+    program.editor.table.refresh()
+    shown: dict[str, set[tuple[str, ...]]] = {}
+    for menu in program.editor.window.findChildren(QMenu):
+        for action in menu.actions():
+            keys = tuple(sequence.toString() for sequence in action.shortcuts())
+            if action.menu() is None and keys:
+                shown.setdefault(action.text(), set()).add(keys)
+    assert len(shown) > 50
+    assert {text: keys for text, keys in shown.items() if len(keys) > 1} == {}
+
+
 def test_tool_tips_name_the_shortcut(program: Program) -> None:
     assert program.session.actions["file.save"].toolTip() == "Save (Ctrl+S)"
 

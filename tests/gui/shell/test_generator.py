@@ -159,7 +159,7 @@ def test_motion_that_no_one_waits_for_gives_way(
     """Where others had the processor the worker rests longer than they did, unless someone waits for what it makes."""
     generator.close()
     clock = Clock()
-    worker = module._Worker(Work(clock, others_s, is_seen), generator._worker._notifier, clock)  # type: ignore[arg-type]
+    worker = module._Worker(Work(clock, others_s, is_seen), generator._worker._report, clock)  # type: ignore[arg-type]
     rested: list[float] = []
     monkeypatch.setattr(worker, "_rest", lambda rest_s, requests: rested.append(rest_s))
     for _ in range(3):

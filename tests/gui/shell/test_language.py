@@ -26,8 +26,8 @@ from app.editor.settings import Settings
 from app.shell.app import Program
 from app.shell.language import ROOMS
 from app.shell.preferences import show_preferences
-from app.shell.theme import JAPANESE_FAMILIES
 from tests.gui.shell.conftest import trigger
+from widgets.common.font import JAPANESE_FAMILIES
 
 KEPT = (
     ".toml",

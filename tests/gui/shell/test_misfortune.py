@@ -42,7 +42,7 @@ class Reported:
 
     def says(self, program: Program) -> str:
         """The last word; it is a whole sentence in both languages."""
-        assert self.messages, "nobody said anything"
+        assert self.messages, "no message was shown"
         message = self.messages[-1][0]
         texts = []
         for code in ("ja", "en"):
@@ -252,7 +252,7 @@ def overtaken(program: Program, answers: Answers, tmp_path: Path) -> Path:
     """A file that someone else has written since this editor saved it, and an edit here."""
     answers.path = path = tmp_path / "shared.suisou"
     trigger(program, "file.save")
-    storage.save(set_title(program.session.project, "Of somebody else"), path)
+    storage.save(set_title(program.session.project, "Of another user"), path)
     os.utime(path, ns=(1, 2))
     edit(program)
     return path
@@ -262,13 +262,13 @@ def test_work_of_others_is_not_written_over(
     program: Program, answers: Answers, overtaken: Path, tmp_path: Path, qtbot: QtBot
 ) -> None:
     trigger(program, "file.save")
-    assert storage.load(overtaken).score.title == "Of somebody else"
+    assert storage.load(overtaken).score.title == "Of another user"
     assert not program.session.document.is_saved
     assert program.window.banner.isVisible()
     answers.path = tmp_path / "mine.suisou"
     click(program, "banner_answer_0", qtbot)
     assert storage.load(tmp_path / "mine.suisou").score.title == "Corrections"
-    assert storage.load(overtaken).score.title == "Of somebody else"
+    assert storage.load(overtaken).score.title == "Of another user"
     assert program.session.document.is_saved
     assert not program.window.banner.isVisible()
 
@@ -277,7 +277,7 @@ def test_work_of_others_is_replaced_where_the_user_confirms(program: Program, ov
     trigger(program, "file.save")
     click(program, "banner_answer_1", qtbot)
     assert storage.load(overtaken).score.title == "Corrections"
-    assert storage.load(storage.backup_path(overtaken)).score.title == "Of somebody else"
+    assert storage.load(storage.backup_path(overtaken)).score.title == "Of another user"
     edit(program, "Once more")
     trigger(program, "file.save")
     assert storage.load(overtaken).score.title == "Once more"
@@ -290,7 +290,7 @@ def test_closing_does_not_write_over_work_of_others(
     program.window.close()
     QApplication.processEvents()
     assert program.window.isVisible()
-    assert storage.load(overtaken).score.title == "Of somebody else"
+    assert storage.load(overtaken).score.title == "Of another user"
     click(program, "banner_answer_1", qtbot)
     qtbot.waitUntil(lambda: not program.window.isVisible())
     assert storage.load(overtaken).score.title == "Corrections"
@@ -380,7 +380,7 @@ def strange(name: str) -> Project:
             players = tuple(msgspec.structs.replace(player, instrument_id="serpent") for player in base.players)
             return replace(base, players=players)
         case "no character":
-            players = tuple(msgspec.structs.replace(player, character_id="nobody") for player in base.players)
+            players = tuple(msgspec.structs.replace(player, character_id="unknown") for player in base.players)
             return replace(base, players=players)
         case "ticks":
             return with_notes(base, tuple(msgspec.structs.replace(note, duration_tick=1) for note in notes))

@@ -180,7 +180,7 @@ def test_what_cannot_be_brought_in_is_not_said_to_be(studio: Studio) -> None:
     studio.program.editor.files.save_as()
     said: list[str] = []
     studio.session.noticed.connect(lambda message, severity: said.append(message.id))
-    header = Header(str(path), "somebody else", EWI, "ewi_5000", 0.0, "2026-11-21T10:00:00.000+00:00")
+    header = Header(str(path), "another user", EWI, "ewi_5000", 0.0, "2026-11-21T10:00:00.000+00:00")
     writer = JournalWriter(str(path.with_name(f"{path.name}.1.take-journal")), header)
     writer.sync(10**9, 0.0, 0)
     writer.event(15 * 10**8, bytes((0x90, 64, 90)))

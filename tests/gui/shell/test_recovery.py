@@ -223,7 +223,7 @@ def test_work_on_a_file_that_has_changed_since_does_not_replace_it_unasked(
     edit(first, "Precious")
     later(first, monkeypatch)
     crash(first)
-    save(set_title(load(document), "Of somebody else"), document)
+    save(set_title(load(document), "Of another user"), document)
     os.utime(document, (1.0, 1.0))
     second = start()
     assert any("file has changed since" in label.text() for label in second.window.start_page.findChildren(QLabel))
@@ -232,6 +232,6 @@ def test_work_on_a_file_that_has_changed_since_does_not_replace_it_unasked(
     assert "file has changed since" in banner._text.text()
     banner._buttons[0].click()
     trigger(second, "file.save")
-    assert load(document).score.title == "Of somebody else"
+    assert load(document).score.title == "Of another user"
     banner._buttons[1].click()
     assert load(document).score.title == "Precious"

@@ -216,7 +216,7 @@ def test_what_is_in_the_way_is_said_once_and_tried_again(
     reported = list[str]()
     program.session.noticed.connect(lambda message, severity: reported.append(message.id))
     monkeypatch.setattr("app.editor.streamer.RETRY_S", 0.1)
-    program.session.streaming.set(host="nobody at all.invalid")
+    program.session.streaming.set(host="unknown host.invalid")
     trigger(program, "stream.toggle")
     assert program.session.streaming.state == "failed"
     assert reported == ["stream.host_unknown"]

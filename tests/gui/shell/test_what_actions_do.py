@@ -939,7 +939,7 @@ def afresh(desk: Desk, opened: Project | None) -> Project:
             widget.close()
     program.editor.speak("en")
     session.set_tokens(DARK)
-    session.pitch_display.set(False, 4, False)
+    session.pitch_display.set(written=False, middle_c_octave=4, syllables=False)
     session.set_time_display("bars")
     session.listening.set(source="recording", speed=1.0)
     session.viewport.set_posing(False)

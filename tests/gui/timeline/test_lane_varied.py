@@ -100,7 +100,7 @@ def test_the_list_of_what_was_done_by_hand_has_it(panel: TimelinePanel, session:
     words.show()
     line = words.list.lines.lines[0]
     assert (line.title, line.tone) == ("Regenerated", "by_hand")
-    assert line.place == "2.2"
+    assert line.place == "2.2.000"
     words.list.opened.emit(line.key)
     assert session.player is not None
     assert session.selection.events == frozenset({EventKey(session.player.id, region_id(acting(panel)))})

@@ -221,7 +221,7 @@ def test_a_time_is_revealed(stage: Stage) -> None:
 
 def test_pointing_at_a_note_says_what_it_is(stage: Stage) -> None:
     stage.hand.move(stage.middle("1:5"))
-    assert stage.panel.tool_bar.readout.text() == "A4 · bar 2, beat 2 · velocity 80"
+    assert stage.panel.tool_bar.readout.text() == "A4 · 2.2.000 · velocity 80"
     stage.session.pitch_display.set(written=True, middle_c_octave=3)
     stage.hand.move(stage.middle("1:5"))
     assert stage.panel.tool_bar.readout.text().startswith("B3")
@@ -246,6 +246,16 @@ def test_a_piece_without_players_and_notes_says_what_to_do(qtbot: QtBot, qt_app:
     panel.grab()
     assert not session.document.done
     session.deleteLater()
+
+
+def test_another_document_begins_with_the_select_tool(stage: Stage) -> None:
+    stage.panel.set_tool(Tool.DRAW)
+    stage.session.document.open(stage.session.project)
+    assert stage.panel.tool is Tool.SELECT
+    assert stage.panel.roll.plot.cursor().shape() is Qt.CursorShape.ArrowCursor
+    stage.table.refresh()
+    assert stage.table.actions["notes.tool_select"].isChecked()
+    assert not stage.table.actions["notes.tool_draw"].isChecked()
 
 
 def test_drawing_beyond_the_end_makes_room(stage: Stage) -> None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QLineEdit
+from PySide6.QtWidgets import QApplication, QLineEdit, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.editor.grids import GRIDS
@@ -26,7 +27,7 @@ from tests.gui.transport.devices import FakeDevices
 from tests.support.windows import show
 from widgets.common.number_slider import NumberSlider
 from widgets.transport.bar import TransportBar
-from widgets.transport.fields import bars_text, clock_seconds, clock_text
+from widgets.transport.fields import clock_seconds, clock_text
 
 LEFT = Qt.MouseButton.LeftButton
 
@@ -72,13 +73,33 @@ def test_play_and_stop(qtbot: QtBot, bar: TransportBar, session: Session, device
     assert session.playhead_s == session.performance.time_frame.first_frame_s
 
 
+def test_the_light_flashes_on_each_beat_and_another_way_on_a_bars_first(bar: TransportBar, session: Session) -> None:
+    score, light = session.project.score, bar.beat
+    bar_s, beat_s = (
+        score.tempo_map.seconds(score.metre_map.tick_of_bar(3) + beats * session.project.metre_map.beat_length(0))
+        for beats in (0, 1)
+    )
+
+    def states() -> list[str]:
+        seen = []
+        for time_s in (bar_s - 0.02, bar_s, bar_s + 0.05, bar_s + 0.2, beat_s, beat_s + 0.05, beat_s + 0.2):
+            light.show_time(time_s)
+            seen.append(light.state)
+        return seen
+
+    session.listening.set(click=True)
+    assert states() == ["off"] * 7
+    session.set_playing(True)
+    assert states() == ["off", "bar", "bar", "off", "beat", "beat", "off"]
+
+
 def test_places_are_typed(qtbot: QtBot, bar: TransportBar, session: Session) -> None:
     score = session.project.score
     type_into(qtbot, bar.bars, "12.2")
     assert session.playhead_s == pytest.approx(
         score.tempo_map.seconds(score.metre_map.tick_of_bar(12) + 2 * score.ticks_per_quarter)
     )
-    assert bar.bars.value_text() == "12|2|000"
+    assert bar.bars.value_text() == "12.2.000"
     type_into(qtbot, bar.clock, "0:19.25")
     assert session.playhead_s == pytest.approx(19.25)
     assert bar.frames.value_text() == "1155"
@@ -205,6 +226,27 @@ def test_it_fits_and_follows_the_theme(bar: TransportBar, session: Session) -> N
     assert "Space" in bar.buttons["play.toggle"].toolTip()
 
 
+@pytest.mark.parametrize("width", [950, 1100, 1276])
+def test_speed_and_volume_keep_their_names_beside_a_recording(bar: TransportBar, session: Session, width: int) -> None:
+    session.attempt(Message("edit.set_audio"), lambda project: set_audio(project, "/nowhere/recording.wav"))
+    session.listening.set(silent=True)
+    bar.resize(width, bar.height())
+    QApplication.processEvents()
+    assert bar.width() == width
+    for slider in (bar.volume, bar.speed):
+        assert slider.isVisible()
+        assert slider.isEnabled()
+        assert slider.width() >= slider.sizeHint().width()
+    shown = sorted((one for one in bar.findChildren(QWidget) if one.isVisible()), key=QWidget.x)
+    shown = [one for one in shown if one.parentWidget() is bar]
+    for left, right in pairwise(shown):
+        assert left.geometry().right() < right.x(), (left.objectName(), right.objectName())
+    assert shown[-1].geometry().right() < bar.width()
+    bar.resize(1500, bar.height())
+    assert bar.clock.isVisible()
+    assert bar.tempo.isVisible()
+
+
 @pytest.mark.parametrize(
     ("text", "seconds"),
     [("0", 0.0), ("19.25", 19.25), ("1:02.5", 62.5), ("-1.5", -1.5), ("−1.5", -1.5), ("1:00:00", 3600.0),
@@ -223,7 +265,7 @@ def test_a_written_time_is_read_back(time_s: float) -> None:
 
 
 def test_bars_stand_still(session: Session) -> None:
-    score = session.project.score
-    assert bars_text(score, 0) == "1|1|000"
-    lengths = {len(bars_text(score, tick).split("|")[2]) for tick in range(0, 4000, 37)}
+    label = session.project.score.metre_map.label
+    assert label(0) == "1.1.000"
+    lengths = {len(label(tick).split(".")[2]) for tick in range(0, 4000, 37)}
     assert lengths == {3}

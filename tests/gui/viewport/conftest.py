@@ -42,7 +42,7 @@ class MadeNow:
         self.missing = False
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> list[Pose | None]:
-        """None while told that nothing is made yet."""
+        """None while nothing is reported as made yet."""
         return [None if self.missing else self.pose_now(player_id, time_s) for player_id in player_ids]
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.editor.poses import Posed
 from app.editor.session import Session
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
@@ -36,7 +35,7 @@ def play_along(session: Session, index: int = 0) -> Still:
     return Still(playing_of(performance, session.project.players[index]))
 
 
-def shown(viewport: ViewportPanel) -> dict[str, Posed | None]:
+def shown(viewport: ViewportPanel) -> dict[str, Pose | None]:
     return viewport.scene.poses()
 
 
@@ -70,7 +69,7 @@ def test_a_key_that_goes_down_is_seen_at_once(qtbot: QtBot, session: Session, vi
     session.live_players.receive(own, perf_counter(), f"90{pitch:02x}5a", ControllerMapping())
     assert live.asked == asked + 1
     session.live_players.receive(own, perf_counter(), "b0027f", ControllerMapping())
-    session.live_players.receive("nobody", perf_counter(), "903c5a", ControllerMapping())
+    session.live_players.receive("unknown", perf_counter(), "903c5a", ControllerMapping())
     assert live.asked == asked + 1
 
     def pressed() -> bool:
@@ -95,7 +94,7 @@ def test_who_stops_playing_is_the_performance_again_and_no_one_is_asked_any_more
     session.set_playhead(3.0)
     assert viewport.scene.poses()[live.player_id] is not performed
     assert live.asked == asked
-    session.live_players.end("nobody")
+    session.live_players.end("unknown")
 
 
 def test_pictures_of_the_performance_show_the_performance(
@@ -162,7 +161,7 @@ def test_who_begins_and_ends_goes_there_and_back_without_a_jump(
     assert steps(1)[0] == pytest.approx(left, abs=0.1)
 
 
-def away(one: Posed, other: Posed) -> float:
+def away(one: Pose, other: Pose) -> float:
     """The farthest that any joint is turned, in quaternions."""
     return float(np.max(np.abs(np.abs(np.einsum("ji,ji->j", one.rotations, other.rotations)) - 1.0)) ** 0.5)
 

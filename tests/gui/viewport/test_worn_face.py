@@ -3,31 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from types import SimpleNamespace
 
 import numpy as np
 
-from app.editor.poses import Posed, same
+from app.editor.poses import same
 from app.editor.session import Session
+from app.performance.chunks import Pose
 from widgets.viewport.worn_face import WornFaces
 
 
 class Standing:
     """Everybody stands still with an open mouth."""
 
-    def poses(self, player_ids: Sequence[str], time_s: float) -> list[Posed | None]:
+    def poses(self, player_ids: Sequence[str], time_s: float) -> list[Pose | None]:
         return [self.pose_now(player_id, time_s) for player_id in player_ids]
 
-    def pose_now(self, player_id: str, time_s: float) -> Posed | None:
-        if player_id == "nobody":
+    def pose_now(self, player_id: str, time_s: float) -> Pose | None:
+        if player_id == "unknown":
             return None
-        return SimpleNamespace(
-            rotations=np.zeros((2, 4)),
-            hips_m=np.zeros(3),
+        return Pose(
+            rotations=np.zeros((2, 4), np.float32),
+            hips_m=np.zeros(3, np.float32),
             morphs={"jawOpen": 1.0},
             controls={"valve_1": 0.5},
-            instrument_position_m=np.zeros(3),
-            instrument_rotation=np.zeros(4),
+            instrument_position_m=np.zeros(3, np.float32),
+            instrument_rotation=np.zeros(4, np.float32),
         )
 
 
@@ -50,6 +50,6 @@ def test_only_the_player_in_front_wears_it(session: Session) -> None:
     worn = poses.poses((second,), 0.0)[0]
     assert worn is not None
     assert worn.morphs == {"browInnerUp": 0.5}
-    assert poses.poses(("nobody",), 0.0)[0] is None
+    assert poses.poses(("unknown",), 0.0)[0] is None
     session.set_preview_morphs(None)
     assert same(poses.poses((second,), 0.0)[0], plain)

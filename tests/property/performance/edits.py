@@ -144,7 +144,7 @@ def edits(draw: st.DrawFn, project: Project) -> Project:
         other = draw(st.sampled_from([*bundled_maps(), "serpent"]))
         return _with_player(project, player, instrument_id=other)
     if kind == "character":
-        return _with_player(project, player, character_id=draw(st.sampled_from(["man_adult", "nobody"])))
+        return _with_player(project, player, character_id=draw(st.sampled_from(["man_adult", "unknown"])))
     if kind == "tempo":
         changes = (TempoChange(0, draw(st.sampled_from([400_000.0, 600_000.0]))), TempoChange(9600, 500_000.0))
         return replace(project, score=msgspec.structs.replace(project.score, tempo_map=TempoMap(QUARTER, changes)))

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from app.plan.corrections import PinFingering
-from app.project.alignment import GAP_COST, AlignmentPart, align, cheapest, pair_costs
+from app.project.alignment import GAP_COST, SWITCH_COST, AlignmentPart, align, cheapest, pair_costs
 from app.project.edit.corrections import put
 from app.project.model import Project, map_choices, project_from_score
 from app.project.reimport import reimport
@@ -152,9 +152,10 @@ def test_survivors_are_found(case: tuple[list[Note], tuple[list[Note], set[str]]
     pitches = [note.pitch for note in old]
     trios = list(zip(pitches, pitches[1:], pitches[2:], strict=False))
     if len(set(trios)) == len(trios):
-        # ... and where no figure comes twice, the right ones; a note beside a seam may have another's pitch by chance.
+        # ... and where no figure comes twice, the right ones. Moving on costs `SWITCH_COST` notes: where fewer are lost
+        # beside a seam because two others fit there by chance, they are.
         found = {new[int(other)].id for one, other in pairs if old[int(one)].id == new[int(other)].id}
-        assert len(survivors - found) <= 2
+        assert len(survivors - found) <= SWITCH_COST + 2
 
 
 @cache

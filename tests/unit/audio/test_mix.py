@@ -109,6 +109,13 @@ def test_with_a_recording_it_is_the_recording_at_its_place(tmp_path: Path) -> No
         mixdown(replace(DUET, audio=AudioTrack(str(tmp_path / "gone.wav"))), 0.0, 1.0)
 
 
+def test_a_resampled_recording_stays_within_full_scale(tmp_path: Path) -> None:
+    square = np.where(np.arange(RATE_HZ) // 24 % 2, 0.999, -0.999).astype(np.float32)
+    soundfile.write(tmp_path / "r.wav", np.stack([square, square], axis=1), RATE_HZ)
+    sound = mixdown(replace(DUET, audio=AudioTrack(str(tmp_path / "r.wav"))), 0.1, 0.9, 44100)
+    assert 0.95 < np.abs(sound).max() <= 1.0
+
+
 def test_it_can_be_stopped_and_says_where_it_stands() -> None:
     with pytest.raises(Cancelled):
         mixdown(quartet(), 0.0, 5.0, stop_requested=lambda: True)

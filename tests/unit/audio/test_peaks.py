@@ -47,6 +47,17 @@ def test_a_single_click_is_seen_at_every_zoom() -> None:
         assert np.count_nonzero(high) <= 3 + 800 / (span_s * 4 / 3 * RATE_HZ)
 
 
+@pytest.mark.parametrize("at", [0, -1], ids=["first", "last"])
+def test_a_click_at_an_end_of_the_recording_is_seen_at_every_zoom(at: int) -> None:
+    samples = np.zeros((RATE_HZ * 10 + 1, 1), np.int16)
+    samples[at] = 20000
+    peaks = Peaks(samples, RATE_HZ)
+    end_s = 0.0 if at == 0 else peaks.duration_s
+    for span_s in (0.001, 0.1, 1.0, 9.0):
+        _, high = peaks.levels(end_s - span_s, end_s + span_s, 800)
+        assert high.max() == pytest.approx(20000 / 32768), span_s
+
+
 def test_nothing_to_show() -> None:
     empty = Peaks(np.zeros((0, 2), np.int16), RATE_HZ)
     assert empty.duration_s == 0.0

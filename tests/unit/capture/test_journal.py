@@ -69,6 +69,20 @@ def test_another_recorder_goes_on_where_one_was_torn_off(tmp_path: Path) -> None
     assert not journal.complete
 
 
+def test_a_note_that_sounds_when_the_device_goes_away_ends_there_whatever_was_released_before(tmp_path: Path) -> None:
+    path = tmp_path / "take"
+    writer = JournalWriter(str(path), HEADER)
+    writer.sync(1 * S, 0.0, 0)
+    # The end of a note that began before the recording.
+    for second, message in enumerate((OFF, ON), start=1):
+        writer.event(second * S, message)
+    writer.mark("lost", 3 * S)
+    writer.close()
+    (taken,) = passes(read_journal(path))
+    assert taken.messages == (OFF, ON, bytes([0x80, 60, 0]))
+    assert taken.times_us[-1] == 2_000_000 - round(HEADER.latency_s * 1e6)
+
+
 def test_another_recorder_begins_what_the_first_did_not(tmp_path: Path) -> None:
     for name, torn in (("not there", None), ("empty", b""), ("half a header", b'{"proj')):
         path = tmp_path / name

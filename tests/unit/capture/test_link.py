@@ -171,7 +171,7 @@ def test_a_take_goes_on_when_another_port_is_opened(ear: Ear, tmp_path: Path) ->
         place = len(ear.reported)
         ear.link.open(second.name)
         for number in range(5):
-            # Told while one recorder takes over from the other.
+            # Reported while one recorder takes over from the other.
             ear.link.sync(time.perf_counter_ns(), float(number))
         ear.wait(Opened, after=place)
         receive_one(ear, second, b"\x80\x3c\x40")
@@ -230,7 +230,7 @@ from app.capture.protocol import Events, Opened, Ports, Written
 link = RecorderLink()
 name, path = sys.argv[1:]
 def wait(kind):
-    while not any(isinstance(told, kind) for told in link.poll()):
+    while not any(isinstance(news, kind) for news in link.poll()):
         time.sleep(0.01)
 wait(Ports)
 link.open(name)
@@ -240,9 +240,9 @@ link.sync(time.perf_counter_ns(), 0.0)
 wait(Written)
 print(link._child.pid, flush=True)
 while True:
-    for told in link.poll():
-        if isinstance(told, Events):
-            for message in told.messages:
+    for news in link.poll():
+        if isinstance(news, Events):
+            for message in news.messages:
                 print(message.hex(), flush=True)
     time.sleep(0.01)
 """

@@ -16,10 +16,9 @@ from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.read_motion import read_motion
 from app.errors import FileError
-from app.formats.fbx import encode_scene
-from app.formats.gltf.write import encode_glb
 from app.formats.scene import Bone, Clip, Scene
 from app.rig import quaternion
+from tests.support.encoded import encode_glb, encode_scene
 from tests.unit.choreography.test_features import random_clip
 
 FloatArray = npt.NDArray[np.float64]

@@ -127,6 +127,26 @@ def test_no_sole_is_below_the_floor() -> None:
                 assert (place + turn.apply((way[0], -ankle[1], way[2])))[1] > -1e-3
 
 
+@pytest.mark.parametrize(("apart_deg", "sunk_m"), [(20, 0.015), (40, 0.015), (88, 0.001)])
+def test_straight_legs_apart_stand_on_the_floor_and_splits_go_no_deeper_than_the_dancers(
+    apart_deg: float, sunk_m: float
+) -> None:
+    character, clip = character_named("woman_adult"), still(60)
+    rotations = clip.rotations.copy()
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        turn = Rotation.from_euler("z", sign * apart_deg, degrees=True)
+        rotations[:, SEGMENTS.index(side + "UpperLeg")] = turn.as_quat()
+        rotations[:, SEGMENTS.index(side + "Foot")] = turn.inv().as_quat()
+    found = joints(character, retarget(replace(clip, rotations=rotations), character), 30)
+    rest = rest_positions(character.skeleton)
+    scale = rest[character.skeleton.index("leftUpperLeg"), 1] / (HIPS_M - 0.04)
+    dancers_m = scale * (ANKLE_M - (LEG[1][1] + LEG[2][1]) * np.cos(np.radians(apart_deg)))
+    for side in ("left", "right"):
+        assert found[side + "Foot"][0][1] == pytest.approx(rest[character.skeleton.index("leftFoot"), 1], abs=3e-3)
+        # Legs of other proportions, never quite stretched, reach as far apart from a little lower down.
+        assert dancers_m - sunk_m < found[side + "UpperLeg"][0][1] < dancers_m + 0.001
+
+
 def test_collars_rise_with_lifted_arms_only() -> None:
     character, clip = character_named("woman_adult"), still(3)
     rotations = clip.rotations.copy()

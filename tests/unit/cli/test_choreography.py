@@ -17,7 +17,7 @@ from app.choreography.read_motion import read_motion
 from app.cli import main, parser
 from app.cli.choreography import PairFiles
 from app.cli.status import BAD_INPUT, BAD_USE, DONE
-from app.formats.bvh import write_bvh
+from app.formats.bvh import BvhClip, write_bvh
 from app.rig import quaternion
 from tests.support.dances import model
 from tests.unit.choreography.test_cuts import arm_swings
@@ -26,16 +26,16 @@ from tests.unit.choreography.test_cuts import arm_swings
 def write_clip(path: Path, clip: MotionClip) -> Path:
     """The clip as a BVH file, with the segments' names."""
     names = tuple(SEGMENTS)
-    write_bvh(
-        path,
+    written = BvhClip(
         names,
-        [-1, *(names.index(parent) for parent in list(PARENT_OF.values())[1:])],
+        (-1, *(names.index(parent) for parent in list(PARENT_OF.values())[1:])),
         clip.shape.offsets_m * 100.0,
+        {names.index(name): end * 100.0 for name, end in zip(ENDS, clip.shape.ends_m, strict=True)},
         clip.fps,
         clip.hips_m * 100.0,
         clip.rotations,
-        {names.index(name): end * 100.0 for name, end in zip(ENDS, clip.shape.ends_m, strict=True)},
     )
+    write_bvh(path, written)
     return path
 
 
@@ -93,7 +93,7 @@ def test_what_makes_no_sense_is_refused(typed: str, said: str, capsys: pytest.Ca
 
 
 def test_a_pair_is_learned(swings: Path, drums: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "swings.txt").write_text("Danced by nobody, public domain\n", encoding="utf-8")
+    (tmp_path / "swings.txt").write_text("Danced by no one, public domain\n", encoding="utf-8")
     target = tmp_path / "swings.choreography"
     command = ["choreography", "learn", "--pair", str(swings), str(drums), "--offset", "1", "--states", "4"]
     assert main([*command, "--to", str(target)]) == DONE
@@ -106,7 +106,7 @@ def test_a_pair_is_learned(swings: Path, drums: Path, tmp_path: Path, capsys: py
         "swings.bvh  drums.mid      8.5        10       4      1.00       given",
     ]
     model = read_model(target)
-    assert (model.name, model.sources[0].credits) == ("swings", "Danced by nobody, public domain")
+    assert (model.name, model.sources[0].credits) == ("swings", "Danced by no one, public domain")
     # Bass and snare drum in turn, as setting off and arriving.
     emission = model.emission[:, [36 - 35, 38 - 35]]
     assert emission.argmax(axis=1).tolist() == [0, 1, 0, 1]

@@ -113,10 +113,10 @@ def test_the_bad_player_alone_is_an_error(
 def test_everyone_bad_is_one_error_that_names_them_all(
     own: OwnFolders, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    project = with_instrument(with_character(small_project(), 0, "nobody"), 1, "ophicleide")
+    project = with_instrument(with_character(small_project(), 0, "unknown"), 1, "ophicleide")
     assert main(["export", saved(project, tmp_path), "--to", str(tmp_path / "out"), *BVH]) == BAD_INPUT
     complaint = capsys.readouterr().err
-    assert all(word in complaint for word in ("trumpet", "'nobody'", "trombone", "'ophicleide'"))
+    assert all(word in complaint for word in ("trumpet", "'unknown'", "trombone", "'ophicleide'"))
 
 
 def test_a_complete_export_says_so(own: OwnFolders, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -177,7 +177,7 @@ def test_who_has_no_body_is_inspected_all_the_same(
 
 
 def test_a_midi_file_has_all_players(own: OwnFolders, tmp_path: Path) -> None:
-    project = with_instrument(with_character(small_project(), 0, "nobody"), 1, "ophicleide")
+    project = with_instrument(with_character(small_project(), 0, "unknown"), 1, "ophicleide")
     assert main(["midi", saved(project, tmp_path), "--to", str(tmp_path / "out.mid")]) == 0
 
 

@@ -83,9 +83,9 @@ def test_help_and_version(run: Run) -> None:
         ["export", QUARTET, "--to", "x", "--from-bar", "0.5"],
         ["export", QUARTET, "--to", "x", "--from-bar", "9", "--to-bar", "3"],
         ["export", QUARTET, "--to", "x", "--from-bar", "99999"],
-        ["export", QUARTET, "--to", "x", "--player", "nobody"],
+        ["export", QUARTET, "--to", "x", "--player", "unknown"],
         ["inspect", QUARTET, "--set", "x"],
-        ["inspect", QUARTET, "--set", "nobody.amplitude=1"],
+        ["inspect", QUARTET, "--set", "unknown.amplitude=1"],
         ["inspect", QUARTET, "--set", "*.amplitude=7"],
         ["inspect", QUARTET, "--set", "*.volume=7"],
         ["inspect", QUARTET, "--preroll", "-3"],
@@ -131,7 +131,7 @@ def test_the_felt_beat_counts_in_pre_roll_cue_and_breaths(run: Run) -> None:
 def test_an_unknown_player_is_reported_who_there_is(run: Run) -> None:
     names = [player["name"] for player in json.loads(run("inspect", QUARTET, "--json")[1])["players"]]
     assert len(names) == 4
-    _, _, err = run("inspect", QUARTET, "--set", "nobody.amplitude=1")
+    _, _, err = run("inspect", QUARTET, "--set", "unknown.amplitude=1")
     assert all(name in err for name in names)
 
 

@@ -34,6 +34,8 @@ def test_what_are_no_beats(typed: str) -> None:
 
 
 def test_numbers() -> None:
+    assert whole_number("0") == 0
+    assert whole_number(str(2**63 - 1)) == 2**63 - 1
     assert whole_number("12") == 12
     assert beats("2.5") == 2.5
     assert frame_rate("29.97") == Fraction(30000, 1001)

@@ -179,6 +179,18 @@ def test_what_a_crash_left_is_written(run: Run, tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_a_take_lasts_until_the_recording_was_stopped_and_not_until_its_last_note(run: Run, tmp_path: Path) -> None:
+    writer = JournalWriter(str(tmp_path / "take.mid.take-journal"), Header("", "", "EWI USB", "ewi_usb", 0.0, ""))
+    writer.sync(10**9, 0.0, 0)
+    writer.event(10**9, b"\x90\x3c\x50")
+    writer.event(2 * 10**9, b"\x80\x3c\x50")
+    writer.sync(5 * 10**9, 4.0, 0)
+    writer.close()
+    path = tmp_path / "take.mid"
+    assert run("record", "--rescue", "--to", path) == (0, f"{path}: 1 note in 4.0 s\n", "")
+    assert mido.MidiFile(path).length == pytest.approx(4.0, abs=0.01)
+
+
 def test_a_full_disk_keeps_the_journal_and_names_the_remedy(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

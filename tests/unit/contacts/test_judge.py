@@ -83,7 +83,7 @@ def test_a_correction_that_breaks_a_contact_is_reported_where_it_does(
 
 
 def test_the_lips_gap_is_that_of_the_vertices() -> None:
-    """Deformed vertex by vertex, the lips are as far from the rim as told, and at no other sounding frame."""
+    """Deformed vertex by vertex, the lips are as far from the rim as reported, and at no other sounding frame."""
     project = project_of(LUTKIN)
     player = project.players[0]
     performance = Performance(put(project, player.id, [LOWERED]))

@@ -58,7 +58,7 @@ def test_long_arms_reach_everything() -> None:
 
 @pytest.mark.parametrize("index", [0, 3])
 def test_what_is_reported_is_what_the_motion_shows(index: int) -> None:
-    """In the motion itself, the slide stops as short as is reported at the notes told, and at no other; the hand has
+    """In the motion itself, the slide stops as short as is reported at its notes, and at no other; the hand has
     it."""
     project = short_arms()
     player = project.players[index]

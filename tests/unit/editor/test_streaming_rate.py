@@ -46,9 +46,7 @@ class Sending:
     def __init__(self, clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(streamer, "time", clock)
         self.clock = clock
-        self.thread = _Thread(
-            cast(Any, SimpleNamespace(is_live=False)), cast(Any, SimpleNamespace(report=lambda *_: 0))
-        )
+        self.thread = _Thread(cast(Any, SimpleNamespace(is_live=False)), cast(Any, lambda say: None))
         self.thread._changed = Waiting(clock)
         self.sent_s: list[float] = []
         self.places_s: list[float] = []

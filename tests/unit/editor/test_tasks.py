@@ -168,10 +168,10 @@ def test_a_closed_owner_gets_no_reports(tasks: ThreadTasks, qtbot: QtBot) -> Non
 
     class Panel(QObject):
         def take(self, result: object) -> None:
-            faults.append(AssertionError("told"))
+            faults.append(AssertionError("reported"))
 
         def ended(self) -> None:
-            faults.append(AssertionError("told"))
+            faults.append(AssertionError("reported"))
 
     panel, end = Panel(), threading.Event()
     tasks.run(NAME, lambda progress, stop_requested: end.wait(5), panel.take, ended=panel.ended)

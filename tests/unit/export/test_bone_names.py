@@ -16,13 +16,14 @@ from app.export.playback import Playback
 from app.export.skeleton import scene_bvh
 from app.export.target import SkeletonChoice, TargetSkeleton
 from app.export.targets import target_skeleton
-from app.formats.bvh import BvhClip, encode_bvh, read_bvh
+from app.formats.bvh import BvhClip, read_bvh
 from app.formats.scene import Scene
 from app.motion.model import Motion
 from app.rig.character_library import character_named
 from app.rig.humanoid import map_joints
 from app.rig.model import Character
 from metadata.load import load_bone_names, load_skeleton
+from tests.support.encoded import encode_bvh
 from tests.support.skeletons import ListedBone, figure_of
 from tests.unit.formats import scenes
 

@@ -13,9 +13,12 @@ import pytest
 
 from app.choreography.model_file import write_model
 from app.choreography.read_motion import read_motion
+from app.export.dancers import measure_dancer, standing_frames
 from app.export.report import Report
 from app.export.request import Request
 from app.export.run import export
+from app.export.targets import target_skeleton
+from app.formats.fbx.read import read_scene, read_scenes
 from app.messages import text
 from app.performance.dancers import dancing_of
 from app.performance.ensemble import Performance
@@ -42,8 +45,10 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Report, Path, Pro
     performance = Performance(project)
     span = whole_span(performance.time_frame, FPS)
     formats = frozenset(("fbx", "bvh"))
-    request = Request(performance, (), folder / "out", formats, span, None, "piece.mid", "test", dancers=dancers)
-    return export(request, text), folder / "out", project
+    request = Request(
+        performance, (), folder / "out", formats, span, None, "piece.mid", "test", dancers=dancers, stage=True
+    )
+    return export(replace(request, stage=True), text), folder / "out", project
 
 
 def test_who_can_dance_is_written_and_the_other_named(written: tuple[Report, Path, Project]) -> None:
@@ -52,8 +57,13 @@ def test_who_can_dance_is_written_and_the_other_named(written: tuple[Report, Pat
     assert [one.player for one in report.left_out] == ["Removed"]
     files = report.dancers[0].files
     assert set(files) == {"character_fbx", "character_bvh"}
-    assert sorted(path.name for path in folder.iterdir()) == sorted([*files.values(), "report.json"])
-    assert report.file_count == 3
+    assert sorted(path.name for path in folder.iterdir()) == sorted([*files.values(), "piece_stage.fbx", "report.json"])
+    assert report.file_count == 4
+    assert report.stage is not None
+    assert [figure.node for figure in report.stage.figures] == ["Dancer_ 1_2"]
+    (scene,) = read_scenes(folder / "piece_stage.fbx")
+    assert scene.place is not None
+    np.testing.assert_allclose(scene.place.matrix[:3, 3], (0.0, 0.0, 200.0))
     reported = json.loads((folder / "report.json").read_text())
     assert reported["dancers"][0]["stage"] == {"x_m": 0.0, "z_m": 2.0, "turn_deg": 0.0}
     assert reported["dancers"][0]["choreography"] == "steps"
@@ -66,6 +76,26 @@ def test_bones_keep_their_length_and_feet_stand(written: tuple[Report, Path, Pro
     assert measures.kept
     assert measures.slide_most_mm_s < 20.0
     assert measures.below_mm < 2.0
+
+
+def test_a_foot_that_sinks_into_the_floor_is_measured_whichever_it_is(written: tuple[Report, Path, Project]) -> None:
+    report, folder, project = written
+    dancing = dancing_of(Performance(project), project.dancers[0])
+    scene, target = (
+        read_scene(folder / report.dancers[0].files["character_fbx"]),
+        target_skeleton(dancing.character, "suisou"),
+    )
+    assert scene.clip is not None
+    standing = standing_frames(dancing, whole_span(Performance(project).time_frame, FPS))
+    for foot, side in enumerate(("left", "right")):
+        # Three centimetres down its leg, in one frame.
+        bone = next(number for number, bone in enumerate(scene.bones) if bone.name == f"{side}Foot")
+        sunk_cm = np.tile(scene.bones[bone].translation_cm, (scene.clip.frames, 1))
+        sunk_cm[np.flatnonzero(standing[:, foot])[0], 1] -= 3.0
+        clip = replace(scene.clip, translations_cm={**scene.clip.translations_cm, bone: sunk_cm})
+        measures = measure_dancer(replace(scene, clip=clip), dancing.character, target, standing)
+        assert measures.below_mm == pytest.approx(30.0, abs=5.0), side
+        assert measures.bones_mm == pytest.approx(30.0, abs=1.0)
 
 
 def test_the_bvh_file_moves_as_the_dance_does(written: tuple[Report, Path, Project]) -> None:

@@ -21,7 +21,7 @@ from app.project.model import Project
 from tests.support.doubled import flutist
 
 FPS = Fraction(30)
-TOLD = {"limits of leftHand sideways"}
+REPORTED = {"limits of leftHand sideways"}
 """Of a lowered flute with this body, whoever plays the piccolo: half a degree."""
 
 
@@ -36,6 +36,7 @@ def exported(project: Project, folder: Path, asked: int, formats: frozenset[str]
         bars=None,
         source="changes.mid",
         creator="Suisou test",
+        stage=True,
     )
     return export(request, text)
 
@@ -50,8 +51,11 @@ def test_for_either_player_one_character_and_both_instruments_are_written(writte
     folder, report = written
     assert {path.name for path in folder.iterdir()} == {
         *(f"{stem}.{suffix}" for stem in ("Flute", "Flute_flute", "Flute_piccolo") for suffix in ("fbx", "glb")),
-        "report.json",
+        *("changes_stage.fbx", "changes_stage.glb", "report.json"),
     }
+    assert report.stage is not None
+    assert [figure.node for figure in report.stage.figures] == ["Flute", "Flute_flute", "Flute_piccolo"]
+    assert len({(figure.place.x_m, figure.place.z_m) for figure in report.stage.figures}) == 1
     (player,) = report.players
     (double,) = player.doubles
     assert (player.name, player.instrument, player.notes) == ("Flute", "flute", 8)
@@ -66,7 +70,7 @@ def test_both_are_judged_with_that_character_and_keep_every_bound(written: tuple
         assert one.measures is not None
         assert one.measures.sounding_frames > 40
         assert one.measures.breaths.shown == one.measures.breaths.planned > 0
-        assert set(failures(one)) <= TOLD
+        assert set(failures(one)) <= REPORTED
     # The body is one: what is measured of it alone is the same with both.
     (double,) = player.doubles
     assert double.measures is not None

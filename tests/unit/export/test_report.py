@@ -13,7 +13,7 @@ from app.cli.summary import columns, summary
 from app.contacts.bounds import Spread
 from app.contacts.controls import ControlMeasure
 from app.export.measure import BreathMeasure, JointMeasure, PlayerMeasures
-from app.export.report import PlayerReport, Report, StagePlace, UnplayedPart, encode_report, failures
+from app.export.report import DancerMeasures, PlayerReport, Report, StagePlace, UnplayedPart, encode_report, failures
 
 
 def measures(**changes: object) -> PlayerMeasures:
@@ -45,6 +45,13 @@ def player(found: PlayerMeasures | None, sway: float | None = 0.5) -> PlayerRepo
 def report(*players: PlayerReport, first_frame_s: float = -2.0) -> Report:
     unplayed = (UnplayedPart("tuba", "no map", 3),)
     return Report("v", "s.mid", first_frame_s, 30.0, "30", 10, 1.0, None, 0, players, ("look here",), unplayed)
+
+
+def test_a_dancer_is_within_bounds_with_feet_that_stand_and_bones_that_keep_their_length() -> None:
+    good = DancerMeasures(standing_s=9.0, slide_mm_s=0.1, slide_most_mm_s=9.0, bones_mm=0.0, below_mm=0.0)
+    assert good.kept
+    assert not msgspec.structs.replace(good, slide_mm_s=50.0).kept
+    assert not msgspec.structs.replace(good, bones_mm=5.0).kept
 
 
 def test_within_all_bounds_is_no_failure() -> None:

@@ -22,7 +22,7 @@ from app.export.playback import Playback
 from app.formats import usd
 from app.formats.bvh import read_bvh
 from app.formats.fbx.read import read_scene
-from app.formats.gltf import read_glb
+from app.formats.gltf.read import read_glb
 from metadata.model import ARKIT_MORPHS
 from tests.support import readers
 

@@ -104,7 +104,7 @@ def test_names_hierarchy_and_rest_are_the_files() -> None:
     assert tuple(bone.parent for bone in scene.bones) == figure.parents
     np.testing.assert_allclose([bone.translation_cm for bone in scene.bones], figure.translations_m * 100.0)
     np.testing.assert_allclose([bone.rotation_xyzw for bone in scene.bones], figure.rotations)
-    assert [mesh.name for mesh in scene.meshes] == [mesh.name for mesh in figure.meshes]
+    assert [mesh.name for mesh in scene.meshes] == [f"x_{mesh.name}" for mesh in figure.meshes]
     assert scene.clip is not None
     # Only the hips are moved: every other bone keeps its place on its parent exactly.
     assert [scene.bones[bone].name for bone in scene.clip.translations_cm] == [PREFIX + "hips"]

@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from app.formats.fbx import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh
+from app.formats.scene import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh
 from tests.support.readers import Expected
 
 BONES = (

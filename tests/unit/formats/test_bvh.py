@@ -10,7 +10,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from app.errors import FileError
-from app.formats.bvh import BvhClip, decode_bvh, encode_bvh, read_bvh, write_bvh
+from app.formats.bvh import BvhClip, decode_bvh, read_bvh, write_bvh
+from tests.support.encoded import encode_bvh
 from tests.unit.formats import scenes
 
 
@@ -35,10 +36,7 @@ DEPTH_FIRST = (0, 1, 3, 5, 2, 4, 6)
 @pytest.mark.parametrize("fps", [Fraction(24), Fraction(30000, 1001), Fraction(60), Fraction(37, 2)], ids=str)
 def test_a_clip_comes_back(fps: Fraction, tmp_path: Path) -> None:
     given = clip(fps=fps)
-    write_bvh(
-        tmp_path / "a.bvh", given.names, given.parents, given.offsets_cm, given.fps,
-        given.root_translation_cm, given.rotations_xyzw, given.end_sites_cm,
-    )  # fmt: skip
+    write_bvh(tmp_path / "a.bvh", given)
     found = read_bvh(tmp_path / "a.bvh")
     order = [given.names.index(name) for name in found.names]
     assert tuple(order) == DEPTH_FIRST

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.formats.bvh import write_bvh
-from app.formats.fbx import write_scene
+from app.formats.bvh import BvhClip, write_bvh
+from app.formats.fbx.write import write_scene
 from app.formats.gltf.write import write_glb
 from app.formats.scene import Scene
 from app.formats.usd import write_usd
@@ -128,12 +128,12 @@ def _write_bvh(path: Path, fps: Fraction) -> Expected:
     """The character's motion from the hips down the tree, as BVH has it: offsets, and one moving root."""
     scene = scenes.character(fps)
     assert scene.clip is not None
-    names = [bone.name for bone in scene.bones]
-    parents = [bone.parent for bone in scene.bones]
+    names = tuple(bone.name for bone in scene.bones)
+    parents = tuple(bone.parent for bone in scene.bones)
     offsets = np.array([bone.translation_cm for bone in scene.bones])
     ends = {joint: np.array([0.0, 2.0, 1.0]) for joint in set(range(len(names))) - set(parents)}
     root = scene.clip.translations_cm[0] + [0, 95, 0]
-    write_bvh(path, names, parents, offsets, fps, root, scene.clip.rotations_xyzw, ends)
+    write_bvh(path, BvhClip(names, parents, offsets, ends, fps, root, scene.clip.rotations_xyzw))
     clip = replace(scene.clip, translations_cm={0: root}, morph_weights={})
     return scenes.expected(replace(scene, clip=clip))
 

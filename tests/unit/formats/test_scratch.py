@@ -64,9 +64,9 @@ def test_what_a_killed_process_left_is_found_once(place: Path) -> None:
 
 def test_one_that_was_killed_before_it_had_its_lock_is_removed_and_others_are_not_ours(place: Path) -> None:
     (place / f"{0:016x}").mkdir(parents=True)
-    (place / "of somebody").mkdir()
+    (place / "of another user").mkdir()
     assert list(abandoned_folders()) == []
-    assert [path.name for path in place.iterdir()] == ["of somebody"]
+    assert [path.name for path in place.iterdir()] == ["of another user"]
 
 
 def test_where_the_first_place_refuses_there_is_a_second(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

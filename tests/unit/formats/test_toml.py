@@ -1,4 +1,4 @@
-"""TOML files: what was written is read; of what no one means to write only our own errors are heard, and soon."""
+"""TOML files: what was written is read; of what no one means to write only our own errors are raised, and soon."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ def test_what_the_stage_says(tmp_path: Path) -> None:
     assert UsdGeom.GetStageUpAxis(stage) == "Y"
     assert (stage.GetStartTimeCode(), stage.GetEndTimeCode()) == (0.0, 30.0)
     assert stage.GetTimeCodesPerSecond() == stage.GetFramesPerSecond() == 30000 / 1001
-    motion = UsdSkel.Animation.Get(stage, "/Performance/Motion")
+    motion = UsdSkel.Animation.Get(stage, "/Performance/Performance_motion")
     for attribute in (motion.GetRotationsAttr(), motion.GetTranslationsAttr(), motion.GetBlendShapeWeightsAttr()):
         assert attribute.GetTimeSamples() == list(map(float, range(31)))
     body = stage.GetPrimAtPath("/Performance/Body")
@@ -91,7 +91,7 @@ def test_names_stay_whole_where_usd_allows_other_ones_only(tmp_path: Path) -> No
     assert scene.clip is not None
     bones = list(scene.bones)
     bones[1], bones[2] = replace(bones[1], name="mixamorig:Hips"), replace(bones[2], name="mixamorig Hips")
-    mesh = replace(scene.meshes[0], name="Skeleton")
+    mesh = replace(scene.meshes[0], name="Materials")
     morphs = tuple(replace(morph, name=name) for morph, name in zip(mesh.morphs, ("Body_front", "あ!"), strict=True))
     odd = replace(
         scene,
@@ -102,14 +102,14 @@ def test_names_stay_whole_where_usd_allows_other_ones_only(tmp_path: Path) -> No
     stage = _stage(tmp_path / "scene.usdc", odd)
     root = stage.GetDefaultPrim()
     assert root.GetDisplayName() == "Trumpet 1 / B♭ 🎺"
-    skeleton = UsdSkel.Skeleton(root.GetChild("Skeleton"))
+    skeleton = UsdSkel.Skeleton(root.GetChild(f"{root.GetName()}_skeleton"))
     assert list(skeleton.GetJointNamesAttr().Get()) == [bone.name for bone in bones]
     joints = list(skeleton.GetJointsAttr().Get())
     assert joints[:3] == ["root", "root/mixamorig_Hips", "root/mixamorig_Hips/mixamorig_Hips_2"]
     valid, reason = UsdSkel.Topology(skeleton.GetJointsAttr().Get()).Validate()
     assert valid, reason
-    renamed = root.GetChild("Skeleton_2")
-    assert renamed.GetDisplayName() == "Skeleton"
+    renamed = root.GetChild("Materials_2")
+    assert renamed.GetDisplayName() == "Materials"
     binding = UsdSkel.BindingAPI(renamed)
     assert list(binding.GetBlendShapesAttr().Get()) == ["Body_front", "あ!"]
     assert len(binding.GetBlendShapeTargetsRel().GetTargets()) == 2
@@ -149,10 +149,10 @@ def test_a_still_scene_and_a_bare_skeleton(tmp_path: Path) -> None:
     scene = scenes.character(Fraction(24))
     still = _stage(tmp_path / "still.usdc", replace(scene, clip=None), Sound("song.wav", 0.0))
     assert [child.GetName() for child in still.GetDefaultPrim().GetChildren()] == [
-        "Skeleton", "Materials", "Body", "Teeth", "Shirt",
+        "root_skeleton", "Body", "Materials", "Teeth", "Shirt",
     ]  # fmt: skip
     bare = _stage(tmp_path / "bare.usdc", replace(scene, clip=None, meshes=()))
-    binds = UsdSkel.Skeleton(bare.GetDefaultPrim().GetChild("Skeleton")).GetBindTransformsAttr().Get()
+    binds = UsdSkel.Skeleton(bare.GetDefaultPrim().GetChild("root_skeleton")).GetBindTransformsAttr().Get()
     offsets = np.array([bone.translation_cm for bone in scene.bones])
     rotations = np.array([bone.rotation_xyzw for bone in scene.bones])
     world = scenes.world_from_bones(scene.bones, offsets[None], rotations[None])[0]

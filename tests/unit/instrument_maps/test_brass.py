@@ -41,7 +41,7 @@ CHART_OF = {
 EXCEPTIONS = {
     "trombone_tenor_F_attachment": {
         68: "the chart's own first choice, a raised 1, is shorter than a closed slide: 3, its second, is what is left",
-        40: "with the attachment T2 is nearer than 7, and nobody goes so far out who has it",
+        40: "with the attachment T2 is nearer than 7, and no player who has it goes so far out",
         47: "as E 2",
     },
     "trombone_bass_F_Gb": dict.fromkeys((40, 47, 68), "as of the tenor trombone"),

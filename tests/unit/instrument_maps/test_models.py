@@ -11,7 +11,8 @@ import numpy.typing as npt
 import pytest
 from scipy.spatial import cKDTree
 
-from app.formats.gltf import GltfModel, read_glb
+from app.formats.gltf.model import GltfModel
+from app.formats.gltf.read import read_glb
 from app.rig.proxy import signed_distance
 from instrument_maps.check_model import model_problems, node_triangles
 from instrument_maps.load import bundled_maps, model_path

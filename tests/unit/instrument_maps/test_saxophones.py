@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.formats.gltf import read_glb
+from app.formats.gltf.read import read_glb
 from instrument_maps.load import bundled_maps, model_path
 
 MAPS = {name: found for name, found in bundled_maps().items() if name.startswith("sax_")}

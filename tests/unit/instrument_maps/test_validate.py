@@ -71,7 +71,7 @@ def test_unreadable_files_are_our_errors(tmp_path: Path) -> None:
         ('finger = "right.middle"', 'finger = "right.midle"', "controls[1].finger", "'right.midle' is not a finger"),
         ("schema_version = 1", "schema_version = 2", "schema_version", "2 is not 1"),
         ('id = "trumpet_Bb"', 'id = "../trumpet"', "id", "'../trumpet' is not a plain name"),
-        ('en = "Trumpet in B flat"', f'en = "{"t" * 201}"', "name.en", "is longer than 200 characters"),
+        ('en = "Trumpet in B♭"', f'en = "{"t" * 201}"', "name.en", "is longer than 200 characters"),
         (
             'label = "123", controls',
             'label = "12", controls',
@@ -93,6 +93,7 @@ def test_unreadable_files_are_our_errors(tmp_path: Path) -> None:
         ('plays = ["trumpet"]', 'plays = ["trumpett0"]', "plays[0]", "'trumpett0' is not in the vocabulary"),
         ("low = 52", "low = 51", "fingerings", "written pitch 53 (concert 51) has none"),
         ("high = 87 ", "high = 86 ", None, "is not in the range"),
+        ("high = 87 ", "high = 128 ", "range", "high <= 127"),
         ('label = "123", controls = { valve_1', 'label = "123", controls = { valve_9', None, "valve_9"),
         ('rank = 2, label = "3"', 'rank = 4, label = "3"', "fingerings", "do not count from 1 without gaps"),
         (

@@ -66,15 +66,15 @@ def _finger(bones: Skeleton, side: str, finger: str, control: str | None) -> Fin
     return FingerTable(f"{side}.{finger.lower()}", joints, (station,))
 
 
-def hold(bones: Skeleton, slide_m: float = 0.0) -> GripPose:
-    """Both hands 20 cm before the lips; with ``slide_m`` the right hand goes as far out with a slide."""
+def hold(bones: Skeleton, slide_m: float = 0.0, sliding: str = "right") -> GripPose:
+    """Both hands 20 cm before the lips; with ``slide_m`` the ``sliding`` one goes as far out with a slide."""
     slide = None
     if slide_m:
         slide = NodeMotion("slide", np.array([0.0, 0.0, slide_m]), np.array([0.0, 0.0, 1.0]), 0.0, np.zeros(3))
     tables = {"left": (_finger(bones, "left", "Index", None),), "right": (_finger(bones, "right", "Index", "valve_1"),)}
     hands = []
     for side, sign in (("left", 1.0), ("right", -1.0)):
-        moving = slide if side == "right" else None
+        moving = slide if side == sliding else None
         hands.append(
             HandHold(
                 side=side,  # type: ignore[arg-type]

@@ -69,6 +69,25 @@ def test_the_mouth_opens_in_a_breath_and_is_shut_at_its_end() -> None:
     assert deep > shallow > 0.5
 
 
+def test_the_mouth_is_wide_open_for_most_of_a_long_breath_and_for_a_moment_of_a_hasty_one() -> None:
+    opening = breath_opening(plan(breaths=(breath(2.0, 4.0, 1.0), breath(6.0, 6.3, 1.0))))
+    np.testing.assert_allclose(opening.sample(np.array([2.5, 3.0, 3.7, 6.15])), 1.0)
+    assert opening.sample(np.array([3.9]))[0] < 1.0
+
+
+def test_the_lips_let_go_for_a_breath_and_stay_formed_in_a_short_rest_without_one() -> None:
+    rows = fingerings([(0.0, 2.0, {}), (2.6, 4.0, {})])
+    pressed = [face(plan_of(rows, breaths=taken), np.array([1.0, 2.3]))["mouthPressLeft"]
+               for taken in ((), (breath(2.0, 2.6, 1.0),))]  # fmt: skip
+    assert pressed[0][1] > 0.8 * pressed[0][0] > 0.0
+    assert pressed[1][1] < 0.3 * pressed[1][0]
+
+
+def test_the_tongue_is_up_just_before_the_attack_and_down_soon_after() -> None:
+    tongue = Face.of(plan(), 1.0).tongue.sample(np.array([13.96, 13.99, 14.0, 14.06]))
+    np.testing.assert_allclose(tongue, [0.0, 1.0, 1.0, 0.0], atol=1e-9)
+
+
 def test_no_morph_jumps() -> None:
     for name, values in face(plan()).items():
         most = 40.0 if name.startswith("eye") else 15.0  # lids shut in 80 ms
@@ -99,3 +118,22 @@ def test_eyes_rest_on_the_music_and_go_up_at_a_cue() -> None:
     playing = (TIMES_S > 1.0) & (TIMES_S < 10.0)
     assert np.median(pitch[playing]) > 0.1
     assert gaze.pitch_rad.sample(np.array([13.4]))[0] < 0.05
+
+
+def test_the_head_follows_the_eyes_up_to_a_cue_and_not_down_to_the_music() -> None:
+    cued = np.array([plan_gaze(plan(), seed).head_pitch_rad.sample(np.array([13.9]))[0] for seed in range(8)])
+    assert cued.max() < -0.005
+
+
+def test_in_rests_the_eyes_wander_to_both_sides_and_the_lids_close_more_often() -> None:
+    made = plan_of(fingerings([(60.0 + i, 61.0 + i, {}) for i in range(60)]))
+    gazes = [plan_gaze(made, seed) for seed in range(12)]
+    resting = np.arange(2.0, 55.0, 0.1)
+    yaw, pitch = (
+        np.concatenate([getattr(gaze, name).sample(resting) for gaze in gazes]) for name in ("yaw_rad", "pitch_rad")
+    )
+    assert yaw.min() < -0.2 < 0.2 < yaw.max()
+    assert np.abs(yaw).max() <= 0.5
+    assert pitch.min() >= -0.15
+    blinks_s = np.concatenate([gaze.blinks.start_s for gaze in gazes])
+    assert np.count_nonzero(blinks_s < 58.0) > 1.3 * np.count_nonzero(blinks_s > 62.0)

@@ -24,10 +24,10 @@ CHARACTER = figure.character()
 PLACES = (0.0, 1.0, 0.0, 0.5, 1.0, 0.2)
 
 
-def played(slide_m: float, note_s: float) -> Motion:
+def played(slide_m: float, note_s: float, sliding: str = "right") -> Motion:
     rows = [(i * note_s, (i + 1) * note_s, {"slide": place}) for i, place in enumerate(PLACES)]
     instrument = figure.instrument_map(press(), slide())
-    hold = figure.hold(CHARACTER.skeleton, slide_m)
+    hold = figure.hold(CHARACTER.skeleton, slide_m, sliding)
     return perform(
         plan_of(fingerings(rows)), PlayerParameters(amplitude=0.0), instrument, CHARACTER, hold, load_body(),
         felt_beats=((0, TICKS),), fps=Fraction(60),
@@ -67,6 +67,14 @@ def test_a_body_that_reaches_does_not_turn_and_one_that_does_not_turns_towards_t
     frames = [round((2.0 + 2.0 * i + 1.0) * 60) for i in range(len(PLACES))]
     assert yaw[frames[1]] > yaw[frames[0]] + 0.1
     assert abs(yaw[frames[2]] - yaw[frames[0]]) < 0.02
+
+
+def test_a_far_left_hand_turns_the_trunk_as_far_the_other_way() -> None:
+    at = [round((2.0 + 2.0 * i + 1.0) * 60) for i in range(2)]
+    near, far = chest_yaw_rad(played(0.42, 2.0, "left"))[at]
+    usual_near, usual_far = chest_yaw_rad(played(0.42, 2.0))[at]
+    assert near - far == pytest.approx(usual_far - usual_near, rel=0.1)
+    assert far < near - 0.1
 
 
 def test_the_lips_hardly_move_when_the_trunk_turns() -> None:

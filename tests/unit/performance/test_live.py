@@ -23,6 +23,7 @@ from app.project.edit.corrections import put
 from app.project.edit.piece import piece_settings, set_piece_settings
 from app.rig.character_library import character_named
 from tests.property.performance.edits import piece
+from tests.support.live import ready_spans
 from tests.support.performed import player_motion
 
 EVENTS = set(PlayerPlan.__struct_fields__) - {"time_frame"}
@@ -99,7 +100,7 @@ def test_all_players_are_made_at_the_playhead_first(performance: Performance) ->
         assert not live.is_seen
         live.work()
         here += [player for player in players if player not in before and live.pose(player, 8.0) is not None]
-        assert live.seen != seen, "who draws is told at once"
+        assert live.seen != seen, "the renderer is notified at once"
     assert here == [players[2], *players[:2]], "who is in front first"
     seen, count = live.seen, 0
     while not live.is_seen:
@@ -126,20 +127,20 @@ def test_an_edit_is_awaited_only_until_what_is_looked_at_is_right(performance: P
     assert first.morphs == right.morphs, "the first piece of work is what is looked at"
     while not live.is_seen:
         assert live.work()
-    assert all_made(live) > 3, "what nobody looks at is left"
+    assert all_made(live) > 3, "what is not shown is not made"
 
 
 def test_ready_spans_grow_together(performance: Performance) -> None:
     live = LiveMotion(performance)
     player = performance.project.players[0]
-    assert live.ready_spans(player.id) == ()
+    assert ready_spans(live, player.id) == ()
     all_made(live)
     frame = performance.time_frame
-    ((start_s, end_s),) = live.ready_spans(player.id)
+    ((start_s, end_s),) = ready_spans(live, player.id)
     assert start_s == frame.first_frame_s
     assert end_s == pytest.approx(frame.end_s, abs=1.0 / 60.0)
     assert live.ready_share == 1.0
-    assert live.ready_spans("nobody") == ()
+    assert ready_spans(live, "unknown") == ()
 
 
 def test_a_pose_made_at_once_is_the_one_that_is_made_in_time(performance: Performance) -> None:
@@ -168,7 +169,7 @@ def test_after_an_edit_a_player_who_was_seen_is_made_at_once(performance: Perfor
     made, anew = live.pose(player.id, 8.0), fresh.pose_now(player.id, 8.0)
     assert made is not None
     assert anew is not None
-    assert any(start_s <= 8.0 < end_s for start_s, end_s in live.ready_spans(player.id))
+    assert any(start_s <= 8.0 < end_s for start_s, end_s in ready_spans(live, player.id))
     np.testing.assert_array_equal(made.rotations, anew.rotations)
     assert made.morphs == {**dict.fromkeys(made.morphs, 0.0), **anew.morphs}
     assert all_made(live) > 0
@@ -196,7 +197,7 @@ def test_between_two_frames_a_pose_is_between_them(performance: Performance) -> 
 def test_poses_of_several_are_those_of_each(performance: Performance, off_s: float) -> None:
     live = LiveMotion(performance)
     all_made(live)
-    ids = [*(player.id for player in performance.project.players), "nobody"]
+    ids = [*(player.id for player in performance.project.players), "unknown"]
     random = np.random.default_rng(3)
     for frame in random.integers(0, 60 * 20, 40):
         time_s = performance.time_frame.first_frame_s + float(frame) / 60.0 + off_s
@@ -301,7 +302,7 @@ def test_it_is_asked_while_it_works(performance: Performance) -> None:
         try:
             while not stop.is_set():
                 live.work(stop.is_set)
-        except BaseException as fault:  # noqa: BLE001 - told below
+        except BaseException as fault:  # noqa: BLE001 - reported below
             faults.append(fault)
 
     thread = threading.Thread(target=work)

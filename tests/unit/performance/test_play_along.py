@@ -13,8 +13,10 @@ from hypothesis import strategies as st
 
 from app.contacts.breaks import Break, joined
 from app.contacts.judge import ContactJudge
+from app.motion.face import Drivers
 from app.performance.bodies import character_of, model_of
 from app.performance.chunks import Pose
+from app.performance.live_breath import LiveBreath, LiveLook
 from app.performance.play_along import PlayAlong
 from app.project.performers import Player
 from app.rig import quaternion
@@ -37,6 +39,14 @@ def run(instrument_id: str) -> Played:
 
 def along(instrument_id: str = "trumpet_Bb") -> PlayAlong:
     return PlayAlong(playing_alone(instrument_id, [(4 * QUARTER, QUARTER, bundled_maps()[instrument_id].range.low)]))
+
+
+def breathing() -> LiveBreath:
+    return LiveBreath(playing_alone("trumpet_Bb", line("trumpet_Bb", 16)), {})
+
+
+def faces(breath: LiveBreath, now_s: float) -> Drivers:
+    return breath.at(now_s).face
 
 
 def looked(player: PlayAlong, start_s: float, length_s: float) -> list[Pose]:
@@ -175,6 +185,72 @@ def test_where_the_breath_pauses_long_enough_one_breathes_in_and_shuts_the_mouth
     again = looked(player, 8.0, 0.12)
     assert again[-1].morphs["jawOpen"] < playing.morphs["jawOpen"] + 0.05
     assert max(np.abs(np.diff([pose.morphs["jawOpen"] for pose in (*paused, *again)]))) < 0.3
+
+
+def test_in_a_long_pause_the_mouth_shuts_after_the_breath_and_at_last_the_lips_let_go() -> None:
+    breath = breathing()
+    breath.play(1.0, 61, 90, True)
+    breath.rest(7.0)
+    opened = [faces(breath, time_s).mouth_open[0] for time_s in np.arange(7.0, 8.6, 1 / FPS)]
+    assert max(opened) > 0.8
+    assert opened[-1] == pytest.approx(0.0, abs=1e-3)
+    assert faces(breath, 9.0).at_lips[0] == 1.0
+    for time_s in np.arange(9.0, 11.0, 1 / FPS):
+        last = faces(breath, time_s)
+    assert last.at_lips[0] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_a_breath_that_is_cut_short_brings_little_air() -> None:
+    """After it the next short pause is breathed in, after a whole one it is not."""
+    opened = []
+    for length_s in (0.15, 1.0):
+        breath = breathing()
+        breath.play(1.0, 61, 127, True)
+        breath.rest(31.0)
+        faces(breath, 31.13)
+        breath.play(31.13 + length_s, 61, 40, True)
+        breath.rest(32.5)
+        opened.append(max(faces(breath, time_s).mouth_open[0] for time_s in np.arange(32.5, 32.8, 1 / FPS)))
+    assert opened[0] > 0.5
+    assert opened[1] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_who_plays_breathes_out_and_the_bell_rises_with_the_loudness() -> None:
+    breath = breathing()
+    breath.blow(1.0, 1.0)
+    breath.play(1.0, 61, 90, True)
+    loud = [breath.at(time_s).levels.height[0] for time_s in np.arange(1.0, 7.0, 0.1)]
+    breath.blow(7.0, 0.0)
+    breath.rest(7.0)
+    inhaled = [breath.at(time_s).levels.full[0] for time_s in np.arange(7.0, 8.0, 0.1)]
+    breath.blow(8.0, 0.2)
+    breath.play(8.0, 61, 90, True)
+    soft = [breath.at(time_s).levels for time_s in np.arange(8.0, 14.0, 0.1)]
+    assert loud[-1] > 0.4
+    assert soft[-1].height[0] < -0.2
+    assert inhaled[-1] > 0.8
+    assert soft[-1].full[0] == pytest.approx(0.0, abs=0.01)
+
+
+def test_a_bite_counts_by_how_far_it_is_from_the_usual_one() -> None:
+    tensions = []
+    for bite in (0.0, 0.6):
+        breath = breathing()
+        breath.play(1.0, 61, 90, True)
+        breath.at(2.0)
+        breath.bite(bite)
+        tensions.append([faces(breath, time_s).tension[0] for time_s in np.arange(2.0, 42.0, 0.5)])
+    free, bitten = (np.array(values) for values in tensions)
+    assert (bitten - free)[1] > 0.1
+    assert (bitten - free)[-1] == pytest.approx(0.0, abs=0.01)
+
+
+def test_the_lids_close_now_and_then_and_open_again_at_once() -> None:
+    look = LiveLook(playing_alone("trumpet_Bb", line("trumpet_Bb", 16)))
+    shut = np.array([look.at(time_s).blinks[0] > 0.5 for time_s in np.arange(0.0, 120.0, 1 / FPS)])
+    begins = np.flatnonzero(np.diff(shut.astype(int)) == 1)
+    assert 10 < len(begins) < 60
+    assert shut.sum() / FPS < 0.3 * len(begins)
 
 
 def test_midi_messages_say_the_same() -> None:

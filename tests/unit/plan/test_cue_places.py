@@ -116,7 +116,7 @@ TUNED = (
         unplayed=run(0, 64, 60),
     ),
     Row(
-        "they begin together with what nobody plays",
+        "they begin together with unplayed parts",
         (("tpt", TRUMPET, run(0, 16, 72)),),
         ((0, "tpt", 0.5),),
         unplayed=run(0, 16, 60),

@@ -22,7 +22,7 @@ def early(index: int) -> Problem:
 
 def test_a_note_is_named_by_pitch_bar_and_beat() -> None:
     (line,) = problem_lines([early(6)], SCORE, text)
-    assert "before note F♯4 (bar 2, beat 3)" in line
+    assert "before note F♯4 (2.3.000)" in line
     assert NOTES[6].id not in line
 
 
@@ -30,7 +30,7 @@ def test_a_kind_is_one_line_with_a_count_and_the_places() -> None:
     lines = problem_lines([early(0), early(5), early(8)], SCORE, text)
     assert len(lines) == 1
     assert "takes 100 ms" in lines[0]
-    assert lines[0].endswith("2 more times: 2.2, 3.1")
+    assert lines[0].endswith("2 more times: 2.2.000, 3.1.000")
 
 
 def test_kinds_stay_apart_in_the_order_of_their_first() -> None:
@@ -59,4 +59,4 @@ def test_a_note_that_is_gone_keeps_its_id() -> None:
 def test_the_places_listed_are_limited() -> None:
     (line,) = problem_lines([early(index) for index in range(60)], SCORE, text)
     assert "59 more times" in line
-    assert line.endswith(", 11.1, ...")
+    assert line.endswith(", 11.1.000, ...")

@@ -349,6 +349,21 @@ def test_a_disk_that_does_not_answer_is_not_waited_for(editor: Editor, folder: P
     assert load_work(item)[0] == newer
 
 
+def test_while_two_disks_do_not_answer_no_third_writing_is_begun(editor: Editor, document: Path) -> None:
+    autosave = editor()
+    project = open_in(autosave, document)
+    autosave.changed(later(project), 0.0)
+    first = autosave.due(4.0)
+    autosave.changed(later(later(project)), 4.5)
+    second = autosave.due(9.0)
+    assert first is not None
+    assert second is not None
+    autosave.changed(project, 10.0)
+    assert autosave.due(1000.0) is None
+    made(autosave, second, 1000.0)
+    assert autosave.due(1000.0) is not None
+
+
 def test_a_writing_that_was_held_up_and_then_refused_does_not_replace_a_newer_one(
     editor: Editor, document: Path, disks: Disks
 ) -> None:

@@ -129,7 +129,7 @@ def test_removing_takes_corrections_along_and_order_can_be_changed(pair: Project
     removed = edit.remove_dancers(pair, ["dancer:1"])
     assert removed.dance_corrections == {}
     assert [dancer.id for dancer in removed.dancers] == ["dancer:2"]
-    assert edit.remove_dancers(pair, ["nobody"]) is pair
+    assert edit.remove_dancers(pair, ["unknown"]) is pair
     # An id is not given again while one behind it lives.
     assert edit.add_dancer(removed, "salsa", "x")[1] == "dancer:3"
     moved = edit.move_dancers(pair, ["dancer:2"], 0)

@@ -25,7 +25,7 @@ def test_players_names_and_instruments_and_no_more_than_is_there(tmp_path: Path)
     score = read_midi(source, maps=map_choices(maps.values()))
     project = replace(project_from_score(score, maps), source=str(source))
     project = rename(project, project.players[0].id, "アンナ")
-    project, _ = add_player(project, maps["tuba_CC"], maps, "Nobody yet")
+    project, _ = add_player(project, maps["tuba_CC"], maps, "No notes yet")
     assert export_midi(project, target, maps) == ()
     [read] = read_midi(target, maps=map_choices(maps.values())).parts
     assert (read.name, read.instrument, read.map_id) == ("アンナ", "trumpet", score.parts[0].map_id)

@@ -265,7 +265,7 @@ def test_what_changes_nothing_is_the_very_same(given: tuple[Project, frozenset[s
     assert edit.resize(project, ids, 0) is project
     assert edit.change_velocity(project, ids) is project
     assert edit.quantise(project, ids, Fraction(1), 0.0, ends=True) is project
-    assert edit.erase(project, {"nobody"}) is project
+    assert edit.erase(project, {"unknown"}) is project
     untouched = {each.id: each for each in project.score.parts}
     for each in edit.erase(project, ids).score.parts:
         if not any(note.id in ids for note in untouched[each.id].notes):

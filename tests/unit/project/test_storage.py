@@ -180,7 +180,7 @@ def test_a_newer_file_is_refused_by_its_version_alone() -> None:
         ("corrections__1.1.1__0__correction", "levitate", "corrections['1.1.1'][0]"),
         ("corrections__1.1.1__2__depth", "deep", "corrections['1.1.1'][2].depth"),
         ("corrections__1.1.1__2__depth", 1e300, "corrections['1.1.1'][2].depth"),
-        ("corrections__nobody", [{"correction": "set_cue", "note_id": "1:1"}], "corrections['nobody']"),
+        ("corrections__unknown", [{"correction": "set_cue", "note_id": "1:1"}], "corrections['unknown']"),
         ("expressions__0__weights__browDownLeft", 1.5, "expressions[0].weights"),
         ("expressions__0__weights__moustache", 0.5, "expressions[0].weights.moustache"),
         ("score__percussion__1__tick", -1, "score.percussion[1].tick"),

@@ -86,7 +86,7 @@ def test_a_ring_goes_level_with_the_rim_of_its_hole() -> None:
 
 def test_a_plateau_is_touched_on_its_cup() -> None:
     work, body = Keywork(), _body()
-    cup = Cup(body, 0.2, 10.0, 0.009, inlay=0.007)
+    cup = Cup(body, 0.2, 10.0, 0.009)
     work.plateau("key_F", "1R", "right.index.pad", body.rod(0.17, 0.22, 70.0, 0.005), cup, opening_m=0.003)
     point = np.asarray(work.contacts[0]["point"])
     points = np.vstack([part.shape.points for part in work.model.parts if part.node == "key_F"])

@@ -41,7 +41,7 @@ def test_a_bundled_character_has_what_playing_needs(id: str) -> None:
 
 def test_an_unknown_character_is_refused() -> None:
     with pytest.raises(UsageError):
-        character_named("nobody")
+        character_named("unknown")
 
 
 def test_our_file_rewritten_by_another_program_is_read_as_any_file(tmp_path: Path) -> None:

@@ -225,12 +225,12 @@ from tests.support.models import bundled_instrument
 from instrument_maps.load import bundled_maps
 from metadata.load import load_body
 
-def told(share):
+def reported(share):
     if "scipy.optimize" in sys.modules:
         raise SystemExit(",".join(str(one["num_threads"]) for one in threadpool_info() if one["user_api"] == "blas"))
 
 trumpet = bundled_maps()["trumpet_Bb"]
-fit_hold(character_named("man_adult"), bundled_instrument(trumpet), trumpet, load_body(), told)
+fit_hold(character_named("man_adult"), bundled_instrument(trumpet), trumpet, load_body(), reported)
 """
     two = {**os.environ, **dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"), "2")}
     done = subprocess.run([sys.executable, "-c", program], env=two, capture_output=True, text=True, check=False)

@@ -112,8 +112,8 @@ def test_who_merges_the_stretches_has_one_player_again(tmp_path: Path) -> None:
 def test_a_row_of_the_import_is_one_instruments(tmp_path: Path) -> None:
     contents = read_contents(write(tmp_path, "Flute", program(73), LOW, program(72), HIGH))
     rows = usual_rows(contents, bundled_maps())
-    other = ImportRow(rows[1].assignment, character_id="somebody")
+    other = ImportRow(rows[1].assignment, character_id="another")
     project = import_project(contents, [rows[0], other], bundled_maps())
     # One musician plays both, and so is who was chosen for either.
-    assert [player.character_id == "somebody" for player in project.players] == [True, True]
+    assert [player.character_id == "another" for player in project.players] == [True, True]
     assert len(project.bodies) == 1

@@ -17,11 +17,26 @@ MAP = MetreMap(480, (Metre(0, 4, 4), Metre(3840, 6, 8)))
 
 @pytest.mark.parametrize(
     ("tick", "text"),
-    [(0, "1.1"), (480, "1.2"), (2040, "2.1.120"), (3840, "3.1"), (4080, "3.2"), (4081, "3.2.001"), (-480, "0.4")],
+    [
+        (0, "1.1.000"),
+        (480, "1.2.000"),
+        (2040, "2.1.120"),
+        (3840, "3.1.000"),
+        (4080, "3.2.000"),
+        (4081, "3.2.001"),
+        (-480, "0.4.000"),
+    ],
 )
 def test_places_are_written_and_read(tick: int, text: str) -> None:
     assert MAP.label(tick) == text
     assert MAP.tick_of_label(text) == tick
+
+
+def test_ticks_have_the_digits_of_the_longest_beat() -> None:
+    """A quarter of 1920 ticks: a position is as long at the beginning of a beat as at its end."""
+    fine = MetreMap(1920, (Metre(0, 4, 4), Metre(15360, 6, 8)))
+    assert [fine.label(tick) for tick in (0, 96, 1919, 15361)] == ["1.1.0000", "1.1.0096", "1.1.1919", "3.1.0001"]
+    assert fine.tick_of_label("1.1.0096") == fine.tick_of_label("1.1.96") == 96
 
 
 @pytest.mark.parametrize(
@@ -33,7 +48,8 @@ def test_what_is_typed_is_understood(text: str, tick: int | None) -> None:
 
 def test_the_beats_of_a_pickup_are_counted_back_from_the_bar_line() -> None:
     pickup = MetreMap(480, (Metre(0, 4, 4), Metre(720, 4, 4)), has_pickup=True)
-    assert [pickup.label(tick) for tick in (0, 239, 240, 719, 720)] == ["0.1", "0.1.239", "0.2", "0.2.479", "1.1"]
+    places = {0: "0.1.000", 239: "0.1.239", 240: "0.2.000", 719: "0.2.479", 720: "1.1.000"}
+    assert {tick: pickup.label(tick) for tick in places} == places
     assert pickup.beats_of_bar(0).tolist() == [0, 240]
     assert [row.tolist() for row in pickup.counted(0, 2)] == [[240, 720, 1200, 1680, 2160], [0, 0, 1, 2, 3]]
     # A bar that another metre cuts short is counted from its beginning.

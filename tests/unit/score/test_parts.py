@@ -104,7 +104,7 @@ def test_a_range_that_fits_mostly_is_said_so_and_one_that_does_not_is_refused() 
         "total": 4,
         "count": 1,
         "bar": 1,
-        "beat": 2.5,
+        "beat": 2,
         "pitch": 83,
     }
     refused = one_part(82, 83, 84, 85)

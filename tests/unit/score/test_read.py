@@ -141,6 +141,23 @@ def test_format_0_is_split_by_channel() -> None:
     assert [(part.id, part.channel) for part in score.parts] == [("1.1.1", 0), ("1.2.1", 1), ("1.6.1", 5)]
 
 
+@pytest.mark.parametrize(
+    ("events", "players"),
+    [
+        (note(60) + note(62, channel=1) + note(64), 1),
+        # One tick together.
+        (note(60) + bytes([0, 0x91, 62, 64, 47, 0x90, 64, 64, 1, 0x81, 62, 0, 47, 0x80, 64, 0]), 2),
+        # The first note of two that overlap lasts longer than the second.
+        (bytes([0, 0x90, 60, 64, 6, 64, 64, 18, 64, 0, 0, 0x91, 67, 64, 12, 0x81, 67, 0, 12, 0x80, 60, 0]), 3),
+    ],
+    ids=["in turns", "a tick together", "under a long note"],
+)
+def test_channels_of_an_instruments_track_are_one_player_where_they_take_turns(events: bytes, players: int) -> None:
+    """Notation programs give a player's muted notes a channel of their own."""
+    track = chunk(b"MTrk", meta(3, b"Trumpet") + events + END)
+    assert len(score_of(header(1, 2) + chunk(b"MTrk", END) + track).parts) == players
+
+
 def test_format_0_with_two_tracks_sounds_together_with_a_warning() -> None:
     score = score_of(header(0, 2) + 2 * chunk(b"MTrk", SCALE_BYTES + END))
     assert notes_of(score) == sorted(2 * SCALE_NOTES)
@@ -356,6 +373,14 @@ def test_a_pitch_that_has_lost_a_note_off_is_struck_again_and_not_held() -> None
     score = one_track(repeated)
     assert notes_of(score) == [(48 * number, 48, 60) for number in range(4)]
     assert len(score.parts) == 1
+
+
+def test_a_note_that_is_ended_where_it_is_struck_again_lasts_until_then() -> None:
+    # The first 60 has lost its end; another voice is struck during the second, which ends as the third begins.
+    struck = bytes([0, 0x90, 60, 64, 48, 60, 64, 12, 48, 64, 12, 48, 0, 24, 60, 0, 0, 60, 64, 48, 60, 0])
+    score = one_track(struck)
+    assert notes_of(score) == [(0, 48, 60), (48, 48, 60), (60, 12, 48), (96, 48, 60)]
+    assert [warning.arguments["count"] for warning in score.warnings if warning.id == "midi.hanging_notes"] == [1]
 
 
 def test_a_note_struck_twice_at_once_and_ended_once_is_one() -> None:

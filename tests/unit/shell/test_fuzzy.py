@@ -33,5 +33,10 @@ def test_letters_must_be_there_in_their_order() -> None:
     assert fitness("evas", "Save") is None
 
 
+def test_letters_strewn_about_do_not_fit() -> None:
+    assert fitness("eel", "Reset to Default") is None
+    assert fitness("rdf", "Reset to Default") is not None
+
+
 def test_case_does_not_count() -> None:
     assert fitness("SAVE", "save") == fitness("save", "SAVE")

@@ -15,7 +15,9 @@ from app.shell.rows import rows
 
 ROOT = Path(__file__).parents[3]
 TEXTS = {id: wording for room in ROOMS for id, wording in room.items()}
-FUNCTIONS = frozenset({"tr", "Caption", "Button", "Check", "ColumnList", "IconButton", "PictureButton", "in_form"})
+FUNCTIONS = frozenset(
+    {"tr", "Caption", "Button", "Check", "ColumnList", "IconButton", "OkCancel", "PictureButton", "in_form"}
+)
 """What is given ids."""
 ID = re.compile(r"[a-z_]+\.\w+")
 """Names of objects have no dot."""

@@ -197,7 +197,7 @@ def test_what_is_received_is_the_pose(index: int) -> None:
 
 
 def test_unity_s_left_is_left_and_forward_is_forward() -> None:
-    """Told apart from a mirrored or a turned world: the left hand is at -X, what lies before one at +Z."""
+    """Neither mirrored nor turned: the left hand is at -X, what lies before one at +Z."""
     character, pose = pose_of(0, 2.0)
     (frame,) = frames([(0.0, packet) for packet in Sent(character, "horn").datagrams(pose, 0.0)])
     assert frame.bones["LeftUpperLeg"][0] < -0.03 < 0.03 < frame.bones["RightUpperLeg"][0]

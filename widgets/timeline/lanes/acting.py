@@ -131,7 +131,7 @@ class ActingLane(RegionLane):
         return result + removed, row
 
     def _gestures(self, plan: PlayerPlan) -> list[Region]:
-        """The gestures, of which there are thousands: who has not changed is shown by the region from before."""
+        """The gestures, of which there are thousands: those of an unchanged plan keep their regions."""
         before, self._known = self._known, {}
         for event in plan.gestures:
             known = before.get(id(event))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent
-from PySide6.QtWidgets import QApplication, QFrame, QHBoxLayout, QMenu, QPushButton
+from PySide6.QtWidgets import QApplication, QFrame, QMenu, QPushButton
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
@@ -16,6 +16,7 @@ from widgets.common.chip import Chip
 from widgets.common.controls import named
 from widgets.common.fingering_tags import words_of_tags
 from widgets.common.icons import icon
+from widgets.common.layouts import in_row
 from widgets.common.plain import verbatim
 from widgets.timeline.lane import Lane
 
@@ -32,9 +33,7 @@ class Alternates(QFrame):
         self._lane = lane
         self.event_shown: FingeringEvent | None = None
         self.player_id = ""
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(4, 4, 4, 4)
-        self._row.setSpacing(3)
+        self._row = in_row(of=self, margins=4, spacing=3)
         self.hide()
 
     def choices(self, player_id: str, event: FingeringEvent) -> tuple[Fingering, ...]:

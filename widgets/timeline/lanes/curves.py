@@ -30,15 +30,11 @@ CONTROLLERS = ("breath", "bite", "expression", "volume", "aftertouch", "pitch_be
 MARGIN_PX = 4.0
 
 
-class _Curves(LaneItem):
+class _Curves(LaneItem["CurvesLane"]):
     """The chosen curve strong and editable, the others calm behind it."""
 
-    def __init__(self, lane: CurvesLane) -> None:
-        super().__init__(lane)
-        self._lane = lane
-
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane, player = self._lane, self._lane.session.player
+        lane, player = self.lane, self.lane.session.player
         if player is None or lane.lips is None:
             return
         tokens, colour = lane.session.tokens, lane.session.colour(player)
@@ -59,7 +55,7 @@ class _Curves(LaneItem):
             self._paint_steps(painter, exposed, trace, shade(tokens.text, 200), 1.2)
 
     def _paint_steps(self, painter: QPainter, exposed: QRectF, steps: Steps, colour: QColor, width: float) -> None:
-        axis = self._lane.axis
+        axis = self.lane.axis
         left, right = int(exposed.left()), int(np.ceil(exposed.right()))
         low, high = steps.columns(axis.seconds(left), axis.seconds(right), right - left)
         points = step_path(low, high)
@@ -68,7 +64,7 @@ class _Curves(LaneItem):
         draw_path(painter, points, QPen(colour, width))
 
     def _paint_notes(self, painter: QPainter, exposed: QRectF, name: str, colour: QColor, fill: QColor | None) -> None:
-        lane = self._lane
+        lane = self.lane
         data, axis = lane.lips, lane.axis
         assert data is not None
         shown = data.spans.between(axis.seconds(exposed.left()), axis.seconds(exposed.right()))
@@ -103,7 +99,7 @@ class _Curves(LaneItem):
                 draw_text(painter, QRectF(x + 2.0, over, max(wide, 26.0), 13.0), value)
 
     def _y(self, value: Floats) -> Floats:
-        height = self._lane.plot_rect.height() - 2 * MARGIN_PX
+        height = self.lane.plot_rect.height() - 2 * MARGIN_PX
         result: Floats = MARGIN_PX + (1.0 - value) * height
         return result
 

@@ -38,15 +38,11 @@ class DancesView(LaneView, Protocol):
     def reason(self, dance: DanceSteps) -> str: ...
 
 
-class DancesItem(LaneItem):
+class DancesItem(LaneItem[DancesView]):
     """The rows of a lane of dances."""
 
-    def __init__(self, lane: DancesView) -> None:
-        super().__init__(lane)
-        self._dances = lane
-
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane, tokens = self._dances, self._dances.session.tokens
+        lane, tokens = self.lane, self.lane.session.tokens
         painter.setFont(small_font(lane.font()))
         text = lane.empty_text()
         if text:
@@ -74,7 +70,7 @@ class DancesItem(LaneItem):
                 self._paint_move(painter, box.adjusted(0, 2, 0, -2), dance, lane.moving.number, lane.moving.tick)
 
     def _paint_row(self, painter: QPainter, box: QRectF, dance: DanceSteps, colour: str) -> None:
-        lane, axis = self._dances, self.lane.axis
+        lane, axis = self.lane, self.lane.axis
         first = int(np.searchsorted(dance.end_s, axis.start_s, side="right"))
         stop = int(np.searchsorted(dance.start_s, axis.end_s, side="left"))
         if first >= stop:
@@ -103,7 +99,7 @@ class DancesItem(LaneItem):
 
     def _paint_move(self, painter: QPainter, box: QRectF, dance: DanceSteps, number: int, tick: int) -> None:
         """The frame of a step, and its accent, where they are dragged to."""
-        lane, step = self._dances, dance.steps[number]
+        lane, step = self.lane, dance.steps[number]
         accent_s = lane.session.project.score.tempo_map.seconds(float(tick))
         by_s = accent_s - step.accent_s
         left, right, accent = (lane.axis.x_px(at_s) for at_s in (step.start_s + by_s, step.end_s + by_s, accent_s))
@@ -142,7 +138,7 @@ class DancesItem(LaneItem):
         here: npt.NDArray[np.int64],
         selected: int | None,
     ) -> None:
-        tokens, axis = self._dances.session.tokens, self.lane.axis
+        tokens, axis = self.lane.session.tokens, self.lane.axis
         for at in here.tolist():
             left, right = axis.x_px(float(dance.start_s[at])), axis.x_px(float(dance.end_s[at]))
             if dance.pinned[at]:

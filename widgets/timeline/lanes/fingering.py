@@ -84,15 +84,11 @@ def slide_places(instrument: InstrumentMap, slide: Control) -> tuple[tuple[float
     return tuple(sorted((sum(values) / len(values), label) for label, values in found.items()))
 
 
-class _Bars(LaneItem):
+class _Bars(LaneItem["FingeringLane"]):
     """Pressed controls as bars, slides as lines, labels beneath."""
 
-    def __init__(self, lane: FingeringLane) -> None:
-        super().__init__(lane)
-        self._lane = lane
-
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane, data, player = self._lane, self._lane.data, self.lane.session.player
+        lane, data, player = self.lane, self.lane.data, self.lane.session.player
         if data is None or player is None:
             return
         axis, tokens = lane.axis, lane.session.tokens
@@ -118,8 +114,8 @@ class _Bars(LaneItem):
         self._paint_labels(painter, data, shown, left, width, chosen)
 
     def _paint_selection(self, painter: QPainter, left: Floats, width: Floats) -> None:
-        height = np.full(len(left), self._lane.plot_rect.height())
-        draw_rects(painter, left, np.zeros(len(left)), width, height, shade(self._lane.session.tokens.accent, 36))
+        height = np.full(len(left), self.lane.plot_rect.height())
+        draw_rects(painter, left, np.zeros(len(left)), width, height, shade(self.lane.session.tokens.accent, 36))
 
     def _paint_slide(
         self,
@@ -131,7 +127,7 @@ class _Bars(LaneItem):
         chosen: npt.NDArray[np.bool_],
         colour: str,
     ) -> None:
-        lane, tokens = self._lane, self._lane.session.tokens
+        lane, tokens = self.lane, self.lane.session.tokens
         top, height = lane.slide_box
         for place, _ in lane.places:
             level = top + place * height
@@ -157,7 +153,7 @@ class _Bars(LaneItem):
         width: Floats,
         chosen: npt.NDArray[np.bool_],
     ) -> None:
-        lane, tokens = self._lane, self._lane.session.tokens
+        lane, tokens = self.lane, self.lane.session.tokens
         top = lane.plot_rect.height() - LABEL_PX
         text, strong = QColor(tokens.text_dim), QColor(tokens.text)
         metrics = QFontMetricsF(painter.font())

@@ -22,7 +22,7 @@ MARK_PX = 11.0
 REACH_PX = 8.0
 
 
-class ProblemMarks(LaneItem):
+class ProblemMarks(LaneItem[Lane]):
     """Lines under the places of problems.
 
     Parameters
@@ -66,15 +66,11 @@ def spans_of(problems: tuple[Problem, ...]) -> Spans:
     )
 
 
-class _Marks(LaneItem):
+class _Marks(LaneItem["ProblemsLane"]):
     """A triangle at the start of every problem, and how far it reaches."""
 
-    def __init__(self, lane: ProblemsLane) -> None:
-        super().__init__(lane)
-        self._lane = lane
-
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane = self._lane
+        lane = self.lane
         axis, tokens = lane.axis, lane.session.tokens
         middle = lane.plot_rect.height() / 2
         margin_s = MARK_PX / axis.px_per_s
@@ -131,7 +127,7 @@ class ProblemsLane(Lane):
         """Show the problems of the player in front."""
         player = self.session.player
         if player is not None and player.id == self._player_id and self.plan_of(player) is None:
-            # Of who is being planned again, what was known stays until the plans are there.
+            # Problems of players that are being planned again stay until the plans are there.
             return
         problems = self.session.problems(player.id) if player is not None else ()
         self._player_id = player.id if player is not None else None

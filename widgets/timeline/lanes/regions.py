@@ -34,15 +34,11 @@ STEP, FINE_STEP = 0.05, 0.01
 """What Up and Down add to an amount."""
 
 
-class _Regions(LaneItem):
+class _Regions(LaneItem["RegionLane"]):
     """Draws the visible regions of a lane."""
 
-    def __init__(self, lane: RegionLane) -> None:
-        super().__init__(lane)
-        self._regions = lane
-
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane = self._regions
+        lane = self.lane
         painter.setFont(small_font(lane.font()))
         lane.paint_rows(painter, exposed)
         selected = lane.session.selection.events
@@ -65,7 +61,7 @@ class _Regions(LaneItem):
 
     def _paint_thumb(self, painter: QPainter) -> None:
         """At the right edge: which of the rows are in sight, where they are not all."""
-        lane, room = self._regions, self.lane.plot_rect
+        lane, room = self.lane, self.lane.plot_rect
         first, height = lane.row_box(0)
         content = height * lane.rows
         if content <= room.height() + 1.0:
@@ -89,7 +85,7 @@ class RegionLane(Lane):
         self._hidden: frozenset[EventKey] = frozenset()
         self._drag: RegionDrag | None = None
         self._hovered: Region | None = None
-        self.regions_item = _Regions(self)
+        _Regions(self)
         self.number = NumberField(self)
         self.refresh()
 

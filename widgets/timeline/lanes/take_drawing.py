@@ -34,15 +34,11 @@ class TakesView(LaneView, Protocol):
     def empty_text(self) -> str: ...
 
 
-class TakesItem(LaneItem):
+class TakesItem(LaneItem[TakesView]):
     """All rows, drawn by arrays."""
 
-    def __init__(self, lane: TakesView) -> None:
-        super().__init__(lane)
-        self._lane = lane
-
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane = self._lane
+        lane = self.lane
         painter.setFont(small_font(lane.font()))
         if not lane.model.rows:
             self._paint_empty(painter)
@@ -58,14 +54,14 @@ class TakesItem(LaneItem):
         self._paint_strip(painter, exposed)
 
     def _paint_empty(self, painter: QPainter) -> None:
-        lane = self._lane
+        lane = self.lane
         painter.setPen(QColor(lane.session.tokens.text_dim))
         box = lane.plot_rect.adjusted(14.0, 0.0, -14.0, 0.0)
         painter.drawText(box, Qt.AlignmentFlag.AlignVCenter | Qt.TextFlag.TextWordWrap, lane.empty_text())
 
     def _boxes(self, spans: tuple[CompSpan, ...], top: float, height: float) -> list[tuple[CompSpan, QRectF]]:
         """Where spans lie, those that are in sight."""
-        axis, clock = self._lane.axis, self._lane.session.project.score.tempo_map
+        axis, clock = self.lane.axis, self.lane.session.project.score.tempo_map
         found = []
         for span in spans:
             left, right = (
@@ -78,7 +74,7 @@ class TakesItem(LaneItem):
         return found
 
     def _paint_strip(self, painter: QPainter, exposed: QRectF) -> None:
-        lane, tokens = self._lane, self._lane.session.tokens
+        lane, tokens = self.lane, self.lane.session.tokens
         strip = QRectF(exposed.left(), 0.0, exposed.width(), STRIP_PX)
         painter.fillRect(strip, QColor(tokens.surface))
         painter.setPen(QPen(QColor(tokens.line), 1.0))
@@ -98,7 +94,7 @@ class TakesItem(LaneItem):
             )
 
     def _paint_row(self, painter: QPainter, row: TakeRow, box: QRectF, exposed: QRectF) -> None:
-        lane, tokens = self._lane, self._lane.session.tokens
+        lane, tokens = self.lane, self.lane.session.tokens
         colour = lane.model.colour_of(row.take_id)
         if lane.session.selection.take == row.take_id:
             painter.fillRect(QRectF(exposed.left(), box.top(), exposed.width(), box.height()), shade(tokens.accent, 22))
@@ -117,7 +113,7 @@ class TakesItem(LaneItem):
 
     def _paint_breath(self, painter: QPainter, row: TakeRow, box: QRectF, exposed: QRectF, colour: QColor) -> None:
         assert row.breath is not None
-        axis = self._lane.axis
+        axis = self.lane.axis
         left, right = int(exposed.left()), int(np.ceil(exposed.right()))
         _, high = row.breath.columns(axis.seconds(left), axis.seconds(right), right - left)
         x = np.arange(left, right, dtype=np.float64) + 0.5
@@ -129,7 +125,7 @@ class TakesItem(LaneItem):
     def _paint_notes(
         self, painter: QPainter, row: TakeRow, box: QRectF, exposed: QRectF, taken: tuple[CompSpan, ...], colour: str
     ) -> None:
-        axis = self._lane.axis
+        axis = self.lane.axis
         shown = row.kept.between(axis.seconds(exposed.left()), axis.seconds(exposed.right()))
         left, right = axis.x_px(row.kept.start_s[shown]), axis.x_px(row.kept.end_s[shown])
         top, height = self._pitch_px(row.pitches[shown].astype(np.float64), box)
@@ -140,7 +136,7 @@ class TakesItem(LaneItem):
 
     def _paint_left_out(self, painter: QPainter, row: TakeRow, box: QRectF, exposed: QRectF) -> None:
         """Hollow, and struck through."""
-        axis = self._lane.axis
+        axis = self.lane.axis
         shown = row.left_out.between(axis.seconds(exposed.left()), axis.seconds(exposed.right()))
         if not len(shown):
             return
@@ -148,7 +144,7 @@ class TakesItem(LaneItem):
         right = np.maximum(right, left + 3.0)
         top, height = self._pitch_px(row.left_out_pitches[shown].astype(np.float64), box)
         top, bottom = top - 1.0, top + height + 1.0
-        pen = QPen(QColor(self._lane.session.tokens.warning), 1.0)
+        pen = QPen(QColor(self.lane.session.tokens.warning), 1.0)
         for x0, y0, x1, y1 in (
             (left, top, right, top),
             (left, bottom, right, bottom),
@@ -160,7 +156,7 @@ class TakesItem(LaneItem):
 
     def _pitch_px(self, pitches: Floats, box: QRectF) -> tuple[Floats, float]:
         """Tops of notes, and how high they are."""
-        low, high = self._lane.model.pitches
+        low, high = self.lane.model.pitches
         step = (box.height() - 2 * MARGIN_PX) / (high - low + 1)
         height = max(step, LEAST_NOTE_PX)
         tops: Floats = box.top() + MARGIN_PX + (high - pitches) * step + (step - height) / 2
@@ -168,7 +164,7 @@ class TakesItem(LaneItem):
 
     def _paint_selected(self, painter: QPainter) -> None:
         """The selected span, in the row that the part has it from; during a swipe, what is swiped over."""
-        lane = self._lane
+        lane = self.lane
         outlined = lane.model.outlined()
         number = lane.model.number_of(outlined.take_id) if outlined is not None else None
         if outlined is None or number is None:

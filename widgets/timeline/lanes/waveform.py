@@ -38,15 +38,11 @@ class _Drag:
     moved: bool = False
 
 
-class _Waveform(LaneItem):
+class _Waveform(LaneItem["WaveformLane"]):
     """The extremes of every column; the offset as a number; what to do where there is no recording."""
 
-    def __init__(self, lane: WaveformLane) -> None:
-        super().__init__(lane)
-        self._lane = lane
-
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane, tokens = self._lane, self._lane.session.tokens
+        lane, tokens = self.lane, self.lane.session.tokens
         audio, peaks = lane.session.project.audio, lane.session.listening.waveform
         painter.setFont(small_font(lane.font()))
         if audio is None:
@@ -65,7 +61,7 @@ class _Waveform(LaneItem):
         draw_text(painter, box.adjusted(0.0, 0.0, 4.0, 0.0), text)
 
     def _paint_peaks(self, painter: QPainter, exposed: QRectF, peaks: Peaks, offset_s: float) -> None:
-        lane, tokens = self._lane, self._lane.session.tokens
+        lane, tokens = self.lane, self.lane.session.tokens
         left, right = int(exposed.left()), int(np.ceil(exposed.right()))
         low, high = peaks.levels(lane.axis.seconds(left) - offset_s, lane.axis.seconds(right) - offset_s, right - left)
         half = lane.plot_rect.height() / 2 - 2.0

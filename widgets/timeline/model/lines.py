@@ -104,11 +104,6 @@ def _bar_step(score: Score, first: int, last: int, px_per_s: float) -> int:
     return every
 
 
-def beat_of_tick(score: Score, tick: float) -> str:
-    """The beat of its bar in which a tick lies, counted from 1: ``"3.5"``."""
-    return f"{score.metre_map.beat_of_tick(tick):.2f}".rstrip("0").rstrip(".")
-
-
 def _between(start: int, end: int, step: float) -> Floats:
     """The lines strictly inside a bar."""
     count = int(np.ceil((end - start) / step - 1e-9))

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.export.unreal.names import LONGEST, asset_name, unique
+from app.export.unreal.names import LONGEST, asset_name
+from app.formats.names import numbered
 
 # Invalid in asset names (send2ue's validations, Unreal's own list), or in Windows' file names.
 FORBIDDEN = set("'\".,/:|&!~@#(){}[]=;^%$`*? <>\\\t\n")
@@ -56,6 +57,6 @@ def test_any_name_is_harmless(text: str, otherwise: str) -> None:
 
 @given(st.lists(st.sampled_from(["a", "A", "a_2", "b", "a_3"]), max_size=8))
 def test_unique_where_case_does_not_count(names: list[str]) -> None:
-    made = unique(names)
+    made = numbered(names)
     assert len({name.casefold() for name in made}) == len(names)
     assert all(name.casefold().startswith(requested.casefold()) for name, requested in zip(made, names, strict=True))

@@ -375,7 +375,7 @@ def test_a_newer_plug_in_stays(unreal: UnrealProject, export: Export) -> None:
 def test_another_ones_plug_in_is_reported(unreal: UnrealProject, export: Export) -> None:
     place = unreal.folder / "Plugins" / "Suisou"
     place.mkdir()
-    (place / "Suisou.uplugin").write_text('{"CreatedBy": "somebody else", "Version": 1}')
+    (place / "Suisou.uplugin").write_text('{"CreatedBy": "another user", "Version": 1}')
     before = tree_of(unreal.folder)
     with pytest.raises(FileError) as caught:
         export(request_of(quartet()))

@@ -15,8 +15,10 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as st_numpy
 
 from app.errors import FileError
-from app.formats.fbx import decode, encode, write_scene
-from app.formats.fbx.encode import Element, encode_elements, pack_array
+from app.formats.fbx import decode, encode
+from app.formats.fbx.encode import Element, pack_array
+from app.formats.fbx.write import write_scene
+from tests.support.encoded import encode_elements
 from tests.support.fbx_dump import text
 from tests.support.readers import QUICK_FBX, judge
 from tests.unit.formats import scenes

@@ -11,20 +11,13 @@ import numpy as np
 import pytest
 
 from app.errors import FileError
-from app.formats.fbx import (
-    Material,
-    MorphTarget,
-    Scene,
-    SkinnedMesh,
-    encode_scene,
-    join_meshes,
-    read_scene,
-    write_scene,
-)
 from app.formats.fbx.decode import read_elements
-from app.formats.fbx.encode import Element, Property, encode_elements
-from app.formats.fbx.read import decode_scene
-from app.formats.fbx.write import scene_elements
+from app.formats.fbx.encode import Element, Property
+from app.formats.fbx.read import decode_scene, read_scene
+from app.formats.fbx.write import scene_elements, write_scene
+from app.formats.join import join_meshes
+from app.formats.scene import Material, MorphTarget, Scene, SkinnedMesh
+from tests.support.encoded import encode_elements, encode_scene
 from tests.unit.formats import scenes
 
 
@@ -229,7 +222,7 @@ ODD = {
 @pytest.mark.parametrize("name", ODD)
 def test_what_the_reader_does_not_understand_it_refuses(name: str) -> None:
     path, change, problem = ODD[name]
-    elements = read_elements(encode_elements(scene_elements(GOOD)), "x").children or ()
+    elements = read_elements(encode_elements(scene_elements((GOOD,))), "x").children or ()
     odd = _changed(elements, path.split("/"), change)
     assert odd is not None
     with pytest.raises(FileError) as raised:

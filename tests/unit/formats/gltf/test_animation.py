@@ -13,10 +13,10 @@ from scipy.interpolate import CubicHermiteSpline
 from scipy.spatial.transform import Rotation, Slerp
 
 from app.errors import FileError
-from app.formats.gltf import decode_gltf
 from app.formats.gltf.animation import sampled
 from app.formats.gltf.model import GltfChannel
-from app.formats.gltf.write import encode_glb
+from app.formats.gltf.read import decode_gltf
+from tests.support.encoded import encode_glb
 from tests.unit.formats import scenes
 from tests.unit.formats.gltf.test_write import _document
 

@@ -14,9 +14,10 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 from app.errors import FileError
-from app.formats.gltf import GltfModel, decode_gltf, read_glb
+from app.formats.gltf.model import GltfModel
+from app.formats.gltf.read import decode_gltf, read_glb
 
-CODES = {"float32": 5126, "uint8": 5121, "uint16": 5123, "uint32": 5125, "int16": 5122}
+CODES = {"float32": 5126, "int8": 5120, "uint8": 5121, "uint16": 5123, "uint32": 5125, "int16": 5122}
 TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
 
 
@@ -161,6 +162,16 @@ def test_a_character_is_read_whole() -> None:
     assert skin_material.base_color_rgba == (0.5, 0.25, 0.125, 1.0)
     assert (skin_material.metallic, skin_material.roughness) == (0.0, 0.5)
     assert (plain.base_color_rgba, plain.metallic, plain.roughness) == ((1, 1, 1, 1), 1.0, 1.0)
+
+
+def test_the_least_of_normalised_integers_is_minus_one() -> None:
+    """It has no opposite; glTF 2.0, 3.6.2.2."""
+    maker = character()
+    normals = np.array([[-128, -127, 127], [0, 0, 64]] * 3, np.int8)
+    attributes = maker.document["meshes"][0]["primitives"][0]["attributes"]
+    attributes["NORMAL"] = maker.accessor(normals, stride=4, normalized=True)
+    found = decode_gltf(maker.glb(), "x.glb").meshes[0].primitives[0].normals
+    np.testing.assert_allclose(found[:2], [[-1.0, -1.0, 1.0], [0.0, 0.0, 64 / 127]])
 
 
 def test_morphs_of_every_form_are_read() -> None:

@@ -15,12 +15,14 @@ import pytest
 
 from app.errors import FileError
 from app.formats.continuous import continuous
-from app.formats.gltf import GltfModel, GltfPrimitive, decode_gltf
 from app.formats.gltf import write as writer
+from app.formats.gltf.model import GltfModel, GltfPrimitive
 from app.formats.gltf.primitives import primitives
-from app.formats.gltf.write import encode_glb, write_glb
+from app.formats.gltf.read import decode_gltf
+from app.formats.gltf.write import write_glb
 from app.formats.scene import MorphTarget, Scene, SkinnedMesh
 from app.formats.skin import influences
+from tests.support.encoded import encode_glb
 from tests.unit.formats import scenes
 
 RATES = [Fraction(24), Fraction(25), Fraction(30000, 1001), Fraction(30), Fraction(60)]

@@ -6,7 +6,7 @@ import socket
 import tempfile
 from pathlib import Path
 
-from app.shell.display import why_no_display
+from app.cli.display import why_no_display
 
 
 def test_no_variable_no_display() -> None:

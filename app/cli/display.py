@@ -16,20 +16,28 @@ X_PORT: Final = 6000
 ANSWER_S: Final = 3.0
 INSTEAD: Final = "'suisou export' and 'suisou inspect' work without one; 'suisou --help' lists all commands."
 
+VIRTUAL: Final = "A virtual one does: install xvfb, then 'xvfb-run -a suisou film ...'."
+"""For what is only drawn, and looked at in a file."""
+
 _DISPLAY = re.compile(r"^(?:(?P<host>[^:/]*)(?:/\w+)?|(?P<path>/.*)):(?P<number>\d+)(?:\.\d+)?$")
 
 
-def why_no_display(environment: Mapping[str, str] = os.environ, platform: str = sys.platform) -> str | None:
-    """Why the editor cannot be shown, as a sentence for the command line; None where it can."""
+def why_no_display(
+    environment: Mapping[str, str] = os.environ,
+    platform: str = sys.platform,
+    what: str = "the editor",
+    instead: str = INSTEAD,
+) -> str | None:
+    """Why the editor cannot be shown, or a film not drawn, as a sentence for the command line; None where it can."""
     if not platform.startswith("linux") or environment.get("QT_QPA_PLATFORM", "").partition(":")[0] in WITHOUT:
         return None
     display, wayland = environment.get("DISPLAY", ""), environment.get("WAYLAND_DISPLAY", "")
     if not display and not wayland:
-        return f"the editor needs a display and there is none (neither DISPLAY nor WAYLAND_DISPLAY is set). {INSTEAD}"
+        return f"{what} needs a display and there is none (neither DISPLAY nor WAYLAND_DISPLAY is set). {instead}"
     if (wayland and _answers(_wayland_socket(wayland, environment))) or (display and _x_answers(display)):
         return None
     asked = " and ".join(filter(None, (wayland, display)))
-    return f"the editor needs a display, and none answers at {asked}. {INSTEAD}"
+    return f"{what} needs a display, and none answers at {asked}. {instead}"
 
 
 def _wayland_socket(name: str, environment: Mapping[str, str]) -> Path:

@@ -1,0 +1,50 @@
+"""Bars on the command line: which frames of a piece are requested."""
+
+from __future__ import annotations
+
+import argparse
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from app.cli.options import whole_number
+from app.errors import UsageError
+
+if TYPE_CHECKING:
+    from app.performance.ensemble import Performance
+    from app.performance.span import FrameSpan
+
+
+def add_bar_options(command: argparse.ArgumentParser) -> None:
+    """Declare first and last bar."""
+    command.add_argument("--from-bar", type=whole_number, metavar="N", help="first bar, as printed (a pickup is bar 0)")
+    command.add_argument("--to-bar", type=whole_number, metavar="N", help="last bar, inclusive")
+
+
+def requested_bars(performance: Performance, arguments: argparse.Namespace) -> tuple[int, int] | None:
+    """First and last bar; None for the whole piece.
+
+    Raises
+    ------
+    UsageError
+        ``bars.none``: the piece does not have them, or they are in the wrong order.
+    """
+    if arguments.from_bar is None and arguments.to_bar is None:
+        return None
+    score = performance.project.score
+    lowest = 0 if score.pickup_ticks else 1
+    highest = score.last_bar
+    first = lowest if arguments.from_bar is None else arguments.from_bar
+    last = highest if arguments.to_bar is None else arguments.to_bar
+    if not lowest <= first <= last <= highest:
+        raise UsageError("bars.none", first=first, last=last, lowest=lowest, highest=highest)
+    return first, last
+
+
+def requested_span(performance: Performance, arguments: argparse.Namespace, fps: Fraction) -> FrameSpan:
+    """The frames of the bars with the pre-roll before them, or of everything. Raises UsageError (``bars.none``)."""
+    from app.performance.span import bars_span, whole_span
+
+    bars = requested_bars(performance, arguments)
+    if bars is None:
+        return whole_span(performance.time_frame, fps)
+    return bars_span(performance, fps, bars, performance.project.preroll_beats)

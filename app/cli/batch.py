@@ -1,0 +1,304 @@
+"""Many pieces exported at once: each by a process of its own, so that what is wrong with one stops no other.
+
+What was done is noted in ``batch.json`` in the folder of the exports: where a run was stopped, the next one goes on.
+
+Messages: ``batch.no_pieces`` (folder); ``batch.unreal``; ``batch.bad_notes`` (file); ``dask.missing``;
+``dask.unreachable`` (address, reason).
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import subprocess
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any, Final
+
+import msgspec
+
+from app.cli.progress import Progress
+from app.cli.status import BAD_INPUT, DONE, PARTIAL, STOPPED
+from app.cli.summary import columns
+from app.cli.terminal import say
+from app.encoding import shown
+from app.errors import FileError, UsageError
+from app.export.file_names import REPORT
+from app.formats.atomic import atomic_write
+from app.formats.files import read_file
+from app.messages import filled
+from app.own_process import core_count, own_process
+from app.version import program_version
+
+NOTES: Final = "batch.json"
+SUFFIXES: Final = (".mid", ".midi", ".suisou")
+_STOP_S: Final = 10.0
+"""How long a process may take to remove what it has not finished."""
+_MOST_BYTES: Final = 64 * 2**20
+CONNECT_S: Final = 10.0
+
+
+class Outcome(msgspec.Struct, frozen=True):
+    """What became of a piece.
+
+    Attributes
+    ----------
+    status : int
+        The exit status of its export.
+    reason : str
+        What is wrong; empty where nothing is.
+    players, excluded, warnings : int
+        How many were written, were not, and lines to look at.
+    seconds : float
+        Of motion.
+    """
+
+    status: int
+    reason: str = ""
+    players: int = 0
+    excluded: int = 0
+    warnings: int = 0
+    seconds: float = 0.0
+
+    @property
+    def done(self) -> bool:
+        """Whether the files are there."""
+        return self.status in (DONE, PARTIAL)
+
+
+class _Note(msgspec.Struct, frozen=True):
+    """Of a piece that was exported: from what, and the outcome."""
+
+    digest: str
+    outcome: Outcome
+
+
+class _Reported(msgspec.Struct):
+    """What is read of a report."""
+
+    players: list[msgspec.Raw]
+    left_out: list[msgspec.Raw]
+    dancers: list[msgspec.Raw]
+    warnings: list[msgspec.Raw]
+    frames: int
+    fps: float
+
+
+def export_folder(arguments: argparse.Namespace) -> int:
+    """Export every piece in a folder and the folders in it; print a table, and return the exit status.
+
+    Parameters
+    ----------
+    arguments : Namespace
+        Of the command ``export``, with ``given``, the command line.
+
+    Raises
+    ------
+    FileError
+        ``batch.no_pieces``; the notes cannot be read or written.
+    UsageError
+        ``batch.unreal``, ``dask.missing``, ``dask.unreachable``.
+    """
+    if arguments.to is None:
+        raise UsageError("batch.unreal")
+    source, target = arguments.file.absolute(), arguments.to.absolute()
+    pieces = folders_of(source)
+    if not pieces:
+        raise FileError("batch.no_pieces", folder=str(arguments.file))
+    target.mkdir(parents=True, exist_ok=True)
+    notes = _read_notes(target / NOTES)
+    digests = {piece: _digest(source / piece, arguments) for piece in pieces}
+    known = {
+        piece: notes[piece].outcome
+        for piece, folder in pieces.items()
+        if piece in notes and notes[piece].digest == digests[piece] and (target / folder / REPORT).exists()
+    }
+    outcomes = dict(known)
+    progress = Progress(sys.stderr)
+    stopped = False
+    with _executor(arguments.scheduler, arguments.jobs) as executor:
+        futures: dict[Future[Outcome], str] = {}
+        for piece, folder in pieces.items():
+            if piece not in known:
+                paths = str(source / piece), str(target / folder)
+                futures[executor.submit(export_piece, arguments.given, *paths)] = piece
+        try:
+            for done, future in enumerate(as_completed(futures), 1):
+                piece = futures[future]
+                outcomes[piece] = _outcome(future)
+                if outcomes[piece].done:
+                    notes[piece] = _Note(digests[piece], outcomes[piece])
+                    _write_notes(target / NOTES, notes)
+                progress(done / len(futures), piece)
+        except KeyboardInterrupt:
+            stopped = True
+            for future in futures:
+                future.cancel()
+            _Children.end()
+        finally:
+            progress.clear()
+    say(*_table(pieces, outcomes, known, stopped))
+    if stopped:
+        return STOPPED
+    if not any(outcome.done for outcome in outcomes.values()):
+        return BAD_INPUT
+    return max(DONE if outcome.status == DONE else PARTIAL for outcome in outcomes.values())
+
+
+def folders_of(source: Path) -> dict[str, str]:
+    """The pieces in a folder and the folders in it, and the folder that each is exported to, in their order; both as
+    paths with slashes."""
+    found = sorted(
+        path.relative_to(source)
+        for path in source.rglob("*")
+        if path.suffix.casefold() in SUFFIXES and path.is_file() and not _hidden(path.relative_to(source))
+    )
+    alike = Counter(path.with_suffix("") for path in found)
+    folders = [path if alike[path.with_suffix("")] > 1 else path.with_suffix("") for path in found]
+    return {path.as_posix(): folder.as_posix() for path, folder in zip(found, folders, strict=True)}
+
+
+def _hidden(path: Path) -> bool:
+    return any(part.startswith(".") for part in path.parts)
+
+
+def export_piece(given: Sequence[str], piece: str, folder: str) -> Outcome:
+    """Export a piece by a process of its own.
+
+    Parameters
+    ----------
+    given : sequence of str
+        The command line that asks for a folder of pieces.
+    piece, folder : str
+        The file, and where to.
+    """
+    command = own_process("app", *given, "--piece", piece, "--to", folder, "--jobs", "1")
+    with _Children.started(command) as child:
+        _, printed = child.communicate()
+    lines = [line for line in printed.decode("utf-8", "replace").splitlines() if line.strip()]
+    if child.returncode not in (DONE, PARTIAL):
+        reason = lines[-1].removeprefix("suisou: ") if lines else f"ended with status {child.returncode}"
+        return Outcome(child.returncode or BAD_INPUT, reason)
+    report = msgspec.json.decode(read_file(Path(folder) / REPORT, _MOST_BYTES), type=_Reported)
+    return Outcome(
+        status=child.returncode,
+        players=len(report.players) + len(report.dancers),
+        excluded=len(report.left_out),
+        warnings=len(report.warnings),
+        seconds=report.frames / report.fps,
+    )
+
+
+class _Children:
+    """The processes that export pieces now."""
+
+    _running: Final[set[subprocess.Popen[bytes]]] = set()
+
+    @classmethod
+    @contextmanager
+    def started(cls, command: dict[str, Any]) -> Iterator[subprocess.Popen[bytes]]:
+        """A process that is known until the block is done."""
+        child = subprocess.Popen(stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, **command)
+        cls._running.add(child)
+        try:
+            yield child
+        finally:
+            cls._running.discard(child)
+
+    @classmethod
+    def end(cls) -> None:
+        """Stop all processes, which remove what they have not finished."""
+        for child in list(cls._running):
+            child.terminate()
+        end_s = time.monotonic() + _STOP_S
+        for child in list(cls._running):
+            try:
+                child.wait(max(0.0, end_s - time.monotonic()))
+            except subprocess.TimeoutExpired:
+                child.kill()
+
+
+@contextmanager
+def _executor(scheduler: str | None, jobs: int | None) -> Iterator[Executor]:
+    """What runs `export_piece`: threads here, each waiting for a process, or the machines of a Dask scheduler."""
+    if scheduler is None:
+        executor = ThreadPoolExecutor(jobs or core_count())
+        try:
+            yield executor
+        finally:
+            executor.shutdown(cancel_futures=True)
+        return
+    try:
+        from distributed import Client
+    except ImportError as error:
+        raise UsageError("dask.missing") from error
+    try:
+        client = Client(scheduler, timeout=CONNECT_S)  # type: ignore[no-untyped-call]
+    except (OSError, ValueError) as error:
+        raise UsageError("dask.unreachable", address=scheduler, reason=str(error)) from error
+    with client:
+        yield client.get_executor(pure=False)  # type: ignore[no-untyped-call]
+
+
+def _outcome(future: Future[Outcome]) -> Outcome:
+    """What became of a piece, also where its machine was lost."""
+    try:
+        return future.result()
+    except Exception as error:  # noqa: BLE001 - a scheduler's errors have no common base; one piece stops no other
+        return Outcome(BAD_INPUT, str(error) or type(error).__name__)
+
+
+def _digest(piece: Path, arguments: argparse.Namespace) -> str:
+    """What the files that are exported depend on: the piece's file, the options and the program."""
+    options = {
+        name: repr(value)
+        for name, value in sorted(vars(arguments).items())
+        if name not in ("file", "to", "jobs", "scheduler", "piece", "run", "given", "command")
+    }
+    digest = hashlib.sha256(json.dumps([program_version(), options]).encode())
+    with suppress(FileError):  # its export reports what is wrong with the file
+        digest.update(read_file(piece, _MOST_BYTES))
+    return digest.hexdigest()
+
+
+def _read_notes(file: Path) -> dict[str, _Note]:
+    if not file.exists():
+        return {}
+    try:
+        return msgspec.json.decode(read_file(file, _MOST_BYTES), type=dict[str, _Note])
+    except msgspec.MsgspecError as error:
+        raise FileError("batch.bad_notes", file=str(file)) from error
+
+
+def _write_notes(file: Path, notes: dict[str, _Note]) -> None:
+    with atomic_write(file) as stream:
+        stream.write(msgspec.json.format(msgspec.json.encode(notes), indent=1))
+
+
+def _table(pieces: dict[str, str], outcomes: dict[str, Outcome], known: dict[str, Outcome], stopped: bool) -> list[str]:
+    """A line for each piece, and how many there are of each kind."""
+    rows: list[tuple[str, ...]] = [("piece", "players", "seconds", "excluded", "to look at", "result")]
+    for piece in pieces:
+        outcome = outcomes.get(piece)
+        if outcome is None or (stopped and not outcome.done):
+            rows.append((piece, "", "", "", "", "not exported"))
+        elif not outcome.done:
+            rows.append((piece, "", "", "", "", outcome.reason))
+        else:
+            numbers = (outcome.players, round(outcome.seconds), outcome.excluded, outcome.warnings)
+            rows.append((piece, *map(str, numbers), "up to date" if piece in known else "exported"))
+    failed = sum(not outcome.done for outcome in outcomes.values())
+    done = len(outcomes) - failed
+    lines = columns([row[:-1] for row in rows])
+    width = max(map(len, lines))
+    table = [f"{line.ljust(width)}  {shown(row[-1])}" for line, row in zip(lines, rows, strict=True)]
+    count = filled("{done} of {count} {count:piece|pieces} exported", {"done": done, "count": len(pieces)})
+    if stopped:
+        count += "; stopped: the same command goes on where it was"
+    return [*table, "", count]

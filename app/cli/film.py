@@ -1,0 +1,391 @@
+"""``suisou film``: what the viewport shows, as a film, as pictures or as a contact sheet, without a window."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+
+from app.cli.bars import add_bar_options, requested_span
+from app.cli.display import VIRTUAL, why_no_display
+from app.cli.edit import MOST_PX, THEMES, VIEWS
+from app.cli.options import Commands, add_source_options, frame_rate, open_project, picture_size, within
+from app.cli.progress import Progress, find_holds
+from app.cli.status import NO_DISPLAY, report_left_out
+from app.cli.terminal import say, warn
+from app.encoding import shown
+from app.errors import AppError, Cancelled, FileError, Message, UsageError
+from app.messages import LANGUAGES, error_text, filled, text
+from app.project.frame_rate import USUAL_FILM_RATE, exact_number, frame_rate_text
+from app.project.parameters import select_players
+
+if TYPE_CHECKING:
+    from app.editor.viewport_state import View
+    from app.export.pictures import PictureWriter
+    from app.performance.ensemble import Performance
+    from app.performance.span import FrameSpan
+    from app.project.model import Project
+
+LEAST_PX: Final = (64, 64)
+FILM_PX, SHEET_PX = (1280, 720), (320, 180)
+USUAL_EVERY_S: Final = Fraction(1, 2)
+MOST_COLUMNS: Final = 200
+_OF_PLAYERS: Final = ("hands", "mouth")
+"""Views that need an instrument."""
+
+Kind: TypeAlias = Literal["mp4", "folder", "sheet"]
+StopRequested: TypeAlias = Callable[[], bool]
+
+_every = within(Fraction(1, 120), Fraction(3600), "a number of seconds", exact_number)
+_columns = within(1, MOST_COLUMNS, "a number of columns", int)
+
+
+def add_command(commands: Commands) -> None:
+    """Declare the sub-command."""
+    command = commands.add_parser(
+        "film",
+        help="draw the players: a film with sound, PNG frames or a contact sheet",
+        description="Draws what the editor's viewport shows, without opening a window. Either everything is written or "
+        "nothing. Players who cannot be drawn are excluded and named; the exit status is 4 then. It needs OpenGL 2, "
+        "and on Linux a display: without one, 'xvfb-run -a suisou film ...'.",
+    )
+    add_source_options(command)
+    place = command.add_mutually_exclusive_group(required=True)
+    place.add_argument(
+        "--to", type=Path, metavar="OUT", help="a film (OUT.mp4), or else a folder for a PNG file of every frame"
+    )
+    place.add_argument("--sheet", type=Path, metavar="OUT.png", help="a contact sheet: the frames side by side")
+    command.add_argument(
+        "--view",
+        choices=VIEWS,
+        help="how the players are seen (default: ensemble; with --player front)",
+    )
+    command.add_argument(
+        "--player",
+        dest="players",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="the player or dancer that the view is about; a pattern such as '*sax*'; repeatable; a close-up shows the "
+        "first (default: the first of the piece)",
+    )
+    add_bar_options(command)
+    command.add_argument(
+        "--size",
+        type=picture_size(LEAST_PX, MOST_PX),
+        metavar="WxH",
+        help=f"of a frame (default {_size_text(FILM_PX)}; on a contact sheet {_size_text(SHEET_PX)})",
+    )
+    command.add_argument(
+        "--fps",
+        dest="rate",
+        type=frame_rate,
+        metavar="RATE",
+        help=f"frames per second of a film or folder (default: the project's, at most {USUAL_FILM_RATE})",
+    )
+    command.add_argument("--no-sound", action="store_true", help="a film without sound")
+    command.add_argument(
+        "--every", type=_every, metavar="S", help=f"seconds between frames of a sheet (default {float(USUAL_EVERY_S)})"
+    )
+    command.add_argument(
+        "--columns",
+        type=_columns,
+        metavar="N",
+        help="frames side by side on a sheet (default: a row for each second where that is 4 to 12 frames)",
+    )
+    command.add_argument(
+        "--language", choices=tuple(LANGUAGES), help="of what stands under the frames of a sheet (default: en)"
+    )
+    command.add_argument("--theme", choices=THEMES, default=THEMES[0], help=f"colours (default: {THEMES[0]})")
+    command.set_defaults(run=film)
+
+
+def _size_text(size: tuple[int, int]) -> str:
+    return f"{size[0]}x{size[1]}"
+
+
+@dataclass(frozen=True, eq=False)
+class _Film:
+    """What is to be drawn, and where it goes.
+
+    Attributes
+    ----------
+    kind : str
+        ``sheet``, ``mp4`` or ``folder``.
+    player_ids : tuple of str
+        Whom the view is about; empty: everyone.
+    columns : int
+        Of a sheet.
+    """
+
+    arguments: argparse.Namespace
+    kind: Kind
+    performance: Performance
+    view: View
+    player_ids: tuple[str, ...]
+    span: FrameSpan
+    size: tuple[int, int]
+    columns: int
+
+    @property
+    def path(self) -> Path:
+        """The file or folder."""
+        path: Path = self.arguments.sheet or self.arguments.to
+        return path
+
+    @property
+    def step_s(self) -> float:
+        """From one frame to the next."""
+        return float(1 / self.span.fps)
+
+    @property
+    def times_s(self) -> list[float]:
+        """When the frames are."""
+        return [self.span.first_frame_s + index * self.step_s for index in range(self.span.count)]
+
+
+def film(arguments: argparse.Namespace) -> int:
+    """Draw and write, and name who is excluded; the exit status."""
+    from app.export.tree import clean_up
+    from app.performance.ensemble import Performance
+
+    kind = _kind(arguments)
+    _check_options(arguments, kind)
+    clean_up()
+    project = open_project(arguments)
+    if not project.performers:
+        raise UsageError("picture.no_players", file=str(arguments.file))
+    view, player_ids = _seen(arguments, project)
+    performance = Performance(project)
+    span = requested_span(performance, arguments, _rate(arguments, project, kind))
+    size = arguments.size or (SHEET_PX if kind == "sheet" else FILM_PX)
+    columns = _columns_of_sheet(arguments, span)
+    requested = _Film(arguments, kind, performance, view, player_ids, span, size, columns)
+    _check_target(requested)
+    reason = why_no_display(what="'suisou film'", instead=VIRTUAL)
+    if reason is not None:
+        warn(reason)
+        return NO_DISPLAY
+    find_holds(performance, project.players)
+    with _stoppable() as stop_requested:
+        try:
+            return _draw(requested, stop_requested)
+        except AppError as error:
+            # The encoder has got the same Ctrl-C, and then refuses what it gets.
+            if stop_requested() or isinstance(error, Cancelled):
+                raise KeyboardInterrupt from error
+            if error.message.id not in ("picture.film_no_gl", "picture.no_gl"):
+                raise
+            warn(error_text(error))
+            return NO_DISPLAY
+
+
+def _draw(film: _Film, stop_requested: StopRequested) -> int:
+    """Draw every frame and write it."""
+    # All of Qt.
+    from app.performance.cast import require_players
+    from widgets.viewport.offscreen import offscreen
+
+    span, size, count = film.span, film.size, film.span.count
+    progress = Progress(sys.stderr)
+    with offscreen(film.performance, film.arguments.theme, stop_requested) as viewport:
+        if not viewport.shows(film.player_ids):
+            require_players(viewport.left_out, str(film.arguments.file), text)
+        try:
+            with _WRITERS[film.kind](film, stop_requested) as writer:
+                progress(0.0, "how the players are seen")
+                draw = viewport.film(size, (span.first_frame_s, span.end_s), film.view, film.player_ids)
+                for number, time_s in enumerate(film.times_s, start=1):
+                    if stop_requested():
+                        raise KeyboardInterrupt
+                    writer.write(draw(time_s))
+                    progress(number / count, f"frame {number} of {count}")
+        finally:
+            progress.clear()
+        left_out = viewport.left_out
+    pace = f"one every {film.step_s:g} s" if film.kind == "sheet" else f"{frame_rate_text(span.fps)} frames/s"
+    say(
+        filled("{path}: {count} {count:frame|frames}", {"path": film.path, "count": count})
+        + f" of {_size_text(size)} from {film.times_s[0]:.3f} s to {film.times_s[-1]:.3f} s, {pace}"
+    )
+    return report_left_out((one.player.name, text(one.reason)) for one in left_out)
+
+
+def _kind(arguments: argparse.Namespace) -> Kind:
+    """What is written. Raises UsageError (``picture.sheet_ending``, ``picture.film_ending``)."""
+    if arguments.sheet is not None:
+        if arguments.sheet.suffix.lower() != ".png":
+            raise UsageError("picture.sheet_ending", file=str(arguments.sheet))
+        return "sheet"
+    suffix = arguments.to.suffix.lower()
+    if os.path.isdir(arguments.to):
+        return "folder"
+    if suffix == ".mp4":
+        return "mp4"
+    if suffix[1:].isalnum() and not suffix[1:].isdecimal():
+        raise UsageError("picture.film_ending", file=str(arguments.to))
+    return "folder"
+
+
+def _check_options(arguments: argparse.Namespace, kind: Kind) -> None:
+    """Raise UsageError (``picture.film_option``, ``picture.odd_size``) for what means nothing to this kind of film."""
+    sheet_only = {"--every": arguments.every, "--columns": arguments.columns, "--language": arguments.language}
+    for option, value in sheet_only.items():
+        if value is not None and kind != "sheet":
+            raise UsageError("picture.film_option", option=option, needs="--sheet")
+    if arguments.rate is not None and kind == "sheet":
+        raise UsageError("picture.film_option", option="--fps", needs="--to")
+    if arguments.no_sound and kind != "mp4":
+        raise UsageError("picture.film_option", option="--no-sound", needs="--to OUT.mp4")
+    if kind == "mp4" and arguments.size is not None and any(side % 2 for side in arguments.size):
+        raise UsageError("picture.odd_size", width=arguments.size[0], height=arguments.size[1])
+
+
+def _seen(arguments: argparse.Namespace, project: Project) -> tuple[View, tuple[str, ...]]:
+    """The view, and ids of whom it is about. Raises UsageError (``player.unknown``, ``picture.dancer_view``)."""
+    everyone = project.performers
+    view: View = arguments.view or ("front" if arguments.players else "ensemble")
+    if not arguments.players and view == "ensemble":
+        return view, ()
+    indices = select_players(arguments.players, [one.name for one in everyone]) if arguments.players else (0,)
+    chosen = [everyone[index] for index in indices]
+    if view in _OF_PLAYERS and chosen[0].id in project.dancer_ids:
+        raise UsageError("picture.dancer_view", dancer=chosen[0].name, view=view)
+    return view, tuple(one.id for one in chosen)
+
+
+def _rate(arguments: argparse.Namespace, project: Project, kind: Kind) -> Fraction:
+    if kind == "sheet":
+        return 1 / (arguments.every or USUAL_EVERY_S)
+    return arguments.rate or min(project.fps, USUAL_FILM_RATE)
+
+
+def _columns_of_sheet(arguments: argparse.Namespace, span: FrameSpan) -> int:
+    from app.export.pictures import usual_columns
+
+    return arguments.columns or usual_columns(span.count, 1 / span.fps)
+
+
+def _check_target(film: _Film) -> None:
+    """Raise what is wrong with the file or folder, long before anything is drawn: UsageError
+    (``picture.sheet_too_large``), FileError (``picture.other_frames``, ``file.cannot_write``)."""
+    from app.export.pictures import MOST_SHEET_PX, require_no_other_frames, sheet_size
+
+    if film.kind == "folder":
+        _require_writable(film.path, _nearest(film.path))
+        require_no_other_frames(film.path, film.span.first, film.span.count)
+        return
+    _require_folder(film.path)
+    width, height = sheet_size(film.size, 0, film.columns, film.span.count)
+    if film.kind == "sheet" and max(width, height) > MOST_SHEET_PX:
+        raise UsageError(
+            "picture.sheet_too_large", count=film.span.count, width=width, height=height, most=MOST_SHEET_PX
+        )
+
+
+def _require_folder(path: Path) -> None:
+    """Raise FileError (``file.cannot_write``) where no file can be put into its folder: long before it is drawn."""
+    if os.path.isdir(path):
+        raise FileError("file.cannot_write", file=str(path), reason="it is a folder")
+    _require_writable(path, path.parent)
+
+
+def _require_writable(path: Path, folder: Path) -> None:
+    """Raise FileError (``file.cannot_write``) where a folder cannot take a file or folder."""
+    if not os.path.isdir(folder):
+        raise FileError("file.cannot_write", file=str(path), reason=f"{shown(folder)} is not a folder")
+    if not os.access(folder, os.W_OK):
+        raise FileError("file.cannot_write", file=str(path), reason=f"{shown(folder)} cannot be written to")
+
+
+def _nearest(path: Path) -> Path:
+    """What there is of a path."""
+    return next((place for place in (path, *path.parents) if os.path.exists(place)), path)
+
+
+@contextmanager
+def _mp4(film: _Film, stop_requested: StopRequested) -> Iterator[PictureWriter]:
+    from app.audio.mix import mixdown
+    from app.export.video import SOUND_RATE_HZ, video_into
+
+    span, samples = film.span, None
+    if not film.arguments.no_sound:
+        progress = Progress(sys.stderr)
+        try:
+            samples = mixdown(
+                film.performance.project,
+                span.first_frame_s,
+                span.end_s,
+                SOUND_RATE_HZ,
+                lambda share: progress(share, "sound"),
+                stop_requested,
+            )
+        finally:
+            progress.clear()
+    with video_into(film.path, film.size, span.fps, samples) as video:
+        yield video
+
+
+@contextmanager
+def _frames(film: _Film, stop_requested: StopRequested) -> Iterator[PictureWriter]:
+    from app.export.pictures import frames_into
+
+    with frames_into(film.path, film.span.first, film.span.count) as frames:
+        yield frames
+
+
+@contextmanager
+def _sheet(film: _Film, stop_requested: StopRequested) -> Iterator[PictureWriter]:
+    from app.export.pictures import sheet_into
+    from widgets.viewport.offscreen import captions
+
+    texts = caption_texts(film.performance, film.times_s, film.arguments.language or "en")
+    strips = captions(texts, film.size[0], film.arguments.theme)
+    with sheet_into(film.path, film.size, film.columns, strips) as sheet:
+        yield sheet
+
+
+_WRITERS: Final = {"mp4": _mp4, "folder": _frames, "sheet": _sheet}
+
+
+def caption_texts(performance: Performance, times_s: Sequence[float], language: str) -> list[tuple[str, str]]:
+    """For each time itself and its frame in an export at the project's frame rate, then its position."""
+    metres, fps = performance.project.score.metre_map, float(performance.project.fps)
+    found = []
+    for time_s in times_s:
+        frame = round((time_s - performance.time_frame.first_frame_s) * fps)
+        # Tempi are stored in whole microseconds: a time on the beat is not exactly a tick.
+        tick = round(float(performance.piece.clock.ticks(time_s)))
+        time_text = f"{time_s:.2f}".replace("-", "−")
+        found.append(
+            (
+                text(Message("picture.time", {"time": time_text, "frame": frame}), language),
+                metres.label(tick),
+            )
+        )
+    return found
+
+
+@contextmanager
+def _stoppable() -> Iterator[StopRequested]:
+    """Whether Ctrl-C or a request to end (SIGTERM) came: an exception of it would get lost in what Qt calls."""
+    stopped = threading.Event()
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        stopped.set()
+
+    before = [(number, signal.signal(number, stop)) for number in (signal.SIGINT, signal.SIGTERM)]
+    try:
+        yield stopped.is_set
+    finally:
+        for number, handler in before:
+            signal.signal(number, handler)

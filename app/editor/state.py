@@ -1,0 +1,70 @@
+"""State of the editor that is in no file, shared by all who show it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Generic, Self, TypeVar, cast, overload
+
+from PySide6.QtCore import QObject, Signal
+
+T = TypeVar("T")
+
+
+class State(QObject):
+    """Attributes that are set together.
+
+    Signals
+    -------
+    changed()
+        One of them is another.
+    """
+
+    changed = Signal()
+
+    def set(self, **values: Any) -> None:
+        """Change some attributes; `changed` once if any is another."""
+        different = [name for name, value in values.items() if getattr(self, name) != value]
+        for name in different:
+            setattr(self, name, values[name])
+        if different:
+            self.changed.emit()
+
+
+class Watched(Generic[T]):
+    """A value of an object that is read as an attribute and set by its `setter`.
+
+    Parameters
+    ----------
+    signal : str
+        The object's signal that says that the value is another one.
+    initial : object
+    is_sent : bool
+        Whether the signal carries the value.
+    """
+
+    def __init__(self, signal: str, initial: T, is_sent: bool = False) -> None:
+        self._initial = initial
+
+        def set_value(holder: QObject, value: T) -> None:
+            if self.put(holder, value):
+                getattr(holder, signal).emit(*([value] if is_sent else []))
+
+        self.setter: Callable[[Any, T], None] = set_value
+        """A method that sets the value and emits the signal."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = f"_{name}"
+        self.setter.__name__ = f"set_{name}"
+
+    @overload
+    def __get__(self, holder: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, holder: QObject, owner: type) -> T: ...
+    def __get__(self, holder: QObject | None, owner: type) -> T | Self:
+        return self if holder is None else cast("T", vars(holder).get(self._name, self._initial))
+
+    def put(self, holder: QObject, value: T) -> bool:
+        """Set the value without the signal; whether it is another one."""
+        before = self.__get__(holder, type(holder))
+        vars(holder)[self._name] = value
+        return bool(before != value)

@@ -1,0 +1,69 @@
+"""What the files of an export are called, and with them the figures in the files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from app.export.formats import FILE_FORMATS, FileContent, Format
+from app.performance.ensemble import Performance
+from app.project.names import file_stems
+from app.project.performers import Dancer, Player
+
+REPORT = "report.json"
+"""Name of the file that says what the others hold."""
+
+Stems = dict[str, dict[FileContent, str]]
+"""Names without ending, by the id of a player or dancer, then by what bears them."""
+
+
+def figure_stems(performance: Performance) -> Stems:
+    """What the character and the instrument of everyone are called; the same for any selection of players.
+
+    Who doubles has an instrument alone, named after the musician.
+    """
+    project = performance.project
+    everyone: list[Player | Dancer] = [*project.players, *project.dancers]
+    own = dict(zip((one.id for one in everyone), file_stems([one.name for one in everyone]), strict=True))
+    held: dict[str, str] = {}
+    for musician in project.bodies:
+        for player in project.played_by(musician):
+            stem = f"{own[musician.id]}_{player.instrument_id}"
+            held[player.id] = f"{stem}_{own[player.id]}" if stem in held.values() else stem
+    # Who is called as another's instrument keeps the name.
+    held = dict(zip(held, file_stems([*own.values(), *held.values()])[len(own) :], strict=True))
+    stems: Stems = {id: {"instrument": stem} for id, stem in held.items()}
+    bodies: list[Player | Dancer] = [*project.bodies, *project.dancers]
+    for one in bodies:
+        stems[one.id] = {"character": own[one.id], **stems.get(one.id, {})}
+    return stems
+
+
+def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str, dict[str, str]]:
+    """Names of the files of every player and dancer: by id, then by what they hold."""
+    return {
+        id: {
+            f"{held}_{name}": f"{stems[held]}{kind.suffix}"
+            for name, kind in FILE_FORMATS.items()
+            if name in formats
+            for held in kind.holds
+            if held in stems
+        }
+        for id, stems in figure_stems(performance).items()
+    }
+
+
+def sound_name(source: str) -> str:
+    """Name of the sound's file, after the piece's."""
+    (stem,) = file_stems([Path(source).stem])
+    return f"{stem}.wav"
+
+
+def stage_names(performance: Performance, formats: frozenset[Format], source: str) -> dict[Format, str]:
+    """Names of the files of the whole stage, after the piece's; no figure's file has the same."""
+    figures = [stem for stems in figure_stems(performance).values() for stem in stems.values()]
+    *_, stem = file_stems([*figures, f"{Path(source).stem}_stage"])
+    return {
+        name: f"{stem}{kind.suffix}"
+        for name, kind in FILE_FORMATS.items()
+        if name in formats and kind.write_stage is not None
+    }

@@ -1,0 +1,160 @@
+"""Pictures to PNG files: one for each, or all of them on a contact sheet.
+
+Messages
+--------
+picture.other_frames(file): frames of another film are in the folder.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import os
+import re
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import BinaryIO, Final, Protocol
+
+import numpy as np
+import numpy.typing as npt
+from PIL import Image
+
+from app.errors import FileError
+from app.export.folder import files_into
+from app.formats.atomic import atomic_write
+
+Picture = npt.NDArray[np.uint8]
+"""(H, W, 3) or (H, W, 4), top row first; alpha is dropped."""
+
+MOST_SHEET_PX: Final = 16_384
+"""What programs and graphics cards show in one picture."""
+GAP_PX: Final = 4
+"""Around every picture of a sheet."""
+_FRAME: Final = re.compile(r"frame_\d{5,}\.png")
+_COMPRESSION: Final = 3
+"""Of zlib: half again as large as the smallest, in a fraction of the time."""
+
+
+class PictureWriter(Protocol):
+    """Takes pictures one after the other."""
+
+    def write(self, picture: Picture) -> None:
+        """Add a picture."""
+
+
+class FrameWriter:
+    """Writes a file for every picture; see `frames_into`."""
+
+    def __init__(self, folder: Path, first: int) -> None:
+        self._folder, self._number = folder, first
+
+    def write(self, picture: Picture) -> None:
+        """Write the next picture."""
+        with (self._folder / frame_name(self._number)).open("wb") as stream:
+            _write_png(stream, picture)
+        self._number += 1
+
+
+class SheetWriter:
+    """Puts pictures side by side; see `sheet_into`."""
+
+    def __init__(self, sheet: Picture, columns: int, captions: Sequence[Picture]) -> None:
+        self._sheet, self._columns, self._captions = sheet, columns, captions
+        self._count = 0
+
+    def write(self, picture: Picture) -> None:
+        """Put the next picture with its caption onto the sheet."""
+        caption = self._captions[self._count]
+        row, column = divmod(self._count, self._columns)
+        height, width = picture.shape[:2]
+        top = GAP_PX + row * (height + len(caption) + GAP_PX)
+        left = GAP_PX + column * (width + GAP_PX)
+        self._sheet[top : top + height, left : left + width] = picture[..., :3]
+        self._sheet[top + height : top + height + len(caption), left : left + width] = caption[..., :3]
+        self._count += 1
+
+
+def frame_name(number: int) -> str:
+    """The file of a frame, counted from the beginning of the whole performance."""
+    return f"frame_{number:05d}.png"
+
+
+@contextlib.contextmanager
+def frames_into(folder: Path, first: int, count: int) -> Iterator[FrameWriter]:
+    """A folder of PNG files that appear together when the block is done, or not at all.
+
+    Parameters
+    ----------
+    folder : path
+        Made if it is not there. Frames of the same numbers are replaced, other files are left alone.
+    first, count : int
+        Number of the first frame, and of frames.
+
+    Raises
+    ------
+    FileError
+        ``picture.other_frames``; ``file.cannot_write``; see `app.export.folder.files_into`.
+    """
+    require_no_other_frames(folder, first, count)
+    with files_into(folder) as new:
+        try:
+            yield FrameWriter(new, first)
+        except OSError as error:
+            raise FileError("file.cannot_write", file=os.fspath(folder), reason=error.strerror or str(error)) from error
+
+
+def require_no_other_frames(folder: Path, first: int, count: int) -> None:
+    """Raise ``picture.other_frames`` where frames would stay between those of another film."""
+    coming = {frame_name(number) for number in range(first, first + count)}
+    try:
+        there = {path.name for path in folder.iterdir() if _FRAME.fullmatch(path.name)}
+    except OSError:
+        return  # nothing is there, or writing will say why not
+    if there - coming:
+        raise FileError("picture.other_frames", file=os.fspath(folder))
+
+
+@contextlib.contextmanager
+def sheet_into(path: Path, size: tuple[int, int], columns: int, captions: Sequence[Picture]) -> Iterator[SheetWriter]:
+    """A contact sheet that appears when the block is done, or not at all.
+
+    Parameters
+    ----------
+    path : path
+        An existing file is replaced.
+    size : (int, int)
+        Width and height of each picture.
+    columns : int
+    captions : sequence of Picture
+        What stands under each picture: as wide as it, all of the same height.
+
+    Raises
+    ------
+    FileError
+        ``file.cannot_write``
+    """
+    width, height = sheet_size(size, len(captions[0]), columns, len(captions))
+    with atomic_write(path) as stream:
+        sheet = np.empty((height, width, 3), np.uint8)
+        sheet[:] = captions[0][0, 0, :3]
+        yield SheetWriter(sheet, columns, captions)
+        _write_png(stream, sheet)
+
+
+def sheet_size(size: tuple[int, int], caption_px: int, columns: int, count: int) -> tuple[int, int]:
+    """Width and height of a contact sheet."""
+    rows = -(-count // columns)
+    return GAP_PX + columns * (size[0] + GAP_PX), GAP_PX + rows * (size[1] + caption_px + GAP_PX)
+
+
+def usual_columns(count: int, every_s: Fraction) -> int:
+    """A row for each second where that is 4 to 12 pictures; else about as many columns as rows."""
+    in_a_second = 1 / every_s
+    if in_a_second.denominator == 1 and 4 <= in_a_second <= 12:
+        return min(int(in_a_second), count)
+    return math.ceil(math.sqrt(count))
+
+
+def _write_png(stream: BinaryIO, picture: Picture) -> None:
+    Image.fromarray(np.ascontiguousarray(picture[..., :3])).save(stream, "PNG", compress_level=_COMPRESSION)

@@ -1,0 +1,224 @@
+"""A musician's files: the character and the instruments, written and then measured as a reader plays them back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from app.contacts.hold import missed_mm
+from app.contacts.reach import unreached
+from app.encoding import shown
+from app.export.bone_names import profile_names
+from app.export.character import character_scene
+from app.export.file_names import figure_stems, file_names, sound_name
+from app.export.formats import FILE_FORMATS, FileContent, WriteOptions
+from app.export.instrument import instrument_scene
+from app.export.measure import Measured, measure_player
+from app.export.report import DoubleReport, PlayerReport, SkeletonReport, stage_place
+from app.export.request import ExportCast, Request
+from app.export.target import TargetSkeleton
+from app.export.targets import CheckedTarget
+from app.export.threads import in_threads
+from app.formats.fbx.read import read_scene
+from app.formats.scene import Scene
+from app.motion.model import Motion
+from app.performance.cast import Performer
+from app.performance.ensemble import Performance, changes_of
+from app.performance.judged import judged_problems
+from app.performance.motion import player_motion
+from app.plan.model import Problem
+from app.rig.model import Character
+from metadata.load import load_skeleton
+
+_MOTION_WORK, _MEASURES_WORK = 1.0, 5.0
+"""Beside `FileFormat.work`."""
+
+
+class ExportedPlayer(msgspec.Struct, frozen=True):
+    """What was written of a musician.
+
+    Attributes
+    ----------
+    report : PlayerReport
+    problems : dict of str to tuple of Problem
+        By the id of each of the musician's players.
+    torso_rad : tuple of (float, float) or None
+        Angles of the torso frame by frame, sideways and forward; None where nothing was measured.
+    """
+
+    report: PlayerReport
+    problems: dict[str, tuple[Problem, ...]]
+    torso_rad: list[tuple[float, float]] | None
+
+
+def export_player(
+    request: Request, cast: ExportCast, performer: Performer, folder: Path, reported: Callable[[float], None]
+) -> ExportedPlayer:
+    """Write and measure the files of a musician.
+
+    Parameters
+    ----------
+    request : Request
+    cast : ExportCast
+    performer : Performer
+        One of the cast's.
+    folder : path
+    reported : callable
+        Called with the share 0..1 that is done; what it raises stops the work.
+    """
+    names, stems = file_names(request.performance, request.formats), figure_stems(request.performance)
+    doubles, checked = cast.doubles.get(performer.player.id, ()), cast.targets[performer.player.id]
+    reported(0.0)
+    performance, target, files = request.performance, checked.target, names[performer.player.id]
+    requested = {name: kind for name, kind in FILE_FORMATS.items() if name in request.formats}
+    work = _MOTION_WORK + sum(kind.work for kind in requested.values()) + _MEASURES_WORK * ("fbx" in requested)
+    work *= 1 + len(doubles)
+    motion = player_motion(
+        performance, performer, request.span, progress=lambda share: reported(_MOTION_WORK / work * share)
+    )
+    held_by = {held for kind in requested.values() for held in kind.holds}
+    scenes = _scenes(request, performer, target, motion, stems[performer.player.id], held_by)
+    beside = write_options(request, performer.character, target)
+    problems: dict[str, tuple[Problem, ...]] = {}
+    writing = [(name, kind, held) for name, kind in requested.items() for held in kind.holds]
+    writers = [
+        partial(kind.write, folder / files[f"{held}_{name}"], scenes[held], beside) for name, kind, held in writing
+    ]
+    shares = [kind.work / len(kind.holds) for _, kind, _ in writing] + [0.0]
+    done = [_MOTION_WORK]
+
+    def finished(index: int) -> None:
+        done.append(shares[index])
+        reported(sum(done) / work)
+
+    tasks = [*writers, partial(_judge, problems, performance, performer, motion)]
+    in_threads(tasks, finished)
+    del motion, scenes, writers, tasks  # the files are measured, not what they were made from
+    _, found = changes_of(performance, [one.player for one in (performer, *doubles)])
+    changing = tuple((change.start_s, change.end_s) for change in found)
+    judging = _Judging(request, target, folder, files.get("character_fbx"), changing)
+    measured = judging.measured(performer, files, lambda share: reported((sum(done) + _MEASURES_WORK * share) / work))
+    reports = []
+    for index, double in enumerate(doubles, 1):
+
+        def measuring(share: float, done: int = index) -> None:
+            reported((done + share) / (1 + len(doubles)))
+
+        measuring(0.0)
+        own_files = names[double.player.id]
+        motion = player_motion(performance, double, request.span)
+        held_stem = stems[double.player.id]["instrument"]
+        scene = instrument_scene(double.instrument, double.model, motion, held_stem, request.creator)
+        for name, kind in requested.items():
+            if "instrument" in kind.holds:
+                kind.write(folder / own_files[f"instrument_{name}"], scene, beside)
+        _judge(problems, performance, double, motion)
+        del motion, scene
+        own = judging.measured(double, own_files, measuring)
+        reports.append(DoubleReport(**_reported(request, double, own_files, own)))
+    reported(1.0)
+    player = performer.player
+    report = PlayerReport(
+        **_reported(request, performer, files, measured),
+        character=player.character_id,
+        posture=performance.instrument(player).hold.possible(player.parameters.posture),
+        stage=stage_place(player.stage),
+        sway_correlation=None,
+        lean_correlation=None,
+        skeleton=skeleton_report(request, checked),
+        doubles=tuple(reports),
+    )
+    torso_rad = None if measured is None else measured.torso_rad.tolist()
+    return ExportedPlayer(report, problems, torso_rad)
+
+
+def _judge(
+    problems: dict[str, tuple[Problem, ...]], performance: Performance, performer: Performer, motion: Motion
+) -> None:
+    """Add what is wrong with a player's performance."""
+    problems[performer.player.id] = judged_problems(performance, performer, motion)
+
+
+@dataclass(frozen=True)
+class _Judging:
+    """What the files of a musician are measured with; without an FBX file of the character nothing is."""
+
+    request: Request
+    target: TargetSkeleton
+    folder: Path
+    character: str | None
+    changing: tuple[tuple[float, float], ...]
+
+    def measured(
+        self, performer: Performer, held: dict[str, str], reported: Callable[[float], None]
+    ) -> Measured | None:
+        """What the files hold of a player: the musician's character and the instrument."""
+        if self.character is None:
+            return None
+        return measure_player(
+            read_scene(self.folder / self.character),
+            read_scene(self.folder / held["instrument_fbx"]),
+            performer.character,
+            performer.instrument,
+            self.request.performance.plan(performer.player),
+            performer.body,
+            load_skeleton(performer.body.skeleton),
+            self.request.span.first_frame_s,
+            reported,
+            self.target,
+            self.changing,
+            unreached(self.request.performance.problems(performer.player.id)),
+        )
+
+
+def _reported(
+    request: Request, performer: Performer, files: dict[str, str], measured: Measured | None
+) -> dict[str, Any]:
+    """What is reported of a player, whether the musician's first one or one who doubles."""
+    player, span = performer.player, request.span
+    return {
+        "name": player.name,
+        "part": request.performance.project.part(player).name,
+        "instrument": player.instrument_id,
+        "size": performer.instrument.size,
+        "missed": missed_mm(performer.hold),
+        "files": files,
+        "notes": sum(span.shows_onset(note.start_s) for note in request.performance.plan(player).fingerings),
+        "measures": None if measured is None else measured.measures,
+    }
+
+
+def skeleton_report(request: Request, checked: CheckedTarget) -> SkeletonReport:
+    asset = None if request.asset is None else shown(request.asset.name)
+    return SkeletonReport(checked.target.choice, asset, checked.differences)
+
+
+def write_options(request: Request, character: Character, target: TargetSkeleton) -> WriteOptions:
+    return WriteOptions(
+        sound=sound_name(request.source) if request.sound else None,
+        bone_names=profile_names(request.bvh_names, target, character.skeleton) if request.bvh_names else {},
+    )
+
+
+def _scenes(
+    request: Request,
+    performer: Performer,
+    target: TargetSkeleton,
+    motion: Motion,
+    stems: dict[FileContent, str],
+    held: set[FileContent],
+) -> dict[FileContent, Scene]:
+    """The scenes that some format asked for can hold."""
+    scenes: dict[FileContent, Scene] = {}
+    if "character" in held:
+        scenes["character"] = character_scene(performer.character, motion, stems["character"], request.creator, target)
+    if "instrument" in held:
+        scenes["instrument"] = instrument_scene(
+            performer.instrument, performer.model, motion, stems["instrument"], request.creator
+        )
+    return scenes

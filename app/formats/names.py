@@ -1,0 +1,32 @@
+"""Names made different from each other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+
+def numbered(
+    names: Iterable[str], taken: Iterable[str] = (), key: Callable[[str], str] = str.casefold
+) -> tuple[str, ...]:
+    """The names in their order, each with the first free number behind it where it is not the first of its kind.
+
+    Parameters
+    ----------
+    names : iterable of str
+    taken : iterable of str
+        Names that are not free.
+    key : callable
+        What of two names must differ; usually also a system that knows no case tells them apart.
+    """
+    used = {key(name) for name in taken}
+    last: dict[str, int] = {}
+    result = []
+    for name in names:
+        different, number = name, last.get(key(name), 1)
+        while key(different) in used:
+            number += 1
+            different = f"{name}_{number}"
+        last[key(name)] = number
+        used.add(key(different))
+        result.append(different)
+    return tuple(result)

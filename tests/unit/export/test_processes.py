@@ -1,0 +1,123 @@
+"""An export shared over processes: the same files, whatever becomes of the processes."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.errors import Cancelled
+from app.export import processes
+from app.export.processes import process_count
+from app.export.request import Request, cast_of
+from app.export.run import export
+from app.messages import text
+from app.performance.ensemble import Performance
+from app.performance.span import bars_span
+from app.project.model import Project, map_choices, project_from_score
+from app.score.read import read_midi
+from instrument_maps.load import bundled_maps
+
+ROOT = Path(__file__).parents[3]
+QUARTET = ROOT / "resources" / "examples" / "quartet.mid"
+
+
+def request(folder: Path, project: Project, processes: int | None) -> Request:
+    performance = Performance(project)
+    return Request(
+        performance=performance,
+        players=project.players[1:],
+        folder=folder,
+        formats=frozenset(("fbx",)),
+        span=bars_span(performance, Fraction(15), (2, 2), 0.0),
+        bars=(2, 2),
+        source="quartet.mid",
+        creator="Suisou",
+        processes=processes,
+    )
+
+
+def quartet() -> Project:
+    maps = bundled_maps()
+    return project_from_score(read_midi(QUARTET, maps=map_choices(maps.values())), maps)
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    """What one process writes."""
+    folder = tmp_path_factory.mktemp("alone")
+    export(request(folder, quartet(), 1), text)
+    return files(folder)
+
+
+def ending(code: str) -> Any:
+    """Instead of a process of ours: one that runs some other code."""
+    return lambda module: {"args": [sys.executable, "-c", code]}
+
+
+def test_processes_write_what_one_writes(tmp_path: Path, alone: dict[str, bytes]) -> None:
+    shares: list[float] = []
+    export(request(tmp_path, quartet(), 3), text, progress=lambda share, label: shares.append(share))
+    assert files(tmp_path) == alone
+    assert shares == sorted(shares)
+    assert shares[-1] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "",
+        "import sys; sys.stdin.buffer.read(100)",
+        "import sys; sys.stdin.buffer.read(100); sys.stdout.buffer.write(b'\\x05\\0\\0\\0What?'); sys.stdout.flush()",
+        "import os, signal, sys; sys.stdin.buffer.read(100); os.kill(os.getpid(), signal.SIGKILL)",
+    ],
+    ids=["ends at once", "ends while it works", "answers what it should not", "is killed"],
+)
+def test_what_a_process_does_not_finish_is_done_here(
+    code: str, tmp_path: Path, alone: dict[str, bytes], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(processes, "own_process", ending(code))
+    export(request(tmp_path, quartet(), 2), text)
+    assert files(tmp_path) == alone
+
+
+def test_where_no_process_can_be_started_one_does_all(
+    tmp_path: Path, alone: dict[str, bytes], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(processes, "own_process", lambda module: {"args": [str(tmp_path / "absent")]})
+    export(request(tmp_path, quartet(), 2), text)
+    assert files(tmp_path) == alone
+
+
+def test_stopping_ends_the_processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    started: list[Any] = []
+
+    class Watched(subprocess.Popen[bytes]):
+        def __init__(self, **options: Any) -> None:
+            super().__init__(**options)
+            started.append(self)
+
+    monkeypatch.setattr(subprocess, "Popen", Watched)
+    progress: list[float] = []
+    with pytest.raises(Cancelled):
+        export(
+            request(tmp_path / "new", quartet(), 3),
+            text,
+            stop_requested=lambda: len(progress) > 3,
+            progress=lambda share, label: progress.append(share),
+        )
+    assert [process.poll() is not None for process in started] == [True, True]
+    assert not (tmp_path / "new").exists()
+
+
+def test_more_processes_only_for_long_work(tmp_path: Path) -> None:
+    short = request(tmp_path, quartet(), None)
+    assert process_count(short, cast_of(short, text)) == 1

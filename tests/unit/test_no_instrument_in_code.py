@@ -1,0 +1,41 @@
+"""The code knows no instrument: whatever is particular to one stands in its map."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+from instrument_maps.load import bundled_maps
+from metadata.load import load_body
+
+ROOT = Path(__file__).parents[2]
+FILES = sorted(path for room in ("app", "widgets") for path in (ROOT / room).rglob("*.py"))
+
+
+def texts(tree: ast.Module) -> list[tuple[int, str]]:
+    """The strings of a module with their lines; docstrings, which may mention instruments, are left out."""
+    docstrings = {
+        id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+    }
+    return [
+        (node.lineno, node.value)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docstrings
+    ]
+
+
+def test_no_text_of_the_code_has_the_id_of_an_instrument() -> None:
+    named = re.compile(rf"(?<!\w)({'|'.join(map(re.escape, bundled_maps()))})(?!\w)")
+    found = {
+        f"{path.relative_to(ROOT)}:{line}": text
+        for path in FILES
+        for line, text in texts(ast.parse(path.read_bytes()))
+        if named.search(text)
+    }
+    assert len(FILES) > 500
+    assert found == {}
+
+
+def test_a_body_is_checked_with_an_instrument_that_is_there() -> None:
+    assert load_body().checked_with in bundled_maps()

@@ -1,0 +1,45 @@
+"""The font of the window and of pictures: the system's, with Japanese signs."""
+
+from __future__ import annotations
+
+import sys
+
+from PySide6.QtGui import QFont, QFontDatabase
+from PySide6.QtWidgets import QApplication
+
+from app.editor.tokens import LEAST_TEXT_PT
+
+FONT_SIZE_PT = 9.5
+JAPANESE_FAMILIES = (
+    "Noto Sans CJK JP",
+    "Noto Sans JP",
+    "Hiragino Sans",
+    "Yu Gothic UI",
+    "Meiryo",
+    "IPAexGothic",
+    "IPAGothic",
+    "TakaoPGothic",
+    "VL Gothic",
+)
+"""Where the system's own font lacks Japanese, the first of these that is there: left to chance, a fallback may give
+signs their Chinese forms."""
+
+
+def apply_font(application: QApplication) -> None:
+    """The system's font, at least 9 pt, followed by one with Japanese signs."""
+    font = QFontDatabase.systemFont(QFontDatabase.SystemFont.GeneralFont)
+    known = set(QFontDatabase.families())
+    families = [font.family(), *(family for family in JAPANESE_FAMILIES if family in known)]
+    if sys.platform.startswith("linux"):
+        # Where no desktop names a font, Qt takes a serif or whatever comes first.
+        preferred = next((name for name in ("Inter", "Noto Sans", "DejaVu Sans") if name in known), None)
+        if preferred and not _desktop_chose(font):
+            families[0] = preferred
+    font.setFamilies(list(dict.fromkeys(families)))
+    font.setPointSizeF(max(FONT_SIZE_PT, float(LEAST_TEXT_PT)))
+    font.setStyleHint(QFont.StyleHint.SansSerif)
+    application.setFont(font)
+
+
+def _desktop_chose(font: QFont) -> bool:
+    return font.family().lower() not in {"", "sans serif", "sans", "helvetica"}

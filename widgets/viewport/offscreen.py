@@ -1,0 +1,178 @@
+"""The viewport without a window: pictures of a project for the command line."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator, Sequence
+from typing import TypeVar
+
+from PySide6.QtCore import QCoreApplication, QEvent
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QImage, QPainter
+from PySide6.QtWidgets import QApplication
+
+from app.editor.session import Session
+from app.editor.tasks import Progress, StopRequested
+from app.editor.tokens import THEMES, Tokens
+from app.editor.viewport_state import View
+from app.errors import AppError, Cancelled, Message
+from app.export.pictures import Picture
+from app.performance.cast import LeftOut
+from app.performance.chunks import Pose
+from app.performance.ensemble import Performance
+from app.performance.live import LiveMotion, PlayerFault
+from app.project.performers import Player
+from widgets.common.font import apply_font
+from widgets.viewport.canvas import pixels, why_no_gl
+from widgets.viewport.panel import Draw, ViewportPanel
+
+T = TypeVar("T")
+
+_CAPTION_PX = (10, 24)
+"""Least and greatest size of the letters under a picture."""
+_CAPTION_PER_WIDTH = 1 / 26
+
+
+class Offscreen:
+    """Draws a project's players in a viewport that is never shown; see `offscreen`."""
+
+    def __init__(self, performance: Performance, theme: str, stop_requested: StopRequested) -> None:
+        project = performance.project
+        self._live = LiveMotion(performance)
+        self._session = Session(project, _AtOnce(stop_requested))
+        self._session.set_tokens(THEMES[theme])
+        self._panel = ViewportPanel(self._session, _MadePoses(self._live, stop_requested))
+
+    def film(self, size: tuple[int, int], span_s: tuple[float, float], view: View, player_ids: tuple[str, ...]) -> Draw:
+        """What draws a film: see `ViewportPanel.film`. Of the selected players it shows who is one."""
+        self._session.set_players(tuple(own for own in player_ids if own not in self._session.project.dancer_ids))
+        return self._panel.film(*size, span_s, view, player_ids)
+
+    @property
+    def left_out(self) -> list[LeftOut]:
+        """Who cannot be seen, as far as pictures were drawn."""
+        found = list[LeftOut]()
+        loaded = self._panel.scene.loaded
+        unseen = {} if loaded is None else {one.player.id: one.reason for one in loaded.left_out}
+        for performer in self._session.project.performers:
+            lacking = self._live.performance.lacking(performer) if isinstance(performer, Player) else ()
+            # As exports and reports name it, where they do.
+            reason = next(iter(lacking), None) or self._live.error(performer.id) or unseen.get(performer.id)
+            if reason is not None:
+                found.append(LeftOut(performer, reason))
+        return found
+
+    def shows(self, player_ids: tuple[str, ...]) -> bool:
+        """Whether any of these players can be seen; of all where none is named."""
+        stage = self._panel.scene.stage
+        return stage is not None and bool(stage.rows(player_ids) if player_ids else stage.members)
+
+    def close(self) -> None:
+        """Let go of what is drawn with."""
+        self._panel.close()
+        self._panel.deleteLater()
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
+
+
+@contextlib.contextmanager
+def offscreen(performance: Performance, theme: str, stop_requested: StopRequested) -> Iterator[Offscreen]:
+    """A viewport of a performance's project that is never shown.
+
+    Raises
+    ------
+    AppError
+        ``picture.film_no_gl`` (reason).
+    Cancelled
+    """
+    application = QApplication.instance() or QApplication(["suisou"])
+    assert isinstance(application, QApplication)
+    apply_font(application)
+    reason = why_no_gl()
+    if reason is not None:
+        raise AppError("picture.film_no_gl", reason=reason)
+    made = Offscreen(performance, theme, stop_requested)
+    try:
+        yield made
+    finally:
+        made.close()
+
+
+def captions(texts: Sequence[tuple[str, str]], width: int, theme: str) -> list[Picture]:
+    """What stands under pictures of a width: two lines of text each, the second one fainter.
+
+    Returns
+    -------
+    list of (H, width, 4) uint8
+    """
+    tokens: Tokens = THEMES[theme]
+    font = QFont(QApplication.font())
+    least, most = _CAPTION_PX
+    font.setPixelSize(round(min(max(width * _CAPTION_PER_WIDTH, least), most)))
+    metrics = QFontMetrics(font)
+    step = metrics.height()
+    found = []
+    for lines in texts:
+        image = QImage(width, 2 * step + metrics.descent(), QImage.Format.Format_RGBA8888)
+        image.fill(QColor(tokens.sunken))
+        painter = QPainter(image)
+        painter.setFont(font)
+        for row, (line, color) in enumerate(zip(lines, (tokens.text, tokens.text_dim), strict=True)):
+            painter.setPen(QColor(color))
+            painter.drawText(metrics.descent(), metrics.ascent() + row * step, line)
+        painter.end()
+        found.append(pixels(image))
+    return found
+
+
+class _MadePoses:
+    """Poses of a performance, made when they are asked for, a chunk of frames at a time."""
+
+    def __init__(self, live: LiveMotion, stop_requested: StopRequested) -> None:
+        self._live, self._stop_requested = live, stop_requested
+
+    def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
+        """See `app.editor.poses.Poses.poses`."""
+        return self._live.poses(player_ids, time_s)
+
+    def pose_now(self, player_id: str, time_s: float) -> Pose | None:
+        """See `app.editor.poses.Poses.pose_now`. Raises Cancelled."""
+        live = self._live
+        live.want(time_s, 0.0)
+        while not live.is_seen:
+            if self._stop_requested():
+                raise Cancelled("work.stopped")
+            # A player whom a fault of the program stops is excluded, with the reason.
+            with contextlib.suppress(PlayerFault):
+                if not live.work():
+                    break
+        return None if live.error(player_id) is not None else live.pose_now(player_id, time_s)
+
+
+class _AtOnce:
+    """Does work where it is asked for: without a window nothing waits beside it."""
+
+    def __init__(self, stop_requested: StopRequested) -> None:
+        self._stop_requested = stop_requested
+
+    def run(
+        self,
+        name: Message,
+        work: Callable[[Progress, StopRequested], T],
+        done: Callable[[T], None],
+        failed: Callable[[AppError], None] | None = None,
+        key: str | None = None,
+        ended: Callable[[], None] | None = None,
+    ) -> None:
+        """See `app.editor.tasks.Tasks.run`; errors without ``failed`` are raised, Cancelled too."""
+        try:
+            result = work(lambda share: None, self._stop_requested)
+        except Cancelled:
+            raise
+        except AppError as error:
+            if failed is None:
+                raise
+            failed(error)
+        else:
+            done(result)
+        finally:
+            if ended is not None:
+                ended()
