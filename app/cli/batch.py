@@ -1,6 +1,6 @@
 """Many pieces exported at once: each by a process of its own, so that what is wrong with one stops no other.
 
-What was done is noted in ``batch.json`` in the folder of the exports: where a run was stopped, the next one goes on.
+What was done is noted in ``exported.json`` in the folder of the exports: where a run was stopped, the next one goes on.
 
 Messages: ``batch.no_pieces`` (folder); ``batch.unreal``; ``batch.bad_notes`` (file); ``dask.missing``;
 ``dask.unreachable`` (address, reason).
@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import json
+import os
 import subprocess
 import sys
 import time
@@ -36,7 +37,7 @@ from app.messages import filled
 from app.own_process import core_count, own_process
 from app.version import program_version
 
-NOTES: Final = "batch.json"
+NOTES: Final = "exported.json"
 SUFFIXES: Final = (".mid", ".midi", ".suisou")
 _STOP_S: Final = 10.0
 """How long a process may take to remove what it has not finished."""
@@ -117,7 +118,7 @@ def export_folder(arguments: argparse.Namespace) -> int:
     known = {
         piece: notes[piece].outcome
         for piece, folder in pieces.items()
-        if piece in notes and notes[piece].digest == digests[piece] and (target / folder / REPORT).exists()
+        if piece in notes and notes[piece].digest == digests[piece] and os.path.exists(target / folder / REPORT)
     }
     outcomes = dict(known)
     progress = Progress(sys.stderr)
@@ -157,7 +158,7 @@ def folders_of(source: Path) -> dict[str, str]:
     found = sorted(
         path.relative_to(source)
         for path in source.rglob("*")
-        if path.suffix.casefold() in SUFFIXES and path.is_file() and not _hidden(path.relative_to(source))
+        if path.suffix.casefold() in SUFFIXES and os.path.isfile(path) and not _hidden(path.relative_to(source))
     )
     alike = Counter(path.with_suffix("") for path in found)
     folders = [path if alike[path.with_suffix("")] > 1 else path.with_suffix("") for path in found]
@@ -268,7 +269,7 @@ def _digest(piece: Path, arguments: argparse.Namespace) -> str:
 
 
 def _read_notes(file: Path) -> dict[str, _Note]:
-    if not file.exists():
+    if not os.path.exists(file):
         return {}
     try:
         return msgspec.json.decode(read_file(file, _MOST_BYTES), type=dict[str, _Note])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import signal
 import sys
 from pathlib import Path
@@ -145,7 +146,7 @@ def export(arguments: argparse.Namespace) -> int:
     """Write the files, print what they hold and name the excluded players; the exit status."""
     if arguments.piece is not None:
         arguments.file = arguments.piece
-    elif arguments.file.is_dir():
+    elif os.path.isdir(arguments.file):
         from app.cli.batch import export_folder
 
         with interrupted_by(signal.SIGTERM):

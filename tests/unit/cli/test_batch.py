@@ -70,7 +70,7 @@ def test_what_stopped_in_the_middle_goes_on(pieces: Path, tmp_path: Path) -> Non
     out = tmp_path / "out"
     command = [sys.executable, "-m", "app", "export", str(pieces), "--to", str(out), "--jobs", "1", *SHORT]
     running = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
-    while not (out / "batch.json").exists():
+    while not (out / "exported.json").exists():
         assert running.poll() is None
         time.sleep(0.02)
     running.send_signal(signal.SIGINT)
@@ -113,9 +113,9 @@ def test_what_is_wrong_with_the_request(
 def test_damaged_notes_are_named(pieces: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "out"
     out.mkdir()
-    (out / "batch.json").write_text("{")
+    (out / "exported.json").write_text("{")
     assert main(["export", str(pieces), "--to", str(out)]) == BAD_INPUT
-    assert "batch.json is damaged" in capsys.readouterr().err
+    assert "exported.json is damaged" in capsys.readouterr().err
 
 
 def test_pieces_of_one_name_and_hidden_files(tmp_path: Path) -> None:
