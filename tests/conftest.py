@@ -9,6 +9,8 @@ import pytest
 from hypothesis import settings
 from pytestqt.qtbot import QtBot
 
+import app  # noqa: F401 - before NumPy, which reads on how many threads it works
+
 # Machines are noisy: how long an example took says nothing. Speed is measured in tests/bench, as ratios.
 # The same examples in every run; `--hypothesis-profile explore` tries new ones.
 settings.register_profile("suisou", deadline=None, derandomize=True)

@@ -8,7 +8,6 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 from sklearn.cluster import KMeans
-from threadpoolctl import threadpool_limits
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
@@ -65,10 +64,8 @@ def _k_means(features: FloatArray, states: int, seed: int) -> tuple[IntArray, fl
     """Classes by first appearance, and the motions' spread about their means (see `SPREAD`)."""
     if not len(features):
         return np.zeros(0, np.int64), 0.0
-    # With several threads the order of sums, and with it the last bit, would be chance.
-    with threadpool_limits(limits=1):
-        # NumPy's generator of old, which scikit-learn uses, takes 32 bits.
-        found = KMeans(states, n_init=STARTS, random_state=seed % 2**32).fit(features)
+    # NumPy's generator of old, which scikit-learn uses, takes 32 bits.
+    found = KMeans(states, n_init=STARTS, random_state=seed % 2**32).fit(features)
     _, first, classes = np.unique(found.labels_, return_index=True, return_inverse=True)
     by_appearance = np.argsort(np.argsort(first))
     # A point has three coordinates.

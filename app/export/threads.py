@@ -6,8 +6,6 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Final
 
-from threadpoolctl import threadpool_limits
-
 from app.own_process import core_count
 
 _MOST: Final = 4
@@ -23,8 +21,7 @@ def in_threads(tasks: Sequence[Callable[[], None]], finished: Callable[[int], No
     finished : callable
         Called in this thread with the index of each task that is done; what it raises stops the work.
     """
-    # The matrices are small: threads of BLAS would mostly wait for one another.
-    with threadpool_limits(limits=1, user_api="blas"), ThreadPoolExecutor(min(core_count(), _MOST)) as pool:
+    with ThreadPoolExecutor(min(core_count(), _MOST)) as pool:
         indices = {pool.submit(task): index for index, task in enumerate(tasks)}
         try:
             for future in as_completed(indices):

@@ -16,11 +16,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from importlib import import_module
 
 import numpy as np
 import numpy.typing as npt
-from threadpoolctl import threadpool_limits
 
 from app.errors import UsageError
 from app.rig import quaternion
@@ -91,20 +89,15 @@ def fit_hold(
         character, model = sized_character(character, 1.0 / size), sized_model(model, 1.0 / size)
         instrument_map = scaled(instrument_map, 1.0 / size)
         stand = Upright(stand.joints_m / size, stand.instrument_m / size, stand.instrument_rotation)
-    # Only a library that is loaded is limited, and SciPy brings its own; heavy, and holds are fitted seldom.
-    import_module("scipy.optimize")
-
-    # The matrices are small: more threads make it no faster, far slower on a busy machine, and change the last bits.
-    with threadpool_limits(limits=1, user_api="blas"):
-        fitted = []
-        for number, seed in enumerate(instrument_map.hands):
-            part = _part(progress, number / len(instrument_map.hands), (number + 1) / len(instrument_map.hands))
-            fitted.append(_fit_hand(character, model, instrument_map, body, seed, stand, size, part))
+    fitted = []
+    for number, seed in enumerate(instrument_map.hands):
+        part = _part(progress, number / len(instrument_map.hands), (number + 1) / len(instrument_map.hands))
+        fitted.append(_fit_hand(character, model, instrument_map, body, seed, stand, size, part))
     return GripPose(character.id, instrument_map.id, tuple(sized(hand, size) for hand in fitted), lips)
 
 
 def _part(progress: Progress, first: float, last: float) -> Progress:
-    """Tells of a part of the work as of that share of the whole."""
+    """Reports progress of a part of the work as a share of the whole."""
     return lambda share: progress(first + (last - first) * share)
 
 
