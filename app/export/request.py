@@ -1,6 +1,6 @@
 """What to export, and which requested players can be exported: the others are excluded with the reason.
 
-Messages: ``export.no one`` (file): "{file}: there is no one to export"; ``export.too_long`` (file, frames,
+Messages: ``export.no_players`` (file); ``export.too_long`` (file, frames,
 most); ``work.stopped``; those of `app.performance.cast`.
 """
 
@@ -120,7 +120,7 @@ def cast_of(
     Raises
     ------
     FileError
-        ``export.no one``; ``export.too_long``; ``player.all_left_out``; what `read_figure` says of the asset.
+        ``export.no_players``; ``export.too_long``; ``player.all_left_out``; what `read_figure` says of the asset.
     UsageError
         ``usd.missing``.
     Cancelled
