@@ -216,7 +216,7 @@ class Look:
     def open(self) -> None:
         """The piece, in a new window's layout."""
         self.program.editor.files.open(LUTKIN, ask=False)
-        self.window.reset_layout()
+        self.window.reset_workspace()
         self.at("window")
 
     def selections(self) -> None:

@@ -82,14 +82,14 @@ def test_in_a_low_window_the_inspector_has_the_whole_height(
 
 def test_the_keys_belong_to_the_notes_from_the_start(program: Program) -> None:
     assert QApplication.focusWidget() is program.window.timeline.roll.plot
-    program.window.reset_layout()
+    program.window.reset_workspace()
     assert QApplication.focusWidget() is program.window.timeline.roll.plot
 
 
 def test_a_banner_pushes_no_panel_aside(program: Program, qtbot: QtBot) -> None:
     window = program.window
     window.resize(1093, 614)
-    window.reset_layout()
+    window.reset_workspace()
     QApplication.processEvents()
     before = window.docks["players"].width(), window.docks["inspector"].width()
     window._ask_to_save_over(Path("a_rather_long_name_of_a_project_that_nobody_would_shorten.suisou"), None)
