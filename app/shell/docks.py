@@ -77,6 +77,8 @@ class Dock(QDockWidget):
         self.setWidget(panel)
         self._window = parent
         self._has_floated = False
+        self._held = False
+        """Qt drags it."""
         self._session, self._title, self._bar = session, Label(), named(QWidget(), "dock_title")
         self._bar.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         float_tip, close_tip = "dock.float_or_dock_this_panel", "dock.close_this_panel_view_panels"
@@ -119,7 +121,7 @@ class Dock(QDockWidget):
 
     def _frame(self) -> None:
         """The system's frame around a floating panel, and all of it on the screen."""
-        if not self.isFloating() or self.isHidden() or QGuiApplication.mouseButtons() != Qt.MouseButton.NoButton:
+        if not self.isFloating() or self.isHidden() or self._held:
             return
         self._has_floated = True
         if self.windowFlags() & Qt.WindowType.FramelessWindowHint:
@@ -158,10 +160,12 @@ class Dock(QDockWidget):
             if not docks_again and not event.modifiers() & MODIFIER:
                 event.accept()
                 return True
+            self._held = kind == QEvent.Type.MouseButtonPress
             # With Ctrl, Qt would not let the panel dock anywhere.
             return super().event(_without_modifiers(event))
         done = super().event(event)
-        if kind == QEvent.Type.MouseButtonRelease and self.isFloating():
+        if kind == QEvent.Type.MouseButtonRelease:
+            self._held = False
             self._frame_soon()
         return done
 

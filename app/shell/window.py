@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Final
 
 from PySide6.QtCore import QByteArray, QEvent, QPoint, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence, QResizeEvent
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QMainWindow, QPushButton, QStackedWidget, QToolBar, QWidget
 
@@ -49,6 +49,8 @@ from widgets.viewport.panel import ViewportPanel
 
 SIZE: Final = QSize(1600, 1000)
 LEAST_SIZE: Final = QSize(960, 600)
+NARROW_PX: Final = 1060
+"""In a window narrower than this the field for commands does not show its keys beside menus and workspaces."""
 DOCKED: Final = ("players", "inspector", "timeline", "recording")
 """Panels beside the viewport."""
 
@@ -91,7 +93,7 @@ class Window(Retranslated, QMainWindow):
         self.setMinimumSize(LEAST_SIZE)
         self.session, self._files, self._settings, self._questions = session, files, settings, questions
         self._table = table
-        self._closing = False
+        self._closing = self._narrow = False
         self._full: QByteArray | None = None
 
         self.viewport = ViewportPanel(self.session, generator.live)
@@ -364,14 +366,15 @@ class Window(Retranslated, QMainWindow):
         for name, dock in self.docks.items():
             dock.setWindowTitle(titles[name])
             dock.set_tip(self.tr("dock.drag_with_ctrl"))
-        keys = self._table.actions["application.palette"].shortcut().toString(QKeySequence.SequenceFormat.NativeText)
-        self.palette_field.setText(self.tr("window.search").format(keys=keys))
         self.palette_field.setAccessibleName(self.tr("window.search_commands"))
         self._fit_corner()
         self._report_title()
 
     def _fit_corner(self) -> None:
-        """Give what stands at the right of the menus the width that it needs now."""
+        """Give what stands at the right of the menus the width that it needs now; in a narrow window it needs less."""
+        self._narrow = self.width() < NARROW_PX
+        keys = self._table.actions["application.palette"].shortcut().toString(QKeySequence.SequenceFormat.NativeText)
+        self.palette_field.setText(self.tr("window.search").format(keys="" if self._narrow else keys).strip())
         self._corner.adjustSize()
         # The bar asks for the width only here.
         self.menuBar().setCornerWidget(self._corner, Qt.Corner.TopRightCorner)
@@ -384,6 +387,12 @@ class Window(Retranslated, QMainWindow):
             self.set_full_screen(False)
             return
         super().keyPressEvent(event)  # type: ignore[arg-type]
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """The bar of menus has room for more or less."""
+        super().resizeEvent(event)
+        if (self.width() < NARROW_PX) != self._narrow:
+            self._fit_corner()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """A file that can be opened is welcome."""

@@ -125,6 +125,7 @@ class RecordingPanel(Retranslated, QWidget):
         if recording.connection == "open" and recording.latency_s:
             text = self.tr("recording_panel.connected_late").format(latency=1000 * recording.latency_s)
         self._state.setText(text)
+        self._state.setVisible(recording.connection != "none")
         reason = recording.refusal
         self._state.setToolTip("" if reason is None else sentence(reason, self._session))
         self._state.setStyleSheet(f"color: {colour if recording.connection != 'open' else tokens.text_dim};")
@@ -140,7 +141,7 @@ class RecordingPanel(Retranslated, QWidget):
     def _show_names(self) -> None:
         """The device and the player, as much of their names as there is room for."""
         recording, player = self._session.recording, self._recorded()
-        device = recording.port or self.tr("recording_panel.device")
+        device = recording.port or self.tr(STATES["none"])
         who = self.tr("recording_panel.no_player") if player is None else player.name
         if player is not None and recording.armed == player.id:
             who = self.tr("recording_panel.player_armed").format(name=who)

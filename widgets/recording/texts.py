@@ -13,7 +13,6 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "接続済み、レイテンシー {latency:.0f} ms",
     ),
     "recording_panel.count_in": ("Count-in", "カウントイン"),
-    "recording_panel.device": ("Device", "デバイス"),
     "recording_panel.disconnected": ("Disconnected", "切断"),
     "recording_panel.no_device": ("No device selected", "デバイス未選択"),
     "recording_panel.no_player": ("No player", "奏者なし"),
