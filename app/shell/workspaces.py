@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Final, Literal, Protocol
 
 from PySide6.QtCore import QByteArray, QObject, Qt, Signal
-from PySide6.QtWidgets import QMainWindow
+from PySide6.QtWidgets import QLayout, QMainWindow, QWidget
 
 from app.editor.settings import Settings
 from app.shell.docks import Dock
@@ -22,6 +22,9 @@ LAYOUT_VERSION: Final = 2
 SHORT_PX: Final = 880
 """In a window lower than this the inspector has the whole height: above the timeline it could show two rows; and the
 players have none of it, lest the timeline be narrow."""
+
+CHROME_PX: Final = 105
+"""About the height of what is above and below the panels: menus, transport, status line, and the line between two."""
 
 Area = Qt.DockWidgetArea
 LEFT, RIGHT, BOTTOM = Area.LeftDockWidgetArea, Area.RightDockWidgetArea, Area.BottomDockWidgetArea
@@ -254,6 +257,17 @@ class Workspaces(QObject):
             docks = [self._docks[name] for name in names]
             window.resizeDocks(docks, [width_px] * len(docks), Qt.Orientation.Horizontal)
             if len(docks) > 1:
-                window.resizeDocks(docks[:1], [docks[0].sizeHint().height()], Qt.Orientation.Vertical)
+                first = _height_px(docks[0])
+                rest = [(window.height() - CHROME_PX - first) // (len(docks) - 1)] * (len(docks) - 1)
+                window.resizeDocks(docks, [first, *rest], Qt.Orientation.Vertical)
         height = round(workspace.timeline_share * window.height())
         window.resizeDocks([self._docks["timeline"]], [height], Qt.Orientation.Vertical)
+
+
+def _height_px(dock: Dock) -> int:
+    """What a panel needs, perhaps before it was ever shown: only what is polished knows its font."""
+    for widget in dock.findChildren(QWidget):
+        widget.ensurePolished()
+    for layout in dock.findChildren(QLayout):
+        layout.invalidate()
+    return dock.sizeHint().height()

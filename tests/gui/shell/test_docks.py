@@ -115,8 +115,12 @@ def test_a_tab_is_not_torn_off(program: Program, qtbot: QtBot) -> None:
     window = program.window
     players, inspector = window.docks["players"], window.docks["inspector"]
     window.tabifyDockWidget(players, inspector)
-    QApplication.processEvents()
-    (bar,) = [bar for bar in window.findChildren(QTabBar) if bar.parent() is window and bar.isVisible()]
+
+    def bars() -> list[QTabBar]:
+        return [bar for bar in window.findChildren(QTabBar) if bar.parent() is window and bar.isVisible()]
+
+    qtbot.waitUntil(lambda: bool(bars()))
+    (bar,) = bars()
     drag(bar, bar.tabRect(0).center(), QPoint(300, -260))
     assert not players.isFloating()
     assert not inspector.isFloating()
