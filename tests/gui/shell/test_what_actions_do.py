@@ -808,20 +808,21 @@ CASES: dict[str, Case] = {
     },
     "lanes.fold_all": becomes(lambda d: any(map(d.program.window.timeline.is_lane_open, LANES)), False),
     "lanes.unfold_all": becomes(
-        lambda d: [lane.folded for lane in d.program.window.timeline.lanes.values() if not lane.isHidden()],
-        [False] * 7,
+        lambda d: any(lane.folded for lane in d.program.window.timeline.lanes.values() if not lane.isHidden()),
+        False,
+        command("lanes.fold_all"),
     ),
     "workspace.animate": becomes(lambda d: d.program.window.workspaces.current, "animate", command("workspace.check")),
     "workspace.record": becomes(lambda d: d.program.window.workspaces.current, "record"),
     "workspace.check": becomes(lambda d: d.program.window.workspaces.current, "check"),
     "workspace.reset": becomes(
-        lambda d: [
-            dock.isVisible() and not dock.isFloating()
-            for name, dock in d.program.window.docks.items()
-            if name != "recording"
-        ],
-        [True, True, True],
-        lambda d: (d.program.window.docks["players"].hide(), d.program.window.docks["timeline"].setFloating(True)),
+        lambda d: {name: not dock.isHidden() for name, dock in d.program.window.docks.items()},
+        {"players": False, "inspector": True, "timeline": True, "recording": False},
+        lambda d: (
+            d.program.window.choose_workspace("check"),
+            d.program.window.docks["players"].show(),
+            d.program.window.docks["timeline"].hide(),
+        ),
     ),
     "pitch.concert": becomes(lambda d: d.session.pitch_display.written, False, command("pitch.written")),
     "pitch.written": becomes(lambda d: d.session.pitch_display.written, True),
