@@ -228,10 +228,9 @@ class Settings(QObject):
 
     geometry = _Bytes("window/geometry")
     """Where the window is and how large."""
-    layout = _Bytes("window/layout")
-    """Where the panels are."""
-    timeline = Setting("window/timeline", "")
-    """The timeline's lanes: order, heights, folds."""
+    workspace = Setting("window/workspace", "")
+    """Of `app.shell.workspaces.WORKSPACES`; empty: none was chosen."""
+    _workspaces = Setting("workspaces", dict[str, dict[str, str]](), dict[str, dict[str, str]])
 
     folder = _FilePath("files/folder", "")
     """Where a file was last opened or saved."""
@@ -350,6 +349,19 @@ class Settings(QObject):
         if port:
             devices = self._midi_devices
             self._midi_devices = {**devices, port: {**devices.get(port, {}), name: value}}
+
+    def workspace_state(self, workspace_id: str) -> dict[str, str]:
+        """How a workspace was left, by what is remembered of it; empty: it is as at first."""
+        return dict(self._workspaces.get(workspace_id, {}))
+
+    def set_workspace_state(self, workspace_id: str, **parts: str) -> None:
+        """Remember something of a workspace."""
+        known = self._workspaces
+        self._workspaces = {**known, workspace_id: {**known.get(workspace_id, {}), **parts}}
+
+    def forget_workspace(self, workspace_id: str) -> None:
+        """A workspace is as at first."""
+        self._workspaces = {id: state for id, state in self._workspaces.items() if id != workspace_id}
 
     @property
     def recent(self) -> tuple[str, ...]:

@@ -209,8 +209,10 @@ class ActionTable(QObject):
     def _focus_moved(self, before: QWidget | None, now: QWidget | None) -> None:
         context, widget = "window", now
         while widget is not None:
-            if widget.objectName() in CONTEXTS:
-                context = widget.objectName()
+            # A panel's tools may stand in the title of its dock.
+            name = widget.objectName().removeprefix("dock_")
+            if name in CONTEXTS:
+                context = name
                 break
             widget = widget.parentWidget()
         if context != self._context:

@@ -268,7 +268,7 @@ def picture(start: Start, target: Path) -> int:
         window.resize(*start.size)
         window.show()
         window.resize(*start.size)
-        window.reset_layout()
+        window.reset_workspace()
         try:
             if start.file is not None:
                 program.editor.files.open(start.file, ask=False)
@@ -282,7 +282,7 @@ def picture(start: Start, target: Path) -> int:
                 program.session.reveal(start.time_s)
                 wait(lambda: _moves(program, start.time_s) and not _working(program))
                 wait(lambda: program.generator.ready_share >= 1.0, READY_S)
-                window.reset_layout()
+                window.reset_workspace()
             # Flights of the camera and late layouts.
             wait(lambda: False, 1.2)
             wait(lambda: not _working(program), READY_S)

@@ -13,12 +13,13 @@ from widgets.common.texts import TEXTS as COMMON
 from widgets.dialogs.texts import TEXTS as DIALOGS
 from widgets.inspector.texts import TEXTS as INSPECTOR
 from widgets.players.texts import TEXTS as PLAYERS
+from widgets.recording.texts import TEXTS as RECORDING
 from widgets.timeline.texts import TEXTS as TIMELINE
 from widgets.transport.texts import TEXTS as TRANSPORT
 from widgets.viewport.texts import TEXTS as VIEWPORT
 
 ROOMS: Final[tuple[Mapping[str, tuple[str, str]], ...]] = (
-    *(WORDINGS, SHELL, COMMON, DIALOGS, INSPECTOR, PLAYERS, TIMELINE, TRANSPORT, VIEWPORT),
+    *(WORDINGS, SHELL, COMMON, DIALOGS, INSPECTOR, PLAYERS, RECORDING, TIMELINE, TRANSPORT, VIEWPORT),
 )
 """All texts: id -> one for each of `LANGUAGES`, in their order."""
 

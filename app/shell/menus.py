@@ -17,7 +17,7 @@ BAR: Final = ("file", "edit", "view", "play", "record", "generate", "export", "h
 BEFORE_LINE: Final = frozenset(
     (
         *("file.save", "file.import_midi", "file.piece_settings", "file.close", "file.quit"),
-        *("application.preferences", "application.about"),
+        *("application.preferences", "application.about", "workspace.reset", "lanes.unfold_all"),
     )
 )
 """Rows that a line goes before; another line stands wherever the subject of the rows changes."""

@@ -13,7 +13,7 @@ import msgspec
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication, QStyleFactory
 
-from app.editor.tokens import LEAST_TARGET_PX, Tokens
+from app.editor.tokens import LEAST_TARGET_PX, SPLITTER_PX, Tokens
 from app.formats.scratch import scratch_folder
 from widgets.common.icons import source
 
@@ -79,6 +79,8 @@ def _marks(tokens: Tokens) -> dict[str, str]:
         "mark_down_faint": ("chevron_down", faint(tokens)),
         "mark_check": ("check", tokens.accent_text),
         "mark_dot": ("by_hand", tokens.accent_text),
+        "grip_level": ("grip_level", tokens.text_dim),
+        "grip_upright": ("grip_upright", tokens.text_dim),
     }
     paths = {}
     for mark, (name, colour) in drawings.items():
@@ -106,5 +108,6 @@ def style_sheet(tokens: Tokens) -> str:
         "target_px": LEAST_TARGET_PX,
         "field_px": LEAST_TARGET_PX - 6,
         "tool_px": LEAST_TARGET_PX - 8,
+        "splitter_px": SPLITTER_PX,
     }
     return rules.substitute(msgspec.structs.asdict(tokens), faint=faint(tokens), **sizes, **_marks(tokens))

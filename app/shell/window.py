@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Final
 
 from PySide6.QtCore import QByteArray, QEvent, QPoint, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence, QResizeEvent
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QMainWindow, QPushButton, QStackedWidget, QToolBar, QWidget
 
@@ -27,37 +28,31 @@ from app.project.storage import SUFFIX
 from app.rig.read_figure import SUFFIXES as CHARACTER_SUFFIXES
 from app.shell.actions import CONTEXTS, ActionTable
 from app.shell.banner import Banner
-from app.shell.docks import Dock
+from app.shell.docks import Dock, TabsStay
 from app.shell.menus import Menus
 from app.shell.palette import Palette
 from app.shell.start_page import StartPage
 from app.shell.status import StatusLine
+from app.shell.workspace_switch import WorkspaceSwitch
+from app.shell.workspaces import LAYOUT_VERSION, Workspaces
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
-from widgets.common.layouts import in_column, panel
+from widgets.common.layouts import in_column, in_row, panel
 from widgets.common.paths import dropped_paths
 from widgets.common.plain import verbatim, verbatim_title
 from widgets.inspector.panel import InspectorPanel
 from widgets.players.panel import PlayersPanel
+from widgets.recording.panel import RecordingPanel
 from widgets.timeline.panel import TimelinePanel
 from widgets.transport.bar import TransportBar
 from widgets.viewport.panel import ViewportPanel
 
-LAYOUT_VERSION: Final = 1
-"""Another set of panels makes layouts of before useless: they are passed over."""
 SIZE: Final = QSize(1600, 1000)
 LEAST_SIZE: Final = QSize(960, 600)
-PLAYERS_PX: Final = 300
-INSPECTOR_PX: Final = 320
-TIMELINE_SHARE: Final = 0.52
-"""Of the window's height: the work is done there; what is left shows the players."""
-SHORT_PX: Final = 880
-"""In a window lower than this the inspector has the whole height: above the timeline it could show two rows."""
-SIDES: Final = {
-    "players": Qt.DockWidgetArea.LeftDockWidgetArea,
-    "inspector": Qt.DockWidgetArea.RightDockWidgetArea,
-    "timeline": Qt.DockWidgetArea.BottomDockWidgetArea,
-}
+NARROW_PX: Final = 1060
+"""In a window narrower than this the field for commands does not show its keys beside menus and workspaces."""
+DOCKED: Final = ("players", "inspector", "timeline", "recording")
+"""Panels beside the viewport."""
 
 
 class Window(Retranslated, QMainWindow):
@@ -98,18 +93,19 @@ class Window(Retranslated, QMainWindow):
         self.setMinimumSize(LEAST_SIZE)
         self.session, self._files, self._settings, self._questions = session, files, settings, questions
         self._table = table
-        self._closing = False
+        self._closing = self._narrow = False
         self._full: QByteArray | None = None
-        self._layout = QByteArray()
 
         self.viewport = ViewportPanel(self.session, generator.live)
         self.timeline = TimelinePanel(self.session)
         self.players = PlayersPanel(self.session)
+        inspector = InspectorPanel(self.session)
         self.panels: dict[str, QWidget] = {
             "viewport": self.viewport,
             "timeline": self.timeline,
             "players": self.players,
-            "inspector": InspectorPanel(self.session),
+            "inspector": inspector,
+            "recording": RecordingPanel(self.session),
             "transport": TransportBar(self.session),
         }
         self.banner = Banner(self.session)
@@ -118,17 +114,19 @@ class Window(Retranslated, QMainWindow):
         for page in (self.start_page, self.viewport):
             self._pages.addWidget(page)
         self.setCentralWidget(panel(in_column(self.banner, (self._pages, 1), margins=0, spacing=0)))
-        self.docks = {name: Dock(name, self.panels[name], self.session, self) for name in SIDES}
+        tools = {"timeline": self.timeline.tool_bar}
+        self.docks = {name: Dock(name, self.panels[name], self.session, self, tools.get(name)) for name in DOCKED}
+        TabsStay(self)
+        self.workspaces = Workspaces(self, self.docks, self.timeline, inspector, self.players, settings)
         self.bar = named(QToolBar(), "transport_bar")
         tasks = self.session.tasks
         self.status = StatusLine(self.session, self._files, tasks if isinstance(tasks, ThreadTasks) else None, self)
         self.menus = Menus(self.menuBar(), self._table)
+        self.workspace_switch = WorkspaceSwitch(self._table)
         self.palette_field = named(QPushButton(), "palette_button")
         self.palette_popup = Palette(self.session, self._table, self)
         self._build()
         self._connect(generator)
-        self._arrange()
-        self._default_layout = self.saveState(LAYOUT_VERSION)
         self._restore()
         self._apply_theme()
         self.retranslate()
@@ -136,8 +134,8 @@ class Window(Retranslated, QMainWindow):
         self._table.refresh()
 
     def _build(self) -> None:
-        for name, area in SIDES.items():
-            self.addDockWidget(area, self.docks[name])
+        for dock in self.docks.values():
+            self.addDockWidget(Qt.DockWidgetArea.LeftDockWidgetArea, dock)
         self.bar.setMovable(False)
         self.bar.setFloatable(False)
         self.bar.toggleViewAction().setEnabled(False)
@@ -145,9 +143,10 @@ class Window(Retranslated, QMainWindow):
         self.bar.addWidget(self.panels["transport"])
         self.addToolBar(Qt.ToolBarArea.TopToolBarArea, self.bar)
         self.setStatusBar(self.status)
-        self.menuBar().setCornerWidget(self.palette_field, Qt.Corner.TopRightCorner)
+        self._corner = panel(in_row(self.workspace_switch, self.palette_field, margins=0, spacing=8))
+        self.menuBar().setCornerWidget(self._corner, Qt.Corner.TopRightCorner)
         for name in CONTEXTS:
-            place = self.panels.get(name) or self.findChild(QWidget, name)
+            place = self.docks.get(name) or self.panels.get(name) or self.findChild(QWidget, name)
             if place is not None:
                 self._table.attach(name, place)
         # Window-wide shortcuts work also where their menu is hidden, as in full screen.
@@ -162,6 +161,7 @@ class Window(Retranslated, QMainWindow):
         generator.ready_changed.connect(self.status.set_ready)
         for dock in self.docks.values():
             dock.visibilityChanged.connect(self._table.refresh_soon)
+        self.workspaces.changed.connect(self._table.refresh_soon)
         self.palette_field.clicked.connect(self.show_palette)
         self.menus.menu("file/open_recent").aboutToShow.connect(self._fill_recent)
         self._files.changed.connect(self._report_title)
@@ -176,57 +176,40 @@ class Window(Retranslated, QMainWindow):
 
     # Layout
 
-    def _arrange(self) -> None:
-        """Every panel in its place, at its size."""
-        for name, area in SIDES.items():
-            dock = self.docks[name]
-            dock.setFloating(False)
-            self.addDockWidget(area, dock)
-            dock.show()
-        self._size_docks()
-
-    def _size_docks(self) -> None:
-        """As large as panels are in a window of this size where no one said otherwise."""
-        # The timeline has the whole width: time is read from edge to edge.
-        self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.BottomDockWidgetArea)
-        right = (
-            Qt.DockWidgetArea.RightDockWidgetArea
-            if self.height() < SHORT_PX
-            else Qt.DockWidgetArea.BottomDockWidgetArea
-        )
-        self.setCorner(Qt.Corner.BottomRightCorner, right)
-        sides = [self.docks["players"], self.docks["inspector"]]
-        self.resizeDocks(sides, [PLAYERS_PX, INSPECTOR_PX], Qt.Orientation.Horizontal)
-        height = round(TIMELINE_SHARE * self.height())
-        self.resizeDocks([self.docks["timeline"]], [height], Qt.Orientation.Vertical)
-
     def _restore(self) -> None:
         settings = self._settings
         if settings.geometry.isEmpty() or not self.restoreGeometry(settings.geometry):
             available = self.screen().availableSize()
             self.resize(SIZE.boundedTo(available))
-        self._layout = settings.layout if not settings.layout.isEmpty() else self._default_layout
-        if settings.timeline:
-            self.timeline.restore_state(settings.timeline)
 
     def remember(self) -> None:
         """Keep the layout for the next time."""
         settings = self._settings
         if self._full is None:
             settings.geometry = self.saveGeometry()
-            settings.layout = self.saveState(LAYOUT_VERSION) if self._files.is_open else self._layout
-            settings.timeline = self.timeline.save_state()
+            self.workspaces.keep()
         settings.sync()
 
-    def reset_layout(self) -> None:
-        """Every panel back to its place."""
+    def choose_workspace(self, workspace_id: str) -> None:
+        """Show panels and lanes as a workspace has them."""
         self.set_full_screen(False)
+        with self._keys_kept():
+            self.workspaces.choose(workspace_id)
+
+    def reset_workspace(self) -> None:
+        """Every panel and lane as the workspace has it at first."""
+        self.set_full_screen(False)
+        with self._keys_kept():
+            self.workspaces.reset()
+
+    @contextmanager
+    def _keys_kept(self) -> Iterator[None]:
+        """Panels that are put elsewhere lose the keys."""
+        held = self.focusWidget()
+        yield
         if self._files.is_open:
-            held = self.focusWidget()
-            self._arrange()
-            # Panels that are put elsewhere lose the keys.
-            if held is not None:
-                held.setFocus(Qt.FocusReason.OtherFocusReason)
+            kept = held if held is not None and held.isVisible() else self.timeline
+            kept.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _show_page(self) -> None:
         """Panels where a project is open, else the start page alone."""
@@ -234,21 +217,15 @@ class Window(Retranslated, QMainWindow):
         self.set_full_screen(False)
         self.banner.hide()
         shown = self._pages.currentWidget() is self.viewport
-        if is_open and not shown:
-            if not self.restoreState(self._layout, LAYOUT_VERSION):
-                self._layout = self._default_layout
-                self.restoreState(self._layout, LAYOUT_VERSION)
-            if self._layout == self._default_layout:
-                # It was made before the size of the window was known.
-                self._size_docks()
-        elif not is_open:
-            if shown:
-                self._layout = self.saveState(LAYOUT_VERSION)
-            for dock in self.docks.values():
-                dock.hide()
+        if is_open:
+            self.workspaces.show()
+        else:
+            self.workspaces.leave()
             self.start_page.refresh()
         self._pages.setCurrentWidget(self.viewport if is_open else self.start_page)
-        self.bar.setVisible(is_open)
+        for widget in (self.bar, self.workspace_switch):
+            widget.setVisible(is_open)
+        self._fit_corner()
         if is_open and not shown:
             # Keys belong to the notes, not to whichever button Qt finds first.
             self.timeline.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -380,13 +357,27 @@ class Window(Retranslated, QMainWindow):
 
     def retranslate(self) -> None:
         """Set all texts."""
-        self.docks["players"].setWindowTitle(self.tr("window.players"))
-        self.docks["inspector"].setWindowTitle(self.tr("window.inspector"))
-        self.docks["timeline"].setWindowTitle(self.tr("window.timeline"))
-        keys = self._table.actions["application.palette"].shortcut().toString(QKeySequence.SequenceFormat.NativeText)
-        self.palette_field.setText(self.tr("window.search").format(keys=keys))
+        titles = {
+            "players": self.tr("window.players"),
+            "inspector": self.tr("window.inspector"),
+            "timeline": self.tr("window.timeline"),
+            "recording": self.tr("window.recording"),
+        }
+        for name, dock in self.docks.items():
+            dock.setWindowTitle(titles[name])
+            dock.set_tip(self.tr("dock.drag_with_ctrl"))
         self.palette_field.setAccessibleName(self.tr("window.search_commands"))
+        self._fit_corner()
         self._report_title()
+
+    def _fit_corner(self) -> None:
+        """Give what stands at the right of the menus the width that it needs now; in a narrow window it needs less."""
+        self._narrow = self.width() < NARROW_PX
+        keys = self._table.actions["application.palette"].shortcut().toString(QKeySequence.SequenceFormat.NativeText)
+        self.palette_field.setText(self.tr("window.search").format(keys="" if self._narrow else keys).strip())
+        self._corner.adjustSize()
+        # The bar asks for the width only here.
+        self.menuBar().setCornerWidget(self._corner, Qt.Corner.TopRightCorner)
 
     # Qt
 
@@ -396,6 +387,12 @@ class Window(Retranslated, QMainWindow):
             self.set_full_screen(False)
             return
         super().keyPressEvent(event)  # type: ignore[arg-type]
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """The bar of menus has room for more or less."""
+        super().resizeEvent(event)
+        if (self.width() < NARROW_PX) != self._narrow:
+            self._fit_corner()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """A file that can be opened is welcome."""

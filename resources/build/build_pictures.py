@@ -40,7 +40,7 @@ class Picture:
 PICTURES = (
     Picture("editor", ("--time", "26.4", "--view", "ensemble")),
     Picture("editor_ja", ("--time", "26.4", "--view", "hands", "--language", "ja", "--theme", "light")),
-    Picture("timeline", ("--time", "26.4", "--size", "3200x1700"), (0, 786, 1600, 1646)),
+    Picture("timeline", ("--time", "26.4", "--size", "3200x1700"), (308, 905, 1908, 1672)),
 )
 
 

@@ -163,7 +163,7 @@ class LongDay:
             dock.close()
             self.trigger(f"panel.{name}")
             self.wait(0.02)
-        self.trigger("application.reset_layout")
+        self.trigger("workspace.reset")
 
     def fill_screen(self) -> None:
         """The viewport alone, every view, and back."""

@@ -43,6 +43,7 @@ from app.project.recovery import Recoverable
 from app.score.read import read_contents
 from app.shell.app import Program, make_application
 from app.shell.recording_dialogs import show_latency
+from app.shell.workspaces import WORKSPACES
 from instrument_maps.load import bundled_maps
 from tests.gui.shell.conftest import Answers
 from tests.support.real_work import LUTKIN
@@ -216,8 +217,15 @@ class Look:
     def open(self) -> None:
         """The piece, in a new window's layout."""
         self.program.editor.files.open(LUTKIN, ask=False)
-        self.window.reset_layout()
+        self.window.reset_workspace()
         self.at("window")
+
+    def workspaces(self) -> None:
+        """Every workspace as it comes, the first one last."""
+        for workspace in reversed(WORKSPACES):
+            self.do(f"workspace.{workspace.id}")
+            self.do("workspace.reset")
+            self.at(f"workspace_{workspace.id}")
 
     def selections(self) -> None:
         """The window with whatever can be selected."""
@@ -326,6 +334,7 @@ def main() -> None:
         look.open()
         for language in ("en", "ja"):
             look.speak(language)
+            look.workspaces()
             look.selections()
             look.dialogs()
         look.sharp()

@@ -170,7 +170,7 @@ def open_piece(film: Film) -> None:
     film.wait(lambda: film.program.editor.files.is_open)
     film.wait(lambda: session.performance.project is session.project)
     film.wait(lambda: film.program.generator.ready_share >= 1.0, 600.0)
-    window.reset_layout()
+    window.reset_workspace()
     session.set_players((session.project.players[0].id,))
     film.rest(1.5)
 

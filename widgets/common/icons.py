@@ -9,7 +9,7 @@ from __future__ import annotations
 from functools import lru_cache
 from importlib.resources import files
 
-from PySide6.QtCore import QByteArray, QRectF, Qt
+from PySide6.QtCore import QByteArray, QPointF, QRect, QRectF, QSizeF, Qt
 from PySide6.QtGui import QIcon, QPainter, QPixmap
 from PySide6.QtSvg import QSvgRenderer
 
@@ -66,6 +66,14 @@ def _text(name: str) -> str:
 def source(name: str, colour: str) -> bytes:
     """A drawing as SVG in a colour."""
     return _text(name).replace("currentColor", colour).encode()
+
+
+def draw_grip(painter: QPainter, box: QRect, colour: str) -> None:
+    """The grip of a level splitter, in the middle of it."""
+    renderer = QSvgRenderer(QByteArray(source("grip_level", colour)))
+    place = QRectF(QPointF(), QSizeF(renderer.defaultSize()))
+    place.moveCenter(QRectF(box).center())
+    renderer.render(painter, place)
 
 
 def _draw(source: bytes, size_px: int, opacity: float) -> QPixmap:

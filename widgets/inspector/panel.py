@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+
+import msgspec
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QScrollArea, QSplitter, QTabWidget, QWidget
 
 from app.editor.session import Session
+from app.errors import FileError
+from app.formats.json_data import decode_json
 from app.project.document import Change
 from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.layouts import STRETCH, in_column, panel
@@ -20,6 +25,14 @@ from widgets.inspector.problem_list import ProblemList
 from widgets.inspector.take_section import TakeSection
 
 MOST_COUNTED = 999
+LISTS_SHARE = 0.4
+WHOLE = 1000
+"""Sizes of the splitter in shares of its height."""
+
+
+class _State(msgspec.Struct, frozen=True):
+    lists_share: float
+    tab: int
 
 
 class InspectorPanel(Retranslated, QWidget):
@@ -74,14 +87,33 @@ class InspectorPanel(Retranslated, QWidget):
         self._tabs.setDocumentMode(True)
         self._tabs.setUsesScrollButtons(True)
         self._tabs.setMinimumHeight(120)
-        splitter = QSplitter(Qt.Orientation.Vertical)
-        splitter.addWidget(scroll)
-        splitter.addWidget(self._tabs)
-        splitter.setStretchFactor(0, 2)
-        splitter.setStretchFactor(1, 1)
-        splitter.setChildrenCollapsible(False)
-        splitter.setSizes([540, 230])
-        in_column(splitter, of=self, margins=0)
+        self._splitter = QSplitter(Qt.Orientation.Vertical)
+        self._splitter.addWidget(scroll)
+        self._splitter.addWidget(self._tabs)
+        self._splitter.setChildrenCollapsible(False)
+        self.divide(LISTS_SHARE)
+        in_column(self._splitter, of=self, margins=0)
+
+    def divide(self, lists_share: float, tab: int = 0) -> None:
+        """Give the lists a share of the height, and show one of them."""
+        share = min(max(lists_share, 0.0), 1.0)
+        lists = round(share * WHOLE)
+        self._splitter.setStretchFactor(0, WHOLE - lists)
+        self._splitter.setStretchFactor(1, lists)
+        self._splitter.setSizes([WHOLE - lists, lists])
+        self._tabs.setCurrentIndex(tab)
+
+    def save_state(self) -> str:
+        """The lists' share of the height, and which of them is shown, as text."""
+        above, below = self._splitter.sizes()
+        state = _State(below / max(above + below, 1), self._tabs.currentIndex())
+        return msgspec.json.encode(state).decode()
+
+    def restore_state(self, state: str) -> None:
+        """Take what `save_state` gave; anything else leaves all as it is."""
+        with suppress(FileError):
+            saved = decode_json(state.encode("utf-8", "replace"), _State, "")
+            self.divide(saved.lists_share, saved.tab)
 
     def show_selection(self) -> None:
         """Show the selected notes and events, or the selected take."""

@@ -147,6 +147,22 @@ class PlayersPanel(Retranslated, QWidget):
     def _splitter_moved(self) -> None:
         self._divided = True
 
+    def divide(self, upper_px: int | None = None) -> None:
+        """Give the list so much of the height; None: as much as it needs."""
+        self._divided = upper_px is not None
+        if upper_px is not None:
+            self._splitter.setSizes([upper_px, max(self._splitter.height() - upper_px, 1)])
+        self._divide()
+
+    def save_state(self) -> str:
+        """How high the user made the list, as text; empty: not at all."""
+        return str(self._splitter.sizes()[0]) if self._divided else ""
+
+    def restore_state(self, state: str) -> None:
+        """Take what `save_state` gave; anything else leaves all as it is."""
+        if not state or (state.isascii() and state.isdecimal() and len(state) < 6):
+            self.divide(int(state) if state else None)
+
     def _divide(self) -> None:
         """As much room for the list as its rows need, but not much more than half, until the user says otherwise."""
         height = self._splitter.height()

@@ -62,14 +62,15 @@ class Lane(QWidget):
     preferred_height_px : int
         Its height in a new window.
     least_height_px : int
-    folded_at_first : bool
-        Class attribute.
+    folded_at_first, hides_empty : bool
+        Class attributes. The second: while there is nothing in it it is not there, unless the user shows it.
     """
 
     id = ""
     preferred_height_px = 64
     least_height_px = 36
     folded_at_first = False
+    hides_empty = False
 
     sought = Signal(float)
     fold_changed = Signal()
@@ -91,6 +92,7 @@ class Lane(QWidget):
         self.fold_button, self.title = self.header.fold_button, self.header.title
         self.title_row, self.controls = self.header.title_row, self.header.controls
         self.fold_button.clicked.connect(self._toggle_fold)
+        self.header.double_clicked.connect(self._toggle_fold)
 
         self.plot = Plot(self, self)
         row = QHBoxLayout(self)
@@ -210,6 +212,11 @@ class Lane(QWidget):
         """A player's plan if the plans are made already: a lane never waits for them."""
         performance = self.session.performance
         return performance.plans.get(player.id) if performance.planned else None
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether there is nothing in it, whoever is in front."""
+        return False
 
     def lines(self) -> Lines:
         """Bars, beats and grid lines of the visible range."""

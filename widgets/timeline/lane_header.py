@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QColor, QPalette
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QColor, QMouseEvent, QPalette
 from PySide6.QtWidgets import QSizePolicy, QToolButton, QWidget
 
 from app.editor.tokens import Tokens
@@ -17,7 +17,15 @@ GUTTER_PX = 144
 
 
 class LaneHeader(QWidget):
-    """At the left of a lane."""
+    """At the left of a lane.
+
+    Signals
+    -------
+    double_clicked()
+        On the title, or where there is nothing else.
+    """
+
+    double_clicked = Signal()
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
@@ -56,3 +64,9 @@ class LaneHeader(QWidget):
         palette.setColor(QPalette.ColorRole.Window, QColor(tokens.surface))
         palette.setColor(QPalette.ColorRole.WindowText, QColor(tokens.text))
         self.setPalette(palette)
+
+    # Qt overrides
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.double_clicked.emit()

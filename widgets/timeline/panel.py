@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import msgspec
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QHideEvent, QPainter, QPaintEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
-    QMenu,
     QScrollBar,
     QToolButton,
     QWidget,
@@ -15,17 +13,15 @@ from PySide6.QtWidgets import (
 
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
-from app.errors import FileError
-from app.formats.json_data import decode_json
 from app.project.document import Change
 from widgets.common.controls import IconButton, Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
-from widgets.common.menus import passing_menu
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.extent import scroll_limits, selected_span
 from widgets.timeline.flags import Flags
 from widgets.timeline.lane import GUTTER_PX, Lane
+from widgets.timeline.lane_layout import LaneLayout, LaneState, lane_state, lane_text
 from widgets.timeline.lanes import LANES
 from widgets.timeline.lanes.takes import TakesLane
 from widgets.timeline.quantise import QuantisePopover
@@ -44,16 +40,6 @@ PAGE_TO = 0.06
 SCROLL_A_S = 1000
 """Steps of the scroll bar in a second."""
 SELECTION_AIR = 0.08
-
-
-class _State(msgspec.Struct, frozen=True):
-    """What is remembered of the lanes, by their ids."""
-
-    order: list[str]
-    hidden: list[str]
-    folded: list[str]
-    heights: dict[str, int]
-    ghosts: Ghosts
 
 
 class Playhead(QWidget):
@@ -83,9 +69,12 @@ class TimelinePanel(Retranslated, QWidget):
     -------
     sought(float)
         The playhead is requested at this time (seconds); the shell hands it to the transport.
+    arranged()
+        Lanes are folded, shown, ordered or as tall otherwise: `save_state` gives something else.
     """
 
     sought = Signal(float)
+    arranged = Signal()
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -109,18 +98,20 @@ class TimelinePanel(Retranslated, QWidget):
         self.stack = LaneStack(session, tuple(self.lanes.values()), self.roll, self)
         for lane in self.lanes.values():
             lane.sought.connect(self.sought)
-            lane.fold_changed.connect(self._place_playhead)
             lane.header.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
             lane.header.customContextMenuRequested.connect(self._header_menu)
+        self.playhead = Playhead(session, self)
+        self.lane_layout = LaneLayout(self.lanes, self.stack, self.roll, self)
+        self.lane_layout.changed.connect(self.arranged)
 
         in_column(
             self.tool_bar, self.flags, self.ruler, (self.stack, 1), self._make_foot(), of=self, margins=0, spacing=0
         )
-        self.playhead = Playhead(session, self)
-        for lane in self.lanes.values():
-            lane.set_folded(lane.folded_at_first)
+        self.playhead.raise_()
         self.quantise = QuantisePopover(session, self)
 
+        for lane in self.lanes.values():
+            lane.fold_changed.connect(self._place_playhead)
         self.flags.sought.connect(self.sought)
         self.ruler.sought.connect(self.sought)
         # The playback is notified there: a playhead that is set is sought.
@@ -144,9 +135,7 @@ class TimelinePanel(Retranslated, QWidget):
         self.lanes_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.lanes_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.lanes_button.setFixedSize(QSize(GUTTER_PX - 4, 24))
-        self._lanes_menu = QMenu(self.lanes_button)
-        self._lanes_menu.aboutToShow.connect(self._fill_lanes_menu)
-        self.lanes_button.setMenu(self._lanes_menu)
+        self.lanes_button.setMenu(self.lane_layout.menu)
         self.time_bar = named(QScrollBar(Qt.Orientation.Horizontal, self), "time_bar")
         self.time_bar.valueChanged.connect(self._scrolled)
         zooms = (
@@ -187,6 +176,7 @@ class TimelinePanel(Retranslated, QWidget):
         """See the players behind so."""
         self.roll.set_ghosts(ghosts)
         self.tool_bar.show_state()
+        self.arranged.emit()
 
     def zoom_in(self) -> None:
         """Zoom about the playhead, or the middle where it is out of sight."""
@@ -214,7 +204,7 @@ class TimelinePanel(Retranslated, QWidget):
 
     def ask_take_name(self) -> None:
         """Type the selected take's name where it stands."""
-        self.takes.show()
+        self.lane_layout.show_lane(self.takes.id, True)
         self.takes.ask_name()
 
     def step_take(self, by: int) -> None:
@@ -225,69 +215,35 @@ class TimelinePanel(Retranslated, QWidget):
         """Bring a time into view."""
         self.axis.reveal(time_s)
 
+    def is_lane_open(self, lane_id: str) -> bool:
+        """Whether a lane is there, and not folded."""
+        return self.lane_layout.is_open(lane_id)
+
+    def open_lane(self, lane_id: str, is_open: bool) -> None:
+        """Unfold a lane, shown if it is not, or fold it."""
+        self.lane_layout.open_lane(lane_id, is_open)
+
+    def fold_lanes(self, folded: bool) -> None:
+        """Fold or unfold every lane."""
+        self.lane_layout.fold_all(folded)
+
     def save_state(self) -> str:
         """Order, visibility, folds and heights of the lanes, as text."""
-        order = [lane.id for lane in self.stack.lanes]
-        state = _State(
-            order=order,
-            hidden=[id for id in order if self.lanes[id].isHidden()],
-            folded=[id for id in order if self.lanes[id].folded],
-            heights=self.stack.heights_px,
-            ghosts=self.ghosts,
-        )
-        return msgspec.json.encode(state).decode()
+        return lane_text(self.lane_layout.state)
 
-    def restore_state(self, state: str) -> None:
+    def restore_state(self, state: str | LaneState) -> None:
         """Take what `save_state` gave; what does not fit this program's lanes is left as it is."""
-        try:
-            saved = decode_json(state.encode("utf-8", "replace"), _State, "")
-        except FileError:
-            return
-        order = [id for id in dict.fromkeys(saved.order) if id in self.lanes]
-        self.stack.set_order(order)
-        for id in order:
-            self.lanes[id].setVisible(id not in saved.hidden)
-            self.lanes[id].set_folded(id in saved.folded)
-        self.stack.set_heights(saved.heights)
-        self.set_ghosts(saved.ghosts)
-
-    # Lanes
-
-    def _fill_lanes_menu(self) -> None:
-        self._lanes_menu.clear()
-        for lane in self.stack.lanes:
-            action = self._lanes_menu.addAction(lane.title.text())
-            action.setCheckable(True)
-            action.setChecked(not lane.isHidden())
-            action.toggled.connect(lane.setVisible)
-        self._lanes_menu.addSeparator()
-        self._lanes_menu.addAction(self.tr("timeline_panel.unfold_all")).triggered.connect(
-            lambda: self._fold_all(False)
-        )
-        self._lanes_menu.addAction(self.tr("timeline_panel.fold_all")).triggered.connect(lambda: self._fold_all(True))
-
-    def _fold_all(self, folded: bool) -> None:
-        for lane in self.lanes.values():
-            lane.set_folded(folded)
+        saved = lane_state(state) if isinstance(state, str) else state
+        if saved is not None:
+            self.lane_layout.set_state(saved)
+            self.set_ghosts(saved.ghosts)
 
     def _header_menu(self, place: QPoint) -> None:
         header = self.sender()
         assert isinstance(header, QWidget)
         lane = header.parentWidget()
         assert isinstance(lane, Lane)
-        at, last = self.stack.lanes.index(lane), len(self.stack.lanes) - 1
-        menu = passing_menu(self)
-        up = menu.addAction(self.tr("timeline_panel.move_up"))
-        up.setEnabled(at > 0)
-        up.triggered.connect(lambda: self.stack.shift(lane, -1))
-        down = menu.addAction(self.tr("timeline_panel.move_down"))
-        down.setEnabled(at < last)
-        down.triggered.connect(lambda: self.stack.shift(lane, 1))
-        menu.addSeparator()
-        fold = menu.addAction(self.tr("timeline_panel.unfold") if lane.folded else self.tr("timeline_panel.fold"))
-        fold.triggered.connect(lambda: lane.set_folded(not lane.folded))
-        menu.addAction(self.tr("timeline_panel.hide")).triggered.connect(lane.hide)
-        menu.popup(header.mapToGlobal(place))
+        self.lane_layout.offer(lane, place)
 
     # Time
 

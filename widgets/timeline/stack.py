@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from PySide6.QtCore import QEvent, QObject, QSize, Qt
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QFrame, QScrollArea, QWidget
 
 from app.editor.session import Session
+from app.editor.tokens import SPLITTER_PX
+from widgets.common.icons import draw_grip
 from widgets.common.layouts import STRETCH, in_column, panel
 from widgets.timeline.lane import FOLDED_PX, Lane
 
-HANDLE_PX = 4
+LINE_PX = 1
+"""Below a lane that has only one height."""
 MOST_PX = 2000
 
 
@@ -22,20 +25,28 @@ class Handle(QWidget):
     def __init__(self, stack: LaneStack, lane: Lane) -> None:
         super().__init__()
         self.setObjectName("handle_" + lane.id)
-        self.setFixedHeight(HANDLE_PX)
-        self.setCursor(Qt.CursorShape.SizeVerCursor)
+        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
         self._stack = stack
         self._lane = lane
         self._grip: tuple[float, int] | None = None
 
+    def show_use(self, resizes: bool) -> None:
+        """Broad, with a grip, where the lane can be made taller; else a line."""
+        self.setFixedHeight(SPLITTER_PX if resizes else LINE_PX)
+        self.setCursor(Qt.CursorShape.SizeVerCursor if resizes else Qt.CursorShape.ArrowCursor)
+
     # Qt overrides
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        tokens = self._stack.session.tokens
-        QPainter(self).fillRect(event.rect(), QColor(tokens.accent if self._grip is not None else tokens.line))
+        tokens, painter = self._stack.session.tokens, QPainter(self)
+        held = self._grip is not None or (self.underMouse() and self.height() > LINE_PX)
+        ground = tokens.line_strong if held else tokens.surface if self.height() > LINE_PX else tokens.line
+        painter.fillRect(self.rect(), QColor(ground))
+        if self.height() > LINE_PX:
+            draw_grip(painter, self.rect(), tokens.text_dim)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        if event.button() == Qt.MouseButton.LeftButton and not self._lane.folded:
+        if event.button() == Qt.MouseButton.LeftButton and self.height() > LINE_PX:
             self._grip = (event.globalPosition().y(), self._lane.height())
             self.update()
 
@@ -63,7 +74,14 @@ class LaneStack(QScrollArea):
     lanes : sequence of Lane
     elastic : Lane
         One of them.
+
+    Signals
+    -------
+    changed()
+        The user set another order or height.
     """
+
+    changed = Signal()
 
     def __init__(self, session: Session, lanes: Sequence[Lane], elastic: Lane, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -106,6 +124,7 @@ class LaneStack(QScrollArea):
         to = min(max(at + by, 0), len(self._order) - 1)
         self._order.insert(to, self._order.pop(at))
         self._fill()
+        self.changed.emit()
 
     def set_height(self, lane: Lane, height_px: int | None) -> None:
         """Make a lane so tall; None: as it likes."""
@@ -114,6 +133,7 @@ class LaneStack(QScrollArea):
         else:
             self._set_px[lane.id] = min(max(height_px, lane.least_height_px), MOST_PX)
         self.arrange()
+        self.changed.emit()
 
     def set_heights(self, heights_px: Mapping[str, int]) -> None:
         """Make lanes as tall as `heights_px` said; the others are as they like."""
@@ -129,20 +149,27 @@ class LaneStack(QScrollArea):
         """Give every lane its height."""
         shown = [lane for lane in self._order if not lane.isHidden()]
         for lane in self._order:
-            self._handles[lane.id].setVisible(lane in shown)
+            handle = self._handles[lane.id]
+            handle.show_use(self._resizes(lane))
+            handle.setVisible(lane in shown)
+        lines_px = sum(self._handles[lane.id].height() for lane in shown)
         free = [lane for lane in shown if not lane.folded and lane.id not in self._set_px]
         heights = {lane.id: FOLDED_PX if lane.folded else self._set_px.get(lane.id, 0) for lane in shown}
         heights |= {lane.id: lane.least_height_px for lane in free}
-        room = self.viewport().height() - sum(heights.values()) - HANDLE_PX * len(shown)
+        room = self.viewport().height() - sum(heights.values()) - lines_px
         requested = sum(lane.preferred_height_px - lane.least_height_px for lane in free)
         share = min(max(room, 0) / requested, 1.0) if requested else 0.0
         for lane in free:
             heights[lane.id] += int(share * (lane.preferred_height_px - lane.least_height_px))
-        left_over = self.viewport().height() - sum(heights.values()) - HANDLE_PX * len(shown)
+        left_over = self.viewport().height() - sum(heights.values()) - lines_px
         if left_over > 0 and self._elastic in free:
             heights[self._elastic.id] += left_over
         for lane in shown:
             lane.setFixedHeight(heights[lane.id])
+
+    def _resizes(self, lane: Lane) -> bool:
+        least, preferred = lane.least_height_px, lane.preferred_height_px
+        return not lane.folded and (preferred > least or lane.id in self._set_px)
 
     def _fill(self) -> None:
         for index, lane in enumerate(self._order):

@@ -8,6 +8,7 @@ from app.editor.session import PitchDisplay
 from app.editor.tokens import THEMES
 from app.shell.action import Action
 from app.shell.editor import Editor, EditorAction, is_open
+from app.shell.workspaces import WORKSPACES
 
 
 def preferences(editor: Editor, page: str = "general") -> None:
@@ -39,6 +40,17 @@ def _panel(name: str, key: str) -> EditorAction:
         key,
         enabled=is_open,
         checked=lambda editor: editor.window.is_panel_shown(name),
+    )
+
+
+def _workspace(id: str, key: str) -> EditorAction:
+    return EditorAction(
+        f"workspace.{id}",
+        lambda editor, on: editor.window.choose_workspace(id),
+        "view/workspace",
+        key,
+        enabled=is_open,
+        checked=lambda editor: editor.window.workspaces.current == id,
     )
 
 
@@ -90,12 +102,14 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     _panel("players", "Ctrl+1"),
     _panel("inspector", "Ctrl+2"),
     _panel("timeline", "Ctrl+3"),
+    _panel("recording", "Ctrl+4"),
+    *(_workspace(workspace.id, f"Alt+{number}") for number, workspace in enumerate(WORKSPACES, 1)),
     EditorAction(
-        "application.reset_layout",
-        lambda editor: editor.window.reset_layout(),
-        "view/panels",
+        "workspace.reset",
+        lambda editor: editor.window.reset_workspace(),
+        "view/workspace",
         enabled=is_open,
-        icon="layout",
+        icon="reset",
     ),
     _pitch("pitch.concert", lambda named: named.set(written=False), lambda named: not named.written),
     _pitch("pitch.written", lambda named: named.set(written=True), lambda named: named.written),

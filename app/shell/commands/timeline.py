@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Final
 
 from app.editor.session import Session, TimeDisplay
 from app.editor.timeline_view import Ghosts, TimelineView
@@ -39,6 +40,26 @@ def _counted(display: TimeDisplay) -> Action:
     )
 
 
+LANES: Final = ("audio", "roll", "takes", "fingering", "breath", "acting", "curves", "dance", "problems")
+"""As they stand in a new window."""
+
+
+def _lane(id: str, keys: str) -> Action:
+    def checked(session: Session) -> bool:
+        return session.timeline_view is not None and session.timeline_view.is_lane_open(id)
+
+    def run(session: Session, is_open: bool) -> None:
+        if session.timeline_view is not None:
+            session.timeline_view.open_lane(id, is_open)
+
+    return Action(f"lanes.{id}", run, "view/lanes", keys, enabled=_has_view, checked=checked)
+
+
+def _fold(name: str, folded: bool) -> Action:
+    run = on_timeline(lambda view: view.fold_lanes(folded))
+    return Action(f"lanes.{name}", run, "view/lanes", enabled=_has_view)
+
+
 ACTIONS: tuple[Action, ...] = (
     _zoom("zoom_in", lambda view: view.zoom_in(), "Ctrl++;Ctrl+="),
     _zoom("zoom_out", lambda view: view.zoom_out(), "Ctrl+-"),
@@ -58,4 +79,7 @@ ACTIONS: tuple[Action, ...] = (
     _counted("bars"),
     _counted("seconds"),
     _counted("frames"),
+    *(_lane(id, f"Ctrl+Alt+{number}") for number, id in enumerate(LANES, 1)),
+    _fold("unfold_all", False),
+    _fold("fold_all", True),
 )

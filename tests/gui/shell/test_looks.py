@@ -64,32 +64,34 @@ def test_the_judge_sees_what_does_not_fit(qt_app: QApplication, qtbot: QtBot) ->
     assert "fits" not in found
 
 
-@pytest.mark.parametrize(("height", "whole"), [(700, True), (1000, False)])
-def test_in_a_low_window_the_inspector_has_the_whole_height(
-    start: Start, qtbot: QtBot, height: int, whole: bool
+@pytest.mark.parametrize(("height", "beside"), [(700, "inspector"), (1000, "players")])
+def test_in_a_low_window_the_inspector_has_the_whole_height_and_in_a_high_one_the_players(
+    start: Start, qtbot: QtBot, height: int, beside: str
 ) -> None:
     program: Program = start()
     window = program.window
     window.resize(1280, height)
     program.editor.files.open(QUARTET, ask=False)
-    inspector, timeline = window.docks["inspector"], window.docks["timeline"]
+    timeline = window.docks["timeline"]
     qtbot.waitUntil(lambda: timeline.isVisible() and timeline.height() > 100)
     QApplication.processEvents()
-    beside = inspector.geometry().bottom() >= timeline.geometry().bottom()
-    assert beside == whole
-    assert (timeline.width() == window.width()) != whole
+    foot = timeline.geometry().bottom()
+    sides = [window.docks[name] for name in ("players", "inspector")]
+    assert [dock.objectName() for dock in sides if dock.geometry().bottom() >= foot] == [f"dock_{beside}"]
+    (whole,) = [dock for dock in sides if dock.objectName() == f"dock_{beside}"]
+    assert timeline.width() == window.width() - whole.width() - 8
 
 
 def test_the_keys_belong_to_the_notes_from_the_start(program: Program) -> None:
     assert QApplication.focusWidget() is program.window.timeline.roll.plot
-    program.window.reset_layout()
+    program.window.reset_workspace()
     assert QApplication.focusWidget() is program.window.timeline.roll.plot
 
 
 def test_a_banner_pushes_no_panel_aside(program: Program, qtbot: QtBot) -> None:
     window = program.window
     window.resize(1093, 614)
-    window.reset_layout()
+    window.reset_workspace()
     QApplication.processEvents()
     before = window.docks["players"].width(), window.docks["inspector"].width()
     window._ask_to_save_over(Path("a_rather_long_name_of_a_project_that_nobody_would_shorten.suisou"), None)

@@ -39,6 +39,7 @@ from app.score.model import Note
 from app.score.read import read_midi
 from app.score.take import Cleaning
 from app.shell.app import Program
+from app.shell.commands.timeline import LANES
 from app.shell.rows import rows
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import QUARTET, delete_now
@@ -799,12 +800,29 @@ CASES: dict[str, Case] = {
     ),
     **{
         f"panel.{name}": toggled(f"panel.{name}", lambda d, name=name: d.program.window.is_panel_shown(name))  # type: ignore[misc]
-        for name in ("players", "inspector", "timeline")
+        for name in ("players", "inspector", "timeline", "recording")
     },
-    "application.reset_layout": becomes(
-        lambda d: [dock.isVisible() and not dock.isFloating() for dock in d.program.window.docks.values()],
-        [True, True, True],
-        lambda d: (d.program.window.docks["players"].hide(), d.program.window.docks["timeline"].setFloating(True)),
+    **{
+        f"lanes.{name}": toggled(f"lanes.{name}", lambda d, name=name: d.program.window.timeline.is_lane_open(name))  # type: ignore[misc]
+        for name in LANES
+    },
+    "lanes.fold_all": becomes(lambda d: any(map(d.program.window.timeline.is_lane_open, LANES)), False),
+    "lanes.unfold_all": becomes(
+        lambda d: any(lane.folded for lane in d.program.window.timeline.lanes.values() if not lane.isHidden()),
+        False,
+        command("lanes.fold_all"),
+    ),
+    "workspace.animate": becomes(lambda d: d.program.window.workspaces.current, "animate", command("workspace.check")),
+    "workspace.record": becomes(lambda d: d.program.window.workspaces.current, "record"),
+    "workspace.check": becomes(lambda d: d.program.window.workspaces.current, "check"),
+    "workspace.reset": becomes(
+        lambda d: {name: not dock.isHidden() for name, dock in d.program.window.docks.items()},
+        {"players": False, "inspector": True, "timeline": True, "recording": False},
+        lambda d: (
+            d.program.window.choose_workspace("check"),
+            d.program.window.docks["players"].show(),
+            d.program.window.docks["timeline"].hide(),
+        ),
     ),
     "pitch.concert": becomes(lambda d: d.session.pitch_display.written, False, command("pitch.written")),
     "pitch.written": becomes(lambda d: d.session.pitch_display.written, True),

@@ -18,10 +18,16 @@ from app.performance.dancers import dancing_of
 from app.project.edit.piece import set_title
 from app.project.storage import load
 from app.shell.app import Program
-from app.shell.window import SIDES
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
 from widgets.common.number_slider import NumberSlider
+
+PANELS = {
+    "players": Qt.DockWidgetArea.LeftDockWidgetArea,
+    "inspector": Qt.DockWidgetArea.RightDockWidgetArea,
+    "timeline": Qt.DockWidgetArea.BottomDockWidgetArea,
+}
+"""What is open at first, and where."""
 
 
 def edit(program: Program, title: str = "Another") -> None:
@@ -47,7 +53,7 @@ def test_the_start_page_is_alone_until_something_is_open(empty: Program) -> None
     trigger(empty, "file.open_example")
     assert not window.start_page.isVisible()
     assert window.viewport.isVisible()
-    assert all(dock.isVisible() for dock in window.docks.values())
+    assert all(window.docks[name].isVisible() for name in PANELS)
     trigger(empty, "file.close")
     assert window.start_page.isVisible()
     assert empty.session.project.players == ()
@@ -160,9 +166,9 @@ def test_panels_close_come_back_float_and_return_to_their_places(program: Progra
     assert dock.isVisible()
     dock.setFloating(True)
     assert dock.isFloating()
-    trigger(program, "application.reset_layout")
+    trigger(program, "workspace.reset")
     assert not dock.isFloating()
-    assert all(window.dockWidgetArea(window.docks[name]) == area for name, area in SIDES.items())
+    assert all(window.dockWidgetArea(window.docks[name]) == area for name, area in PANELS.items())
 
 
 def test_the_layout_is_remembered(start: Start) -> None:
@@ -201,7 +207,7 @@ def test_full_screen_shows_the_viewport_alone(program: Program, qtbot: QtBot) ->
     assert not window.menuBar().isVisible()
     qtbot.keyClick(window, Qt.Key.Key_Escape)
     assert not window.isFullScreen()
-    assert all(dock.isVisible() for dock in window.docks.values())
+    assert all(window.docks[name].isVisible() for name in PANELS)
     assert window.menuBar().isVisible()
 
 
@@ -228,19 +234,19 @@ def test_a_missing_recording_is_asked_for_and_its_offset_stays(
 
 
 @pytest.mark.parametrize(("width", "height"), [(1280, 800), (1600, 1000), (1920, 1080)])
-def test_a_new_window_gives_half_its_height_to_the_timeline(start: Start, width: int, height: int) -> None:
+def test_a_new_window_shares_its_height_between_players_and_timeline(start: Start, width: int, height: int) -> None:
     program = start()
     window = program.window
     window.resize(width, height)
     program.editor.files.open(QUARTET, ask=False)
     QApplication.processEvents()
-    assert 0.48 * height <= window.docks["timeline"].height() <= 0.55 * height
-    assert window.viewport.height() >= 0.35 * height
+    assert 0.42 * height <= window.docks["timeline"].height() <= 0.48 * height
+    assert window.viewport.height() >= 0.41 * height
     lanes = window.timeline.stack.viewport()
     heights = {lane.id: lane.mapTo(lanes, lane.rect().topLeft()).y() for lane in window.timeline.stack.lanes}
     assert heights["acting"] < lanes.height()
     if height >= 1000:
-        assert heights["curves"] < lanes.height()
+        assert heights["problems"] < lanes.height()
     assert window.timeline.lanes["audio"].height() <= 30
 
 

@@ -32,7 +32,7 @@ from app.messages import text
         ("folder", os.fsdecode(b"/a/\x83e\x83X%41")),
         ("export_folder", "C:\\out"),
         ("geometry", QByteArray(b"\x00\x01\xff")),
-        ("layout", QByteArray(b"\x80\x00")),
+        ("workspace", "record"),
     ],
 )
 def test_values_come_back(tmp_path: Path, name: str, value: object) -> None:

@@ -46,6 +46,7 @@ class DanceLane(RowLane):
     preferred_height_px = EMPTY_PX
     least_height_px = EMPTY_PX
     folded_at_first = True
+    hides_empty = True
     row_limits_px = (LEAST_ROW_PX, MOST_ROW_PX)
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
@@ -65,6 +66,10 @@ class DanceLane(RowLane):
         self.title.setText(self.tr("dance_lane.dance"))
         self.title.setToolTip(self.tr("dance_lane.what_each_dancer_dances_click"))
         self.update_items()
+
+    @property
+    def is_empty(self) -> bool:
+        return not self.session.project.dancers
 
     def empty_text(self) -> str:
         """How to add a dance; empty where there is a dancer."""

@@ -38,6 +38,7 @@ class TakesLane(RowLane):
     preferred_height_px = EMPTY_PX
     least_height_px = EMPTY_PX
     folded_at_first = True
+    hides_empty = True
     row_limits_px = (LEAST_ROW_PX, MOST_ROW_PX)
     strip_px = STRIP_PX
 
@@ -116,6 +117,10 @@ class TakesLane(RowLane):
 
     def theme_changed(self) -> None:
         self.heads.update()
+
+    @property
+    def is_empty(self) -> bool:
+        return not any(recorded.takes for recorded in self.session.project.takes.values())
 
     @property
     def rows(self) -> tuple[TakeRow, ...]:

@@ -1,0 +1,273 @@
+"""Workspaces: how panels and lanes stand for a kind of work. Each is remembered as the user left it."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+from dataclasses import dataclass, field
+from typing import Final, Literal, Protocol
+
+from PySide6.QtCore import QByteArray, QObject, Qt, Signal
+from PySide6.QtWidgets import QLayout, QMainWindow, QWidget
+
+from app.editor.settings import Settings
+from app.shell.docks import Dock
+from widgets.inspector.panel import InspectorPanel
+from widgets.players.panel import PlayersPanel
+from widgets.timeline.lane_layout import LaneState
+from widgets.timeline.panel import TimelinePanel
+
+LAYOUT_VERSION: Final = 2
+"""Another set of panels makes layouts of before useless: they are passed over."""
+SHORT_PX: Final = 880
+"""In a window lower than this the inspector has the whole height: above the timeline it could show two rows; and the
+players have none of it, lest the timeline be narrow."""
+
+CHROME_PX: Final = 105
+"""About the height of what is above and below the panels: menus, transport, status line, and the line between two."""
+
+Area = Qt.DockWidgetArea
+LEFT, RIGHT, BOTTOM = Area.LeftDockWidgetArea, Area.RightDockWidgetArea, Area.BottomDockWidgetArea
+Whole = Literal["always", "never", "if_high", "if_low"]
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """How panels stand at first.
+
+    Attributes
+    ----------
+    id : str
+    left, right : tuple of str
+        Panels at the sides, from the top; those that are in neither, nor the timeline, are closed.
+    left_px, right_px : int
+        Widths of the sides.
+    timeline_share : float
+        Of the window's height.
+    left_whole, right_whole : Whole
+        Whether a side has the whole height, beside the timeline, or ends above it; perhaps by the window's height.
+    lists_share : float
+        Of the inspector's height: problems, corrections and history.
+    lanes : LaneState
+    """
+
+    id: str
+    left: tuple[str, ...]
+    right: tuple[str, ...]
+    left_px: int
+    right_px: int
+    timeline_share: float
+    left_whole: Whole
+    right_whole: Whole
+    lists_share: float
+    lanes: LaneState = field(default_factory=LaneState)
+
+
+WORKSPACES: Final = (
+    Workspace(
+        "animate",
+        left=("players",),
+        right=("inspector",),
+        left_px=300,
+        right_px=320,
+        timeline_share=0.45,
+        left_whole="if_high",
+        right_whole="if_low",
+        lists_share=0.4,
+        lanes=LaneState(
+            order=("audio", "roll", "takes", "fingering", "breath", "acting", "problems"), folded=("curves",)
+        ),
+    ),
+    Workspace(
+        "record",
+        left=("recording", "players"),
+        right=(),
+        left_px=300,
+        right_px=320,
+        timeline_share=0.62,
+        left_whole="always",
+        right_whole="never",
+        lists_share=0.3,
+        lanes=LaneState(
+            order=("audio", "roll", "takes", "curves", "breath"),
+            shown=("takes",),
+            folded=("fingering", "acting", "problems"),
+        ),
+    ),
+    Workspace(
+        "check",
+        left=(),
+        right=("inspector",),
+        left_px=300,
+        right_px=420,
+        timeline_share=0.32,
+        left_whole="never",
+        right_whole="always",
+        lists_share=0.62,
+        lanes=LaneState(
+            order=("problems", "roll", "takes", "fingering", "breath", "acting", "curves", "dance", "audio"),
+            folded=("acting", "curves", "audio"),
+        ),
+    ),
+)
+"""In the order of the menu. To animate: the timeline, the viewport, what is selected, and the players. To record: the
+takes in a tall timeline, and the device. To check: problems beside a large viewport."""
+_BY_ID: Final = {workspace.id: workspace for workspace in WORKSPACES}
+
+
+class Remembering(Protocol):
+    """A panel that says how it stands, and takes it again; what is not its own leaves it as it is."""
+
+    def save_state(self) -> str: ...
+    def restore_state(self, state: str) -> None: ...
+
+
+class Workspaces(QObject):
+    """Puts the panels of the window where the workspace has them.
+
+    Parameters
+    ----------
+    window : QMainWindow
+    docks : dict of Dock
+        By the name of their panel.
+    timeline : TimelinePanel
+    inspector : InspectorPanel
+    players : PlayersPanel
+    settings : Settings
+        Remember each workspace, and which is chosen.
+
+    Signals
+    -------
+    changed()
+        Another one is chosen.
+    """
+
+    changed = Signal()
+
+    def __init__(
+        self,
+        window: QMainWindow,
+        docks: dict[str, Dock],
+        timeline: TimelinePanel,
+        inspector: InspectorPanel,
+        players: PlayersPanel,
+        settings: Settings,
+    ) -> None:
+        super().__init__(window)
+        self._window, self._docks, self._settings = window, docks, settings
+        self._timeline, self._inspector, self._players = timeline, inspector, players
+        self._panels: dict[str, Remembering] = {"timeline": timeline, "inspector": inspector, "players": players}
+        self._shown = False
+        self._setting = False
+        timeline.arranged.connect(self._lanes_arranged)
+
+    @property
+    def current(self) -> str:
+        """Id of the chosen one."""
+        return self._settings.workspace if self._settings.workspace in _BY_ID else WORKSPACES[0].id
+
+    def choose(self, workspace_id: str) -> None:
+        """Keep how everything stands, and show another workspace as it was left."""
+        if workspace_id == self.current:
+            return
+        self.keep()
+        self._settings.workspace = workspace_id
+        if self._shown:
+            self._show()
+        self.changed.emit()
+
+    def show(self) -> None:
+        """Show the panels: a project is open."""
+        if not self._shown:
+            self._shown = True
+            self._show()
+
+    def leave(self) -> None:
+        """Take the panels away: no project is open."""
+        self.keep()
+        self._shown = False
+        for dock in self._docks.values():
+            dock.hide()
+
+    def keep(self) -> None:
+        """Remember how everything stands."""
+        if self._shown:
+            layout = base64.b64encode(self._window.saveState(LAYOUT_VERSION).data()).decode()
+            states = {name: panel.save_state() for name, panel in self._panels.items()}
+            self._settings.set_workspace_state(self.current, layout=layout, **states)
+
+    def reset(self) -> None:
+        """Everything as the workspace has it at first."""
+        if self._shown:
+            self._arrange(_BY_ID[self.current])
+            self._settings.forget_workspace(self.current)
+
+    def _show(self) -> None:
+        # What the state does not say is as at first.
+        self._arrange(_BY_ID[self.current])
+        state = self._settings.workspace_state(self.current)
+        self._setting = True
+        try:
+            layout = base64.b64decode(state.get("layout", ""), validate=True)
+        except (binascii.Error, ValueError):
+            layout = b""
+        self._window.restoreState(QByteArray(layout), LAYOUT_VERSION)
+        for name, panel in self._panels.items():
+            if name in state:
+                panel.restore_state(state[name])
+        self._setting = False
+
+    def _lanes_arranged(self) -> None:
+        # Not at the end alone: lanes are folded often, and a program may be killed.
+        if self._shown and not self._setting:
+            self._settings.set_workspace_state(self.current, timeline=self._timeline.save_state())
+
+    # As at first
+
+    def _arrange(self, workspace: Workspace) -> None:
+        self._setting = True
+        window = self._window
+        sides = {LEFT: workspace.left, RIGHT: workspace.right, BOTTOM: ("timeline",)}
+        shown = [name for names in sides.values() for name in names]
+        for name, dock in self._docks.items():
+            dock.setFloating(False)
+            if name not in shown:
+                dock.hide()
+        for area, names in sides.items():
+            for number, name in enumerate(names):
+                window.addDockWidget(area, self._docks[name])
+                if number:
+                    window.splitDockWidget(self._docks[names[number - 1]], self._docks[name], Qt.Orientation.Vertical)
+                self._docks[name].show()
+        self._size(workspace)
+        self._timeline.restore_state(workspace.lanes)
+        self._inspector.divide(workspace.lists_share)
+        self._players.divide()
+        self._setting = False
+
+    def _size(self, workspace: Workspace) -> None:
+        """As large as panels are in a window of this size where no one said otherwise."""
+        window, low = self._window, self._window.height() < SHORT_PX
+        whole = {"always": True, "never": False, "if_high": not low, "if_low": low}
+        left = LEFT if whole[workspace.left_whole] else BOTTOM
+        right = RIGHT if whole[workspace.right_whole] else BOTTOM
+        window.setCorner(Qt.Corner.BottomLeftCorner, left)
+        window.setCorner(Qt.Corner.BottomRightCorner, right)
+        for names, width_px in ((workspace.left, workspace.left_px), (workspace.right, workspace.right_px)):
+            docks = [self._docks[name] for name in names]
+            window.resizeDocks(docks, [width_px] * len(docks), Qt.Orientation.Horizontal)
+            if len(docks) > 1:
+                first = _height_px(docks[0])
+                rest = [(window.height() - CHROME_PX - first) // (len(docks) - 1)] * (len(docks) - 1)
+                window.resizeDocks(docks, [first, *rest], Qt.Orientation.Vertical)
+        height = round(workspace.timeline_share * window.height())
+        window.resizeDocks([self._docks["timeline"]], [height], Qt.Orientation.Vertical)
+
+
+def _height_px(dock: Dock) -> int:
+    """What a panel needs, perhaps before it was ever shown: only what is polished knows its font."""
+    for widget in dock.findChildren(QWidget):
+        widget.ensurePolished()
+    for layout in dock.findChildren(QLayout):
+        layout.invalidate()
+    return dock.sizeHint().height()

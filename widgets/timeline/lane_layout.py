@@ -1,0 +1,188 @@
+"""Which lanes are shown, in which order, how tall, and which of them are folded: what is remembered, and its menus."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import msgspec
+from PySide6.QtCore import QObject, QPoint, Signal
+from PySide6.QtWidgets import QApplication, QMenu, QWidget
+
+from app.editor.timeline_view import Ghosts
+from app.errors import FileError
+from app.formats.json_data import decode_json
+from app.project.document import Change
+from widgets.common.menus import passing_menu
+from widgets.timeline.lane import Lane
+from widgets.timeline.roll import PianoRoll
+from widgets.timeline.stack import LaneStack
+
+
+class LaneState(msgspec.Struct, frozen=True, kw_only=True):
+    """What is remembered of the lanes, by their ids.
+
+    Attributes
+    ----------
+    order : tuple of str
+        From the top; lanes that are not named follow as in a new window.
+    hidden, shown : tuple of str
+        Lanes that the user hid, and those that the user shows although there is nothing in them.
+    folded : tuple of str
+    heights : dict of int
+        Of lanes whose height the user set, pixels.
+    ghosts : Ghosts
+        How the players behind the one in front are seen.
+    """
+
+    order: tuple[str, ...] = ()
+    hidden: tuple[str, ...] = ()
+    shown: tuple[str, ...] = ()
+    folded: tuple[str, ...] = ()
+    heights: dict[str, int] = {}
+    ghosts: Ghosts = Ghosts.GHOSTS
+
+
+class LaneLayout(QObject):
+    """How the lanes stand.
+
+    Parameters
+    ----------
+    lanes : mapping of Lane
+        Every lane by id, in the order of a new window.
+    stack : LaneStack
+    roll : PianoRoll
+    parent : QWidget
+
+    Signals
+    -------
+    changed()
+        `state` is another.
+    """
+
+    changed = Signal()
+
+    def __init__(self, lanes: Mapping[str, Lane], stack: LaneStack, roll: PianoRoll, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._lanes, self._stack, self._roll = lanes, stack, roll
+        self._hidden: set[str] = set()
+        self._shown: set[str] = set()
+        self._parent = parent
+        self.menu = QMenu(parent)
+        """Every lane, shown or not."""
+        self.menu.aboutToShow.connect(self._fill_menu)
+        for lane in lanes.values():
+            lane.set_folded(lane.folded_at_first)
+            lane.fold_changed.connect(self.changed)
+        roll.session.changed.connect(self._project_changed)
+        stack.changed.connect(self.changed)
+        self._show_lanes()
+
+    # State
+
+    @property
+    def state(self) -> LaneState:
+        """How the lanes stand now."""
+        order = tuple(lane.id for lane in self._stack.lanes)
+        return LaneState(
+            order=order,
+            hidden=tuple(id for id in order if id in self._hidden),
+            shown=tuple(id for id in order if id in self._shown),
+            folded=tuple(id for id in order if self._lanes[id].folded),
+            heights=self._stack.heights_px,
+            ghosts=self._roll.ghosts_mode,
+        )
+
+    def set_state(self, state: LaneState) -> None:
+        """Let the lanes stand so; names that are not lanes are passed over."""
+        self._hidden = set(state.hidden) & self._lanes.keys()
+        self._shown = set(state.shown) & self._lanes.keys()
+        self._stack.set_order(tuple(dict.fromkeys((*state.order, *self._lanes))))
+        self._show_lanes()
+        for id, lane in self._lanes.items():
+            lane.set_folded(id in state.folded)
+        self._stack.set_heights(state.heights)
+
+    # What the user does
+
+    def is_shown(self, lane_id: str) -> bool:
+        """Whether a lane is there, folded or not."""
+        return not self._lanes[lane_id].isHidden()
+
+    def is_open(self, lane_id: str) -> bool:
+        """Whether a lane is there, and not folded."""
+        return self.is_shown(lane_id) and not self._lanes[lane_id].folded
+
+    def show_lane(self, lane_id: str, shown: bool) -> None:
+        """Show or hide a lane."""
+        (self._shown if shown else self._hidden).add(lane_id)
+        (self._hidden if shown else self._shown).discard(lane_id)
+        self._show_lanes()
+        self.changed.emit()
+
+    def open_lane(self, lane_id: str, is_open: bool) -> None:
+        """Unfold a lane, shown if it is not, or fold it."""
+        if is_open and not self.is_shown(lane_id):
+            self.show_lane(lane_id, True)
+        lane = self._lanes[lane_id]
+        if not is_open and lane.isAncestorOf(QApplication.focusWidget() or self._stack):
+            # The keys stay with the lane, which is unfolded again where it was folded.
+            lane.fold_button.setFocus()
+        lane.set_folded(not is_open)
+
+    def fold_all(self, folded: bool) -> None:
+        """Fold or unfold every lane."""
+        for id in self._lanes:
+            if self.is_shown(id):
+                self.open_lane(id, not folded)
+
+    def _project_changed(self, change: Change) -> None:
+        before, after = change.before, change.after
+        if change.opened or before.takes is not after.takes or before.dancers is not after.dancers:
+            self._show_lanes()
+
+    def _show_lanes(self) -> None:
+        for id, lane in self._lanes.items():
+            idle = lane.hides_empty and lane.is_empty and id not in self._shown
+            lane.setVisible(id not in self._hidden and not idle)
+
+    # Menus
+
+    def _fill_menu(self) -> None:
+        self.menu.clear()
+        for lane in self._stack.lanes:
+            action = self.menu.addAction(lane.title.text())
+            action.setCheckable(True)
+            action.setChecked(self.is_shown(lane.id))
+            action.toggled.connect(lambda shown, id=lane.id: self.show_lane(id, shown))
+        self.menu.addSeparator()
+        self.menu.addAction(self.tr("timeline_panel.unfold_all")).triggered.connect(lambda: self.fold_all(False))
+        self.menu.addAction(self.tr("timeline_panel.fold_all")).triggered.connect(lambda: self.fold_all(True))
+
+    def offer(self, lane: Lane, place: QPoint) -> None:
+        """Open the menu of a lane at a place of its header."""
+        at, last = self._stack.lanes.index(lane), len(self._stack.lanes) - 1
+        menu = passing_menu(self._parent)
+        up = menu.addAction(self.tr("timeline_panel.move_up"))
+        up.setEnabled(at > 0)
+        up.triggered.connect(lambda: self._stack.shift(lane, -1))
+        down = menu.addAction(self.tr("timeline_panel.move_down"))
+        down.setEnabled(at < last)
+        down.triggered.connect(lambda: self._stack.shift(lane, 1))
+        menu.addSeparator()
+        fold = menu.addAction(self.tr("timeline_panel.unfold") if lane.folded else self.tr("timeline_panel.fold"))
+        fold.triggered.connect(lambda: self.open_lane(lane.id, lane.folded))
+        menu.addAction(self.tr("timeline_panel.hide")).triggered.connect(lambda: self.show_lane(lane.id, False))
+        menu.popup(lane.header.mapToGlobal(place))
+
+
+def lane_state(text: str) -> LaneState | None:
+    """What `lane_text` made a text of; None: it is none."""
+    try:
+        return decode_json(text.encode("utf-8", "replace"), LaneState, "")
+    except FileError:
+        return None
+
+
+def lane_text(state: LaneState) -> str:
+    """A state of the lanes as text."""
+    return msgspec.json.encode(state).decode()
