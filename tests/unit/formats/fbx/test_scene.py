@@ -211,7 +211,7 @@ ODD = {
     "polygons of two sizes": ("Objects/Geometry/PolygonVertexIndex", _with(TWO_SIZES), "unsupported"),
     "an object without a name": ("Objects/Geometry", _with(np.int64(1)), "missing"),
     "keys between frames": ("Objects/AnimationCurve/KeyTime", _with(np.arange(4)), "unsupported"),
-    "a missing key": ("Objects/AnimationCurve/KeyValueFloat", _with(np.zeros(3, np.float32)), "unsupported"),
+    "a missing key": ("Objects/AnimationCurve/KeyValueFloat", _with(np.zeros(3, np.float32)), "contradiction"),
     "a bone that is its own grandchild": ("Connections/C", _with("OO", ROOT_ID, FIRST_CHILD_ID), "contradiction"),
     "a connection without ends": ("Connections/C", _with("OO"), "missing"),
     "no objects": ("Objects", lambda element: replace(element, name="Other"), "missing"),

@@ -1,0 +1,150 @@
+"""Places of a scene that must stay where they are when keys are left out: landmarks, joints, corners of moving parts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from app.export.joint_playback import JointPlayback
+from app.export.playback import METRES, Playback, Surface
+from app.rig.model import Character
+from app.rig.skinning import Skin
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Carried:
+    """What a bone adds to marks: ``rotation @ (points + weights @ shapes) + shares * place``.
+
+    Attributes
+    ----------
+    marks : (K,) int
+    points_m : (K, 3) float64
+        In the bone's frame, times the shares.
+    shares : (K,) float64
+        Of the mark that the bone carries.
+    shapes_m : (M, K, 3) float64
+        What each morph of `Marks.morphs` adds to the points.
+    """
+
+    marks: IntArray
+    points_m: FloatArray
+    shares: FloatArray
+    shapes_m: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Marks:
+    """Places as linear blend skinning moves them.
+
+    Attributes
+    ----------
+    count : int
+    carried : mapping of int to Carried
+        By bone.
+    morphs : tuple of str
+        Those that move any of the marks.
+    """
+
+    count: int
+    carried: Mapping[int, Carried]
+    morphs: tuple[str, ...] = ()
+
+    @property
+    def carriers(self) -> npt.NDArray[np.bool_]:
+        """Whether each mark (K,) hangs on each bone (up to the last that carries one)."""
+        result = np.zeros((self.count, max(self.carried) + 1), bool)
+        for bone, carried in self.carried.items():
+            result[carried.marks, bone] = True
+        return result
+
+
+@dataclass
+class _Gathered:
+    """Marks while they are gathered: by bone their number, point and share, and by morph what it adds."""
+
+    count: int = 0
+    rows: dict[int, list[tuple[int, FloatArray, float, dict[str, FloatArray]]]] = field(default_factory=dict)
+
+    def add(self, bone: int, point_m: FloatArray, share: float = 1.0, **shapes_m: FloatArray) -> None:
+        self.rows.setdefault(bone, []).append((self.count, point_m, share, shapes_m))
+
+    def marks(self) -> Marks:
+        morphs = tuple(sorted({name for rows in self.rows.values() for *_, shapes in rows for name in shapes}))
+        zero = np.zeros(3)
+        carried = {
+            bone: Carried(
+                np.array([number for number, *_ in rows]),
+                np.array([point for _, point, *_ in rows]),
+                np.array([share for _, _, share, _ in rows]),
+                np.array([[shapes.get(name, zero) for *_, shapes in rows] for name in morphs]).reshape(-1, len(rows), 3),
+            )
+            for bone, rows in self.rows.items()
+        }
+        return Marks(self.count, carried, morphs)
+
+
+def character_marks(joints: JointPlayback, character: Character) -> Marks:
+    """The landmarks of a character in a file, and all joints."""
+    gathered = _joints(joints.playback)
+    for name in sorted(character.landmarks):
+        surface = Surface(joints.playback, *joints.surface(character.landmarks[name]))
+        _add_mean(gathered, surface.skin)
+    return gathered.marks()
+
+
+def part_marks(playback: Playback) -> Marks:
+    """The corners of the box around whatever each bone carries, and all joints.
+
+    What is rigid is nowhere farther off than one of its corners, so these stand for the whole surface of an instrument.
+    """
+    gathered = _joints(playback)
+    for mesh in playback.scene.meshes:
+        points_m = np.c_[np.asarray(mesh.vertices_cm, np.float64) * METRES, np.ones(len(mesh.vertices_cm))]
+        for bone in np.unique(mesh.joint_indices[mesh.weights > 0.0]).tolist():
+            own = ((mesh.joint_indices == bone) & (mesh.weights > 0.0)).any(axis=1)
+            bind = np.array(mesh.world_from_bone_bind[bone], np.float64)
+            bind[:3, 3] *= METRES
+            placed = points_m[own] @ np.linalg.inv(bind).T[:, :3]
+            low, high = placed.min(axis=0), placed.max(axis=0)
+            for corner in np.ndindex(2, 2, 2):
+                gathered.add(bone, np.where(corner, high, low))
+                gathered.count += 1
+    return gathered.marks()
+
+
+def _joints(playback: Playback) -> _Gathered:
+    gathered = _Gathered()
+    for bone in range(len(playback.bone_names)):
+        gathered.add(bone, np.zeros(3))
+        gathered.count += 1
+    return gathered
+
+
+def _add_mean(gathered: _Gathered, skin: Skin) -> None:
+    """Add the mean of some vertices."""
+    share_of_vertex = skin.weights / len(skin.positions_m)
+    placed = np.c_[skin.positions_m, np.ones(len(skin.positions_m))]
+    points = np.einsum("vj,jik,vk->ji", share_of_vertex, skin.joint_from_mesh, placed, optimize=True)
+    shapes = {
+        name: np.einsum("vj,jik,vk->ji", share_of_vertex, skin.joint_from_mesh[..., :3], deltas, optimize=True)
+        for name, deltas in skin.morphs.items()
+    }
+    for index, bone in enumerate(skin.joints.tolist()):
+        moved = {name: shape[index] for name, shape in shapes.items() if shape[index].any()}
+        gathered.add(bone, points[index], float(share_of_vertex[:, index].sum()), **moved)
+    gathered.count += 1
+
+
+def ancestors(parents: Sequence[int]) -> npt.NDArray[np.bool_]:
+    """Whether what a bone (B,) does moves each bone: (B, B), of every bone those above it and itself."""
+    result = np.eye(len(parents), dtype=bool)
+    for bone, parent in enumerate(parents):
+        if parent >= 0:
+            result[bone] |= result[parent]
+    return result
