@@ -1,4 +1,4 @@
-"""Places of a scene that must stay where they are when keys are left out: landmarks, joints, corners of moving parts."""
+"""Places of a scene that must stay where they are when keys are left out: landmarks, joints, corners of parts."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from app.export.joint_playback import JointPlayback
 from app.export.playback import METRES, Playback, Surface
+from app.formats.scene import SkinnedMesh
 from app.rig.model import Character
 from app.rig.skinning import Skin
 
@@ -40,13 +41,13 @@ class Carried:
 
 @dataclass(frozen=True, eq=False)
 class Marks:
-    """Places as linear blend skinning moves them.
+    """Places as linear blend skinning moves them; the first are the joints of all bones.
 
     Attributes
     ----------
     count : int
     carried : mapping of int to Carried
-        By bone.
+        By bone, of the marks after the joints.
     morphs : tuple of str
         Those that move any of the marks.
     """
@@ -55,12 +56,16 @@ class Marks:
     carried: Mapping[int, Carried]
     morphs: tuple[str, ...] = ()
 
-    @property
-    def carriers(self) -> npt.NDArray[np.bool_]:
-        """Whether each mark (K,) hangs on each bone (up to the last that carries one)."""
-        result = np.zeros((self.count, max(self.carried) + 1), bool)
+    def hang_on(self, parents: Sequence[int]) -> npt.NDArray[np.bool_]:
+        """Whether what a bone does moves a mark: (K, B)."""
+        above = np.eye(len(parents), dtype=bool)
+        for bone, parent in enumerate(parents):
+            if parent >= 0:
+                above[bone] |= above[parent]
+        result = np.zeros((self.count, len(parents)), bool)
+        result[: len(parents)] = above
         for bone, carried in self.carried.items():
-            result[carried.marks, bone] = True
+            result[carried.marks] |= above[bone]
         return result
 
 
@@ -68,7 +73,7 @@ class Marks:
 class _Gathered:
     """Marks while they are gathered: by bone their number, point and share, and by morph what it adds."""
 
-    count: int = 0
+    count: int
     rows: dict[int, list[tuple[int, FloatArray, float, dict[str, FloatArray]]]] = field(default_factory=dict)
 
     def add(self, bone: int, point_m: FloatArray, share: float = 1.0, **shapes_m: FloatArray) -> None:
@@ -82,7 +87,7 @@ class _Gathered:
                 np.array([number for number, *_ in rows]),
                 np.array([point for _, point, *_ in rows]),
                 np.array([share for _, _, share, _ in rows]),
-                np.array([[shapes.get(name, zero) for *_, shapes in rows] for name in morphs]).reshape(-1, len(rows), 3),
+                np.array([shapes.get(name, zero) for name in morphs for *_, shapes in rows]).reshape(-1, len(rows), 3),
             )
             for bone, rows in self.rows.items()
         }
@@ -91,10 +96,16 @@ class _Gathered:
 
 def character_marks(joints: JointPlayback, character: Character) -> Marks:
     """The landmarks of a character in a file, and all joints."""
-    gathered = _joints(joints.playback)
+    gathered = _Gathered(len(joints.playback.bone_names))
+    meshes: dict[int, tuple[SkinnedMesh, list[npt.NDArray[np.int64]]]] = {}
     for name in sorted(character.landmarks):
-        surface = Surface(joints.playback, *joints.surface(character.landmarks[name]))
-        _add_mean(gathered, surface.skin)
+        mesh, vertices = joints.surface(character.landmarks[name])
+        meshes.setdefault(id(mesh), (mesh, []))[1].append(vertices)
+    for mesh, places in meshes.values():
+        skin, first = Surface(joints.playback, mesh, np.concatenate(places)).skin, 0
+        for vertices in places:
+            _add_mean(gathered, skin.part(np.arange(first, first + len(vertices))))
+            first += len(vertices)
     return gathered.marks()
 
 
@@ -103,7 +114,7 @@ def part_marks(playback: Playback) -> Marks:
 
     What is rigid is nowhere farther off than one of its corners, so these stand for the whole surface of an instrument.
     """
-    gathered = _joints(playback)
+    gathered = _Gathered(len(playback.bone_names))
     for mesh in playback.scene.meshes:
         points_m = np.c_[np.asarray(mesh.vertices_cm, np.float64) * METRES, np.ones(len(mesh.vertices_cm))]
         for bone in np.unique(mesh.joint_indices[mesh.weights > 0.0]).tolist():
@@ -116,14 +127,6 @@ def part_marks(playback: Playback) -> Marks:
                 gathered.add(bone, np.where(corner, high, low))
                 gathered.count += 1
     return gathered.marks()
-
-
-def _joints(playback: Playback) -> _Gathered:
-    gathered = _Gathered()
-    for bone in range(len(playback.bone_names)):
-        gathered.add(bone, np.zeros(3))
-        gathered.count += 1
-    return gathered
 
 
 def _add_mean(gathered: _Gathered, skin: Skin) -> None:
@@ -139,12 +142,3 @@ def _add_mean(gathered: _Gathered, skin: Skin) -> None:
         moved = {name: shape[index] for name, shape in shapes.items() if shape[index].any()}
         gathered.add(bone, points[index], float(share_of_vertex[:, index].sum()), **moved)
     gathered.count += 1
-
-
-def ancestors(parents: Sequence[int]) -> npt.NDArray[np.bool_]:
-    """Whether what a bone (B,) does moves each bone: (B, B), of every bone those above it and itself."""
-    result = np.eye(len(parents), dtype=bool)
-    for bone, parent in enumerate(parents):
-        if parent >= 0:
-            result[bone] |= result[parent]
-    return result

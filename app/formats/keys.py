@@ -180,9 +180,9 @@ def _without_needless(values: FloatArray, kept: BoolArray, borders: IntArray) ->
     Of those that are left every second one is tried at a time, so that each stands between two keys that stay.
     """
     flat = values.reshape(-1, values.shape[2])
-    doubtful = np.zeros(kept.shape, bool)
-    doubtful[:, borders] = True
-    doubtful = (doubtful & kept).ravel()
+    at_borders = np.zeros(kept.shape, bool)
+    at_borders[:, borders] = True
+    doubtful = (at_borders & kept).ravel()
     places = np.flatnonzero(kept.ravel())
     removed = True
     while removed:
@@ -191,10 +191,10 @@ def _without_needless(values: FloatArray, kept: BoolArray, borders: IntArray) ->
             tried = np.flatnonzero(doubtful[places])[first::2]
             needless = tried[_joined(flat, places[tried - 1], places[tried + 1])]
             removed |= bool(len(needless))
-            places = np.delete(places, needless)
-    result = np.zeros(kept.size, bool)
-    result[places] = True
-    return result.reshape(kept.shape)
+            places = places[~np.isin(np.arange(len(places)), needless)]
+    result = np.zeros(kept.shape, bool)
+    result.reshape(-1)[places] = True
+    return result
 
 
 def _joined(values: FloatArray, first: IntArray, last: IntArray) -> BoolArray:
@@ -205,7 +205,7 @@ def _joined(values: FloatArray, first: IntArray, last: IntArray) -> BoolArray:
     share = (on / lengths[line])[:, None].astype(values.dtype)
     place = values[first[line]] * (1.0 - share) + values[last[line]] * share
     off = (np.abs(place - values[first[line] + on]) > 1.0).any(axis=1)
-    return np.bincount(line[off], minlength=len(first)) == 0
+    return np.asarray(np.bincount(line[off], minlength=len(first)) == 0)
 
 
 def runs(flags: BoolArray) -> Iterator[slice]:

@@ -35,7 +35,7 @@ class Graph(Protocol):
 def rotation_curves(clip: Clip) -> npt.NDArray[np.float64]:
     """Euler angles (B, 3, F) in degrees, of the axes in `EULER_ORDER`, as they are written."""
     angles = euler_degrees(clip.rotations_xyzw, EULER_ORDER)
-    return angles if clip.keys is None else steady(angles, STEADY_DEG)
+    return angles if clip.keys is None else steady(angles, STEADY_DEG).astype(np.float64, copy=False)
 
 
 def place_curves(clip: Clip, bone: int) -> FloatArray:

@@ -68,9 +68,10 @@ class Samplers:
         if frames is not None:
             frames = frames[:1] if (values[frames] == values[0]).all() else frames
             values = values[frames]
+        times = self._input(frames)
         output = self._document.accessor("keys", values, flat=flat)
         self._animation.samplers.append(
-            gltf.AnimationSampler(input=self._input(frames), output=output, interpolation=gltf.ANIM_LINEAR)
+            gltf.AnimationSampler(input=times, output=output, interpolation=gltf.ANIM_LINEAR)
         )
         target = gltf.AnimationChannelTarget(node=node, path=path)
         self._animation.channels.append(gltf.AnimationChannel(sampler=len(self._animation.samplers) - 1, target=target))

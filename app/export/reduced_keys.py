@@ -1,0 +1,357 @@
+"""Fewer keys: which frames of a clip are written so that whatever a program shows between them is near enough.
+
+What is bounded, at every frame, whether a program interpolates Euler angles (FBX) or quaternions (glTF, USD, Blender):
+
+- each bone's rotation by `ROTATION_DEG` and place by `PLACE_MM`, each morph's weight by `WEIGHT`;
+- after the hierarchy, every landmark of a character and every joint, or the whole surface of an instrument, by
+  `PLACE_MM`.
+
+A bone's rotation is allowed as much as its share of what the marks below it may be off. Shares are chosen so that keys
+are few: a bone needs keys in proportion to the square root of how fast it changes direction, over the square root of
+what it may be off; with the sum of squares over a chain of bones given, the least number comes of tolerances that grow
+with (change / reach) to the power 2/3. What is still beyond its bound then is put right by further keys.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.export.marks import Marks
+from app.export.playback import METRES
+from app.formats.continuous import continuous
+from app.formats.euler import matrices, quaternions
+from app.formats.fbx.curves import EULER_ORDER, place_curves, rotation_curves
+from app.formats.keys import BoolArray, Keys, Spans, runs, straight_keys
+from app.formats.scene import Clip, Scene
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.integer]
+
+PLACE_MM: Final = 0.5
+ROTATION_DEG: Final = 0.25
+WEIGHT: Final = 0.005
+
+_PLACE_M, _ROTATION_RAD = PLACE_MM / 1000.0, float(np.radians(ROTATION_DEG))
+_CHAIN = 1.3
+"""Root of the sum of squares that the bones of a chain may have, as a multiple of the bound: they are seldom all off
+at once and to the same side."""
+_BOX = float(np.sqrt(2.0))
+"""Each number of a rotation or place may be off by its tolerance over this."""
+_MORPHS = 0.5
+"""Of what a mark may be off, for all morphs together."""
+_SAMPLES, _CHUNK, _ROUNDS = 16, 1024, 8
+_STILL = 1e-7
+
+
+def reduced(scene: Scene, marks: Marks, pose: bool = False) -> Scene:
+    """A scene whose clip has few keys.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a clip.
+    marks : Marks
+        Of the scene's surfaces.
+    pose : bool
+        Whether keys that all bones share are worked out too.
+    """
+    clip = scene.clip
+    assert clip is not None
+    weights, face = _weight_keys(clip, marks)
+    # Of the curves as they are written with few keys.
+    clip = replace(clip, keys=Keys(tuple(np.zeros(1, np.intp) for _ in scene.bones), weights, face))
+    motion = _Motion(scene, clip, marks)
+    values = motion.scaled()
+    kept = np.zeros((len(motion.moving), clip.frames), bool)
+    kept[:, 0] = True
+    for rows, numbers in values:
+        kept[rows] = straight_keys(numbers)
+    _settle(motion, kept, shared=False)
+    poses = None
+    if pose:
+        together = np.concatenate([row for _, numbers in values for row in numbers], axis=1) if values else None
+        shared = np.ones((1, 1), bool) if together is None else straight_keys(together[None])
+        every = np.repeat(shared, len(motion.moving), axis=0)
+        _settle(motion, every, shared=True)
+        poses = np.flatnonzero(every.any(axis=0)) if len(every) else np.zeros(1, np.intp)
+    bones = [np.zeros(1, np.intp) for _ in scene.bones]
+    for row, bone in enumerate(motion.moving.tolist()):
+        bones[bone] = np.flatnonzero(kept[row])
+    keys = Keys(tuple(bones), weights, face, poses)
+    return replace(scene, clip=replace(clip, keys=_with_end(keys, clip.frames)))
+
+
+def _with_end(keys: Keys, frames: int) -> Keys:
+    """The keys, with one on the last frame where there is none: programs take it for the animation's length."""
+    end = np.array([0, frames - 1]) if frames > 1 else np.zeros(1, np.intp)
+    if not any(one[-1] == frames - 1 for one in (*keys.bones, *keys.morphs.values())):
+        keys = replace(keys, bones=(end, *keys.bones[1:]))
+    if keys.pose is not None and keys.pose[-1] != frames - 1 and keys.face[-1] != frames - 1:
+        keys = replace(keys, pose=np.union1d(keys.pose, end))
+    return keys
+
+
+def _weight_keys(clip: Clip, marks: Marks) -> tuple[dict[str, IntArray], IntArray]:
+    """Frames of each morph's keys, and of those of all morphs together."""
+    names = list(clip.morph_weights)
+    if not names:
+        return {}, np.zeros(1, np.intp)
+    effect_m = np.zeros(len(marks.morphs))
+    for carried in marks.carried.values():
+        effect_m = np.maximum(effect_m, np.linalg.norm(carried.shapes_m, axis=-1).max(axis=-1, initial=0.0))
+    effects = dict(zip(marks.morphs, effect_m.tolist(), strict=True))
+    moved = sum(name in effects for name in names)
+    tolerances = [
+        min(WEIGHT, _MORPHS * _PLACE_M / (moved * effects[name])) if effects.get(name) else WEIGHT for name in names
+    ]
+    values = np.stack([np.asarray(clip.morph_weights[name], np.float64) for name in names]) / np.c_[tolerances]
+    alone, together = straight_keys(values[..., None]), straight_keys(values.T[None])
+    return {name: np.flatnonzero(row) for name, row in zip(names, alone, strict=True)}, np.flatnonzero(together[0])
+
+
+class _Motion:
+    """What the bones of a scene do, and where that brings its marks.
+
+    Attributes
+    ----------
+    moving : (N,) int
+        Bones that do anything; the rows of the other arrays are of these.
+    rotations : (N, F, 4) float32
+    angles : (N, F, 3) float32
+        Degrees, as in FBX.
+    places_m : mapping of int to (F, 3) float64
+        By row; of the bones that leave their place.
+    """
+
+    def __init__(self, scene: Scene, clip: Clip, marks: Marks) -> None:
+        self.marks, self.frames = marks, clip.frames
+        self.parents = [bone.parent for bone in scene.bones]
+        rotations = continuous(clip.rotations_xyzw)
+        places_m = {
+            bone: np.ascontiguousarray(place_curves(clip, bone).T, np.float64) * METRES for bone in clip.translations_cm
+        }
+        moves = (np.abs(rotations - rotations[:1]) > _STILL).any(axis=(0, 2))
+        for bone, values in places_m.items():
+            moves[bone] |= bool((values != values[0]).any())
+        self.moving = np.flatnonzero(moves)
+        self.rotations = np.ascontiguousarray(rotations[:, moves].transpose(1, 0, 2))
+        self.angles = rotation_curves(clip)[moves].transpose(0, 2, 1).astype(np.float32)
+        self.places_m = {row: places_m[bone] for row, bone in enumerate(self.moving.tolist()) if bone in places_m}
+        self._still_turned = matrices(rotations[0])
+        self._still_m = np.stack([np.asarray(bone.translation_cm, np.float64) for bone in scene.bones]) * METRES
+        for bone, values in places_m.items():
+            self._still_m[bone] = values[0]
+        self._weights = clip.morph_weights
+        self._face = np.zeros((1, clip.frames), bool)
+        if clip.keys is not None:
+            self._face[0, clip.keys.face] = True
+        rows = {bone: row for row, bone in enumerate(self.moving.tolist())}
+        self._rows = [rows.get(bone, -1) for bone in range(len(self.parents))]
+        self.chains = marks.hang_on(self.parents)[:, self.moving]
+        """Whether each mark (K,) hangs on each moving bone (N,)."""
+        self.reach_m = self._reach_m()
+
+    # How much each bone may be off
+
+    def _reach_m(self) -> FloatArray:
+        """How far marks are from each moving bone (N,) that they hang on."""
+        frames = np.unique(np.linspace(0, self.frames - 1, _SAMPLES).astype(int))
+        marks_m = self.places_of_marks(frames)
+        result = np.zeros(len(self.moving))
+        for row, bone in enumerate(self.moving.tolist()):
+            away_m = np.linalg.norm(marks_m[self.chains[:, row]] - marks_m[bone], axis=-1)
+            result[row] = away_m.max(initial=0.0)
+        return result
+
+    def scaled(self) -> list[tuple[IntArray, npt.NDArray[np.float32]]]:
+        """Rows of bones, and their numbers (n, F, D) over what each may be off; those that leave their place apart."""
+        turns = np.concatenate([2.0 * self.rotations, np.radians(self.angles)], axis=2)
+        changes = _changes(turns) / _BOX
+        place_changes = np.zeros(len(self.moving))
+        for row, places_m in self.places_m.items():
+            place_changes[row] = _changes(places_m[None])[0]
+        turned = np.cbrt(np.maximum(self.reach_m, _STILL) * changes**2)
+        placed = np.cbrt(place_changes**2)
+        chain = np.sqrt(np.maximum(self.chains @ (turned**2 + placed**2), _STILL**2))
+        least = np.where(self.chains, _CHAIN * _PLACE_M / chain[:, None], np.inf).min(axis=0)
+        tolerance = np.minimum(_ROTATION_RAD, least * turned / np.maximum(self.reach_m, _STILL))
+        tolerance_m = np.minimum(_PLACE_M, least * placed)
+        tolerance = np.where(changes > 0.0, tolerance, _ROTATION_RAD) / _BOX
+        turns /= tolerance[:, None, None].astype(np.float32)
+        result: list[tuple[IntArray, npt.NDArray[np.float32]]] = []
+        leaving = np.isin(np.arange(len(self.moving)), list(self.places_m))
+        for rows in (np.flatnonzero(~leaving), np.flatnonzero(leaving)):
+            numbers = turns[rows]
+            if leaving[rows].any():
+                off_m = np.where(place_changes > 0.0, tolerance_m, _PLACE_M)[rows] / _BOX
+                places = np.stack([self.places_m[row] - self.places_m[row][0] for row in rows.tolist()])
+                numbers = np.concatenate([numbers, (places / off_m[:, None, None]).astype(np.float32)], axis=2)
+            if len(rows):
+                result.append((rows, numbers))
+        return result
+
+    # What a program shows
+
+    def places_of_marks(
+        self, frames: IntArray, spans: Spans | None = None, turned: FloatArray | None = None
+    ) -> FloatArray:
+        """Where the marks are (K, f, 3) at some frames, metres.
+
+        Parameters
+        ----------
+        frames : (f,) int
+        spans : Spans, optional
+            Of these frames, where only the keys of the moving bones are known; every frame's values otherwise.
+        turned : (N, f, 4), optional
+            Rotations that are shown there.
+        """
+        local = matrices(self.rotations[:, frames] if turned is None else turned)
+        face = None if spans is None else Spans.of(self._face).at(frames)
+        weights = self._shown_weights(frames, face)
+        result = np.zeros((self.marks.count, len(frames), 3))
+        placed: list[tuple[FloatArray, FloatArray]] = []
+        for bone, parent in enumerate(self.parents):
+            row = self._rows[bone]
+            turn, place_m = self._still_turned[bone], self._still_m[bone]
+            if row >= 0:
+                turn = local[row]
+            if row in self.places_m:
+                place_m = self.shown_place_m(row, frames, spans)
+            if parent >= 0:
+                above, above_m = placed[parent]
+                turn, place_m = _product(above, turn), above_m + _applied(above, place_m)
+            placed.append((turn, place_m))
+            result[bone] = place_m
+            carried = self.marks.carried.get(bone)
+            if carried is not None:
+                points = carried.points_m
+                if carried.shapes_m.any():
+                    shaped = points[:, None] + np.tensordot(carried.shapes_m, weights, axes=(0, 0)).swapaxes(1, 2)
+                    moved = _applied(turn, shaped)
+                else:
+                    moved = (points @ turn.reshape(-1, 3).T).reshape(len(points), -1, 3)
+                result[carried.marks] += moved + carried.shares[:, None, None] * place_m
+        return result
+
+    def shown_place_m(self, row: int, frames: IntArray, spans: Spans | None) -> FloatArray:
+        """Place (f, 3) of a moving bone on its parent."""
+        if spans is None:
+            return self.places_m[row][frames]
+        first, last = self.places_m[row][spans.before[row]], self.places_m[row][spans.after[row]]
+        return np.asarray(first + (last - first) * spans.share[row][:, None], np.float64)
+
+    def _shown_weights(self, frames: IntArray, face: Spans | None) -> FloatArray:
+        """Weights (M, f) of the marks' morphs."""
+        result = np.zeros((len(self.marks.morphs), len(frames)))
+        for number, name in enumerate(self.marks.morphs):
+            if name in self._weights:
+                curve = np.asarray(self._weights[name], np.float64)
+                shown = curve[frames] if face is None else face.straight(curve[None, :, None])[0, :, 0]
+                result[number] = shown
+        return result
+
+
+def _product(turns: FloatArray, by: FloatArray) -> FloatArray:
+    """Matrix products of turns (f, 3, 3) or (3, 3), one of all frames at once where the other is the same in all."""
+    if by.ndim == 2 and turns.ndim == 3:
+        return np.asarray((turns.reshape(-1, 3) @ by).reshape(len(turns), 3, -1))
+    return np.asarray(turns @ by)
+
+
+def _applied(turns: FloatArray, vectors: FloatArray) -> FloatArray:
+    """Vectors (..., f, 3), or (3,), turned."""
+    if vectors.ndim == 1 and turns.ndim == 3:
+        return np.asarray((turns.reshape(-1, 3) @ vectors).reshape(-1, 3))
+    return np.asarray(np.einsum("...ij,...j->...i", turns, vectors))
+
+
+def _changes(values: npt.NDArray[np.floating]) -> FloatArray:
+    """How many keys curves (N, F, D) need: the mean root of how much they change direction from frame to frame."""
+    if values.shape[1] < 3:
+        return np.zeros(len(values))
+    seconds = np.diff(values, 2, axis=1)
+    return np.asarray(np.sqrt(np.sqrt(np.einsum("nfd,nfd->nf", seconds, seconds))).mean(axis=1), np.float64)
+
+
+def _settle(motion: _Motion, kept: BoolArray, shared: bool) -> None:
+    """Add keys until everything is within its bounds at every frame.
+
+    Parameters
+    ----------
+    motion : _Motion
+    kept : (N, F) bool
+        The keys of the moving bones; changed in place.
+    shared : bool
+        Whether all bones have theirs at the same frames, and no program interpolates angles.
+    """
+    changed = np.ones(motion.frames, bool)
+    rounds = 0
+    while changed.any():
+        rounds += 1
+        spans = Spans.of(kept)
+        added = np.zeros(kept.shape, bool)
+        frames = np.flatnonzero(changed)
+        for first in range(0, len(frames), _CHUNK):
+            _add_keys(motion, kept, added, spans, frames[first : first + _CHUNK], shared, rounds > _ROUNDS)
+        if shared:
+            added[:] = added.any(axis=0)
+        # Whatever is between the keys around a new one has another line now.
+        new = added & ~kept
+        rows, places = np.nonzero(new)
+        touched = np.zeros(motion.frames + 1, np.int64)
+        np.add.at(touched, spans.before[rows, places], 1)
+        np.add.at(touched, spans.after[rows, places] + 1, -1)
+        changed = np.cumsum(touched)[:-1] > 0
+        kept |= new
+
+
+def _add_keys(
+    motion: _Motion,
+    kept: BoolArray,
+    added: BoolArray,
+    spans: Spans,
+    frames: IntArray,
+    shared: bool,
+    all_frames: bool,
+) -> None:
+    """Add keys where something is beyond its bound at some frames: at the worst of each run of them, or at all."""
+    here = spans.at(frames)
+    meant = motion.rotations[:, frames].astype(np.float64)
+    meant_m = motion.places_of_marks(frames)
+    placed_m = np.zeros(meant.shape[:2])
+    for row in motion.places_m:
+        off_m = motion.shown_place_m(row, frames, here) - motion.places_m[row][frames]
+        placed_m[row] = np.linalg.norm(off_m, axis=-1)
+    shown = [here.turned(motion.rotations)]
+    if not shared:
+        shown.append(quaternions(here.straight(motion.angles), EULER_ORDER))
+    for turned in shown:
+        off = _angles(turned, meant)
+        marks_m = np.linalg.norm(motion.places_of_marks(frames, here, turned) - meant_m, axis=-1)
+        excess = np.maximum(off / _ROTATION_RAD, placed_m / _PLACE_M)
+        for row in np.flatnonzero((excess > 1.0).any(axis=1)).tolist():
+            for at in _worst(excess[row], frames, all_frames):
+                added[row, frames[at]] = True
+        # What each bone may have to do with it.
+        effect_m = np.where(kept[:, frames], 0.0, off * motion.reach_m[:, None] + placed_m)
+        for at in _worst(marks_m.max(axis=0, initial=0.0) / _PLACE_M, frames, all_frames):
+            effects = np.where(motion.chains[int(marks_m[:, at].argmax())], effect_m[:, at], 0.0)
+            added[(effects > 0.0) & (effects >= (0.0 if all_frames else 0.5 * effects.max())), frames[at]] = True
+
+
+def _worst(excess: FloatArray, frames: IntArray, all_frames: bool) -> list[int]:
+    """Places (in ``frames``) where something is beyond its bound: the worst of each run of frames, or all."""
+    beyond = excess > 1.0
+    if all_frames:
+        return np.flatnonzero(beyond).tolist()
+    return [span.start + int(excess[span].argmax()) for span in runs(beyond)]
+
+
+def _angles(shown: FloatArray, meant: FloatArray) -> FloatArray:
+    """Angles between unit quaternions (..., 4), radians."""
+    chord = np.minimum(np.linalg.norm(shown - meant, axis=-1), np.linalg.norm(shown + meant, axis=-1))
+    return np.asarray(4.0 * np.arcsin(np.minimum(0.5 * chord, 1.0)))
