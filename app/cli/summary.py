@@ -42,9 +42,10 @@ def summary(report: Report, folder: Path) -> list[str]:
 
 def share_of_keys(report: Report) -> float:
     """How many keys were written, of those that would be on every frame."""
-    counts = [one.keys for one in (*report.players, *report.dancers) if one.keys is not None]
-    counts += [one.keys for player in report.players for one in player.doubles if one.keys is not None]
-    return sum(count.written for count in counts) / max(sum(count.every for count in counts), 1)
+    counts = [player.keys for player in report.players] + [dancer.keys for dancer in report.dancers]
+    counts += [double.keys for player in report.players for double in player.doubles]
+    known = [count for count in counts if count is not None]
+    return sum(count.written for count in known) / max(sum(count.every for count in known), 1)
 
 
 def project_summary(written: Written, project: UnrealProject) -> list[str]:

@@ -8,7 +8,7 @@ from app.export.formats import Format, KeyChoice
 from app.export.joint_playback import JointPlayback
 from app.export.marks import character_marks, part_marks
 from app.export.playback import Playback
-from app.export.reduced_keys import reduced
+from app.export.reduced_keys import INSTRUMENT_MM, PLACE_MM, reduced
 from app.export.target import TargetSkeleton
 from app.formats.scene import Scene
 from app.rig.model import Character
@@ -41,14 +41,14 @@ def keyed_character(
     if keys == "every" or scene.clip is None:
         return scene
     joints = JointPlayback(Playback(scene, scene.clip), target, character)
-    return reduced(scene, character_marks(joints, character), "usd" in formats)
+    return reduced(scene, character_marks(joints, character), PLACE_MM, "usd" in formats)
 
 
 def keyed_instrument(scene: Scene, keys: KeyChoice, formats: frozenset[Format]) -> Scene:
     """An instrument's scene with its keys."""
     if keys == "every" or scene.clip is None:
         return scene
-    return reduced(scene, part_marks(Playback(scene, scene.clip)), "usd" in formats)
+    return reduced(scene, part_marks(Playback(scene, scene.clip)), INSTRUMENT_MM, "usd" in formats)
 
 
 def key_count(*scenes: Scene) -> KeyCount:

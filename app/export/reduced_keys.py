@@ -14,8 +14,9 @@ with (change / reach) to the power 2/3. What is still beyond its bound then is p
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -32,10 +33,12 @@ FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.integer]
 
 PLACE_MM: Final = 0.5
+INSTRUMENT_MM: Final = 0.25
+"""An instrument has few bones, and what touches it adds its own share."""
 ROTATION_DEG: Final = 0.25
 WEIGHT: Final = 0.005
 
-_PLACE_M, _ROTATION_RAD = PLACE_MM / 1000.0, float(np.radians(ROTATION_DEG))
+_ROTATION_RAD = float(np.radians(ROTATION_DEG))
 _CHAIN = 1.3
 """Root of the sum of squares that the bones of a chain may have, as a multiple of the bound: they are seldom all off
 at once and to the same side."""
@@ -43,11 +46,11 @@ _BOX = float(np.sqrt(2.0))
 """Each number of a rotation or place may be off by its tolerance over this."""
 _MORPHS = 0.5
 """Of what a mark may be off, for all morphs together."""
-_SAMPLES, _CHUNK, _ROUNDS = 16, 1024, 8
+_SAMPLES, _CHUNK, _ROUNDS = 16, 512, 8
 _STILL = 1e-7
 
 
-def reduced(scene: Scene, marks: Marks, pose: bool = False) -> Scene:
+def reduced(scene: Scene, marks: Marks, most_mm: float, pose: bool = False) -> Scene:
     """A scene whose clip has few keys.
 
     Parameters
@@ -56,15 +59,17 @@ def reduced(scene: Scene, marks: Marks, pose: bool = False) -> Scene:
         With a clip.
     marks : Marks
         Of the scene's surfaces.
+    most_mm : float
+        How far marks, and bones from their parents, may be off.
     pose : bool
         Whether keys that all bones share are worked out too.
     """
     clip = scene.clip
     assert clip is not None
-    weights, face = _weight_keys(clip, marks)
+    weights, face = _weight_keys(clip, marks, most_mm / 1000.0)
     # Of the curves as they are written with few keys.
     clip = replace(clip, keys=Keys(tuple(np.zeros(1, np.intp) for _ in scene.bones), weights, face))
-    motion = _Motion(scene, clip, marks)
+    motion = _Motion(scene, clip, marks, most_mm / 1000.0)
     values = motion.scaled()
     kept = np.zeros((len(motion.moving), clip.frames), bool)
     kept[:, 0] = True
@@ -95,7 +100,7 @@ def _with_end(keys: Keys, frames: int) -> Keys:
     return keys
 
 
-def _weight_keys(clip: Clip, marks: Marks) -> tuple[dict[str, IntArray], IntArray]:
+def _weight_keys(clip: Clip, marks: Marks, most_m: float) -> tuple[dict[str, IntArray], IntArray]:
     """Frames of each morph's keys, and of those of all morphs together."""
     names = list(clip.morph_weights)
     if not names:
@@ -106,7 +111,7 @@ def _weight_keys(clip: Clip, marks: Marks) -> tuple[dict[str, IntArray], IntArra
     effects = dict(zip(marks.morphs, effect_m.tolist(), strict=True))
     moved = sum(name in effects for name in names)
     tolerances = [
-        min(WEIGHT, _MORPHS * _PLACE_M / (moved * effects[name])) if effects.get(name) else WEIGHT for name in names
+        min(WEIGHT, _MORPHS * most_m / (moved * effects[name])) if effects.get(name) else WEIGHT for name in names
     ]
     values = np.stack([np.asarray(clip.morph_weights[name], np.float64) for name in names]) / np.c_[tolerances]
     alone, together = straight_keys(values[..., None]), straight_keys(values.T[None])
@@ -127,8 +132,8 @@ class _Motion:
         By row; of the bones that leave their place.
     """
 
-    def __init__(self, scene: Scene, clip: Clip, marks: Marks) -> None:
-        self.marks, self.frames = marks, clip.frames
+    def __init__(self, scene: Scene, clip: Clip, marks: Marks, most_m: float) -> None:
+        self.marks, self.frames, self.most_m = marks, clip.frames, most_m
         self.parents = [bone.parent for bone in scene.bones]
         rotations = continuous(clip.rotations_xyzw)
         places_m = {
@@ -145,10 +150,13 @@ class _Motion:
         self._still_m = np.stack([np.asarray(bone.translation_cm, np.float64) for bone in scene.bones]) * METRES
         for bone, values in places_m.items():
             self._still_m[bone] = values[0]
-        self._weights = clip.morph_weights
-        self._face = np.zeros((1, clip.frames), bool)
-        if clip.keys is not None:
-            self._face[0, clip.keys.face] = True
+        rest = np.zeros(clip.frames)
+        self.weights = np.array([clip.morph_weights.get(name, rest) for name in marks.morphs], np.float64)
+        self.weights = self.weights.reshape(-1, clip.frames)
+        assert clip.keys is not None
+        face = np.zeros((1, clip.frames), bool)
+        face[0, clip.keys.face] = True
+        self._face_weights = Spans.of(face).straight(self.weights.T[None])[0].T
         rows = {bone: row for row, bone in enumerate(self.moving.tolist())}
         self._rows = [rows.get(bone, -1) for bone in range(len(self.parents))]
         self.chains = marks.hang_on(self.parents)[:, self.moving]
@@ -160,7 +168,7 @@ class _Motion:
     def _reach_m(self) -> FloatArray:
         """How far marks are from each moving bone (N,) that they hang on."""
         frames = np.unique(np.linspace(0, self.frames - 1, _SAMPLES).astype(int))
-        marks_m = self.places_of_marks(frames)
+        marks_m = self.places_of_marks(*self.meant(frames))
         result = np.zeros(len(self.moving))
         for row, bone in enumerate(self.moving.tolist()):
             away_m = np.linalg.norm(marks_m[self.chains[:, row]] - marks_m[bone], axis=-1)
@@ -177,9 +185,9 @@ class _Motion:
         turned = np.cbrt(np.maximum(self.reach_m, _STILL) * changes**2)
         placed = np.cbrt(place_changes**2)
         chain = np.sqrt(np.maximum(self.chains @ (turned**2 + placed**2), _STILL**2))
-        least = np.where(self.chains, _CHAIN * _PLACE_M / chain[:, None], np.inf).min(axis=0)
+        least = np.where(self.chains, _CHAIN * self.most_m / chain[:, None], np.inf).min(axis=0)
         tolerance = np.minimum(_ROTATION_RAD, least * turned / np.maximum(self.reach_m, _STILL))
-        tolerance_m = np.minimum(_PLACE_M, least * placed)
+        tolerance_m = np.minimum(self.most_m, least * placed)
         tolerance = np.where(changes > 0.0, tolerance, _ROTATION_RAD) / _BOX
         turns /= tolerance[:, None, None].astype(np.float32)
         result: list[tuple[IntArray, npt.NDArray[np.float32]]] = []
@@ -187,7 +195,7 @@ class _Motion:
         for rows in (np.flatnonzero(~leaving), np.flatnonzero(leaving)):
             numbers = turns[rows]
             if leaving[rows].any():
-                off_m = np.where(place_changes > 0.0, tolerance_m, _PLACE_M)[rows] / _BOX
+                off_m = np.where(place_changes > 0.0, tolerance_m, self.most_m)[rows] / _BOX
                 places = np.stack([self.places_m[row] - self.places_m[row][0] for row in rows.tolist()])
                 numbers = np.concatenate([numbers, (places / off_m[:, None, None]).astype(np.float32)], axis=2)
             if len(rows):
@@ -197,30 +205,26 @@ class _Motion:
     # What a program shows
 
     def places_of_marks(
-        self, frames: IntArray, spans: Spans | None = None, turned: FloatArray | None = None
+        self, turned: npt.NDArray[np.floating], places_m: Mapping[int, FloatArray], weights: FloatArray
     ) -> FloatArray:
         """Where the marks are (K, f, 3) at some frames, metres.
 
         Parameters
         ----------
-        frames : (f,) int
-        spans : Spans, optional
-            Of these frames, where only the keys of the moving bones are known; every frame's values otherwise.
-        turned : (N, f, 4), optional
-            Rotations that are shown there.
+        turned : (N, f, 4)
+            Rotations of the moving bones.
+        places_m : mapping of int to (f, 3)
+            By row, of those that leave their place.
+        weights : (M, f)
+            Of the marks' morphs.
         """
-        local = matrices(self.rotations[:, frames] if turned is None else turned)
-        face = None if spans is None else Spans.of(self._face).at(frames)
-        weights = self._shown_weights(frames, face)
-        result = np.zeros((self.marks.count, len(frames), 3))
+        local = matrices(turned)
+        result = np.zeros((self.marks.count, turned.shape[1], 3))
         placed: list[tuple[FloatArray, FloatArray]] = []
         for bone, parent in enumerate(self.parents):
             row = self._rows[bone]
-            turn, place_m = self._still_turned[bone], self._still_m[bone]
-            if row >= 0:
-                turn = local[row]
-            if row in self.places_m:
-                place_m = self.shown_place_m(row, frames, spans)
+            turn = self._still_turned[bone] if row < 0 else local[row]
+            place_m = places_m[row] if row in places_m else self._still_m[bone]
             if parent >= 0:
                 above, above_m = placed[parent]
                 turn, place_m = _product(above, turn), above_m + _applied(above, place_m)
@@ -237,22 +241,34 @@ class _Motion:
                 result[carried.marks] += moved + carried.shares[:, None, None] * place_m
         return result
 
-    def shown_place_m(self, row: int, frames: IntArray, spans: Spans | None) -> FloatArray:
-        """Place (f, 3) of a moving bone on its parent."""
-        if spans is None:
-            return self.places_m[row][frames]
-        first, last = self.places_m[row][spans.before[row]], self.places_m[row][spans.after[row]]
-        return np.asarray(first + (last - first) * spans.share[row][:, None], np.float64)
+    def meant(self, frames: IntArray) -> Shown:
+        """What the motion is at some frames."""
+        places_m = {row: values[frames] for row, values in self.places_m.items()}
+        return Shown(self.rotations[:, frames].astype(np.float64), places_m, self.weights[:, frames])
 
-    def _shown_weights(self, frames: IntArray, face: Spans | None) -> FloatArray:
-        """Weights (M, f) of the marks' morphs."""
-        result = np.zeros((len(self.marks.morphs), len(frames)))
-        for number, name in enumerate(self.marks.morphs):
-            if name in self._weights:
-                curve = np.asarray(self._weights[name], np.float64)
-                shown = curve[frames] if face is None else face.straight(curve[None, :, None])[0, :, 0]
-                result[number] = shown
-        return result
+    def shown(self, frames: IntArray, spans: Spans, by_angles: bool) -> Shown:
+        """What a program shows at some frames between keys, if it interpolates angles or quaternions."""
+        angles = spans.straight(self.angles) if by_angles else None
+        turned = spans.turned(self.rotations) if angles is None else quaternions(angles, EULER_ORDER)
+        places_m = {row: spans.row(row).straight(values[None])[0] for row, values in self.places_m.items()}
+        return Shown(turned, places_m, self._face_weights[:, frames])
+
+
+class Shown(NamedTuple):
+    """Rotations (N, f, 4) and, by row, places (f, 3) of the moving bones, and weights (M, f) of the marks' morphs."""
+
+    turned: FloatArray
+    places_m: Mapping[int, FloatArray]
+    weights: FloatArray
+
+
+def _together(shown: Sequence[Shown]) -> Shown:
+    """Frames after frames."""
+    return Shown(
+        np.concatenate([one.turned for one in shown], axis=1),
+        {row: np.concatenate([one.places_m[row] for one in shown]) for row in shown[0].places_m},
+        np.concatenate([one.weights for one in shown], axis=1),
+    )
 
 
 def _product(turns: FloatArray, by: FloatArray) -> FloatArray:
@@ -320,31 +336,28 @@ def _add_keys(
 ) -> None:
     """Add keys where something is beyond its bound at some frames: at the worst of each run of them, or at all."""
     here = spans.at(frames)
-    meant = motion.rotations[:, frames].astype(np.float64)
-    meant_m = motion.places_of_marks(frames)
-    placed_m = np.zeros(meant.shape[:2])
-    for row in motion.places_m:
-        off_m = motion.shown_place_m(row, frames, here) - motion.places_m[row][frames]
-        placed_m[row] = np.linalg.norm(off_m, axis=-1)
-    shown = [here.turned(motion.rotations)]
-    if not shared:
-        shown.append(quaternions(here.straight(motion.angles), EULER_ORDER))
-    for turned in shown:
-        off = _angles(turned, meant)
-        marks_m = np.linalg.norm(motion.places_of_marks(frames, here, turned) - meant_m, axis=-1)
-        excess = np.maximum(off / _ROTATION_RAD, placed_m / _PLACE_M)
+    meant = motion.meant(frames)
+    shown = [motion.shown(frames, here, by_angles) for by_angles in ((False,) if shared else (False, True))]
+    marks_m = motion.places_of_marks(*_together([meant, *shown]))
+    meant_m, *shown_m = np.split(marks_m, 1 + len(shown), axis=1)
+    for one, one_m in zip(shown, shown_m, strict=True):
+        placed_m = np.zeros((len(motion.moving), len(frames)))
+        for row, places_m in one.places_m.items():
+            placed_m[row] = np.linalg.norm(places_m - meant.places_m[row], axis=-1)
+        off = _angles(one.turned, meant.turned)
+        excess = np.maximum(off / _ROTATION_RAD, placed_m / motion.most_m)
         for row in np.flatnonzero((excess > 1.0).any(axis=1)).tolist():
-            for at in _worst(excess[row], frames, all_frames):
-                added[row, frames[at]] = True
-        # What each bone may have to do with it.
+            added[row, frames[_worst(excess[row], all_frames)]] = True
+        # What each bone may have to do with a mark that is off.
+        off_m = np.linalg.norm(one_m - meant_m, axis=-1)
         effect_m = np.where(kept[:, frames], 0.0, off * motion.reach_m[:, None] + placed_m)
-        for at in _worst(marks_m.max(axis=0, initial=0.0) / _PLACE_M, frames, all_frames):
-            effects = np.where(motion.chains[int(marks_m[:, at].argmax())], effect_m[:, at], 0.0)
+        for at in _worst(off_m.max(axis=0, initial=0.0) / motion.most_m, all_frames):
+            effects = np.where(motion.chains[int(off_m[:, at].argmax())], effect_m[:, at], 0.0)
             added[(effects > 0.0) & (effects >= (0.0 if all_frames else 0.5 * effects.max())), frames[at]] = True
 
 
-def _worst(excess: FloatArray, frames: IntArray, all_frames: bool) -> list[int]:
-    """Places (in ``frames``) where something is beyond its bound: the worst of each run of frames, or all."""
+def _worst(excess: FloatArray, all_frames: bool) -> list[int]:
+    """Where something is beyond its bound: at the worst of each run of frames, or at all of them."""
     beyond = excess > 1.0
     if all_frames:
         return np.flatnonzero(beyond).tolist()

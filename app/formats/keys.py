@@ -17,8 +17,8 @@ FloatArray = npt.NDArray[np.floating]
 IntArray = npt.NDArray[np.integer]
 BoolArray = npt.NDArray[np.bool_]
 
-_CHUNK = 512
-"""Frames that are walked through one after another; all chunks of all curves are walked at once."""
+_LEAST_CHUNK, _MOST_CHUNK, _AT_ONCE = 64, 512, 8192
+"""Frames that are walked through one after another, and how many numbers at once: all chunks of all curves."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +84,10 @@ class Spans:
         """Of some of the frames."""
         return Spans(self.before[:, frames], self.after[:, frames], self.share[:, frames])
 
+    def row(self, row: int) -> Spans:
+        """Of one of the curves."""
+        return Spans(self.before[row, None], self.after[row, None], self.share[row, None])
+
     def straight(self, values: FloatArray) -> npt.NDArray[np.float64]:
         """What numbers (L, F, D) are at these frames if only the keys are known."""
         rows = np.arange(len(values))[:, None]
@@ -129,57 +133,58 @@ def straight_keys(values: FloatArray) -> BoolArray:
     patent 4669097, 1987, with keys on the curve itself). All curves are walked at once, and in chunks of frames, whose
     borders are keys at first and are then taken away where they are not needed.
     """
-    lanes, frames, _ = values.shape
+    lanes, frames, width = values.shape
     kept = np.zeros((lanes, frames), bool)
     kept[:, 0] = True
     moves = np.flatnonzero((np.abs(values - values[:, :1]) > 1.0).any(axis=(1, 2)))
     if not len(moves):
         return kept
-    walked = values[moves]
-    borders = np.unique([*range(0, frames - 1, _CHUNK), frames - 1])
-    found = _walked(walked, borders)
-    kept[moves] = _without_needless(walked, found, borders[1:-1])
+    chunk = max(_LEAST_CHUNK, min(_MOST_CHUNK, len(moves) * frames * width // _AT_ONCE))
+    borders = np.unique([*range(0, frames - 1, chunk), frames - 1])
+    # Row by row of numbers, each of all curves one after the other.
+    rows = np.ascontiguousarray(values[moves].transpose(2, 0, 1).reshape(width, -1))
+    found = _walked(rows, len(moves), borders)
+    kept[moves] = _without_needless(rows, found, borders[1:-1])
     return kept
 
 
-def _walked(values: FloatArray, borders: IntArray) -> BoolArray:
-    """Frames (L, F) of `straight_keys`, with every border among them."""
-    lanes, frames, _ = values.shape
-    kept = np.zeros((lanes, frames), bool)
-    kept[:, borders] = True
-    lane = np.repeat(np.arange(lanes), len(borders) - 1)
-    key, end = np.tile(borders[:-1], lanes), np.tile(borders[1:], lanes)
-    here, reached = key.copy(), key.copy()
-    base = values[lane, key]
+def _walked(rows: FloatArray, lanes: int, borders: IntArray) -> BoolArray:
+    """Frames (L, F) of `straight_keys`, with every border among them; ``rows`` is (D, L * F)."""
+    frames = rows.shape[1] // lanes
+    kept = np.zeros(lanes * frames, bool)
+    starts = (np.arange(lanes)[:, None] * frames + borders[:-1]).ravel()
+    end = (np.arange(lanes)[:, None] * frames + borders[1:]).ravel()
+    kept[starts] = kept[end] = True
+    key, here, reached = starts.copy(), starts.copy(), starts.copy()
+    base = rows[:, key]
     low, high = np.full_like(base, -np.inf), np.full_like(base, np.inf)
-    while len(lane):
+    while len(key):
         here += 1
-        frames_on = (here - key)[:, None].astype(values.dtype)
-        rise = values[lane, here] - base
-        slope = rise / frames_on
-        reached = np.where(((slope >= low) & (slope <= high)).all(axis=1), here, reached)
-        np.maximum(low, (rise - 1.0) / frames_on, out=low)
-        np.minimum(high, (rise + 1.0) / frames_on, out=high)
-        stopped = np.flatnonzero((low > high).any(axis=1) | (here >= end))
+        over = (1.0 / (here - key)).astype(rows.dtype)
+        slope = (np.take(rows, here, axis=1) - base) * over
+        passes = ((slope >= low) & (slope <= high)).all(axis=0)
+        reached = np.where(passes, here, reached)
+        np.maximum(low, slope - over, out=low)
+        np.minimum(high, slope + over, out=high)
+        stopped = np.flatnonzero((low > high).any(axis=0) | (here >= end))
         if not len(stopped):
             continue
         new = reached[stopped]
-        kept[lane[stopped], new] = True
+        kept[new] = True
         key[stopped] = here[stopped] = new
-        base[stopped], low[stopped], high[stopped] = values[lane[stopped], new], -np.inf, np.inf
+        base[:, stopped], low[:, stopped], high[:, stopped] = rows[:, new], -np.inf, np.inf
         walking = key < end
         if not walking.all():
-            lane, key, end, here, reached = (one[walking] for one in (lane, key, end, here, reached))
-            base, low, high = base[walking], low[walking], high[walking]
-    return kept
+            key, end, here, reached = key[walking], end[walking], here[walking], reached[walking]
+            base, low, high = base[:, walking], low[:, walking], high[:, walking]
+    return kept.reshape(lanes, frames)
 
 
-def _without_needless(values: FloatArray, kept: BoolArray, borders: IntArray) -> BoolArray:
+def _without_needless(rows: FloatArray, kept: BoolArray, borders: IntArray) -> BoolArray:
     """The keys without those at some frames that straight lines do not need.
 
     Of those that are left every second one is tried at a time, so that each stands between two keys that stay.
     """
-    flat = values.reshape(-1, values.shape[2])
     at_borders = np.zeros(kept.shape, bool)
     at_borders[:, borders] = True
     doubtful = (at_borders & kept).ravel()
@@ -189,22 +194,24 @@ def _without_needless(values: FloatArray, kept: BoolArray, borders: IntArray) ->
         removed = False
         for first in (0, 1):
             tried = np.flatnonzero(doubtful[places])[first::2]
-            needless = tried[_joined(flat, places[tried - 1], places[tried + 1])]
+            needless = tried[_joined(rows, places[tried - 1], places[tried + 1])]
             removed |= bool(len(needless))
-            places = places[~np.isin(np.arange(len(places)), needless)]
+            stay = np.ones(len(places), bool)
+            stay[needless] = False
+            places = places[stay]
     result = np.zeros(kept.shape, bool)
     result.reshape(-1)[places] = True
     return result
 
 
-def _joined(values: FloatArray, first: IntArray, last: IntArray) -> BoolArray:
-    """Which straight lines (N,) between two rows of values (R, D) are nowhere more than 1 off."""
+def _joined(rows: FloatArray, first: IntArray, last: IntArray) -> BoolArray:
+    """Which straight lines (N,) between two columns of ``rows`` are nowhere more than 1 off."""
     lengths = last - first
     line = np.repeat(np.arange(len(first)), lengths)
     on = np.arange(len(line)) - np.repeat(np.cumsum(lengths) - lengths, lengths)
-    share = (on / lengths[line])[:, None].astype(values.dtype)
-    place = values[first[line]] * (1.0 - share) + values[last[line]] * share
-    off = (np.abs(place - values[first[line] + on]) > 1.0).any(axis=1)
+    share = (on / lengths[line]).astype(rows.dtype)
+    place = rows[:, first[line]] * (1 - share) + rows[:, last[line]] * share
+    off = (np.abs(place - rows[:, first[line] + on]) > 1.0).any(axis=0)
     return np.asarray(np.bincount(line[off], minlength=len(first)) == 0)
 
 
