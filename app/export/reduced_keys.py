@@ -70,22 +70,21 @@ def reduced(scene: Scene, marks: Marks, most_mm: float, pose: bool = False) -> S
     # Of the curves as they are written with few keys.
     clip = replace(clip, keys=Keys(tuple(np.zeros(1, np.intp) for _ in scene.bones), weights, face))
     motion = _Motion(scene, clip, marks, most_mm / 1000.0)
-    values = motion.scaled()
-    kept = np.zeros((len(motion.moving), clip.frames), bool)
-    kept[:, 0] = True
-    for rows, numbers in values:
-        kept[rows] = straight_keys(numbers)
-    _settle(motion, kept, shared=False)
-    poses = None
-    if pose:
-        together = np.concatenate([row for _, numbers in values for row in numbers], axis=1) if values else None
-        shared = np.ones((1, 1), bool) if together is None else straight_keys(together[None])
-        every = np.repeat(shared, len(motion.moving), axis=0)
-        _settle(motion, every, shared=True)
-        poses = np.flatnonzero(every.any(axis=0)) if len(every) else np.zeros(1, np.intp)
     bones = [np.zeros(1, np.intp) for _ in scene.bones]
-    for row, bone in enumerate(motion.moving.tolist()):
-        bones[bone] = np.flatnonzero(kept[row])
+    poses = np.zeros(1, np.intp) if pose else None
+    if len(motion.moving):
+        values = motion.scaled()
+        kept = np.zeros((len(motion.moving), clip.frames), bool)
+        for rows, numbers in values:
+            kept[rows] = straight_keys(numbers)
+        _settle(motion, kept, shared=False)
+        for row, bone in enumerate(motion.moving.tolist()):
+            bones[bone] = np.flatnonzero(kept[row])
+        if pose:
+            together = np.concatenate([row for _, numbers in values for row in numbers], axis=1)
+            kept = np.repeat(straight_keys(together[None]), len(motion.moving), axis=0)
+            _settle(motion, kept, shared=True)
+            poses = np.flatnonzero(kept[0])
     keys = Keys(tuple(bones), weights, face, poses)
     return replace(scene, clip=replace(clip, keys=_with_end(keys, clip.frames)))
 
@@ -309,19 +308,22 @@ def _settle(motion: _Motion, kept: BoolArray, shared: bool) -> None:
     while changed.any():
         rounds += 1
         spans = Spans.of(kept)
-        added = np.zeros(kept.shape, bool)
+        added, beyond = np.zeros(kept.shape, bool), np.zeros(motion.frames, bool)
         frames = np.flatnonzero(changed)
         for first in range(0, len(frames), _CHUNK):
-            _add_keys(motion, kept, added, spans, frames[first : first + _CHUNK], shared, rounds > _ROUNDS)
+            some = frames[first : first + _CHUNK]
+            beyond[some] = _add_keys(motion, kept, added, spans, some, shared, rounds > _ROUNDS)
         if shared:
             added[:] = added.any(axis=0)
         # Whatever is between the keys around a new one has another line now.
         new = added & ~kept
+        if not new.any():
+            return
         rows, places = np.nonzero(new)
         touched = np.zeros(motion.frames + 1, np.int64)
         np.add.at(touched, spans.before[rows, places], 1)
         np.add.at(touched, spans.after[rows, places] + 1, -1)
-        changed = np.cumsum(touched)[:-1] > 0
+        changed = beyond | (np.cumsum(touched)[:-1] > 0)
         kept |= new
 
 
@@ -333,8 +335,15 @@ def _add_keys(
     frames: IntArray,
     shared: bool,
     all_frames: bool,
-) -> None:
-    """Add keys where something is beyond its bound at some frames: at the worst of each run of them, or at all."""
+) -> BoolArray:
+    """Add keys where something is beyond its bound at some frames: at the worst of each run of them, or at all.
+
+    Returns
+    -------
+    ndarray of bool, shape (f,)
+        Whether anything is beyond its bound at each frame.
+    """
+    beyond = np.zeros(len(frames), bool)
     here = spans.at(frames)
     meant = motion.meant(frames)
     shown = [motion.shown(frames, here, by_angles) for by_angles in ((False,) if shared else (False, True))]
@@ -346,14 +355,18 @@ def _add_keys(
             placed_m[row] = np.linalg.norm(places_m - meant.places_m[row], axis=-1)
         off = _angles(one.turned, meant.turned)
         excess = np.maximum(off / _ROTATION_RAD, placed_m / motion.most_m)
+        beyond |= (excess > 1.0).any(axis=0)
         for row in np.flatnonzero((excess > 1.0).any(axis=1)).tolist():
             added[row, frames[_worst(excess[row], all_frames)]] = True
         # What each bone may have to do with a mark that is off.
         off_m = np.linalg.norm(one_m - meant_m, axis=-1)
         effect_m = np.where(kept[:, frames], 0.0, off * motion.reach_m[:, None] + placed_m)
-        for at in _worst(off_m.max(axis=0, initial=0.0) / motion.most_m, all_frames):
+        marks_off = off_m.max(axis=0, initial=0.0) / motion.most_m
+        beyond |= marks_off > 1.0
+        for at in _worst(marks_off, all_frames):
             effects = np.where(motion.chains[int(off_m[:, at].argmax())], effect_m[:, at], 0.0)
             added[(effects > 0.0) & (effects >= (0.0 if all_frames else 0.5 * effects.max())), frames[at]] = True
+    return beyond
 
 
 def _worst(excess: FloatArray, all_frames: bool) -> list[int]:
