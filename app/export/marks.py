@@ -16,6 +16,7 @@ from app.rig.skinning import Skin
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.intp]
+_NO_SHAPES: FloatArray = np.zeros((0, 0, 3))
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,3 +143,79 @@ def _add_mean(gathered: _Gathered, skin: Skin) -> None:
         moved = {name: shape[index] for name, shape in shapes.items() if shape[index].any()}
         gathered.add(bone, points[index], float(share_of_vertex[:, index].sum()), **moved)
     gathered.count += 1
+
+
+@dataclass(frozen=True, eq=False)
+class Link:
+    """How a bone that moves hangs on the next one above it that does.
+
+    Attributes
+    ----------
+    above : int
+        Row of that one; -1 where there is none.
+    turn : (3, 3) float64 or None
+        Rotation of the bone's parent on it; None where the parent is that one.
+    offset_m : (3,) float64
+        Place of the parent on it.
+    place_m : (3,) float64
+        Of the bone on its parent, where it does not leave it.
+    """
+
+    above: int
+    turn: FloatArray | None
+    offset_m: FloatArray
+    place_m: FloatArray
+
+
+def rigid_links(
+    marks: Marks, parents: Sequence[int], moving: npt.NDArray[np.integer], turns: FloatArray, places_m: FloatArray
+) -> tuple[list[Link], dict[int, Carried]]:
+    """Only the bones that move, and the marks on them: what is still on its parent goes with it.
+
+    Parameters
+    ----------
+    marks : Marks
+    parents : sequence of int
+    moving : (N,) int
+        The bones that move.
+    turns, places_m : (B, 3, 3) and (B, 3) float64
+        Of all bones on their parents, in a frame.
+
+    Returns
+    -------
+    list of Link
+        Of the moving bones.
+    dict of int to Carried
+        By row of the moving bone; -1: what is still in the world.
+    """
+    row_of = {bone: row for row, bone in enumerate(moving.tolist())}
+    at: list[tuple[int, FloatArray, FloatArray]] = []
+    links: list[Link] = []
+    parts: dict[int, list[Carried]] = {}
+    for bone, parent in enumerate(parents):
+        row, turn, offset_m = at[parent] if parent >= 0 else (-1, np.eye(3), np.zeros(3))
+        if bone in row_of:
+            direct = parent < 0 or parent in row_of
+            links.append(Link(row, None if direct else turn, offset_m, places_m[bone]))
+            at.append((row_of[bone], np.eye(3), np.zeros(3)))
+        else:
+            at.append((row, turn @ turns[bone], turn @ places_m[bone] + offset_m))
+        row, turn, offset_m = at[bone]
+        parts.setdefault(row, []).append(Carried(np.array([bone]), offset_m[None], np.ones(1), _NO_SHAPES))
+        own = marks.carried.get(bone)
+        if own is not None:
+            points_m = own.points_m @ turn.T + own.shares[:, None] * offset_m
+            parts[row].append(Carried(own.marks, points_m, own.shares, own.shapes_m @ turn.T))
+    return links, {row: _joined(found, len(marks.morphs), marks.count) for row, found in parts.items()}
+
+
+def _joined(parts: Sequence[Carried], morphs: int, count: int) -> Carried:
+    """What one bone adds, where several that go with it add to the same marks."""
+    points_m, shares, shapes_m = np.zeros((count, 3)), np.zeros(count), np.zeros((morphs, count, 3))
+    for part in parts:
+        points_m[part.marks] += part.points_m
+        shares[part.marks] += part.shares
+        if part.shapes_m.size:
+            shapes_m[:, part.marks] += part.shapes_m
+    used = np.unique(np.concatenate([part.marks for part in parts]))
+    return Carried(used, points_m[used], shares[used], shapes_m[:, used])

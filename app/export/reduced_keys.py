@@ -21,7 +21,7 @@ from typing import Final, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from app.export.marks import Marks
+from app.export.marks import Marks, rigid_links
 from app.export.playback import METRES
 from app.formats.continuous import continuous
 from app.formats.euler import matrices, quaternions
@@ -145,10 +145,10 @@ class _Motion:
         self.rotations = np.ascontiguousarray(rotations[:, moves].transpose(1, 0, 2))
         self.angles = rotation_curves(clip)[moves].transpose(0, 2, 1).astype(np.float32)
         self.places_m = {row: places_m[bone] for row, bone in enumerate(self.moving.tolist()) if bone in places_m}
-        self._still_turned = matrices(rotations[0])
-        self._still_m = np.stack([np.asarray(bone.translation_cm, np.float64) for bone in scene.bones]) * METRES
+        still_m = np.stack([np.asarray(bone.translation_cm, np.float64) for bone in scene.bones]) * METRES
         for bone, values in places_m.items():
-            self._still_m[bone] = values[0]
+            still_m[bone] = values[0]
+        self._links, self._carried = rigid_links(marks, self.parents, self.moving, matrices(rotations[0]), still_m)
         rest = np.zeros(clip.frames)
         self.weights = np.array([clip.morph_weights.get(name, rest) for name in marks.morphs], np.float64)
         self.weights = self.weights.reshape(-1, clip.frames)
@@ -156,8 +156,6 @@ class _Motion:
         face = np.zeros((1, clip.frames), bool)
         face[0, clip.keys.face] = True
         self._face_weights = Spans.of(face).straight(self.weights.T[None])[0].T
-        rows = {bone: row for row, bone in enumerate(self.moving.tolist())}
-        self._rows = [rows.get(bone, -1) for bone in range(len(self.parents))]
         self.chains = marks.hang_on(self.parents)[:, self.moving]
         """Whether each mark (K,) hangs on each moving bone (N,)."""
         self.reach_m = self._reach_m()
@@ -220,24 +218,24 @@ class _Motion:
         local = matrices(turned)
         result = np.zeros((self.marks.count, turned.shape[1], 3))
         placed: list[tuple[FloatArray, FloatArray]] = []
-        for bone, parent in enumerate(self.parents):
-            row = self._rows[bone]
-            turn = self._still_turned[bone] if row < 0 else local[row]
-            place_m = places_m[row] if row in places_m else self._still_m[bone]
-            if parent >= 0:
-                above, above_m = placed[parent]
-                turn, place_m = _product(above, turn), above_m + _applied(above, place_m)
+        for row, link in enumerate(self._links):
+            turn, place_m = local[row], places_m.get(row, link.place_m)
+            if link.turn is not None:
+                turn, place_m = link.turn @ turn, _applied(link.turn, place_m) + link.offset_m
+            if link.above >= 0:
+                above, above_m = placed[link.above]
+                turn, place_m = above @ turn, above_m + _applied(above, place_m)
             placed.append((turn, place_m))
-            result[bone] = place_m
-            carried = self.marks.carried.get(bone)
-            if carried is not None:
-                points = carried.points_m
-                if carried.shapes_m.any():
-                    shaped = points[:, None] + np.tensordot(carried.shapes_m, weights, axes=(0, 0)).swapaxes(1, 2)
-                    moved = _applied(turn, shaped)
-                else:
-                    moved = (points @ turn.reshape(-1, 3).T).reshape(len(points), -1, 3)
-                result[carried.marks] += moved + carried.shares[:, None, None] * place_m
+        placed.append((np.eye(3), np.zeros(3)))
+        for row, carried in self._carried.items():
+            turn, place_m = placed[row]
+            points = carried.points_m
+            if carried.shapes_m.any():
+                shaped = points[:, None] + np.tensordot(carried.shapes_m, weights, axes=(0, 0)).swapaxes(1, 2)
+                moved = _applied(turn, shaped)
+            else:
+                moved = (points @ turn.reshape(-1, 3).T).reshape(len(points), -1, 3)
+            result[carried.marks] += moved + carried.shares[:, None, None] * place_m
         return result
 
     def meant(self, frames: IntArray) -> Shown:
@@ -268,13 +266,6 @@ def _together(shown: Sequence[Shown]) -> Shown:
         {row: np.concatenate([one.places_m[row] for one in shown]) for row in shown[0].places_m},
         np.concatenate([one.weights for one in shown], axis=1),
     )
-
-
-def _product(turns: FloatArray, by: FloatArray) -> FloatArray:
-    """Matrix products of turns (f, 3, 3) or (3, 3), one of all frames at once where the other is the same in all."""
-    if by.ndim == 2 and turns.ndim == 3:
-        return np.asarray((turns.reshape(-1, 3) @ by).reshape(len(turns), 3, -1))
-    return np.asarray(turns @ by)
 
 
 def _applied(turns: FloatArray, vectors: FloatArray) -> FloatArray:
