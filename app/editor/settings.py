@@ -241,7 +241,7 @@ class Settings(QObject):
     """The Unreal project that players were last exported into; empty: none."""
     export_into = Setting("files/export_into", "folder")
     """Where players were last exported to: ``"folder"`` or ``"unreal"``."""
-    export_keys = Setting("files/export_keys", "every", KeyChoice)
+    export_keys = Setting[KeyChoice]("files/export_keys", "every", KeyChoice)
     """Which frames of exported files last had keys."""
     _recent = Setting("files/recent", tuple[str, ...](), tuple[str, ...])
 
