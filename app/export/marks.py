@@ -14,7 +14,7 @@ from app.formats.scene import SkinnedMesh
 from app.rig.model import Character
 from app.rig.skinning import Skin
 
-FloatArray = npt.NDArray[np.float64]
+FloatArray = npt.NDArray[np.floating]
 IntArray = npt.NDArray[np.intp]
 _NO_SHAPES: FloatArray = np.zeros((0, 0, 3))
 
@@ -26,11 +26,11 @@ class Carried:
     Attributes
     ----------
     marks : (K,) int
-    points_m : (K, 3) float64
+    points_m : (K, 3)
         In the bone's frame, times the shares.
-    shares : (K,) float64
+    shares : (K,)
         Of the mark that the bone carries.
-    shapes_m : (M, K, 3) float64
+    shapes_m : (M, K, 3)
         What each morph of `Marks.morphs` adds to the points.
     """
 
@@ -153,11 +153,11 @@ class Link:
     ----------
     above : int
         Row of that one; -1 where there is none.
-    turn : (3, 3) float64 or None
+    turn : (3, 3) float32 or None
         Rotation of the bone's parent on it; None where the parent is that one.
-    offset_m : (3,) float64
+    offset_m : (3,) float32
         Place of the parent on it.
-    place_m : (3,) float64
+    place_m : (3,) float32
         Of the bone on its parent, where it does not leave it.
     """
 
@@ -184,7 +184,7 @@ def rigid_links(
     Returns
     -------
     list of Link
-        Of the moving bones.
+        Of the moving bones, in single precision, which is good for some thousandths of a millimetre.
     dict of int to Carried
         By row of the moving bone; -1: what is still in the world.
     """
@@ -196,7 +196,7 @@ def rigid_links(
         row, turn, offset_m = at[parent] if parent >= 0 else (-1, np.eye(3), np.zeros(3))
         if bone in row_of:
             direct = parent < 0 or parent in row_of
-            links.append(Link(row, None if direct else turn, offset_m, places_m[bone]))
+            links.append(Link(row, None if direct else _single(turn), _single(offset_m), _single(places_m[bone])))
             at.append((row_of[bone], np.eye(3), np.zeros(3)))
         else:
             at.append((row, turn @ turns[bone], turn @ places_m[bone] + offset_m))
@@ -218,4 +218,8 @@ def _joined(parts: Sequence[Carried], morphs: int, count: int) -> Carried:
         if part.shapes_m.size:
             shapes_m[:, part.marks] += part.shapes_m
     used = np.unique(np.concatenate([part.marks for part in parts]))
-    return Carried(used, points_m[used], shares[used], shapes_m[:, used])
+    return Carried(used, _single(points_m[used]), _single(shares[used]), _single(shapes_m[:, used]))
+
+
+def _single(values: FloatArray) -> FloatArray:
+    return values.astype(np.float32)

@@ -29,7 +29,7 @@ from app.formats.fbx.curves import EULER_ORDER, place_curves, rotation_curves
 from app.formats.keys import BoolArray, Keys, Spans, runs, straight_keys
 from app.formats.scene import Clip, Scene
 
-FloatArray = npt.NDArray[np.float64]
+FloatArray = npt.NDArray[np.floating]
 IntArray = npt.NDArray[np.integer]
 
 PLACE_MM: Final = 0.5
@@ -39,7 +39,7 @@ ROTATION_DEG: Final = 0.25
 WEIGHT: Final = 0.005
 
 _ROTATION_RAD = float(np.radians(ROTATION_DEG))
-_CHAIN = 1.3
+_CHAIN = 1.2
 """Root of the sum of squares that the bones of a chain may have, as a multiple of the bound: they are seldom all off
 at once and to the same side."""
 _BOX = float(np.sqrt(2.0))
@@ -215,23 +215,27 @@ class _Motion:
         weights : (M, f)
             Of the marks' morphs.
         """
-        local = matrices(turned)
-        result = np.zeros((self.marks.count, turned.shape[1], 3))
+        local = matrices(turned).astype(np.float32)
+        placed_m = {row: values.astype(np.float32) for row, values in places_m.items()}
+        result = np.zeros((self.marks.count, turned.shape[1], 3), np.float32)
         placed: list[tuple[FloatArray, FloatArray]] = []
         for row, link in enumerate(self._links):
-            turn, place_m = local[row], places_m.get(row, link.place_m)
+            turn: FloatArray = local[row]
+            place_m: FloatArray = placed_m.get(row, link.place_m)
             if link.turn is not None:
                 turn, place_m = link.turn @ turn, _applied(link.turn, place_m) + link.offset_m
             if link.above >= 0:
                 above, above_m = placed[link.above]
                 turn, place_m = above @ turn, above_m + _applied(above, place_m)
             placed.append((turn, place_m))
-        placed.append((np.eye(3), np.zeros(3)))
+        placed.append((np.eye(3, dtype=np.float32), np.zeros(3, np.float32)))
         for row, carried in self._carried.items():
             turn, place_m = placed[row]
             points = carried.points_m
             if carried.shapes_m.any():
-                shaped = points[:, None] + np.tensordot(carried.shapes_m, weights, axes=(0, 0)).swapaxes(1, 2)
+                shaped = points[:, None] + np.tensordot(
+                    carried.shapes_m, weights.astype(np.float32), axes=(0, 0)
+                ).swapaxes(1, 2)
                 moved = _applied(turn, shaped)
             else:
                 moved = (points @ turn.reshape(-1, 3).T).reshape(len(points), -1, 3)
@@ -343,14 +347,14 @@ def _add_keys(
     for one, one_m in zip(shown, shown_m, strict=True):
         placed_m = np.zeros((len(motion.moving), len(frames)))
         for row, places_m in one.places_m.items():
-            placed_m[row] = np.linalg.norm(places_m - meant.places_m[row], axis=-1)
+            placed_m[row] = _lengths(places_m - meant.places_m[row])
         off = _angles(one.turned, meant.turned)
         excess = np.maximum(off / _ROTATION_RAD, placed_m / motion.most_m)
         beyond |= (excess > 1.0).any(axis=0)
         for row in np.flatnonzero((excess > 1.0).any(axis=1)).tolist():
             added[row, frames[_worst(excess[row], all_frames)]] = True
         # What each bone may have to do with a mark that is off.
-        off_m = np.linalg.norm(one_m - meant_m, axis=-1)
+        off_m = _lengths(one_m - meant_m)
         effect_m = np.where(kept[:, frames], 0.0, off * motion.reach_m[:, None] + placed_m)
         marks_off = off_m.max(axis=0, initial=0.0) / motion.most_m
         beyond |= marks_off > 1.0
@@ -368,7 +372,12 @@ def _worst(excess: FloatArray, all_frames: bool) -> list[int]:
     return [span.start + int(excess[span].argmax()) for span in runs(beyond)]
 
 
+def _lengths(vectors: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
+    """Of vectors (..., D)."""
+    return np.asarray(np.sqrt(np.einsum("...i,...i->...", vectors, vectors)))
+
+
 def _angles(shown: FloatArray, meant: FloatArray) -> FloatArray:
     """Angles between unit quaternions (..., 4), radians."""
-    chord = np.minimum(np.linalg.norm(shown - meant, axis=-1), np.linalg.norm(shown + meant, axis=-1))
+    chord = np.minimum(_lengths(shown - meant), _lengths(shown + meant))
     return np.asarray(4.0 * np.arcsin(np.minimum(0.5 * chord, 1.0)))
