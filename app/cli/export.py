@@ -24,7 +24,7 @@ from app.cli.summary import project_summary, summary
 from app.cli.terminal import interrupted_by, say
 from app.encoding import shown
 from app.errors import UsageError
-from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format, KeyChoice
+from app.export.formats import FILE_FORMATS, KEY_CHOICES, USUAL_FORMATS, Format
 from app.messages import text
 from app.project.parameters import select_players
 from app.version import program_version
@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from app.export.target import SkeletonChoice
 
 SKELETONS: Final[tuple[SkeletonChoice, ...]] = ("own", "ue5", "suisou")
-KEYS: Final[tuple[KeyChoice, ...]] = ("every", "reduced")
 
 
 def add_command(commands: Commands) -> None:
@@ -109,10 +108,10 @@ def add_command(commands: Commands) -> None:
     )
     command.add_argument(
         "--keys",
-        choices=KEYS,
+        choices=KEY_CHOICES,
         default="every",
         help="a key on every frame, or reduced: as few linear keys as keep rotations within 0.25 degrees, and joints, "
-        "fingertips, lips, soles and instruments within 0.5 mm at every frame; BVH always has every frame "
+        "fingertips, lips, soles and instruments within 0.5 mm, at every frame; BVH always has every frame "
         "(default: every)",
     )
     command.add_argument(

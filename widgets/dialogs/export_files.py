@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
-from typing import Final
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtWidgets import (
@@ -21,7 +20,7 @@ from app.editor.tasks import Progress, StopRequested
 from app.editor.tokens import LEAST_TARGET_PX
 from app.encoding import shown
 from app.errors import AppError, Message
-from app.export.formats import FILE_FORMATS, KeyChoice
+from app.export.formats import FILE_FORMATS, KEY_CHOICES, KeyChoice
 from app.export.request import Request
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
@@ -44,7 +43,6 @@ SHOW_MS = 50
 """Progress is shown this often."""
 OUTCOME_PX = 84
 """Room for some lines of what comes of an export; more are scrolled to."""
-KEYS: Final[tuple[KeyChoice, ...]] = ("every", "reduced")
 _NAMES = 6
 """Of the files that are replaced or removed, so many are named."""
 
@@ -66,7 +64,7 @@ class ExportDialog(WorkingDialog):
     destination : str
         Where the last export went: ``"folder"`` or ``"unreal"``.
     keys : str
-        What was chosen of `KEYS` before.
+        What was chosen of `KEY_CHOICES` before.
     source, creator : str
         Name of the piece's file; program and version, for the report.
     parent : QWidget, optional
@@ -103,9 +101,9 @@ class ExportDialog(WorkingDialog):
         for profile, table in load_bone_names().items():
             self._bvh_names.addItem(table.title, profile)
         self._keys = named(ComboBox(), "export_keys")
-        for choice in KEYS:
+        for choice in KEY_CHOICES:
             self._keys.addItem("", choice)
-        self._keys.setCurrentIndex(KEYS.index(keys))
+        self._keys.setCurrentIndex(KEY_CHOICES.index(keys))
         self._range = RangeChooser(session, self._project.score)
         self._preroll = named(QDoubleSpinBox(), "export_preroll")
         self._preroll.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
@@ -183,7 +181,7 @@ class ExportDialog(WorkingDialog):
     @property
     def keys(self) -> KeyChoice:
         """Which frames have keys."""
-        return KEYS[self._keys.currentIndex()]
+        return KEY_CHOICES[self._keys.currentIndex()]
 
     def _request(self) -> Request:
         project = replace(self._project, preroll_beats=self._preroll.value())

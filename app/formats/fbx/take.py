@@ -18,6 +18,8 @@ from app.formats.fbx.graph import FbxObject, Float64Array, ObjectGraph, numbers,
 
 MOST_VALUES = 2**25
 """Frames times bones, and vertices times influences: far beyond any real file, small enough for any computer."""
+_MOST_FRAMES = 2**20
+"""Some hours: few keys may claim to be a long clip."""
 _ANIMATED = {
     "Lcl Rotation": ("LimbNode", 3),
     "Lcl Translation": ("LimbNode", 3),
@@ -61,7 +63,7 @@ def read_take(graph: ObjectGraph, root: Element) -> Take | None:
     if not stop:
         raise FileError("fbx.missing", file=graph.file, what="end of the animation")
     last = ticks.nearest_frames(np.array(stop[:1]), fps)[0]
-    if not 0 <= last < MOST_VALUES:
+    if not 0 <= last < _MOST_FRAMES:
         raise FileError("fbx.unsupported", file=graph.file, what=f"{last + 1} frames")
     frames = int(last) + 1
     curves = _curves(graph, stacks[0], ticks.frame_ticks(fps, frames), fps)
