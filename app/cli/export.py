@@ -24,7 +24,7 @@ from app.cli.summary import project_summary, summary
 from app.cli.terminal import interrupted_by, say
 from app.encoding import shown
 from app.errors import UsageError
-from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
+from app.export.formats import FILE_FORMATS, KEY_CHOICES, USUAL_FORMATS, Format
 from app.messages import text
 from app.project.parameters import select_players
 from app.version import program_version
@@ -107,6 +107,14 @@ def add_command(commands: Commands) -> None:
         + ", ".join(name for name, kind in FILE_FORMATS.items() if kind.write_stage is not None),
     )
     command.add_argument(
+        "--keys",
+        choices=KEY_CHOICES,
+        default="every",
+        help="a key on every frame, or reduced: as few linear keys as keep rotations within 0.25 degrees, and joints, "
+        "fingertips, lips, soles and instruments within 0.5 mm, at every frame; BVH always has every frame "
+        "(default: every)",
+    )
+    command.add_argument(
         "--jobs",
         type=jobs,
         metavar="N",
@@ -167,6 +175,10 @@ def export(arguments: argparse.Namespace) -> int:
         raise UsageError("unreal.stage")
     if arguments.stage and all(FILE_FORMATS[name].write_stage is None for name in formats):
         raise UsageError("stage.formats")
+    if arguments.keys == "reduced" and arguments.unreal is not None:
+        raise UsageError("unreal.keys")
+    if arguments.keys == "reduced" and not any(FILE_FORMATS[name].reduces_keys for name in formats):
+        raise UsageError("keys.formats")
     # What is wrong with it is reported before anything is read.
     unreal = None if arguments.unreal is None else find_project(arguments.unreal)
     clean_up()
@@ -196,6 +208,7 @@ def export(arguments: argparse.Namespace) -> int:
         bvh_names=arguments.bvh_names,
         dancers=tuple(project.dancers[index - count] for index in chosen if index >= count),
         processes=arguments.jobs,
+        keys=arguments.keys,
     )
     try:
         with interrupted_by(signal.SIGTERM):

@@ -35,7 +35,17 @@ def summary(report: Report, folder: Path) -> list[str]:
         + f"{report.frames} frames at {report.fps_exact} frames/s; "
         f"the sound starts at {-report.first_frame_s:.3f} s"
     ]
+    if report.keys == "reduced":
+        lines += [f"reduced keys: {100.0 * share_of_keys(report):.1f} % of those on every frame"]
     return [*lines, *_judgement(report)]
+
+
+def share_of_keys(report: Report) -> float:
+    """How many keys were written, of those that would be on every frame."""
+    counts = [player.keys for player in report.players] + [dancer.keys for dancer in report.dancers]
+    counts += [double.keys for player in report.players for double in player.doubles]
+    known = [count for count in counts if count is not None]
+    return sum(count.written for count in known) / max(sum(count.every for count in known), 1)
 
 
 def project_summary(written: Written, project: UnrealProject) -> list[str]:

@@ -28,6 +28,7 @@ from app.editor.listening import Source
 from app.editor.session import Session
 from app.editor.setting_bindings import FOLDED, THEME, TIME, SettingBinding, in_listening, in_pitches
 from app.errors import AppError, FileError, MapError, Message
+from app.export.formats import KeyChoice
 from app.formats.atomic import atomic_write
 from app.formats.files import cannot_write
 from app.formats.toml import read_toml, shaped, toml
@@ -240,6 +241,8 @@ class Settings(QObject):
     """The Unreal project that players were last exported into; empty: none."""
     export_into = Setting("files/export_into", "folder")
     """Where players were last exported to: ``"folder"`` or ``"unreal"``."""
+    export_keys = Setting[KeyChoice]("files/export_keys", "every", KeyChoice)
+    """Which frames of exported files last had keys."""
     _recent = Setting("files/recent", tuple[str, ...](), tuple[str, ...])
 
     _shortcuts = Setting("shortcuts", dict[str, str](), dict[str, str])

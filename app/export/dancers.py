@@ -15,6 +15,7 @@ from app.export.character import character_scene
 from app.export.file_names import figure_stems, file_names
 from app.export.formats import FILE_FORMATS
 from app.export.joint_playback import JointPlayback
+from app.export.keyed import key_count, keyed_character
 from app.export.playback import Playback
 from app.export.player import skeleton_report, write_options
 from app.export.report import DancerMeasures, DancerReport, stage_place
@@ -80,6 +81,7 @@ def export_dancer(
     motion = dancing.motion(span.fps, span.first, span.count)
     reported(0.3)
     scene = character_scene(character, motion, stem, request.creator, target)
+    scene = keyed_character(scene, request.keys, request.formats, character, target)
     beside = write_options(request, character, target)
     for name, kind in FILE_FORMATS.items():
         if name in request.formats:
@@ -100,4 +102,5 @@ def export_dancer(
         steps=sum(span.first_frame_s <= start_s < span.end_s for start_s in starts_s),
         skeleton=skeleton_report(request, checked),
         measures=measures,
+        keys=key_count(scene),
     )

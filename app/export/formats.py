@@ -12,6 +12,9 @@ from app.formats.usd import Sound, refuse_without_usd
 
 Format = Literal["fbx", "bvh", "glb", "usd"]
 FileContent = Literal["character", "instrument"]
+KeyChoice = Literal["every", "reduced"]
+"""A key on every frame, or as few as keep everything within a bound (`app.export.reduced_keys`)."""
+KEY_CHOICES: Final[tuple[KeyChoice, ...]] = ("every", "reduced")
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,8 @@ class FileFormat:
         Writes a scene that has a clip.
     write_stage : callable or None
         Writes several such scenes, each with a name and a place, into one file; None: it can hold one only.
+    reduces_keys : bool
+        Whether it can have fewer keys than one on every frame.
     refuse : callable
         Raises UsageError where what writes this kind of file is not installed.
     """
@@ -56,6 +61,7 @@ class FileFormat:
     write: Callable[[Path, Scene, WriteOptions], None]
     write_stage: Callable[[Path, Iterable[Scene], WriteOptions], None] | None = None
     refuse: Callable[[], None] = lambda: None
+    reduces_keys: bool = True
 
 
 # The writers are loaded when something is written: the command line names the formats in its help.
@@ -110,7 +116,7 @@ def _usd_sound(beside: WriteOptions) -> Sound | None:
 
 FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
     "fbx": FileFormat(".fbx", ("character", "instrument"), 3.0, _fbx, _fbx_stage),
-    "bvh": FileFormat(".bvh", ("character",), 1.0, _bvh),
+    "bvh": FileFormat(".bvh", ("character",), 1.0, _bvh, reduces_keys=False),
     "glb": FileFormat(".glb", ("character", "instrument"), 2.0, _glb, _glb_stage),
     "usd": FileFormat(".usdc", ("character", "instrument"), 6.0, _usd, _usd_stage, refuse_without_usd),
 }

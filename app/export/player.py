@@ -18,6 +18,7 @@ from app.export.character import character_scene
 from app.export.file_names import figure_stems, file_names, sound_name
 from app.export.formats import FILE_FORMATS, FileContent, WriteOptions
 from app.export.instrument import instrument_scene
+from app.export.keyed import KeyCount, key_count, keyed_character, keyed_instrument
 from app.export.measure import Measured, measure_player
 from app.export.report import DoubleReport, PlayerReport, SkeletonReport, stage_place
 from app.export.request import ExportCast, Request
@@ -83,6 +84,7 @@ def export_player(
     )
     held_by = {held for kind in requested.values() for held in kind.holds}
     scenes = _scenes(request, performer, target, motion, stems[performer.player.id], held_by)
+    keys = key_count(*scenes.values())
     beside = write_options(request, performer.character, target)
     problems: dict[str, tuple[Problem, ...]] = {}
     writing = [(name, kind, held) for name, kind in requested.items() for held in kind.holds]
@@ -114,17 +116,19 @@ def export_player(
         motion = player_motion(performance, double, request.span)
         held_stem = stems[double.player.id]["instrument"]
         scene = instrument_scene(double.instrument, double.model, motion, held_stem, request.creator)
+        scene = keyed_instrument(scene, request.keys, request.formats)
+        own_keys = key_count(scene)
         for name, kind in requested.items():
             if "instrument" in kind.holds:
                 kind.write(folder / own_files[f"instrument_{name}"], scene, beside)
         _judge(problems, performance, double, motion)
         del motion, scene
         own = judging.measured(double, own_files, measuring)
-        reports.append(DoubleReport(**_reported(request, double, own_files, own)))
+        reports.append(DoubleReport(**_reported(request, double, own_files, own, own_keys)))
     reported(1.0)
     player = performer.player
     report = PlayerReport(
-        **_reported(request, performer, files, measured),
+        **_reported(request, performer, files, measured, keys),
         character=player.character_id,
         posture=performance.instrument(player).hold.possible(player.parameters.posture),
         stage=stage_place(player.stage),
@@ -177,7 +181,7 @@ class _Judging:
 
 
 def _reported(
-    request: Request, performer: Performer, files: dict[str, str], measured: Measured | None
+    request: Request, performer: Performer, files: dict[str, str], measured: Measured | None, keys: KeyCount
 ) -> dict[str, Any]:
     """What is reported of a player, whether the musician's first one or one who doubles."""
     player, span = performer.player, request.span
@@ -190,6 +194,7 @@ def _reported(
         "files": files,
         "notes": sum(span.shows_onset(note.start_s) for note in request.performance.plan(player).fingerings),
         "measures": None if measured is None else measured.measures,
+        "keys": keys,
     }
 
 
@@ -216,9 +221,9 @@ def _scenes(
     """The scenes that some format asked for can hold."""
     scenes: dict[FileContent, Scene] = {}
     if "character" in held:
-        scenes["character"] = character_scene(performer.character, motion, stems["character"], request.creator, target)
+        scene = character_scene(performer.character, motion, stems["character"], request.creator, target)
+        scenes["character"] = keyed_character(scene, request.keys, request.formats, performer.character, target)
     if "instrument" in held:
-        scenes["instrument"] = instrument_scene(
-            performer.instrument, performer.model, motion, stems["instrument"], request.creator
-        )
+        scene = instrument_scene(performer.instrument, performer.model, motion, stems["instrument"], request.creator)
+        scenes["instrument"] = keyed_instrument(scene, request.keys, request.formats)
     return scenes

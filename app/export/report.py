@@ -8,7 +8,8 @@ import msgspec
 
 from app.contacts.bounds import Spread, allowed_mm
 from app.export.check_skeleton import Difference
-from app.export.formats import Format
+from app.export.formats import Format, KeyChoice
+from app.export.keyed import KeyCount
 from app.export.measure import PlayerMeasures
 from app.export.target import SkeletonChoice
 from app.project.casting import StagePosition
@@ -88,6 +89,8 @@ class DoubleReport(msgspec.Struct, frozen=True):
     files: dict[str, str]
     notes: int
     measures: PlayerMeasures | None
+    keys: KeyCount | None = None
+    """Of the instrument's files."""
 
 
 class PlayerReport(msgspec.Struct, frozen=True):
@@ -114,6 +117,8 @@ class PlayerReport(msgspec.Struct, frozen=True):
     """Touches that the hold of this body does not meet however it moves, millimetres: reported, and counted apart."""
     doubles: tuple[DoubleReport, ...] = ()
     """The other instruments that the player changes to."""
+    keys: KeyCount | None = None
+    """Of the character's and the instrument's files, FBX and GLB."""
 
 
 class DancerReport(msgspec.Struct, frozen=True):
@@ -129,6 +134,7 @@ class DancerReport(msgspec.Struct, frozen=True):
     """Basic motions that begin in the frames."""
     skeleton: SkeletonReport
     measures: DancerMeasures | None
+    keys: KeyCount | None = None
 
 
 class StageFigure(msgspec.Struct, frozen=True):
@@ -184,6 +190,8 @@ class Report(msgspec.Struct, frozen=True):
     dancers: tuple[DancerReport, ...] = ()
     stage: StageReport | None = None
     """None where none was asked for."""
+    keys: KeyChoice = "every"
+    """Which frames have keys; how many that are is said of each performer."""
 
     @property
     def file_count(self) -> int:

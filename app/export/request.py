@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.errors import FileError, Message
-from app.export.formats import FILE_FORMATS, Format
+from app.export.formats import FILE_FORMATS, Format, KeyChoice
 from app.export.target import SkeletonChoice
 from app.export.targets import CheckedTarget, checked_targets, spoilt
 from app.performance.cast import LeftOut, Performer, dancings_of, performers_of, require_players
@@ -60,6 +60,8 @@ class Request:
         How many share the work at most; None: one per core, where it is worth it.
     asset : path or None
         File of the asset that the animation is for: every player's skeleton is compared with its.
+    keys : KeyChoice
+        Which frames have keys, in formats that can leave out some.
     """
 
     performance: Performance
@@ -77,6 +79,7 @@ class Request:
     dancers: tuple[Dancer, ...] = ()
     stage: bool = False
     processes: int | None = None
+    keys: KeyChoice = "every"
 
 
 @dataclass(frozen=True, eq=False)

@@ -177,4 +177,5 @@ def _report(
         sound=sound_name(request.source) if request.sound else None,
         dancers=dancers,
         stage=stage,
+        keys=request.keys,
     )

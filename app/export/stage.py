@@ -11,8 +11,9 @@ import numpy as np
 
 from app.export.character import CENTIMETRES, character_scene
 from app.export.file_names import figure_stems, sound_name, stage_names
-from app.export.formats import FILE_FORMATS, WriteOptions
+from app.export.formats import FILE_FORMATS, Format, WriteOptions
 from app.export.instrument import instrument_scene
+from app.export.keyed import keyed_character, keyed_instrument
 from app.export.report import StageFigure, StageReport, stage_place
 from app.export.request import ExportCast, Request
 from app.formats.scene import Place, Scene
@@ -42,8 +43,8 @@ def write_stage(
     figures: dict[str, StageFigure] = {}
     for number, (name, file) in enumerate(files.items()):
 
-        def scenes(begun: int = number) -> Iterator[Scene]:
-            for figure, scene in _figures(request, cast, lambda share: reported((begun + share) / len(files))):
+        def scenes(begun: int = number, name: Format = name) -> Iterator[Scene]:
+            for figure, scene in _figures(request, cast, name, lambda share: reported((begun + share) / len(files))):
                 figures[figure.node] = figure
                 yield scene
 
@@ -55,12 +56,13 @@ def write_stage(
 
 
 def _figures(
-    request: Request, cast: ExportCast, reported: Callable[[float], None]
+    request: Request, cast: ExportCast, name: Format, reported: Callable[[float], None]
 ) -> Iterator[tuple[StageFigure, Scene]]:
-    """Everyone's character and instruments, each with its place."""
+    """Everyone's character and instruments, each with its place, for a file of a format."""
     performance, span, creator = request.performance, request.span, request.creator
     stems, take = figure_stems(performance), file_stem(Path(request.source).stem)
     everyone = len(cast.performers) + len(cast.dances)
+    keys, formats = request.keys, frozenset((name,))
 
     def placed(one: Player | Dancer, stage: StagePosition, scene: Scene) -> tuple[StageFigure, Scene]:
         assert scene.clip is not None
@@ -74,16 +76,18 @@ def _figures(
             names, motion = stems[one.player.id], player_motion(performance, one, span)
             if one is performer:
                 character = character_scene(one.character, motion, names["character"], creator, target)
+                character = keyed_character(character, keys, formats, one.character, target)
                 yield placed(musician, musician.stage, character)
                 del character
             held = instrument_scene(one.instrument, one.model, motion, names["instrument"], creator)
-            yield placed(one.player, musician.stage, held)
+            yield placed(one.player, musician.stage, keyed_instrument(held, keys, formats))
     here = {dancer.id: dancer for dancer in request.dancers}
     for number, dancing in enumerate(cast.dances, len(cast.performers)):
         reported(number / everyone)
         dancer, target = here[dancing.dancer.id], cast.targets[dancing.dancer.id].target
         motion = dancing.motion(span.fps, span.first, span.count)
         character = character_scene(dancing.character, motion, stems[dancer.id]["character"], creator, target)
+        character = keyed_character(character, keys, formats, dancing.character, target)
         yield placed(dancer, dancer.stage, character)
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import msgspec
 
 from app.errors import AppError
-from app.export.formats import Format
+from app.export.formats import Format, KeyChoice
 from app.export.player import ExportedPlayer, export_player
 from app.export.request import Request, cast_of
 from app.export.target import SkeletonChoice
@@ -42,6 +42,7 @@ class Job(msgspec.Struct, frozen=True):
     asset: str | None
     sound: bool
     bvh_names: str
+    keys: KeyChoice
 
 
 class Share(msgspec.Struct, frozen=True, tag=True):
@@ -76,6 +77,7 @@ def job_of(request: Request, folder: Path) -> Job:
         asset=None if request.asset is None else str(request.asset.absolute()),
         sound=request.sound,
         bvh_names=request.bvh_names,
+        keys=request.keys,
     )
 
 
@@ -94,6 +96,7 @@ def _request(job: Job) -> Request:
         asset=None if job.asset is None else Path(job.asset),
         sound=job.sound,
         bvh_names=job.bvh_names,
+        keys=job.keys,
     )
 
 

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.formats.euler import matrices
+from app.formats.keys import Keys
 
 FloatArray = npt.NDArray[np.floating]
 IntArray = npt.NDArray[np.integer]
@@ -113,7 +114,7 @@ class SkinnedMesh:
 
 @dataclass(frozen=True, eq=False)
 class Clip:
-    """A baked animation: a key on every frame, the first at time zero.
+    """A baked animation: values of every frame, the first at time zero.
 
     Attributes
     ----------
@@ -127,6 +128,8 @@ class Clip:
         By bone index, relative to the parent; only the bones that move.
     morph_weights : mapping of str to ndarray, shape (F,)
         By morph name, 0 to 1.
+    keys : Keys or None
+        The frames whose values are written, where the format can leave out others; None: all of them.
     """
 
     name: str
@@ -135,6 +138,7 @@ class Clip:
     rotations_xyzw: FloatArray
     translations_cm: Mapping[int, FloatArray] = field(default_factory=dict)
     morph_weights: Mapping[str, FloatArray] = field(default_factory=dict)
+    keys: Keys | None = None
 
     @property
     def kind(self) -> tuple[str, Fraction, int]:
@@ -306,3 +310,5 @@ def _check_clip(clip: Clip, bone_count: int) -> None:
             raise ValueError(f"{what}: not all values are finite")
     if any(not 0 <= bone < bone_count for bone in clip.translations_cm):
         raise ValueError("translations of a bone that is not there")
+    if clip.keys is not None:
+        clip.keys.check(bone_count, clip.frames, clip.morph_weights)

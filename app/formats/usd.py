@@ -323,16 +323,21 @@ class _Writer:
         motion.CreateJointsAttr(joints)
         motion.CreateScalesAttr(Vt.Vec3hArray.FromNumpy(np.ones((len(joints), 3), dtype=np.float16)))
 
+        # All bones share their samples, and all morphs.
+        keys = clip.keys
+        every = np.arange(clip.frames)
+        poses = (every if keys is None or keys.pose is None else keys.pose).tolist()
+        faces = (every if keys is None else keys.face).tolist()
         rotations = continuous(clip.rotations_xyzw)
         attribute = motion.CreateRotationsAttr().GetPath()
-        for frame in range(clip.frames):
+        for frame in poses:
             self._layer.SetTimeSample(attribute, frame, Vt.QuatfArray.FromNumpy(rotations[frame]))
 
         places = np.stack([bone.translation_cm for bone in self._scene.bones]).astype(np.float32)
         translations = motion.CreateTranslationsAttr(None if clip.translations_cm else Vt.Vec3fArray.FromNumpy(places))
         if clip.translations_cm:
             moved = {bone: np.asarray(values, dtype=np.float32) for bone, values in clip.translations_cm.items()}
-            for frame in range(clip.frames):
+            for frame in poses:
                 for bone, values in moved.items():
                     places[bone] = values[frame]
                 self._layer.SetTimeSample(translations.GetPath(), frame, Vt.Vec3fArray.FromNumpy(places))
@@ -341,7 +346,7 @@ class _Writer:
             motion.CreateBlendShapesAttr(list(clip.morph_weights))
             weights = np.stack(list(clip.morph_weights.values()), axis=1).astype(np.float32)
             attribute = motion.CreateBlendShapeWeightsAttr().GetPath()
-            for frame in range(clip.frames):
+            for frame in faces:
                 self._layer.SetTimeSample(attribute, frame, Vt.FloatArray.FromNumpy(weights[frame]))
         binding = UsdSkel.BindingAPI.Apply(skeleton.GetPrim())
         binding.CreateAnimationSourceRel().SetTargets([motion.GetPath()])

@@ -65,6 +65,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "--stage requires a format that can hold several players: fbx, glb or usd",
         "--stage には、複数の奏者を収められる形式（fbx、glb、usd）が必要です",
     ),
+    "keys.formats": (
+        "--keys reduced requires a format that can leave out frames: fbx, glb or usd; BVH files hold every frame",
+        "--keys reduced には、フレームを省ける形式（fbx、glb、usd）が必要です。BVH には全フレームを書き出します",
+    ),
     "player.left_out": ("{player} is excluded: {reason}", "{player} は除外されました: {reason}"),
     "player.fault": (
         "{player} cannot be displayed because of an internal error: {detail}",

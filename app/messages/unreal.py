@@ -99,6 +99,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "--stage applies to exports to a folder; in an Unreal project the sequence places everyone",
         "--stage はフォルダーへの書き出し用です。Unreal プロジェクトでは、シーケンスが全員を配置します",
     ),
+    "unreal.keys": (
+        "--keys applies to exports to a folder; Unreal projects always get a key on every frame",
+        "--keys はフォルダーへの書き出し用です。Unreal プロジェクトには、常に全フレームにキーを書き出します",
+    ),
     "tree.busy": (
         "another export to {file} is in progress; wait until it finishes and export again",
         "{file} への別の書き出しが進行中です。終わってから、もう一度書き出してください",

@@ -20,6 +20,7 @@ from app.editor.tasks import Progress, StopRequested
 from app.editor.tokens import LEAST_TARGET_PX
 from app.encoding import shown
 from app.errors import AppError, Message
+from app.export.formats import FILE_FORMATS, KEY_CHOICES, KeyChoice
 from app.export.request import Request
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
@@ -62,6 +63,8 @@ class ExportDialog(WorkingDialog):
         The Unreal project that was exported into before.
     destination : str
         Where the last export went: ``"folder"`` or ``"unreal"``.
+    keys : str
+        What was chosen of `KEY_CHOICES` before.
     source, creator : str
         Name of the piece's file; program and version, for the report.
     parent : QWidget, optional
@@ -79,6 +82,7 @@ class ExportDialog(WorkingDialog):
         parent: QWidget | None = None,
         unreal: Path | None = None,
         destination: Destination = "folder",
+        keys: KeyChoice = "every",
     ) -> None:
         super().__init__("export_files", "export", parent)
         self._session, self._source, self._creator = session, source, creator
@@ -96,6 +100,10 @@ class ExportDialog(WorkingDialog):
         self._bvh_names.addItem("", "")
         for profile, table in load_bone_names().items():
             self._bvh_names.addItem(table.title, profile)
+        self._keys = named(ComboBox(), "export_keys")
+        for choice in KEY_CHOICES:
+            self._keys.addItem("", choice)
+        self._keys.setCurrentIndex(KEY_CHOICES.index(keys))
         self._range = RangeChooser(session, self._project.score)
         self._preroll = named(QDoubleSpinBox(), "export_preroll")
         self._preroll.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
@@ -146,6 +154,7 @@ class ExportDialog(WorkingDialog):
                 "export_dialog.into": self._place,
                 "export_dialog.files": self._formats,
                 "export_dialog.bone_names_in_bvh": self._bvh_names,
+                "export_dialog.keys": self._keys,
                 "export_dialog.skeleton": self._skeleton,
                 "export_dialog.range": self._range,
                 "export_dialog.pre_roll": self._preroll,
@@ -153,8 +162,8 @@ class ExportDialog(WorkingDialog):
             }
         )
         self._form.addRow(Label(), self._outcome)
-        self.fields = (self._players, self._everyone, self._place, self._formats, self._bvh_names, self._skeleton)
-        self.fields += (self._range, self._preroll, self._rate)
+        self.fields = (self._players, self._everyone, self._place, self._formats, self._bvh_names, self._keys)
+        self.fields += (self._skeleton, self._range, self._preroll, self._rate)
         columns = in_row((left, 1), (self._form, 2), spacing=18)
         buttons = self._box("export_dialog.export", self.start, self._show_folder)
         in_column((columns, 1), self._progress, buttons, of=self)
@@ -168,6 +177,11 @@ class ExportDialog(WorkingDialog):
         return tuple(
             str(item.data(Qt.ItemDataRole.UserRole)) for item in items if item.checkState() == Qt.CheckState.Checked
         )
+
+    @property
+    def keys(self) -> KeyChoice:
+        """Which frames have keys."""
+        return KEY_CHOICES[self._keys.currentIndex()]
 
     def _request(self) -> Request:
         project = replace(self._project, preroll_beats=self._preroll.value())
@@ -190,6 +204,7 @@ class ExportDialog(WorkingDialog):
             sound=self._formats.sound,
             stage=self._formats.stage,
             bvh_names=self._bvh_names.currentData(),
+            keys=self.keys if self._place.destination == "folder" else "every",
             skeleton=self._skeleton.choice,
             asset=self._skeleton.asset,
             dancers=tuple(dancer for dancer in project.dancers if dancer.id in self.player_ids),
@@ -269,6 +284,8 @@ class ExportDialog(WorkingDialog):
         into_folder = self._place.destination == "folder"
         self._form.setRowVisible(self._formats, into_folder)
         self._form.setRowVisible(self._bvh_names, into_folder and "bvh" in self._formats.formats)
+        reduces = any(FILE_FORMATS[name].reduces_keys for name in self._formats.formats)
+        self._form.setRowVisible(self._keys, into_folder and reduces)
         problem = ""
         if not self.player_ids:
             problem = self.tr("export_dialog.tick_at_least_one_player")
@@ -316,6 +333,9 @@ class ExportDialog(WorkingDialog):
         """Set every text anew."""
         self.setWindowTitle(self.tr("export_dialog.export"))
         self._bvh_names.setItemText(0, self.tr("export_dialog.those_of_skeleton"))
+        self._keys.setItemText(0, self.tr("export_dialog.key_on_every_frame"))
+        self._keys.setItemText(1, self.tr("export_dialog.reduced_keys"))
+        self._keys.setToolTip(self.tr("export_dialog.reduced_keys_tip"))
         self._preroll.setSuffix(self.tr("export_dialog.beats"))
         self._range.retranslate()
         super().retranslate()

@@ -209,6 +209,15 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Unreal でこのプロジェクトを開いている場合は、再起動すると新しいメニューが表示されます。",
     ),
     "export_dialog.into": ("Destination", "書き出し先"),
+    "export_dialog.key_on_every_frame": ("On every frame", "全フレーム"),
+    "export_dialog.keys": ("Keys", "キー"),
+    "export_dialog.reduced_keys": ("Reduced", "間引く"),
+    "export_dialog.reduced_keys_tip": (
+        "Reduced keys keep rotations within 0.25° and joints, contacts and instruments within 0.5 mm at every frame. "
+        "BVH always has every frame.",
+        "間引いたキーでも、全フレームで回転は 0.25° 以内、関節・接触点・楽器は 0.5 mm 以内に収まります。"
+        "BVH は常に全フレームです。",
+    ),
     "export_dialog.no_longer_needed_will_be": (
         "{count} files that are no longer needed will be removed: {names}",
         "不要になったファイル {count} 個を削除します: {names}",

@@ -1,7 +1,8 @@
 """Binary FBX file -> scene: for reading back what `app.formats.fbx.write` wrote.
 
 It understands what that writes: bones in centimetres without scaling, pivots or pre-rotations, directly under the
-scene or those of each figure under a Null, and keys on every frame. Anything else is refused, never quietly misread.
+scene or those of each figure under a Null, and linear keys on frames; the clip has what these curves are at every
+frame. Anything else is refused, never quietly misread.
 
 Messages, beside those of `app.formats.fbx.decode` (all with ``file``):
 ``file.cannot_read`` (reason): "{file} cannot be read: {reason}";
@@ -14,31 +15,22 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from fractions import Fraction
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from app.errors import FileError
 from app.formats import euler
-from app.formats.fbx import ticks
+from app.formats.fbx.curves import EULER_ORDER
 from app.formats.fbx.decode import read_elements
 from app.formats.fbx.encode import Element
 from app.formats.fbx.graph import FbxObject, Float64Array, ObjectGraph, numbers, properties_of
 from app.formats.fbx.materials import roughness_of
-from app.formats.fbx.write import EULER_ORDER
+from app.formats.fbx.take import MOST_VALUES, Take, read_take
 from app.formats.files import read_file
 from app.formats.scene import Bone, Clip, Material, MorphTarget, Place, Scene, SkinnedMesh, checked_scenes
 
 MOST_BYTES = 2**30
-_ANIMATED = {
-    "Lcl Rotation": ("LimbNode", 3),
-    "Lcl Translation": ("LimbNode", 3),
-    "DeformPercent": ("BlendShapeChannel", 1),
-}
-# Frames times bones, and vertices times influences: far beyond any real file, small enough for any computer.
-_MOST_VALUES = 2**25
 
 _NOT_SUPPORTED = (
     "PreRotation", "PostRotation", "RotationOffset", "RotationPivot", "ScalingOffset", "ScalingPivot",
@@ -78,7 +70,7 @@ def decode_scenes(data: bytes, file: str) -> tuple[Scene, ...]:
     graph = ObjectGraph(root, file)
     creator = root.child("Creator")
     made_by = graph.only(creator, str) if creator is not None else ""
-    take = _take(graph, root)
+    take = read_take(graph, root)
     nodes = graph.of_kind("Model", "Null")
     if any(parent for node in nodes for parent, _ in graph.parents.get(node.id, ())):
         raise FileError("fbx.unsupported", file=file, what="a figure within another")
@@ -93,7 +85,7 @@ def decode_scenes(data: bytes, file: str) -> tuple[Scene, ...]:
         raise FileError("fbx.contradiction", file=file, detail=str(error)) from error
 
 
-def _figure(graph: ObjectGraph, node: FbxObject | None, take: _Take | None, creator: str) -> Scene:
+def _figure(graph: ObjectGraph, node: FbxObject | None, take: Take | None, creator: str) -> Scene:
     """What hangs from a node; from the file's root where there is none."""
     bones, bone_of_model = _bones(graph, node)
     place, node_from_world, models = None, np.eye(4, dtype=np.float64), graph.of_kind("Model", "Mesh")
@@ -275,7 +267,7 @@ def _skin(
     vertex, joint, weight = vertex[order], joint[order], weight[order]
     counts = np.bincount(vertex, minlength=vertex_count)
     width = int(counts.max(initial=0))
-    if width * vertex_count > _MOST_VALUES:
+    if width * vertex_count > MOST_VALUES:
         raise FileError("fbx.unsupported", file=graph.file, what=f"{width} influences on a vertex of {shape.name}")
     slot = np.arange(len(vertex)) - np.repeat(np.cumsum(counts) - counts, counts)
     joint_indices = np.zeros((vertex_count, width), dtype=np.int64)
@@ -317,81 +309,32 @@ def _morphs(graph: ObjectGraph, shape: FbxObject) -> tuple[MorphTarget, ...]:
 # -------------------------------------------------------------------------------------------------------- animation
 
 
-class _Take(NamedTuple):
-    """The file's one animation: its curves (F, channels) by what they move and which property of it."""
-
-    name: str
-    fps: Fraction
-    frames: int
-    curves: dict[tuple[int, str], Float64Array]
-
-
-def _take(graph: ObjectGraph, root: Element) -> _Take | None:
-    stacks = graph.of_kind("AnimationStack", "")
-    if not stacks:
-        return None
-    settings = properties_of(graph.section(root, "GlobalSettings"))
-    mode, custom = numbers(settings.get("TimeMode", ())), numbers(settings.get("CustomFrameRate", ()))
-    fps = ticks.rate(int(mode[0]) if mode else 0, custom[0] if custom else 0.0)
-    if fps is None:
-        raise FileError("fbx.missing", file=graph.file, what="frame rate")
-    frames, curves = _curves(graph, stacks[0], fps)
-    for (target, to_property), values in curves.items():
-        moved = graph.objects[target].sub_class if target in graph.objects else ""
-        if _ANIMATED.get(to_property) != (moved, values.shape[1]):
-            raise FileError("fbx.unsupported", file=graph.file, what=f"animation of {to_property}")
-    return _Take(stacks[0].name, fps, frames, curves)
-
-
 def _clip(
     graph: ObjectGraph,
-    take: _Take,
+    take: Take,
     bones: tuple[Bone, ...],
     bone_of_model: dict[int, int],
     name_of_channel: dict[int, str],
 ) -> Clip:
     """What a take does with some bones and morphs."""
     frames = take.frames
-    if frames * len(bones) > _MOST_VALUES:
+    if frames * max(len(bones), len(name_of_channel)) > MOST_VALUES:
         raise FileError("fbx.unsupported", file=graph.file, what=f"{frames} frames of {len(bones)} bones")
     rotations = np.empty((frames, len(bones), 4))
     rotations[:] = [bone.rotation_xyzw for bone in bones]
     translations: dict[int, Float64Array] = {}
     weights: dict[str, Float64Array] = {}
-    for (target, to_property), values in take.curves.items():
+    for (target, to_property), channels in take.curves.items():
+        if target not in bone_of_model and target not in name_of_channel:
+            continue
+        values = np.stack([curve.at(frames) for curve in channels], axis=1)
         if target in bone_of_model and to_property == "Lcl Rotation":
             rotations[:, bone_of_model[target]] = euler.quaternions(values[:, ::-1], EULER_ORDER)
-        elif target in bone_of_model and to_property == "Lcl Translation":
+        elif target in bone_of_model:
             translations[bone_of_model[target]] = values
-        elif target in name_of_channel:
+        else:
             name, weight = name_of_channel[target], values[:, 0] / 100.0
             if name in weights and not np.array_equal(weights[name], weight):
                 raise FileError("fbx.contradiction", file=graph.file, detail=f"two different curves of {name}")
             weights[name] = weight
     return Clip(take.name, take.fps, frames, rotations, translations, weights)
-
-
-def _curves(graph: ObjectGraph, stack: FbxObject, fps: Fraction) -> tuple[int, dict[tuple[int, str], Float64Array]]:
-    """Number of frames, and the values (F, channels) of every animated property."""
-    times: npt.NDArray[np.int64] | None = None
-    result: dict[tuple[int, str], Float64Array] = {}
-    for layer in graph.below(stack, "AnimationLayer"):
-        for node in graph.below(layer, "AnimationCurveNode"):
-            channels = []
-            for curve in graph.below(node, "AnimationCurve"):
-                key_ticks = graph.integers(curve.element, "KeyTime")
-                values = graph.floats(curve.element, "KeyValueFloat", 1)[:, 0]
-                if times is None:
-                    times = key_ticks
-                if len(values) != len(times) or not np.array_equal(key_ticks, times):
-                    raise FileError("fbx.unsupported", file=graph.file, what="curves with keys at different times")
-                channels.append(values)
-            targets = [(target, to) for target, to in graph.parents.get(node.id, ()) if to]
-            if len(targets) != 1 or not channels:
-                raise FileError("fbx.missing", file=graph.file, what=f"target or curve of {node.name}")
-            result[targets[0]] = np.stack(channels, axis=1)
-    if times is None:
-        raise FileError("fbx.missing", file=graph.file, what="animation curve")
-    if not np.array_equal(times, ticks.frame_ticks(fps, len(times))):
-        raise FileError("fbx.unsupported", file=graph.file, what="keys that are not on the frames")
-    return len(times), result

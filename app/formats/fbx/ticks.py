@@ -45,6 +45,11 @@ def frame_ticks(fps: Fraction, frames: int) -> npt.NDArray[np.int64]:
     return np.array([(2 * n * numerator + denominator) // (2 * denominator) for n in range(frames)], dtype=np.int64)
 
 
+def nearest_frames(at_ticks: npt.NDArray[np.float64], fps: Fraction) -> npt.NDArray[np.int64]:
+    """The frames (N,) that are nearest to some ticks (N,)."""
+    return np.rint(at_ticks * (float(fps) / TICKS_PER_SECOND)).astype(np.int64)
+
+
 def time_mode(fps: Fraction) -> int:
     """``TimeMode`` of the global settings; `CUSTOM_TIME_MODE` goes with ``CustomFrameRate``."""
     return _TIME_MODES.get(fps, CUSTOM_TIME_MODE)

@@ -1,7 +1,7 @@
 """Scenes -> binary FBX 7.4 file.
 
 The layout is what the FBX SDK 2019.2, ufbx, Blender, assimp and three.js all read alike: no pivots, no scaling, bones
-as LimbNodes under one root, Euler angles in the default order, a key on every frame. Several scenes share one take; the
+as LimbNodes under one root, Euler angles in the default order, linear keys. Several scenes share one take; the
 bones and meshes of each are below a Null of its name at its place, which Blender makes the armature.
 """
 
@@ -17,7 +17,8 @@ import numpy.typing as npt
 from app.formats.atomic import atomic_write
 from app.formats.euler import euler_degrees
 from app.formats.fbx import encode, ticks
-from app.formats.fbx.encode import Element, PackedArray, Property, element_pieces, pack_array
+from app.formats.fbx.curves import EULER_ORDER, Curves
+from app.formats.fbx.encode import Element, Property, element_pieces
 from app.formats.fbx.geometry import geometry, morph_geometry, skin_clusters
 from app.formats.fbx.materials import PHYSICAL_MATERIAL, SHADING_MODEL, phong
 from app.formats.fbx.sections import (
@@ -32,14 +33,8 @@ from app.formats.fbx.sections import (
 )
 from app.formats.scene import Bone, Clip, FloatArray, Material, Place, Scene, SkinnedMesh, checked_scenes
 
-# FBX calls this order XYZ: x turns first, so the matrix is Rz Ry Rx.
-EULER_ORDER = "ZYX"
-
 _FIRST_ID = 1_000_000
 _BESIDE_CM = 5e-4
-# Linear keys. The bits beside "linear" (4) and the tangent data are those that every reader has met before.
-_KEY_FLAGS = np.array([0x6104], dtype=np.int32)
-_KEY_DATA = np.array([0.0, 0.0, 9.419963346924634e-30, 0.0], dtype=np.float32)
 
 
 def write_scene(path: str | os.PathLike[str], scene: Scene) -> None:
@@ -70,7 +65,7 @@ def write_scenes(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
 def scene_elements(scenes: Iterable[Scene]) -> tuple[Element, ...]:
     """Top level of the file, in the order that every reader expects."""
     graph = _Graph()
-    curves: _Curves | None = None
+    curves: Curves | None = None
     creator, take, rate, last_tick = "", "", None, 0
     for scene in checked_scenes(scenes):
         creator = scene.creator
@@ -79,7 +74,7 @@ def scene_elements(scenes: Iterable[Scene]) -> tuple[Element, ...]:
             if curves is None:
                 take, rate = scene.clip.name, scene.clip.fps
                 last_tick, curves = _add_take(graph, scene.clip)
-            _add_clip(curves, figure, scene.clip)
+            curves.add_clip(scene.clip, figure.bone_ids, figure.channel_ids)
     return (
         header(creator),
         Element("FileId", (encode.FILE_ID,)),
@@ -343,7 +338,7 @@ def _add_morphs(graph: _Graph, figure: _Figure, mesh: SkinnedMesh, shape: int) -
 # -------------------------------------------------------------------------------------------------------- animation
 
 
-def _add_take(graph: _Graph, clip: Clip) -> tuple[int, _Curves]:
+def _add_take(graph: _Graph, clip: Clip) -> tuple[int, Curves]:
     """Stack and layer; the tick of the last key, and what adds curves to them."""
     key_ticks = ticks.frame_ticks(clip.fps, clip.frames)
     last_tick = int(key_ticks[-1])
@@ -356,53 +351,4 @@ def _add_take(graph: _Graph, clip: Clip) -> tuple[int, _Curves]:
     stack = graph.add("AnimationStack", clip.name, "AnimStack", "", (property_block(*spans),))
     layer = graph.add("AnimationLayer", "BaseLayer", "AnimLayer", "", ())
     graph.connect(layer, stack)
-    return last_tick, _Curves(graph, layer, pack_array(key_ticks), clip.frames)
-
-
-def _add_clip(curves: _Curves, figure: _Figure, clip: Clip) -> None:
-    rotations = euler_degrees(clip.rotations_xyzw, EULER_ORDER)
-    for bone, model in enumerate(figure.bone_ids):
-        if bone in clip.translations_cm:
-            curves.add(model, "Lcl Translation", "T", "XYZ", np.asarray(clip.translations_cm[bone]).T)
-        curves.add(model, "Lcl Rotation", "R", "XYZ", rotations[bone, ::-1])
-    for name, weights in clip.morph_weights.items():
-        percent = np.asarray(weights, dtype=np.float64)[None] * 100.0
-        for channel in figure.channel_ids.get(name, ()):
-            curves.add(channel, "DeformPercent", "DeformPercent", ("DeformPercent",), percent)
-
-
-class _Curves:
-    """Adds the curves of one layer. What is the same in all of them is packed once."""
-
-    def __init__(self, graph: _Graph, layer: int, times: PackedArray, frames: int) -> None:
-        self._graph = graph
-        self._layer = layer
-        self._before = (integer("KeyVer", 4008), Element("KeyTime", (times,)))
-        # All four are needed: without them the FBX SDK crashes.
-        self._after = (
-            Element("KeyAttrFlags", (pack_array(_KEY_FLAGS),)),
-            Element("KeyAttrDataFloat", (pack_array(_KEY_DATA),)),
-            Element("KeyAttrRefCount", (pack_array(np.array([frames], dtype=np.int32)),)),
-        )
-
-    def add(
-        self, target: int, target_property: str, name: str, channels: str | tuple[str, ...], values: FloatArray
-    ) -> None:
-        """Animate one property; `values` has a row of frames per channel."""
-        defaults = [
-            property_row(f"d|{channel}", "Number", "", "A", float(row[0]))
-            for channel, row in zip(channels, values, strict=True)
-        ]
-        node = self._graph.add("AnimationCurveNode", name, "AnimCurveNode", "", (property_block(*defaults),))
-        self._graph.connect(node, self._layer)
-        self._graph.connect(node, target, target_property)
-        for channel, row in zip(channels, values.astype(np.float32), strict=True):
-            keys = Element("KeyValueFloat", (_pack_keys(row),))
-            children = (Element("Default", (float(row[0]),)), *self._before, keys, *self._after)
-            curve = self._graph.add("AnimationCurve", "", "AnimCurve", "", children)
-            self._graph.connect(curve, node, f"d|{channel}")
-
-
-def _pack_keys(row: npt.NDArray[np.float32]) -> PackedArray:
-    """Keys of one channel. One that rests is compressed to nothing; the noise of a moving one is not worth the time."""
-    return pack_array(row, compress=bool((row == row[0]).all()))
+    return last_tick, Curves(graph, layer, key_ticks)

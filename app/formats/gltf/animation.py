@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.formats.gltf.model import FloatArray, GltfChannel, IntArray
+from app.formats.keys import slerp
 
 
 def sampled(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
@@ -23,7 +24,7 @@ def sampled(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
     elif channel.interpolation == "STEP":
         found = channel.values[np.where(share[:, 0] < 1.0, before, after)]
     elif channel.path == "rotation":
-        found = _slerp(channel.values[before], channel.values[after], share)
+        found = slerp(channel.values[before], channel.values[after], share)
     else:
         found = channel.values[before] * (1.0 - share) + channel.values[after] * share
     if channel.path != "rotation":
@@ -41,16 +42,3 @@ def _spline(keys: FloatArray, before: IntArray, after: IntArray, share: FloatArr
         + (3.0 * t2 - 2.0 * t3) * keys[after, 1]
         + length_s * (t3 - t2) * keys[after, 0]
     )
-
-
-def _slerp(a: FloatArray, b: FloatArray, share: FloatArray) -> FloatArray:
-    """Between quaternions (T, 4) by the shorter way."""
-    cosine = np.einsum("ti,ti->t", a, b)[:, None]
-    b = np.where(cosine < 0.0, -b, b)
-    angle = np.arccos(np.clip(np.abs(cosine), 0.0, 1.0))
-    sine = np.sin(angle)
-    near = sine < 1e-6
-    safe = np.where(near, 1.0, sine)
-    of_a = np.where(near, 1.0 - share, np.sin((1.0 - share) * angle) / safe)
-    of_b = np.where(near, share, np.sin(share * angle) / safe)
-    return np.asarray(of_a * a + of_b * b)

@@ -3,7 +3,7 @@
 Metres, Y up, facing +Z; the bones are nodes below one root, the meshes lie beside it and share one skin. Of several
 scenes each root is below a node of the scene's name at its place. A mesh keeps
 one primitive per material. Influences beyond the fourth are in a second set, the strongest in the first, so that a
-reader that knows only one set shows the nearest skin there is. The clip is one animation with a key on every frame at
+reader that knows only one set shows the nearest skin there is. The clip is one animation with keys on frames at
 ``n / fps`` seconds; glTF knows times as float32 only, which is within 0.12 ms of the frame after an hour. What glTF has
 no place for, the rate and the number of frames, is in the animation's extras.
 
@@ -24,10 +24,9 @@ import pygltflib as gltf
 
 from app.errors import FileError
 from app.formats.atomic import atomic_write
-from app.formats.continuous import continuous
 from app.formats.gltf.primitives import Primitive, primitives
+from app.formats.gltf.samplers import METRES, Samplers
 from app.formats.scene import (
-    Clip,
     FloatArray,
     IntArray,
     Material,
@@ -39,7 +38,6 @@ from app.formats.scene import (
 )
 from app.formats.skin import influences
 
-METRES = 0.01
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
 _MOST_BYTES = 2**32 - 1
 _PER_SET = 4
@@ -212,13 +210,13 @@ def _document(scenes: Iterable[Scene]) -> _Document:
     out = document.gltf
     roots: list[int] = []
     materials: dict[Material, int] = {}
-    keys: _Keys | None = None
+    samplers: Samplers | None = None
     for scene in checked_scenes(scenes):
         out.asset.generator = scene.creator
         first = _add_figure(document, scene, roots, materials)
         if scene.clip is not None:
-            keys = _Keys(document, scene.clip) if keys is None else keys
-            keys.add_clip(scene, scene.clip, first)
+            samplers = Samplers(document, scene.clip) if samplers is None else samplers
+            samplers.add_clip(scene, scene.clip, first)
     out.materials = [_material(material) for material in materials]
     out.scenes.append(gltf.Scene(nodes=roots))
     out.scene = 0
@@ -359,48 +357,3 @@ def _targets(
             target["NORMAL"] = accessor(rows[: len(deltas)], deltas.astype(np.float32))
         result.append(target)
     return result
-
-
-# --------------------------------------------------------------------------------------------------------- animation
-
-
-class _Keys:
-    """The one animation of a file, to which clips are added."""
-
-    def __init__(self, document: _Document, clip: Clip) -> None:
-        seconds = (np.arange(clip.frames) * clip.fps.denominator / clip.fps.numerator).astype(np.float32)
-        self._document = document
-        self._times = document.accessor("times", seconds, bounds=True)
-        self._animation = gltf.Animation(
-            name=clip.name,
-            samplers=[],
-            channels=[],
-            extras={"frames": clip.frames, "framesPerSecond": f"{clip.fps.numerator}/{clip.fps.denominator}"},
-        )
-        document.gltf.animations.append(self._animation)
-
-    def add_clip(self, scene: Scene, clip: Clip, first: int) -> None:
-        """Add what the bones of a scene, from that node on, and the meshes after them do."""
-        for bone in range(len(scene.bones)):
-            if bone in clip.translations_cm:
-                places = (np.asarray(clip.translations_cm[bone]) * METRES).astype(np.float32)
-                self._add(first + bone, "translation", places)
-            self._add(first + bone, "rotation", continuous(clip.rotations_xyzw[:, bone]))
-        for number, mesh in enumerate(scene.meshes):
-            if any(morph.name in clip.morph_weights for morph in mesh.morphs):
-                weights = _weights(clip, (morph.name for morph in mesh.morphs))
-                self._add(first + len(scene.bones) + number, "weights", weights, flat=True)
-
-    def _add(self, node: int, path: str, values: npt.NDArray[np.float32], flat: bool = False) -> None:
-        output = self._document.accessor("keys", values, flat=flat)
-        self._animation.samplers.append(
-            gltf.AnimationSampler(input=self._times, output=output, interpolation=gltf.ANIM_LINEAR)
-        )
-        target = gltf.AnimationChannelTarget(node=node, path=path)
-        self._animation.channels.append(gltf.AnimationChannel(sampler=len(self._animation.samplers) - 1, target=target))
-
-
-def _weights(clip: Clip, names: Iterable[str]) -> npt.NDArray[np.float32]:
-    """Weights (F, T) of a mesh's targets; those that the clip does not move rest at zero."""
-    rest = np.zeros(clip.frames)
-    return np.stack([clip.morph_weights.get(name, rest) for name in names], axis=1).astype(np.float32)

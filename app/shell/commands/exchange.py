@@ -132,10 +132,13 @@ def export_files(editor: Editor) -> None:
         editor.window,
         Path(unreal) if unreal else None,
         "unreal" if unreal and editor.settings.export_into == "unreal" else "folder",
+        editor.settings.export_keys,
     )
 
     def remember(destination: str, place: Path) -> None:
         editor.settings.export_into = destination
+        if destination == "folder":
+            editor.settings.export_keys = dialog.keys
         if destination == "unreal":
             editor.settings.unreal_project = str(place)
         else:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from fractions import Fraction
 from pathlib import Path
 
@@ -31,6 +32,9 @@ def dialog(session: Session, qtbot: QtBot, tmp_path: Path) -> ExportDialog:
     dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
     dialog.show()
     return dialog
+
+
+KEY_WIDGETS = ((QComboBox, "export_keys"), (QCheckBox, "export_fbx"), (QCheckBox, "export_bvh"))
 
 
 def one_player_two_bars(dialog: ExportDialog) -> None:
@@ -84,6 +88,26 @@ def test_it_writes_what_the_command_line_writes(dialog: ExportDialog, session: S
     show = dialog.findChild(QPushButton, "export_show_folder")
     assert show is not None
     assert show.isVisible()
+
+
+def test_reduced_keys_are_written_where_a_format_can_have_them(session: Session, qtbot: QtBot, tmp_path: Path) -> None:
+    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test", keys="reduced")
+    dialog.show()
+    one_player_two_bars(dialog)
+    keys, fbx, bvh = (dialog.findChild(kind, name) for kind, name in KEY_WIDGETS)
+    assert isinstance(keys, QComboBox)
+    assert dialog.keys == "reduced"
+    assert not keys.isVisible(), "BVH has every frame"
+    QTest.mouseClick(fbx, Qt.MouseButton.LeftButton)
+    QTest.mouseClick(bvh, Qt.MouseButton.LeftButton)
+    assert keys.isVisible()
+    QTest.keyClick(keys, Qt.Key.Key_Up)
+    assert dialog.keys == "every"
+    QTest.keyClick(keys, Qt.Key.Key_Down)
+    start(dialog)
+    report = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
+    assert report["keys"] == "reduced"
+    assert report["players"][0]["keys"]["written"] < 0.3 * report["players"][0]["keys"]["every"]
 
 
 def test_it_says_what_will_be_replaced_and_what_is_missing(dialog: ExportDialog, tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ import soundfile
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QFileDialog, QLabel, QLineEdit, QPushButton
+from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QLabel, QLineEdit, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.editor.settings import Settings
@@ -116,11 +116,16 @@ def test_players_are_exported(empty: Program, folder: Path, qtbot: QtBot) -> Non
     assert line is not None
     assert reported is not None
     assert line.text().startswith("bytes:///")
+    keys = dialog.findChild(QComboBox, "export_keys")
+    assert keys is not None
+    keys.setCurrentIndex(keys.findData("reduced"))
     dialog.start()
     qtbot.waitUntil(lambda: f"{NAME}/{NAME}.out" in reported.text())
     assert (odd(folder, ".out") / "report.json").is_file()
     dialog.close()
     assert program.editor.settings.export_folder == str(odd(folder, ".out"))
+    trigger(program, "export.files")
+    assert program.window.findChildren(ExportDialog)[-1].keys == "reduced", "as it was chosen"
 
 
 def test_a_path_that_is_typed(qt_app: QApplication, folder: Path) -> None:

@@ -199,6 +199,7 @@ def _with_p(*values: Property) -> Change:
 
 MODEL = "Objects/Model/Properties70"
 ROOT_ID, FIRST_CHILD_ID = np.int64(1000002), np.int64(1000004)
+FRAME_TICKS = 1_924_423_250  # at 24 frames/s
 TWO_SIZES = np.array([0, 1, -3, 0, 1, 2, -4], dtype=np.int32)
 ODD = {
     "a pre-rotation": (MODEL, _with_p("PreRotation", "V", "", "", 0.0, 90.0, 0.0), "unsupported"),
@@ -211,7 +212,9 @@ ODD = {
     "polygons of two sizes": ("Objects/Geometry/PolygonVertexIndex", _with(TWO_SIZES), "unsupported"),
     "an object without a name": ("Objects/Geometry", _with(np.int64(1)), "missing"),
     "keys between frames": ("Objects/AnimationCurve/KeyTime", _with(np.arange(4)), "unsupported"),
-    "a missing key": ("Objects/AnimationCurve/KeyValueFloat", _with(np.zeros(3, np.float32)), "unsupported"),
+    "keys beyond the end": ("Objects/AnimationCurve/KeyTime", _with(np.arange(4) * 2 * FRAME_TICKS), "unsupported"),
+    "keys in disorder": ("Objects/AnimationCurve/KeyTime", _with(FRAME_TICKS * np.array([0, 2, 1, 3])), "unsupported"),
+    "a missing key": ("Objects/AnimationCurve/KeyValueFloat", _with(np.zeros(3, np.float32)), "contradiction"),
     "a bone that is its own grandchild": ("Connections/C", _with("OO", ROOT_ID, FIRST_CHILD_ID), "contradiction"),
     "a connection without ends": ("Connections/C", _with("OO"), "missing"),
     "no objects": ("Objects", lambda element: replace(element, name="Other"), "missing"),
@@ -283,3 +286,17 @@ def test_joining_shares_materials_and_fills_in_uvs_and_normals() -> None:
     np.testing.assert_array_equal(joined.uvs, np.concatenate([mesh.uvs, np.zeros_like(mesh.uvs)]))
     none = join_meshes([plain, replace(plain, materials=(Material("b", (0, 0, 0, 1)),))], "None")
     assert none.uvs is None
+
+
+def test_few_keys_may_not_claim_to_be_a_clip_of_days() -> None:
+    elements = scene_elements((GOOD,))
+
+    def later(element: Element) -> Element:
+        if element.name == "P" and element.properties[0] == "LocalStop":
+            return replace(element, properties=(*element.properties[:4], np.int64(2**62)))
+        children = element.children
+        return element if children is None else replace(element, children=tuple(later(child) for child in children))
+
+    with pytest.raises(FileError) as raised:
+        decode_scene(encode_elements(tuple(later(element) for element in elements)), "odd.fbx")
+    assert raised.value.message.id == "fbx.unsupported"

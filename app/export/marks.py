@@ -1,0 +1,225 @@
+"""Places of a scene that must stay where they are when keys are left out: landmarks, joints, corners of parts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from app.export.joint_playback import JointPlayback
+from app.export.playback import METRES, Playback, Surface
+from app.formats.scene import SkinnedMesh
+from app.rig.model import Character
+from app.rig.skinning import Skin
+
+FloatArray = npt.NDArray[np.floating]
+IntArray = npt.NDArray[np.intp]
+_NO_SHAPES: FloatArray = np.zeros((0, 0, 3))
+
+
+@dataclass(frozen=True, eq=False)
+class Carried:
+    """What a bone adds to marks: ``rotation @ (points + weights @ shapes) + shares * place``.
+
+    Attributes
+    ----------
+    marks : (K,) int
+    points_m : (K, 3)
+        In the bone's frame, times the shares.
+    shares : (K,)
+        Of the mark that the bone carries.
+    shapes_m : (M, K, 3)
+        What each morph of `Marks.morphs` adds to the points.
+    """
+
+    marks: IntArray
+    points_m: FloatArray
+    shares: FloatArray
+    shapes_m: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Marks:
+    """Places as linear blend skinning moves them; the first are the joints of all bones.
+
+    Attributes
+    ----------
+    count : int
+    carried : mapping of int to Carried
+        By bone, of the marks after the joints.
+    morphs : tuple of str
+        Those that move any of the marks.
+    """
+
+    count: int
+    carried: Mapping[int, Carried]
+    morphs: tuple[str, ...] = ()
+
+    def hang_on(self, parents: Sequence[int]) -> npt.NDArray[np.bool_]:
+        """Whether what a bone does moves a mark: (K, B)."""
+        above = np.eye(len(parents), dtype=bool)
+        for bone, parent in enumerate(parents):
+            if parent >= 0:
+                above[bone] |= above[parent]
+        result = np.zeros((self.count, len(parents)), bool)
+        result[: len(parents)] = above
+        for bone, carried in self.carried.items():
+            result[carried.marks] |= above[bone]
+        return result
+
+
+@dataclass
+class _Gathered:
+    """Marks while they are gathered: by bone their number, point and share, and by morph what it adds."""
+
+    count: int
+    rows: dict[int, list[tuple[int, FloatArray, float, dict[str, FloatArray]]]] = field(default_factory=dict)
+
+    def add(self, bone: int, point_m: FloatArray, share: float = 1.0, **shapes_m: FloatArray) -> None:
+        self.rows.setdefault(bone, []).append((self.count, point_m, share, shapes_m))
+
+    def marks(self) -> Marks:
+        morphs = tuple(sorted({name for rows in self.rows.values() for *_, shapes in rows for name in shapes}))
+        zero = np.zeros(3)
+        carried = {
+            bone: Carried(
+                np.array([number for number, *_ in rows]),
+                np.array([point for _, point, *_ in rows]),
+                np.array([share for _, _, share, _ in rows]),
+                np.array([shapes.get(name, zero) for name in morphs for *_, shapes in rows]).reshape(-1, len(rows), 3),
+            )
+            for bone, rows in self.rows.items()
+        }
+        return Marks(self.count, carried, morphs)
+
+
+def character_marks(joints: JointPlayback, character: Character) -> Marks:
+    """The landmarks of a character in a file, and all joints."""
+    gathered = _Gathered(len(joints.playback.bone_names))
+    meshes: dict[int, tuple[SkinnedMesh, list[npt.NDArray[np.int64]]]] = {}
+    for name in sorted(character.landmarks):
+        mesh, vertices = joints.surface(character.landmarks[name])
+        meshes.setdefault(id(mesh), (mesh, []))[1].append(vertices)
+    for mesh, places in meshes.values():
+        skin, first = Surface(joints.playback, mesh, np.concatenate(places)).skin, 0
+        for vertices in places:
+            _add_mean(gathered, skin.part(np.arange(first, first + len(vertices))))
+            first += len(vertices)
+    return gathered.marks()
+
+
+def part_marks(playback: Playback) -> Marks:
+    """The corners of the box around whatever each bone carries, and all joints.
+
+    What is rigid is nowhere farther off than one of its corners, so these stand for the whole surface of an instrument.
+    """
+    gathered = _Gathered(len(playback.bone_names))
+    for mesh in playback.scene.meshes:
+        points_m = np.c_[np.asarray(mesh.vertices_cm, np.float64) * METRES, np.ones(len(mesh.vertices_cm))]
+        for bone in np.unique(mesh.joint_indices[mesh.weights > 0.0]).tolist():
+            own = ((mesh.joint_indices == bone) & (mesh.weights > 0.0)).any(axis=1)
+            bind = np.array(mesh.world_from_bone_bind[bone], np.float64)
+            bind[:3, 3] *= METRES
+            placed = points_m[own] @ np.linalg.inv(bind).T[:, :3]
+            low, high = placed.min(axis=0), placed.max(axis=0)
+            for corner in np.ndindex(2, 2, 2):
+                gathered.add(bone, np.where(corner, high, low))
+                gathered.count += 1
+    return gathered.marks()
+
+
+def _add_mean(gathered: _Gathered, skin: Skin) -> None:
+    """Add the mean of some vertices."""
+    share_of_vertex = skin.weights / len(skin.positions_m)
+    placed = np.c_[skin.positions_m, np.ones(len(skin.positions_m))]
+    points = np.einsum("vj,jik,vk->ji", share_of_vertex, skin.joint_from_mesh, placed, optimize=True)
+    shapes = {
+        name: np.einsum("vj,jik,vk->ji", share_of_vertex, skin.joint_from_mesh[..., :3], deltas, optimize=True)
+        for name, deltas in skin.morphs.items()
+    }
+    for index, bone in enumerate(skin.joints.tolist()):
+        moved = {name: shape[index] for name, shape in shapes.items() if shape[index].any()}
+        gathered.add(bone, points[index], float(share_of_vertex[:, index].sum()), **moved)
+    gathered.count += 1
+
+
+@dataclass(frozen=True, eq=False)
+class Link:
+    """How a bone that moves hangs on the next one above it that does.
+
+    Attributes
+    ----------
+    above : int
+        Row of that one; -1 where there is none.
+    turn : (3, 3) float32 or None
+        Rotation of the bone's parent on it; None where the parent is that one.
+    offset_m : (3,) float32
+        Place of the parent on it.
+    place_m : (3,) float32
+        Of the bone on its parent, where it does not leave it.
+    """
+
+    above: int
+    turn: FloatArray | None
+    offset_m: FloatArray
+    place_m: FloatArray
+
+
+def rigid_links(
+    marks: Marks, parents: Sequence[int], moving: npt.NDArray[np.integer], turns: FloatArray, places_m: FloatArray
+) -> tuple[list[Link], dict[int, Carried]]:
+    """Only the bones that move, and the marks on them: what is still on its parent goes with it.
+
+    Parameters
+    ----------
+    marks : Marks
+    parents : sequence of int
+    moving : (N,) int
+        The bones that move.
+    turns, places_m : (B, 3, 3) and (B, 3) float64
+        Of all bones on their parents, in a frame.
+
+    Returns
+    -------
+    list of Link
+        Of the moving bones, in single precision, which is good for some thousandths of a millimetre.
+    dict of int to Carried
+        By row of the moving bone; -1: what is still in the world.
+    """
+    row_of = {bone: row for row, bone in enumerate(moving.tolist())}
+    at: list[tuple[int, FloatArray, FloatArray]] = []
+    links: list[Link] = []
+    parts: dict[int, list[Carried]] = {}
+    for bone, parent in enumerate(parents):
+        row, turn, offset_m = at[parent] if parent >= 0 else (-1, np.eye(3), np.zeros(3))
+        if bone in row_of:
+            direct = parent < 0 or parent in row_of
+            links.append(Link(row, None if direct else _single(turn), _single(offset_m), _single(places_m[bone])))
+            at.append((row_of[bone], np.eye(3), np.zeros(3)))
+        else:
+            at.append((row, turn @ turns[bone], turn @ places_m[bone] + offset_m))
+        row, turn, offset_m = at[bone]
+        parts.setdefault(row, []).append(Carried(np.array([bone]), offset_m[None], np.ones(1), _NO_SHAPES))
+        own = marks.carried.get(bone)
+        if own is not None:
+            points_m = own.points_m @ turn.T + own.shares[:, None] * offset_m
+            parts[row].append(Carried(own.marks, points_m, own.shares, own.shapes_m @ turn.T))
+    return links, {row: _joined(found, len(marks.morphs), marks.count) for row, found in parts.items()}
+
+
+def _joined(parts: Sequence[Carried], morphs: int, count: int) -> Carried:
+    """What one bone adds, where several that go with it add to the same marks."""
+    points_m, shares, shapes_m = np.zeros((count, 3)), np.zeros(count), np.zeros((morphs, count, 3))
+    for part in parts:
+        points_m[part.marks] += part.points_m
+        shares[part.marks] += part.shares
+        if part.shapes_m.size:
+            shapes_m[:, part.marks] += part.shapes_m
+    used = np.unique(np.concatenate([part.marks for part in parts]))
+    return Carried(used, _single(points_m[used]), _single(shares[used]), _single(shapes_m[:, used]))
+
+
+def _single(values: FloatArray) -> FloatArray:
+    return values.astype(np.float32)

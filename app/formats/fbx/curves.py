@@ -1,0 +1,123 @@
+"""The curves of an FBX file: linear keys on every frame, or at the frames of `Keys`."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from app.formats.euler import euler_degrees
+from app.formats.fbx.encode import Element, PackedArray, pack_array
+from app.formats.fbx.sections import integer, property_block, property_row
+from app.formats.scene import Clip, FloatArray, IntArray
+
+# FBX calls this order XYZ: x turns first, so the matrix is Rz Ry Rx.
+EULER_ORDER = "ZYX"
+STEADY_DEG, STEADY_CM = 1e-3, 1e-4
+"""Where keys are reduced, an axis that changes by no more has one key: that much is rounding."""
+
+# Linear keys. The bits beside "linear" (4) and the tangent data are those that every reader has met before.
+_KEY_FLAGS = np.array([0x6104], dtype=np.int32)
+_KEY_DATA = np.array([0.0, 0.0, 9.419963346924634e-30, 0.0], dtype=np.float32)
+
+
+class Graph(Protocol):
+    """What objects are added to."""
+
+    def add(self, kind: str, name: str, class_name: str, sub_class: str, children: tuple[Element, ...]) -> int:
+        """Add an object; its id."""
+
+    def connect(self, child: int, parent: int, to_property: str | None = None) -> None:
+        """Connect an object to another one."""
+
+
+def rotation_curves(clip: Clip) -> npt.NDArray[np.float64]:
+    """Euler angles (B, 3, F) in degrees, of the axes in `EULER_ORDER`, as they are written."""
+    angles = euler_degrees(clip.rotations_xyzw, EULER_ORDER)
+    return angles if clip.keys is None else steady(angles, STEADY_DEG).astype(np.float64, copy=False)
+
+
+def place_curves(clip: Clip, bone: int) -> FloatArray:
+    """Places (3, F) of a bone that leaves its own, in centimetres, as they are written."""
+    places = np.asarray(clip.translations_cm[bone]).T
+    return places if clip.keys is None else steady(places, STEADY_CM)
+
+
+def steady(curves: FloatArray, least: float) -> FloatArray:
+    """Curves (..., F) of which those that change by no more than ``least`` keep their first value."""
+    rests = np.ptp(curves, axis=-1, keepdims=True) <= least
+    return np.where(rests, curves[..., :1], curves)
+
+
+class Curves:
+    """Adds the curves of one layer. What is the same in many of them is packed once."""
+
+    def __init__(self, graph: Graph, layer: int, key_ticks: npt.NDArray[np.int64]) -> None:
+        self._graph = graph
+        self._layer = layer
+        self._ticks = key_ticks
+        self._at: dict[bytes, tuple[tuple[Element, ...], tuple[Element, ...]]] = {}
+
+    def add_clip(self, clip: Clip, bones: list[int], channels: dict[str, list[int]]) -> None:
+        """Animate the bones of a figure, and the channels of each of its morphs."""
+        keys = clip.keys
+        rotations = rotation_curves(clip)
+        for bone, model in enumerate(bones):
+            frames = None if keys is None else keys.bones[bone]
+            if bone in clip.translations_cm:
+                self._add(model, "Lcl Translation", "T", "XYZ", place_curves(clip, bone), frames)
+            self._add(model, "Lcl Rotation", "R", "XYZ", rotations[bone, ::-1], frames)
+        for name, weights in clip.morph_weights.items():
+            percent = np.asarray(weights, dtype=np.float64)[None] * 100.0
+            frames = None if keys is None else keys.morphs[name]
+            for channel in channels.get(name, ()):
+                self._add(channel, "DeformPercent", "DeformPercent", ("DeformPercent",), percent, frames)
+
+    def _add(
+        self,
+        target: int,
+        target_property: str,
+        name: str,
+        channels: str | tuple[str, ...],
+        values: FloatArray,
+        frames: IntArray | None,
+    ) -> None:
+        """Animate one property; `values` has a row of frames per channel, with keys at some frames or at all."""
+        defaults = [
+            property_row(f"d|{channel}", "Number", "", "A", float(row[0]))
+            for channel, row in zip(channels, values, strict=True)
+        ]
+        node = self._graph.add("AnimationCurveNode", name, "AnimCurveNode", "", (property_block(*defaults),))
+        self._graph.connect(node, self._layer)
+        self._graph.connect(node, target, target_property)
+        for channel, row in zip(channels, values.astype(np.float32), strict=True):
+            at = None
+            if frames is not None:
+                at = frames[:1] if (row[frames] == row[0]).all() else frames
+            before, after = self._times(at)
+            keys = Element("KeyValueFloat", (_pack_keys(row if at is None else row[at]),))
+            children = (Element("Default", (float(row[0]),)), *before, keys, *after)
+            curve = self._graph.add("AnimationCurve", "", "AnimCurve", "", children)
+            self._graph.connect(curve, node, f"d|{channel}")
+
+    def _times(self, frames: IntArray | None) -> tuple[tuple[Element, ...], tuple[Element, ...]]:
+        """What is before and after the values of a curve with keys at some frames, or at all."""
+        known = b"" if frames is None else frames.tobytes()
+        if known not in self._at:
+            key_ticks = self._ticks if frames is None else self._ticks[frames]
+            self._at[known] = (
+                (integer("KeyVer", 4008), Element("KeyTime", (pack_array(key_ticks),))),
+                # All three are needed: without them the FBX SDK crashes.
+                (
+                    Element("KeyAttrFlags", (pack_array(_KEY_FLAGS),)),
+                    Element("KeyAttrDataFloat", (pack_array(_KEY_DATA),)),
+                    Element("KeyAttrRefCount", (pack_array(np.array([len(key_ticks)], dtype=np.int32)),)),
+                ),
+            )
+        return self._at[known]
+
+
+def _pack_keys(row: npt.NDArray[np.float32]) -> PackedArray:
+    """Keys of one channel. One that rests is compressed to nothing; the noise of a moving one is not worth the time."""
+    return pack_array(row, compress=bool((row == row[0]).all()))

@@ -1,0 +1,112 @@
+"""The animation of a binary FBX file as our writer makes it: one take, linear keys on frames.
+
+Messages: those of `app.formats.fbx.read`.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError
+from app.formats.fbx import ticks
+from app.formats.fbx.encode import Element
+from app.formats.fbx.graph import FbxObject, Float64Array, ObjectGraph, numbers, properties_of
+
+MOST_VALUES = 2**25
+"""Frames times bones, and vertices times influences: far beyond any real file, small enough for any computer."""
+_MOST_FRAMES = 2**20
+"""Some hours: few keys may claim to be a long clip."""
+_ANIMATED = {
+    "Lcl Rotation": ("LimbNode", 3),
+    "Lcl Translation": ("LimbNode", 3),
+    "DeformPercent": ("BlendShapeChannel", 1),
+}
+
+
+class Curve(NamedTuple):
+    """Frames and values of a curve's keys."""
+
+    frames: npt.NDArray[np.int64]
+    values: Float64Array
+
+    def at(self, frames: int) -> Float64Array:
+        """Its values at all frames: straight lines between the keys, at rest before and after them."""
+        if len(self.frames) == frames:
+            return self.values
+        return np.interp(np.arange(frames), self.frames, self.values)
+
+
+class Take(NamedTuple):
+    """The file's one animation: the curves of its channels by what they move and which property of it."""
+
+    name: str
+    fps: Fraction
+    frames: int
+    curves: dict[tuple[int, str], list[Curve]]
+
+
+def read_take(graph: ObjectGraph, root: Element) -> Take | None:
+    """The first take of a file; None where it has none."""
+    stacks = graph.of_kind("AnimationStack", "")
+    if not stacks:
+        return None
+    settings = properties_of(graph.section(root, "GlobalSettings"))
+    mode, custom = numbers(settings.get("TimeMode", ())), numbers(settings.get("CustomFrameRate", ()))
+    fps = ticks.rate(int(mode[0]) if mode else 0, custom[0] if custom else 0.0)
+    if fps is None:
+        raise FileError("fbx.missing", file=graph.file, what="frame rate")
+    stop = numbers(properties_of(stacks[0].element).get("LocalStop", ()))
+    if not stop:
+        raise FileError("fbx.missing", file=graph.file, what="end of the animation")
+    last = ticks.nearest_frames(np.array(stop[:1]), fps)[0]
+    if not 0 <= last < _MOST_FRAMES:
+        raise FileError("fbx.unsupported", file=graph.file, what=f"{last + 1} frames")
+    frames = int(last) + 1
+    curves = _curves(graph, stacks[0], ticks.frame_ticks(fps, frames), fps)
+    for (target, to_property), channels in curves.items():
+        moved = graph.objects[target].sub_class if target in graph.objects else ""
+        if _ANIMATED.get(to_property) != (moved, len(channels)):
+            raise FileError("fbx.unsupported", file=graph.file, what=f"animation of {to_property}")
+    return Take(stacks[0].name, fps, frames, curves)
+
+
+def _curves(
+    graph: ObjectGraph, stack: FbxObject, frame_ticks: npt.NDArray[np.int64], fps: Fraction
+) -> dict[tuple[int, str], list[Curve]]:
+    """The curves of every animated property, channel by channel."""
+    result: dict[tuple[int, str], list[Curve]] = {}
+    known: dict[bytes, npt.NDArray[np.int64]] = {}
+    for layer in graph.below(stack, "AnimationLayer"):
+        for node in graph.below(layer, "AnimationCurveNode"):
+            channels = []
+            for curve in graph.below(node, "AnimationCurve"):
+                key_ticks = graph.integers(curve.element, "KeyTime")
+                values = graph.floats(curve.element, "KeyValueFloat", 1)[:, 0]
+                stamp = key_ticks.tobytes()
+                if stamp not in known:
+                    known[stamp] = _key_frames(graph, key_ticks, frame_ticks, fps)
+                if len(values) != len(key_ticks):
+                    raise FileError("fbx.contradiction", file=graph.file, detail=f"times and values of {node.name}")
+                channels.append(Curve(known[stamp], values))
+            targets = [(target, to) for target, to in graph.parents.get(node.id, ()) if to]
+            if len(targets) != 1 or not channels:
+                raise FileError("fbx.missing", file=graph.file, what=f"target or curve of {node.name}")
+            result[targets[0]] = channels
+    if not result:
+        raise FileError("fbx.missing", file=graph.file, what="animation curve")
+    return result
+
+
+def _key_frames(
+    graph: ObjectGraph, key_ticks: npt.NDArray[np.int64], frame_ticks: npt.NDArray[np.int64], fps: Fraction
+) -> npt.NDArray[np.int64]:
+    """The frames at which keys are."""
+    frames = ticks.nearest_frames(key_ticks.astype(np.float64), fps)
+    there = len(frames) and 0 <= frames.min() <= frames.max() < len(frame_ticks)
+    if not there or (np.diff(frames) <= 0).any() or not np.array_equal(frame_ticks[frames], key_ticks):
+        raise FileError("fbx.unsupported", file=graph.file, what="keys that are not on the frames")
+    return frames

@@ -1,0 +1,91 @@
+"""The animation of a glTF file: a sampler for every bone's rotation and place, and one for all morphs of a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Protocol
+
+import numpy as np
+import numpy.typing as npt
+import pygltflib as gltf
+
+from app.formats.continuous import continuous
+from app.formats.scene import Clip, IntArray, Scene
+
+METRES = 0.01
+
+
+class Document(Protocol):
+    """What an animation is added to."""
+
+    gltf: gltf.GLTF2
+
+    def accessor(self, kind: str, values: npt.NDArray[Any], *, bounds: bool = False, flat: bool = False) -> int:
+        """Index of a new accessor of values (N,) or (N, width)."""
+
+
+class Samplers:
+    """The one animation of a file, to which clips are added.
+
+    Parameters
+    ----------
+    document : Document
+    clip : Clip
+        The first of them.
+    """
+
+    def __init__(self, document: Document, clip: Clip) -> None:
+        self._seconds = (np.arange(clip.frames) * clip.fps.denominator / clip.fps.numerator).astype(np.float32)
+        self._document = document
+        self._times: dict[bytes, int] = {}
+        self._animation = gltf.Animation(
+            name=clip.name,
+            samplers=[],
+            channels=[],
+            extras={"frames": clip.frames, "framesPerSecond": f"{clip.fps.numerator}/{clip.fps.denominator}"},
+        )
+        document.gltf.animations.append(self._animation)
+
+    def add_clip(self, scene: Scene, clip: Clip, first: int) -> None:
+        """Add what the bones of a scene, from that node on, and the meshes after them do."""
+        keys = clip.keys
+        for bone in range(len(scene.bones)):
+            frames = None if keys is None else keys.bones[bone]
+            if bone in clip.translations_cm:
+                places = (np.asarray(clip.translations_cm[bone]) * METRES).astype(np.float32)
+                self._add(first + bone, "translation", places, frames)
+            self._add(first + bone, "rotation", continuous(clip.rotations_xyzw[:, bone]), frames)
+        for number, mesh in enumerate(scene.meshes):
+            if any(morph.name in clip.morph_weights for morph in mesh.morphs):
+                weights = _weights(clip, (morph.name for morph in mesh.morphs))
+                frames = None if keys is None else keys.face
+                self._add(first + len(scene.bones) + number, "weights", weights, frames, flat=True)
+
+    def _add(
+        self, node: int, path: str, values: npt.NDArray[np.float32], frames: IntArray | None, flat: bool = False
+    ) -> None:
+        """Animate one property; `values` has a row per frame, with keys at some frames or at all."""
+        if frames is not None:
+            frames = frames[:1] if (values[frames] == values[0]).all() else frames
+            values = values[frames]
+        times = self._input(frames)
+        output = self._document.accessor("keys", values, flat=flat)
+        self._animation.samplers.append(
+            gltf.AnimationSampler(input=times, output=output, interpolation=gltf.ANIM_LINEAR)
+        )
+        target = gltf.AnimationChannelTarget(node=node, path=path)
+        self._animation.channels.append(gltf.AnimationChannel(sampler=len(self._animation.samplers) - 1, target=target))
+
+    def _input(self, frames: IntArray | None) -> int:
+        """The accessor of the times of keys at some frames, or at all."""
+        known = b"" if frames is None else frames.tobytes()
+        if known not in self._times:
+            seconds = self._seconds if frames is None else self._seconds[frames]
+            self._times[known] = self._document.accessor("times", seconds, bounds=True)
+        return self._times[known]
+
+
+def _weights(clip: Clip, names: Iterable[str]) -> npt.NDArray[np.float32]:
+    """Weights (F, T) of a mesh's targets; those that the clip does not move rest at zero."""
+    rest = np.zeros(clip.frames)
+    return np.stack([clip.morph_weights.get(name, rest) for name in names], axis=1).astype(np.float32)
