@@ -58,7 +58,6 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     Attributes
     ----------
-    id : str
     kind : {"wind", "percussion", "other"}
     names : tuple of str
         The first is the English name for people; matching ignores case, diacritics, width and punctuation.

@@ -43,10 +43,8 @@ class Recording:
 
     Attributes
     ----------
-    path : str
     samples : int16 array, shape (n, 2)
         At `RATE_HZ`.
-    warnings : tuple of Message
     """
 
     path: str
@@ -68,7 +66,6 @@ def decode(
 
     Parameters
     ----------
-    path : str
     progress : callable
         Called with the share 0..1 that is read.
     stop_requested : callable

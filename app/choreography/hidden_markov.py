@@ -34,7 +34,6 @@ def count(
     symbols_per_segment : sequence of sequences of (H,) int
         Of each clip, the percussion symbols that sound in each segment; a segment may have none, or one symbol
         several times.
-    n_states : int
     smoothing : float
         Number of observations added to every distribution, shared equally by its outcomes (additive smoothing), so
         that its weight depends neither on the number of states nor on the number of symbols. Greater than 0: an

@@ -52,11 +52,8 @@ class Pair:
 
     Attributes
     ----------
-    motion : MotionClip
     motion_name : str
         Of the file, without folders.
-    rhythm : Rhythm
-    music_name : str
     offset_s : float or None
         The music's first tick is at this time of the motion; None to find it.
     credits : str
@@ -111,12 +108,10 @@ def learn(
 
     Parameters
     ----------
-    pairs : sequence of Pair
     states : int or None
         Number of basic motions; None to choose it (`app.choreography.basic_motions.SPREAD`).
     seed : int
         Of k-means. The same pairs, states and seed give the same model, to the bit.
-    name : str
     progress : callable
         Called with the share of the work that is done, and with what is done now; what it raises ends the work.
 

@@ -56,7 +56,6 @@ class _Nodes:
         Nodes that are no bones, unless bones hang from them: meshes, cameras, lights.
     rest : (N, 4, 4) float64
         World transforms.
-    fps : Fraction
     translations_m, rotations, scales : (F, N, 3), (F, N, 4), (F, N, 3) float64
         On the parent.
     """

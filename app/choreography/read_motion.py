@@ -66,12 +66,10 @@ class ReadMotion:
 
     Attributes
     ----------
-    clip : MotionClip
     profile : str
         Table of bone names; empty where the joints were found by shape.
     unit : str
         Key of `UNITS_M`; empty where none fits and the figure was scaled to `HEIGHT_M`.
-    unit_m : float
     up : str
         Axis of the file that points up, e.g. ``"+Z"``.
     file_fps : Fraction

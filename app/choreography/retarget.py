@@ -60,8 +60,6 @@ def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0)
 
     Parameters
     ----------
-    clip : MotionClip
-    character : Character
     first_frame_s : float
         Time of the clip's first frame in the performance.
 

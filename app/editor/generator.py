@@ -62,7 +62,6 @@ class Generator(QObject):
 
     Parameters
     ----------
-    session : Session
     tasks : Tasks
         Where plans are made that take long.
 

@@ -54,7 +54,6 @@ class Setting(Generic[T]):
     ----------
     key : str
         ``section/name``, or a whole section.
-    default : T
     kind : type, optional
         What is possible, as msgspec understands it; by default the default's type.
     held : SettingBinding, optional

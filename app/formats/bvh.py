@@ -55,7 +55,6 @@ class BvhClip:
         Relative to the parent; the root's is zero.
     end_sites_cm : mapping of int to ndarray, shape (3,)
         Ends of the joints that have no child.
-    fps : Fraction
     root_translation_cm : ndarray, shape (F, 3)
     rotations_xyzw : ndarray, shape (F, J, 4)
         Relative to the parent.
@@ -78,7 +77,6 @@ def write_bvh(path: str | os.PathLike[str], clip: BvhClip) -> None:
 
     Parameters
     ----------
-    path : str or path-like
     clip : BvhClip
         Names have no blanks; children need not follow their parent directly (the file's order of joints is depth
         first). The root's offset is not written: its place is in `root_translation_cm`. Every joint without a child

@@ -47,7 +47,6 @@ def read_file(path: str | os.PathLike[str], most_bytes: int) -> bytes:
 
     Parameters
     ----------
-    path : str or path-like
     most_bytes : int
         A longer file is refused before any of it is read.
 

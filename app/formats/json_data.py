@@ -21,7 +21,6 @@ def decode_json(content: bytes, kind: type[T] | msgspec.json.Decoder[T], file: s
 
     Parameters
     ----------
-    content : bytes
     kind : type or decoder of that type
     file : str
         Where it is from, for messages.

@@ -47,7 +47,6 @@ def read_toml(path: str | os.PathLike[str], file: str | None = None) -> dict[str
 
     Parameters
     ----------
-    path : str or path-like
     file : str, optional
         What the file is called in messages, by default its path.
 
@@ -116,7 +115,6 @@ def toml(table: Mapping[str, Any], above: tuple[str, ...] = ()) -> str:
 
     Parameters
     ----------
-    table : mapping
     above : tuple of str
         Keys of the tables that it is in.
     """

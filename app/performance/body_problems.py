@@ -42,10 +42,8 @@ def body_problems(
 
     Parameters
     ----------
-    player : Player
     instrument : InstrumentMap
         Of the library.
-    fingerings : tuple of FingeringEvent
     memo : Memo
         Of the performance.
     waiting : bool

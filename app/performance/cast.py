@@ -69,13 +69,8 @@ class Performer:
 
     Attributes
     ----------
-    player : Player
-    character : Character
-    body : Body
     instrument : InstrumentMap
         As the body plays it (`app.performance.bodies.suited_to`).
-    model : InstrumentModel
-    hold : GripPose
     """
 
     player: Player

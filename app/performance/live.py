@@ -55,7 +55,6 @@ class _Track:
 
     Attributes
     ----------
-    player : Player or Dancer
     plan : PlayerPlan
         Of a dancer one without events.
     known : tuple of Problem
@@ -140,7 +139,6 @@ class LiveMotion:
 
     Parameters
     ----------
-    performance : Performance
     budget_bytes : int
         What all chunks together may take; what is farthest from the playhead goes first.
     """

@@ -142,8 +142,6 @@ class PlayAlong:
 
         Parameters
         ----------
-        time_s : float
-        raw : str
         wiring : ControllerMapping
             With what the controller sends breath and bite.
         """
@@ -174,7 +172,6 @@ class PlayAlong:
 
         Parameters
         ----------
-        time_s : float
         at_s : float, optional
             Which moment of the piece it is: what an animator holds differently there is held so. Without it, as last
             time.

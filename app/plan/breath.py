@@ -191,7 +191,6 @@ class _Given(NamedTuple):
         What the rules made of rests, ...
     kept : tuple of BreathEvent
         ... less what was removed or set by hand.
-    by_hand : tuple of BreathEvent
     may : (N,) bool
         Before which notes the rules may make a breath.
     """
@@ -213,7 +212,6 @@ class _Stock(NamedTuple):
         Part of the lungs that the breath before each note fills.
     air_s : (N,) float
         How much air there is at each note.
-    room : Room
     """
 
     used: FloatArray

@@ -82,7 +82,6 @@ class Entry(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    tick : int
     reason : str
         Id of the message, but for a section.
     number : float or None

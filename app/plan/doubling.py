@@ -142,7 +142,6 @@ def held_plan(plan: PlayerPlan, first: str, found: Sequence[Change], names: Mapp
 
     Parameters
     ----------
-    plan : PlayerPlan
     first : str
         See `first_played`.
     found : sequence of Change

@@ -110,7 +110,6 @@ def shared_with(line: SharedLine, others: Sequence[SharedLine], breathed: Sequen
 
     Parameters
     ----------
-    line : SharedLine
     others : sequence of SharedLine
         Of all other players.
     breathed : sequence of Breathed
@@ -150,7 +149,6 @@ def within_held(
     ----------
     used : (N + 1,) float
         `app.plan.lungs.air_used_s`.
-    lung_s : float
     """
     events = []
     for index, others_s in shared.held:

@@ -165,7 +165,6 @@ class Autosave:
     ----------
     presence : Presence
         This editor's.
-    delay_s : float
     """
 
     def __init__(self, presence: Presence, delay_s: float = DELAY_S) -> None:

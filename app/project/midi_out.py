@@ -20,8 +20,6 @@ def export_midi(project: Project, path: Path, maps: Mapping[str, InstrumentMap])
 
     Parameters
     ----------
-    project : Project
-    path : Path
     maps : mapping of str to InstrumentMap
         By id. Of a player whose instrument is not there, the part says what it is for.
 

@@ -44,7 +44,6 @@ class CompSpan(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     ----------
     start_tick, end_tick : int
         Half-open: the notes that begin in it.
-    take_id : str
     """
 
     start_tick: int
@@ -102,7 +101,6 @@ class Project:
 
     Attributes
     ----------
-    score : Score
     players : tuple of Player
         In the order of the score. Players of one musician have the same character, parameters and place.
     corrections : mapping of str to tuple of Correction
@@ -240,10 +238,8 @@ def project_from_score(
 
     Parameters
     ----------
-    score : Score
     maps : mapping of str to InstrumentMap
         By id; every part names one of them.
-    seed : int
     """
     parts = score.parts
     instruments = [maps[part.map_id] for part in parts]

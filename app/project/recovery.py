@@ -44,7 +44,6 @@ class Recoverable:
         The file's name, else the piece's title, else the name of the MIDI file it came from; may be empty.
     changed_s : float
         When it was written as the clock of that day had it, seconds since 1970 (UTC); only to be shown.
-    note_count : int
     token : str
         Of the editor; empty where it left no trace but the file.
     facts : Autosaved or None

@@ -72,7 +72,6 @@ class PartMatch:
     ----------
     part_id : str
         It keeps this id.
-    former_name, name : str
     kept, added, removed : int
         Notes.
     by_hand : int
@@ -94,7 +93,6 @@ class Conflict:
 
     Attributes
     ----------
-    part_id, note_id : str
     read : Note
         What the file held before.
     by_hand : Note or None
@@ -126,7 +124,6 @@ class Reimport:
     ----------
     project : Project
         The very same value where the file says nothing new.
-    parts : tuple of PartMatch
     added, removed : tuple of str
         Ids of notes that are new in the project, and of notes that are in it no more.
     new_players, gone_players, idle_players : tuple of str

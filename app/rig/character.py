@@ -39,8 +39,6 @@ class Reading:
     ----------
     figure : Figure
         Upright, facing +Z.
-    joints : JointMapping
-    face : FaceMapping
     """
 
     figure: Figure
@@ -58,7 +56,6 @@ def load_character(
 
     Parameters
     ----------
-    path : Path
     id : str
         The character's; by the file's name where empty.
     joints : mapping of str to str
@@ -89,7 +86,6 @@ def read_character(
 
     Parameters
     ----------
-    path : Path
     joints, morphs : mapping
         The user's corrections, as in `load_character`.
     """

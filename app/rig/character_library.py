@@ -226,7 +226,6 @@ def add_character(
 
     Parameters
     ----------
-    path : Path
     title : str
         What it is called; by its file's name where empty.
     joints, morphs : mapping

@@ -53,7 +53,6 @@ def map_morphs(figure: Figure, requested: Mapping[str, Mapping[str, float]] | No
 
     Parameters
     ----------
-    figure : Figure
     requested : mapping of str to mapping of str to float
         The user's corrections, weights of own morphs by shape; none: the face does not make it.
 

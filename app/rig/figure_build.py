@@ -52,7 +52,6 @@ class Nodes:
 
     Attributes
     ----------
-    names : sequence of str
     parents : sequence of int
         In any order; -1: none.
     world_from_node : (N, 4, 4) float64
@@ -81,7 +80,6 @@ class Part:
     ----------
     mesh : Mesh
         `Mesh.joints` are places in `nodes`.
-    nodes : tuple of int
     world_from_mesh : (M, 4, 4) float64
         For each of them, at rest.
     """
@@ -106,11 +104,8 @@ def build_figure(
     file : str
         For messages.
     origin : str
-    nodes : Nodes
-    parts : sequence of Part
     humanoid : mapping of str to int
         VRM 1.0 joint to node.
-    expressions : mapping
 
     Raises
     ------

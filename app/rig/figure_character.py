@@ -48,8 +48,6 @@ def figure_character(
 
     Parameters
     ----------
-    figure : Figure
-    id : str
     bones : mapping of str to int
         The bone of each VRM 1.0 joint that has one.
     morphs : mapping of str to mapping of str to float

@@ -47,7 +47,6 @@ def finger_rotations(
 
     Parameters
     ----------
-    hold : GripPose
     controls : dict of str to (F,)
         Values 0..1; a control that is absent is at 0.
     frames : int

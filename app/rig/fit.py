@@ -64,9 +64,6 @@ def fit_hold(
 
     Parameters
     ----------
-    character : Character
-    model : InstrumentModel
-    instrument_map : InstrumentMap
     body : Body
         Limits of the joints and posture.
     progress : callable

@@ -90,7 +90,6 @@ def map_joints(figure: Figure, requested: Mapping[str, str] | None = None) -> Jo
 
     Parameters
     ----------
-    figure : Figure
     requested : mapping of str to str
         The user's corrections, bone by joint; empty: the figure has no such joint.
 

@@ -31,8 +31,6 @@ class Source:
 
     Attributes
     ----------
-    file : str
-    gltf : GltfModel
     world_from_node : (N, 4, 4) float64
         At rest.
     """

@@ -42,7 +42,6 @@ class CrashHandler:
         Shows it.
     write_down : callable
         Writes unsaved work down.
-    log : Path
     clock : callable
         Seconds.
     """

@@ -42,8 +42,6 @@ class StatusLine(Retranslated, QStatusBar):
 
     Parameters
     ----------
-    session : Session
-    files : Files
     tasks : ThreadTasks or None
         None: work is not shown.
     """

@@ -31,7 +31,6 @@ class Head:
 
     Attributes
     ----------
-    address : str
     fixed : tuple of str or int
         Its first arguments, the same in every frame.
     floats : int
@@ -44,12 +43,7 @@ class Head:
 
 
 class Packets:
-    """A frame's messages as bundles, in their order.
-
-    Parameters
-    ----------
-    heads : sequence of Head
-    """
+    """A frame's messages as bundles, in their order."""
 
     def __init__(self, heads: Sequence[Head]) -> None:
         self.floats = sum(head.floats for head in heads)

@@ -48,7 +48,6 @@ class Address:
         As it was asked for.
     family : int
         Of the Internet's addresses.
-    at : SocketAddress
     """
 
     host: str
@@ -130,7 +129,6 @@ class Sender:
 
     Parameters
     ----------
-    address : Address
     broadcast : bool
         Whether the address may be that of many computers.
 

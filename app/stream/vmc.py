@@ -37,10 +37,8 @@ class Sent:
 
     Parameters
     ----------
-    character : Character
     instrument : str or None
         Name of its tracker; None: the performer holds none.
-    faces : FaceNames
     doubles : tuple of str
         Names of the trackers of other instruments that the performer changes to.
     """
@@ -92,7 +90,6 @@ class Sent:
 
         Parameters
         ----------
-        pose : Pose
         time_s : float
             Since the stream began.
         stage : StagePosition, optional

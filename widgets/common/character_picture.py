@@ -98,8 +98,6 @@ def picture(
 
     Parameters
     ----------
-    shown : Seen
-    width_px, height_px : int
     crop : Crop
         All of the body, or its head.
     weights : mapping of str to float, optional

@@ -67,14 +67,12 @@ class NumberSlider(QWidget):
         What a reset returns to.
     step : float
         Of keys and wheel, and of a drag without ``slides``.
-    decimals : int
     slides : bool
         Whether the range is short enough to be filled like a slider; else a drag moves by steps.
     resets : bool
         Whether there is a value to return to; without one a double click types.
     fills : (float, float), optional
         The part of the range that fills the control and that a drag reaches; the rest can be typed. None: all of it.
-    parent : QWidget, optional
 
     Signals
     -------
@@ -166,7 +164,6 @@ class NumberSlider(QWidget):
 
         Parameters
         ----------
-        value : float
         mixed : bool
             It stands for several different ones; a drag starts from ``value``.
         default : float, optional

@@ -25,7 +25,6 @@ def message_text(message: Message, session: Session | None = None, player_id: st
 
     Parameters
     ----------
-    message : Message
     session : Session or None
         With it notes are reported by pitch and place, named by the user's settings; without it notes by their ids.
     player_id : str or None

@@ -56,15 +56,12 @@ class CharacterDialog(Retranslated, QDialog):
 
     Parameters
     ----------
-    session : Session
     path : Path
         Of the file, for its name.
-    figure : Figure
     draft : Draft
         What is known of it already.
     offered : str
         Name of the player it may be given to, or of several; empty: no one.
-    parent : QWidget, optional
 
     Signals
     -------

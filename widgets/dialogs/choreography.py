@@ -51,9 +51,6 @@ class Shown:
 
     Attributes
     ----------
-    dancer : Dancer
-    model : ChoreographyModel
-    motions : tuple of BasicMotion
     used : mapping of int to int
         How often the dancer dances each basic motion of the piece.
     symbols : tuple of int
@@ -79,11 +76,6 @@ class Shown:
 class ChoreographyDialog(Retranslated, QDialog):
     """What the selected dancer's choreography has learned. Nothing is changed here. Not modal: it goes with the
     selection.
-
-    Parameters
-    ----------
-    session : Session
-    parent : QWidget, optional
     """
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:

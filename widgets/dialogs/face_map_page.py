@@ -29,7 +29,6 @@ class FaceMapPage(QWidget):
 
     Parameters
     ----------
-    session : Session
     morphs : sequence of str
         The file's own.
 

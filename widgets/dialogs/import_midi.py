@@ -69,13 +69,10 @@ class ImportDialog(Retranslated, QDialog):
 
     Parameters
     ----------
-    contents : MidiContents
     maps : mapping of str to InstrumentMap
         Every installed instrument by id.
-    tokens : Tokens
     tasks : Tasks
         Where what comes of the choices is worked out.
-    parent : QWidget, optional
     """
 
     def __init__(

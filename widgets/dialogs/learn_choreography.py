@@ -65,8 +65,6 @@ class _Row:
 
     Attributes
     ----------
-    draft : PairDraft
-    found : Found
     history : CutHistory
         Of the cuts of the draft.
     reading : int
@@ -107,10 +105,8 @@ class LearnDialog(WorkingDialog):
 
     Parameters
     ----------
-    session : Session
     folder : Path
         Where files are looked for, and where the choreography is saved unless the user says otherwise.
-    parent : QWidget, optional
     """
 
     used = Signal(object)

@@ -44,10 +44,8 @@ class MidiDevicesDialog(Retranslated, QDialog):
 
     Parameters
     ----------
-    session : Session
     playback : Playback
         For a beep; becomes the dialog's.
-    parent : QWidget, optional
 
     Signals
     -------

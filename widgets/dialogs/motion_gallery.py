@@ -47,7 +47,6 @@ class MotionModel(QAbstractListModel):
 
     Attributes
     ----------
-    motions : sequence of BasicMotion
     used : mapping of int to int
         How often a basic motion is danced.
     sources : int

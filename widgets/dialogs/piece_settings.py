@@ -36,13 +36,7 @@ Value = TypeVar("Value", str, float)
 
 
 class PieceSettingsDialog(Retranslated, QDialog):
-    """Changes the settings of the piece in one step, or none.
-
-    Parameters
-    ----------
-    session : Session
-    parent : QWidget, optional
-    """
+    """Changes the settings of the piece in one step, or none."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)

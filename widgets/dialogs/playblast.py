@@ -50,13 +50,10 @@ class PlayblastDialog(WorkingDialog):
 
     Parameters
     ----------
-    session : Session
     film : Film
         Called in the window's thread, as what it returns is.
-    sound : Sound
     path : Path
         Proposed file.
-    parent : QWidget, optional
     """
 
     filmed = Signal(object)

@@ -38,7 +38,6 @@ class Choice:
 
     Attributes
     ----------
-    name, label : str
     options : tuple of (value, word)
         Label and words are English, translated in the context ``Setting``.
     chosen : callable
@@ -65,7 +64,6 @@ class PreferencesDialog(Retranslated, QDialog):
 
     Parameters
     ----------
-    session : Session
     choices : sequence of Choice
         In their order.
     shortcuts, conflicts, menu_of : callable

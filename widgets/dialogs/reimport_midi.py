@@ -33,15 +33,12 @@ class ReimportDialog(Retranslated, QDialog):
     ----------
     before : Project
         The project as it is.
-    outcome : Reimport
     file : str
         Name of the MIDI file.
     title : callable
         Names a correction.
     note_title : callable
         Names a note of a part, by part id and note.
-    tokens : Tokens
-    parent : QWidget, optional
     """
 
     def __init__(

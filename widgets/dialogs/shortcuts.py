@@ -29,7 +29,6 @@ class ShortcutRow:
 
     Attributes
     ----------
-    id : str
     text, place, context : str
         What it does, where it stands in the menus, where its shortcut holds; in the language of the editor.
     keys, default : str
@@ -49,7 +48,6 @@ class ShortcutsPage(Retranslated, QWidget):
 
     Parameters
     ----------
-    session : Session
     rows : callable
         Gives the rows as they are now.
     conflicts : callable

@@ -31,13 +31,7 @@ _LIST_PX = 130
 
 
 class StreamDialog(Retranslated, QDialog):
-    """The live stream. Not modal: one plays, and looks at the other program.
-
-    Parameters
-    ----------
-    session : Session
-    parent : QWidget, optional
-    """
+    """The live stream. Not modal: one plays, and looks at the other program."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -23,12 +23,7 @@ MOST_COUNTED = 999
 
 
 class InspectorPanel(Retranslated, QWidget):
-    """Selected notes and events above, lists below.
-
-    Parameters
-    ----------
-    session : Session
-    """
+    """Selected notes and events above, lists below."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)

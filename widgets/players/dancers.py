@@ -50,12 +50,7 @@ _SOURCE = DANCER_PARAMETERS["source"]
 
 
 class DancersSection(Retranslated, QWidget):
-    """The list of dancers, and what the selected one dances, how and where.
-
-    Parameters
-    ----------
-    session : Session
-    """
+    """The list of dancers, and what the selected one dances, how and where."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)

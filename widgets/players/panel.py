@@ -57,12 +57,7 @@ LIST_SHARE = 0.5
 
 
 class PlayersPanel(Retranslated, QWidget):
-    """The list of players, and below it the parameters of those selected.
-
-    Parameters
-    ----------
-    session : Session
-    """
+    """The list of players, and below it the parameters of those selected."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -43,7 +43,6 @@ class Lane(QWidget):
 
     Parameters
     ----------
-    session : Session
     axis : TimeAxis
         Shared by all lanes.
 

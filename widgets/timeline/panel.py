@@ -75,10 +75,6 @@ class Playhead(QWidget):
 class TimelinePanel(Retranslated, QWidget):
     """The timeline panel. It is the session's `TimelineView`.
 
-    Parameters
-    ----------
-    session : Session
-
     Signals
     -------
     sought(float)

@@ -157,7 +157,6 @@ def picture_behind(lane: RollView, behind: Behind, alpha: int, ratio: float) -> 
 
     Parameters
     ----------
-    lane : RollView
     behind : Behind
         Later players lie over those before.
     alpha : int

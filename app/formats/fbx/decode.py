@@ -53,7 +53,6 @@ def read_elements(data: bytes, file: str) -> Element:
 
     Parameters
     ----------
-    data : bytes
     file : str
         Its name, for messages.
 

@@ -45,11 +45,6 @@ _KEY_DATA = np.array([0.0, 0.0, 9.419963346924634e-30, 0.0], dtype=np.float32)
 def write_scene(path: str | os.PathLike[str], scene: Scene) -> None:
     """Write a scene as a binary FBX file, whole or not at all; the same scene always gives the same.
 
-    Parameters
-    ----------
-    path : str or path-like
-    scene : Scene
-
     Raises
     ------
     FileError
@@ -140,7 +135,6 @@ class _Figure:
     ----------
     node : int
         What its root bone and meshes hang from: a node of its own, or the file's root.
-    bone_ids : list of int
     channel_ids : dict of str to list of int
         Channels that a morph of that name drives.
     """

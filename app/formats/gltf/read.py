@@ -68,7 +68,6 @@ def read_glb(path: str | os.PathLike[str], *, animated: bool = False) -> GltfMod
 
     Parameters
     ----------
-    path : str or path-like
     animated : bool
         Whether animations are read too; most files are read for what they show.
 

@@ -27,7 +27,6 @@ class ProblemMarks(LaneItem[Lane]):
 
     Parameters
     ----------
-    lane : Lane
     rooms : tuple of str
         First parts of the ids of the messages that belong to the lane.
     """

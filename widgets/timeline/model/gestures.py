@@ -90,7 +90,6 @@ class Step:
 
     Parameters
     ----------
-    session : Editing
     origin : object
         Who edits; it skips its own echo.
     """
@@ -188,9 +187,6 @@ class Band(Gesture):
 
     Parameters
     ----------
-    plane : Plane
-    at : LaneMouse
-    far : Far
     take : callable
         Selects what is in a box between the press and a place.
 

@@ -54,9 +54,6 @@ class HoldEdge(Gesture):
 
     Parameters
     ----------
-    at : LaneMouse
-    far : Far
-    at_start : bool
     span : callable
         What the span is now; None: none.
     put : callable
