@@ -79,8 +79,7 @@ class CorrectionList(Retranslated, QWidget):
         """Show what was done by hand for the selected players."""
         if not self.isVisible():
             return
-        project, performance = self._session.project, self._session.performance
-        plans = performance.plans if performance.planned else {}
+        project, plans = self._session.project, self._session.plans
         lost = {(orphan.player_id, orphan.correction) for orphan in orphaned(project)}
         places: list[Place] = []
         for player_id in self._session.players:

@@ -96,9 +96,9 @@ class NoteSection(Retranslated, QWidget):
         self._numbers["velocity"].changed.connect(self._set_velocity)
         for name, slider in self._lips.items():
             slider.changed.connect(lambda value, token, name=name: self._set_lips(name, value, token))
-            slider.reset.connect(lambda _, name=name: self._reset_lips(name))
-        self._fingering_by_hand.reverted.connect(self._revert_fingering)
-        self._lips_by_hand.reverted.connect(self._revert_lips)
+            slider.reset.connect(lambda _, name=name: self._without(SetEmbouchure, name))
+        self._fingering_by_hand.reverted.connect(lambda: self._without(PinFingering))
+        self._lips_by_hand.reverted.connect(lambda: self._without(SetEmbouchure))
         self._session.theme_changed.connect(self._apply_theme)
         self._apply_theme()
 
@@ -134,7 +134,8 @@ class NoteSection(Retranslated, QWidget):
             self._numbers[name].show_value(value, mixed=mixed, by_hand=False)
 
     def _show_plan(self, shown: SelectedNotes) -> None:
-        plan, player = self._plan(shown), shown.player
+        player = shown.player
+        plan = self._session.plans.get(player.id) if player is not None else None
         instrument = _instrument(player)
         there = plan is not None and player is not None and instrument is not None
         self._fingering.setVisible(there)
@@ -150,12 +151,6 @@ class NoteSection(Retranslated, QWidget):
         words = (sentence(problem.message, self._session, player.id) for problem in reported[:5])
         self._problems.setText("\n".join(f"⚠ {text}" for text in words))
         self._problems.setVisible(bool(reported))
-
-    def _plan(self, shown: SelectedNotes) -> PlayerPlan | None:
-        performance = self._session.performance
-        if shown.player is None or not performance.planned:
-            return None
-        return performance.plans.get(shown.player.id)
 
     def _show_fingering(
         self, shown: SelectedNotes, plan: PlayerPlan, bare: PlayerPlan | None, instrument: InstrumentMap
@@ -339,16 +334,7 @@ class NoteSection(Retranslated, QWidget):
                 token,
             )
 
-    def _reset_lips(self, name: str) -> None:
-        self._without(SetEmbouchure, name)
-
-    def _revert_lips(self) -> None:
-        self._without(SetEmbouchure, None)
-
-    def _revert_fingering(self) -> None:
-        self._without(PinFingering, None)
-
-    def _without(self, kind: type[PinFingering] | type[SetEmbouchure], field: str | None) -> None:
+    def _without(self, kind: type[PinFingering] | type[SetEmbouchure], field: str | None = None) -> None:
         """Take corrections of the shown notes back, or only one value of them."""
         if self._shown is None or self._shown.player is None:
             return

@@ -51,10 +51,6 @@ def _dance(session: Session, path: Path) -> None:
     )
 
 
-def _has_choreographies(session: Session) -> bool:
-    return bool(bundled_choreographies())
-
-
 def _has_dancer(session: Session) -> bool:
     return session.dancer is not None
 
@@ -64,7 +60,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         "dancers.add",
         add,
         "edit/players",
-        enabled=_has_choreographies,
+        enabled=lambda session: bool(bundled_choreographies()),
         icon="add",
     ),
     EditorAction(

@@ -167,10 +167,6 @@ def _can_export(editor: Editor) -> bool:
     return bool(editor.session.project.players) and editor.files.is_open
 
 
-def _can_film(editor: Editor) -> bool:
-    return _can_export(editor) and editor.window.viewport.has_gl
-
-
 ACTIONS: tuple[EditorAction, ...] = (
     EditorAction(
         "file.reimport",
@@ -204,7 +200,7 @@ ACTIONS: tuple[EditorAction, ...] = (
         playblast,
         "export",
         "Ctrl+Shift+E",
-        enabled=_can_film,
+        enabled=lambda editor: _can_export(editor) and editor.window.viewport.has_gl,
         icon="film",
     ),
 )

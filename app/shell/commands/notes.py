@@ -94,10 +94,6 @@ def select_span(session: Session) -> None:
     session.select(Selection(found))
 
 
-def _has_span(session: Session) -> bool:
-    return session.selection.span is not None or session.loop_s is not None
-
-
 # Editing
 
 
@@ -350,7 +346,7 @@ ACTIONS: tuple[Action, ...] = (
         "Alt+R",
         "",
         "edit/select",
-        _has_span,
+        lambda session: session.selection.span is not None or session.loop_s is not None,
     ),
     _tool(Tool.SELECT, "V", "pointer"),
     _tool(Tool.DRAW, "D", "pencil"),

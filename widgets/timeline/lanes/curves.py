@@ -171,7 +171,7 @@ class CurvesLane(Lane):
     def refresh(self) -> None:
         """Show the plan and the part of the player in front, where they are others."""
         player, project = self.session.player, self.session.project
-        plan = self.plan_of(player) if player is not None else None
+        plan = self.session.plan
         part = project.part(player) if player is not None else None
         if part is not self._part:
             self._part = part

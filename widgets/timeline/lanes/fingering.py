@@ -206,7 +206,7 @@ class FingeringLane(Lane):
     def refresh(self) -> None:
         """Show the plan of the player in front, if it is another."""
         player = self.session.player
-        plan = self.plan_of(player) if player is not None else None
+        plan = self.session.plan
         if plan is self._plan and plan is not None:
             return
         if plan is None and player is not None and self._plan is not None and self._plan.player_id == player.id:
