@@ -18,11 +18,7 @@ IntArray = npt.NDArray[np.int64]
 
 
 def count(
-    states: Sequence[IntArray],
-    symbols_per_segment: Sequence[Sequence[IntArray]],
-    n_states: int,
-    *,
-    smoothing: float,
+    states: Sequence[IntArray], symbols_per_segment: Sequence[Sequence[IntArray]], n_states: int, *, smoothing: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Transition, emission and initial probabilities of the state sequences that were seen.
 

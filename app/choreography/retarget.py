@@ -118,11 +118,7 @@ def _clip_socket_height_m(shape: BodyShape) -> float:
 
 
 def _hips_path(
-    skeleton: Skeleton,
-    clip: MotionClip,
-    turned: FloatArray,
-    places_m: dict[str, FloatArray],
-    scale: float,
+    skeleton: Skeleton, clip: MotionClip, turned: FloatArray, places_m: dict[str, FloatArray], scale: float
 ) -> FloatArray:
     """(F, 3) hips of the character: the middle of its hip joints goes the clip's scaled path."""
     middle = 0.5 * (places_m["leftUpperLeg"] + places_m["rightUpperLeg"])

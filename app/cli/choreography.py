@@ -209,11 +209,7 @@ def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float
                 "given" if confidence is None else f"{confidence:.2f}{'' if confidence >= CONFIDENT else '*'}",
             )
         )
-    lines = [
-        text(summary(model, file)),
-        "",
-        *columns(rows),
-    ]
+    lines = [text(summary(model, file)), "", *columns(rows)]
     if any(source.offset_confidence is not None and source.offset_confidence < CONFIDENT for source in model.sources):
         lines.append(
             "(* another offset would fit nearly as well: if the music begins elsewhere, say where with --offset)"

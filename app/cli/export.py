@@ -9,14 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app.cli.bars import add_bar_options, requested_bars, requested_span
-from app.cli.options import (
-    Commands,
-    add_rate_option,
-    add_source_options,
-    add_title_option,
-    open_project,
-    within,
-)
+from app.cli.options import Commands, add_rate_option, add_source_options, add_title_option, open_project, within
 from app.cli.progress import Progress, find_holds
 from app.cli.status import report_left_out
 from app.cli.summary import project_summary, summary

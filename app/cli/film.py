@@ -65,9 +65,7 @@ def add_command(commands: Commands) -> None:
     )
     place.add_argument("--sheet", type=Path, metavar="OUT.png", help="a contact sheet: the frames side by side")
     command.add_argument(
-        "--view",
-        choices=VIEWS,
-        help="how the players are seen (default: ensemble; with --player front)",
+        "--view", choices=VIEWS, help="how the players are seen (default: ensemble; with --player front)"
     )
     command.add_argument(
         "--player",
@@ -366,12 +364,7 @@ def caption_texts(performance: Performance, times_s: Sequence[float], language: 
         # Tempi are stored in whole microseconds: a time on the beat is not exactly a tick.
         tick = round(float(performance.piece.clock.ticks(time_s)))
         time_text = f"{time_s:.2f}".replace("-", "−")
-        found.append(
-            (
-                text(Message("picture.time", {"time": time_text, "frame": frame}), language),
-                metres.label(tick),
-            )
-        )
+        found.append((text(Message("picture.time", {"time": time_text, "frame": frame}), language), metres.label(tick)))
     return found
 
 

@@ -248,9 +248,7 @@ def _saved_project(arguments: argparse.Namespace) -> Project:
 
 def _cast_project(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) -> Project:
     return project_from_score(
-        _read_score(arguments, map_choices(maps.values())),
-        maps,
-        seed=getattr(arguments, "seed", None) or 0,
+        _read_score(arguments, map_choices(maps.values())), maps, seed=getattr(arguments, "seed", None) or 0
     )
 
 

@@ -333,17 +333,7 @@ def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shar
     def between(times: LineTimes, used: FloatArray, filled: FloatArray) -> list[int]:
         full = levels(used, score.lung_s, filled)
         return catch_places(
-            times,
-            used,
-            line.piece,
-            score.lung_s,
-            filled,
-            full,
-            may,
-            taken,
-            seeds,
-            score.rests,
-            stock.room,
+            times, used, line.piece, score.lung_s, filled, full, may, taken, seeds, score.rests, stock.room
         )
 
     catches = between(score.steady, stock.steady_used, stock.refill)

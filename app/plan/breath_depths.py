@@ -24,11 +24,7 @@ LEAST_DEPTH = 0.3
 
 
 def with_depths(
-    events: tuple[BreathEvent, ...],
-    used: FloatArray,
-    lung_s: float,
-    refill: FloatArray,
-    index_of: dict[str, int],
+    events: tuple[BreathEvent, ...], used: FloatArray, lung_s: float, refill: FloatArray, index_of: dict[str, int]
 ) -> tuple[BreathEvent, ...]:
     """Depths by what the phrase to come needs, within what the time allows. Those set by hand stay."""
     breaths, used_s = [*np.flatnonzero(refill > 0.0).tolist(), len(refill)], used.tolist()

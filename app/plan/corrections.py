@@ -23,15 +23,7 @@ from typing import Final, Literal, TypeAlias, TypeVar
 import msgspec
 
 from app.errors import Message
-from app.plan.model import (
-    BreathEvent,
-    CueEvent,
-    EmbouchureEvent,
-    ExpressionEvent,
-    GestureEvent,
-    PoseTarget,
-    Problem,
-)
+from app.plan.model import BreathEvent, CueEvent, EmbouchureEvent, ExpressionEvent, GestureEvent, PoseTarget, Problem
 from app.score.tempo import TempoMap
 
 BY_HAND = Message("correction.by_hand")

@@ -246,11 +246,7 @@ def _new_tempo(lasts_s: FloatArray, place: int) -> Literal["cue.tempo", "cue.aft
 
 
 def _joining(
-    sounding: list[tuple[int, Rhythm]],
-    lines: _Spans,
-    shared: list[Entry],
-    piece: Piece,
-    musicians: tuple[str, ...],
+    sounding: list[tuple[int, Rhythm]], lines: _Spans, shared: list[Entry], piece: Piece, musicians: tuple[str, ...]
 ) -> list[Entry]:
     """Where players come in after long rests of their own while others play; those within a bar are one entry."""
     first = int(lines.starts[0])

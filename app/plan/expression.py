@@ -21,15 +21,7 @@ import numpy as np
 from app.errors import Message
 from app.plan.ending import Ending
 from app.plan.line import LineTimes
-from app.plan.model import (
-    BreathEvent,
-    CueEvent,
-    EmbouchureEvent,
-    ExpressionEvent,
-    FloatArray,
-    GestureEvent,
-    TimeFrame,
-)
+from app.plan.model import BreathEvent, CueEvent, EmbouchureEvent, ExpressionEvent, FloatArray, GestureEvent, TimeFrame
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
@@ -90,11 +82,7 @@ def plan_expressions(
         clock,
         lambda peak: Message(
             "expression.low_loud",
-            {
-                "pitch": int(times.pitch[peak]),
-                "easy_low": easy_low,
-                "loudness": round(float(times.loudness[peak]), 2),
-            },
+            {"pitch": int(times.pitch[peak]), "easy_low": easy_low, "loudness": round(float(times.loudness[peak]), 2)},
         ),
     )
     events += _entries(faces["brows_up"], notes, times, clock, breaths, cues)

@@ -227,12 +227,7 @@ class Project:
         return {part.id: part for part in self.score.parts}
 
 
-def project_from_score(
-    score: Score,
-    maps: Mapping[str, InstrumentMap],
-    *,
-    seed: int = 0,
-) -> Project:
+def project_from_score(score: Score, maps: Mapping[str, InstrumentMap], *, seed: int = 0) -> Project:
     """Cast a score: a player for every part, with a name, a character, a place and a size of motion of their own, which
     the parts of one musician share.
 
@@ -277,10 +272,7 @@ def project_from_score(
             )
         )
     return Project(
-        score,
-        tuple(players),
-        seed=seed,
-        read_notes={part.id: {note.id: note for note in part.notes} for part in parts},
+        score, tuple(players), seed=seed, read_notes={part.id: {note.id: note for note in part.notes} for part in parts}
     )
 
 

@@ -130,13 +130,7 @@ _PRESETS: Final = Named(_read_preset, lambda preset: preset.name)
 _EXPRESSIONS: Final = Named(read_named_expression, lambda expression: expression.name)
 
 
-def _save(
-    folder: Path,
-    name: str,
-    known: Mapping[str, object],
-    tables: Named[Any],
-    table: Mapping[str, Any],
-) -> None:
+def _save(folder: Path, name: str, known: Mapping[str, object], tables: Named[Any], table: Mapping[str, Any]) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

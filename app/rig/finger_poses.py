@@ -119,11 +119,7 @@ def _ways(table: FingerTable, where: Placed | None, frames: IntArray, joints: sl
 
 
 def _posed(
-    hand: HandHold,
-    ways: Sequence[_Way],
-    placed: Mapping[str, Placed] | None,
-    controls: Controls,
-    raised: FloatArray,
+    hand: HandHold, ways: Sequence[_Way], placed: Mapping[str, Placed] | None, controls: Controls, raised: FloatArray
 ) -> list[FloatArray]:
     """Rotations (K, n, 4) of the fingers of one hand on their ways, all that is solved for them solved together.
 

@@ -100,10 +100,7 @@ def part_transform(motion: MotionOfPart, values: npt.ArrayLike) -> tuple[FloatAr
 
 
 def node_transforms(
-    model: InstrumentModel,
-    instrument_map: InstrumentMap,
-    controls: Mapping[str, npt.NDArray[np.floating]],
-    frames: int,
+    model: InstrumentModel, instrument_map: InstrumentMap, controls: Mapping[str, npt.NDArray[np.floating]], frames: int
 ) -> tuple[FloatArray, FloatArray]:
     """Transforms of a model's nodes in the instrument's frame.
 

@@ -47,11 +47,7 @@ class CrashHandler:
     """
 
     def __init__(
-        self,
-        session: Session,
-        write_down: Callable[[], None],
-        log: Path,
-        clock: Callable[[], float] = time.monotonic,
+        self, session: Session, write_down: Callable[[], None], log: Path, clock: Callable[[], float] = time.monotonic
     ) -> None:
         self._session = session
         self._write_down = write_down

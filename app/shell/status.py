@@ -335,11 +335,9 @@ def problem_count(session: Session) -> int:
 
 def severity_colour(severity: Severity, tokens: Tokens) -> str:
     """The colour of a notice's mark."""
-    return {
-        Severity.INFORMATION: tokens.accent,
-        Severity.WARNING: tokens.warning,
-        Severity.ERROR: tokens.error,
-    }[severity]
+    return {Severity.INFORMATION: tokens.accent, Severity.WARNING: tokens.warning, Severity.ERROR: tokens.error}[
+        severity
+    ]
 
 
 def _show_value(bar: QProgressBar, value: int) -> None:

@@ -102,9 +102,5 @@ def faint(tokens: Tokens) -> str:
 def style_sheet(tokens: Tokens) -> str:
     """Rules for what Fusion draws too loudly: flat, quiet, one accent; those of ``resources/theme.qss``."""
     rules = Template((files("resources") / "theme.qss").read_text(encoding="utf-8"))
-    sizes = {
-        "target_px": LEAST_TARGET_PX,
-        "field_px": LEAST_TARGET_PX - 6,
-        "tool_px": LEAST_TARGET_PX - 8,
-    }
+    sizes = {"target_px": LEAST_TARGET_PX, "field_px": LEAST_TARGET_PX - 6, "tool_px": LEAST_TARGET_PX - 8}
     return rules.substitute(msgspec.structs.asdict(tokens), faint=faint(tokens), **sizes, **_marks(tokens))

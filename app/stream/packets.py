@@ -68,9 +68,7 @@ class Packets:
             bundle.add_content(message)
             end += _LENGTH + message.size
             words.extend(range(end // _WORD - count, end // _WORD))
-        self._bundles.append(
-            (bundle.build().dgram, np.array(words, np.intp), slice(first, first + sum(floats))),
-        )
+        self._bundles.append((bundle.build().dgram, np.array(words, np.intp), slice(first, first + sum(floats))))
 
     def filled(self, values: npt.NDArray[np.floating]) -> list[bytes]:
         """The datagrams of a frame.

@@ -44,11 +44,7 @@ class Sent:
     """
 
     def __init__(
-        self,
-        character: Character,
-        instrument: str | None,
-        faces: FaceNames = "arkit",
-        doubles: tuple[str, ...] = (),
+        self, character: Character, instrument: str | None, faces: FaceNames = "arkit", doubles: tuple[str, ...] = ()
     ) -> None:
         skeleton, own = character.skeleton, character.own
         self._hips = skeleton.index("hips")

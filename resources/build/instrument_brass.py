@@ -80,12 +80,7 @@ class Frame:
 
 
 def arc(
-    frame: Frame,
-    centre: Sequence[float],
-    radius: float,
-    start_deg: float,
-    end_deg: float,
-    step_m: float = 0.010,
+    frame: Frame, centre: Sequence[float], radius: float, start_deg: float, end_deg: float, step_m: float = 0.010
 ) -> Array:
     """Part of a circle about the third axis: 0 degrees lies against the second axis, 90 along the first."""
     count = max(4, int(np.ceil(abs(np.radians(end_deg - start_deg)) * radius / step_m)))
@@ -141,10 +136,7 @@ def receiver(model: Model, start: ArrayLike, axis: ArrayLike, radius: float, len
     model.add(
         NICKEL,
         solid(
-            start,
-            axis,
-            [(0, 1.12 * r), (0.002, 1.2 * r), (0.005, 1.2 * r), (0.006, 1.06 * r), (length, r)],
-            sides=24,
+            start, axis, [(0, 1.12 * r), (0.002, 1.2 * r), (0.005, 1.2 * r), (0.006, 1.06 * r), (length, r)], sides=24
         ),
     )
 
@@ -340,27 +332,13 @@ class Piston:
         r, top, low, high = self.casing_r, self.top, self.bottom, self.button
         casing = [(low, r), (top - 0.004, r)]
         model.add(NICKEL, solid(foot, up, casing, sides=32))
-        cap = [
-            (top - 0.010, 1.09 * r),
-            (top - 0.001, 1.13 * r),
-            (top, 1.06 * r),
-            (top + 0.005, 0.5 * r),
-        ]
+        cap = [(top - 0.010, 1.09 * r), (top - 0.001, 1.13 * r), (top, 1.06 * r), (top + 0.005, 0.5 * r)]
         model.add(SILVER, solid(foot, up, cap, sides=32))
-        under = [
-            (low - 0.010, 0.4 * r),
-            (low - 0.006, 1.02 * r),
-            (low - 0.003, 1.12 * r),
-            (low + 0.008, 1.12 * r),
-        ]
+        under = [(low - 0.010, 0.4 * r), (low - 0.006, 1.02 * r), (low - 0.003, 1.12 * r), (low + 0.008, 1.12 * r)]
         model.add(SILVER, solid(foot, up, under, sides=32))
         felt = [(top + 0.004, 0.62 * r), (top + 0.0075, 0.62 * r)]
         model.add("felt", solid(foot, up, felt, sides=24))
-        model.add(
-            SILVER,
-            solid(foot, up, [(top - 0.01, 0.0034), (high - 0.004, 0.0034)], sides=16),
-            node=node,
-        )
+        model.add(SILVER, solid(foot, up, [(top - 0.01, 0.0034), (high - 0.004, 0.0034)], sides=16), node=node)
         b = self.button_r
         button = [
             (high - 0.0088, 0.0042),
@@ -394,13 +372,7 @@ def rotor(model: Model, node: str, foot: Array, axis: Array, arm: Array, radius:
     top = foot + (length + 0.001) * axis
     model.add(
         SILVER,
-        solid(
-            top - 0.002 * axis,
-            axis,
-            [(0, 0.0036), (0.008, 0.0036), (0.009, 0.0025)],
-            sides=18,
-            proxy=False,
-        ),
+        solid(top - 0.002 * axis, axis, [(0, 0.0036), (0.008, 0.0036), (0.009, 0.0025)], sides=18, proxy=False),
         node=node,
     )
     bar = tube(
@@ -413,13 +385,7 @@ def rotor(model: Model, node: str, foot: Array, axis: Array, arm: Array, radius:
     model.add(SILVER, bar, node=node)
     model.add(
         SILVER,
-        solid(
-            top + 0.001 * axis + 0.85 * r * arm,
-            axis,
-            [(0, 0.003), (0.008, 0.003)],
-            sides=14,
-            proxy=False,
-        ),
+        solid(top + 0.001 * axis + 0.85 * r * arm, axis, [(0, 0.003), (0.008, 0.003)], sides=14, proxy=False),
         node=node,
     )
 

@@ -353,7 +353,4 @@ def net(rings: list[Array], *, inward: bool = False) -> Shape:
     return creased(points, corners[:, ::-1] if inward else corners, 40.0)
 
 
-INSTRUMENTS = {
-    "flute": entry(lambda: Flute(Sizes()).make()),
-    "piccolo": entry(lambda: Flute(PICCOLO).make()),
-}
+INSTRUMENTS = {"flute": entry(lambda: Flute(Sizes()).make()), "piccolo": entry(lambda: Flute(PICCOLO).make())}

@@ -14,18 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from resources.build.instrument_brass import (
-    BRASS,
-    NICKEL,
-    Bell,
-    Frame,
-    Z,
-    bell,
-    contact,
-    ferrule,
-    inside_out,
-    stay,
-)
+from resources.build.instrument_brass import BRASS, NICKEL, Bell, Frame, Z, bell, contact, ferrule, inside_out, stay
 from resources.build.instrument_mesh import Array, Model, bend, joined, lengths, solid, tube, unit
 from resources.build.instrument_tuba import TUBA_BB, blown, row, row_contacts, slides, thumb_ring
 
@@ -148,12 +137,7 @@ def _bell(model: Model) -> None:
     bell(model, BELL, RIM, ahead, before, radius(COLLAR_DEG), rings=34, sides=64)
     collar = int(np.argmin(np.abs(before[:, 1] - (turn[1] - ELBOW_R - 0.06)) + (before[:, 2] > STEM[2] + 0.01)))
     thick = float(grown[collar])
-    profile = [
-        (-0.022, thick + 0.004),
-        (-0.016, thick + 0.006),
-        (0.016, thick + 0.006),
-        (0.022, thick + 0.004),
-    ]
+    profile = [(-0.022, thick + 0.004), (-0.016, thick + 0.006), (0.016, thick + 0.006), (0.022, thick + 0.004)]
     model.add(NICKEL, solid(before[collar], (0, 1, 0), profile, sides=40))
 
 

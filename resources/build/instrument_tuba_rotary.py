@@ -13,17 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from resources.build.instrument_brass import (
-    BRASS,
-    NICKEL,
-    Bell,
-    Frame,
-    contact,
-    loop,
-    paddle,
-    rotor,
-    stay,
-)
+from resources.build.instrument_brass import BRASS, NICKEL, Bell, Frame, contact, loop, paddle, rotor, stay
 from resources.build.instrument_mesh import Model, bend, solid, tube
 from resources.build.instrument_tuba import TUBA_BB, Layout, airway, blown
 

@@ -11,15 +11,7 @@ from typing import Final
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QImage, QKeyEvent, QKeySequence, QPixmap
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QDialog,
-    QLineEdit,
-    QScrollArea,
-    QTabWidget,
-    QTreeWidgetItem,
-    QWidget,
-)
+from PySide6.QtWidgets import QCheckBox, QDialog, QLineEdit, QScrollArea, QTabWidget, QTreeWidgetItem, QWidget
 
 from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
@@ -34,14 +26,7 @@ from widgets.common.plain import Label, verbatim, verbatim_title
 from widgets.common.text import message_text
 from widgets.dialogs.body_map import BodyMap, joints
 from widgets.dialogs.bone_tree import BoneTree
-from widgets.dialogs.character_draft import (
-    Draft,
-    Steps,
-    character_of,
-    joint_name,
-    mapped,
-    not_played,
-)
+from widgets.dialogs.character_draft import Draft, Steps, character_of, joint_name, mapped, not_played
 from widgets.dialogs.face_map_page import FaceMapPage
 
 PICTURE_PX: Final = QSize(250, 340)

@@ -10,12 +10,7 @@ from typing import Final
 import msgspec
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QDragEnterEvent, QDropEvent, QKeyEvent
-from PySide6.QtWidgets import (
-    QPushButton,
-    QSpinBox,
-    QTreeWidgetItem,
-    QWidget,
-)
+from PySide6.QtWidgets import QPushButton, QSpinBox, QTreeWidgetItem, QWidget
 
 from app.choreography.cuts_by_hand import Cuts
 from app.choreography.learn import Pair, analyse, learn, summary

@@ -162,11 +162,7 @@ class ReimportDialog(Retranslated, QDialog):
         reported = (
             (self.tr("reimport_dialog.new_players"), outcome.new_players, after),
             (self.tr("reimport_dialog.players_whose_part_is_gone"), outcome.gone_players, before),
-            (
-                self.tr("reimport_dialog.players_whose_part_is_gone_kept_for_what"),
-                outcome.idle_players,
-                after,
-            ),
+            (self.tr("reimport_dialog.players_whose_part_is_gone_kept_for_what"), outcome.idle_players, after),
         )
         return [text.format(names=", ".join(names[id_] for id_ in ids)) for text, ids, names in reported if ids]
 

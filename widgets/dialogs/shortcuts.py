@@ -7,13 +7,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeySequence
-from PySide6.QtWidgets import (
-    QAbstractItemView,
-    QKeySequenceEdit,
-    QLineEdit,
-    QTreeWidgetItem,
-    QWidget,
-)
+from PySide6.QtWidgets import QAbstractItemView, QKeySequenceEdit, QLineEdit, QTreeWidgetItem, QWidget
 
 from app.editor.session import Session
 from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named, wrapped

@@ -7,15 +7,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import (
-    QDialog,
-    QLineEdit,
-    QPushButton,
-    QSpinBox,
-    QTreeWidget,
-    QTreeWidgetItem,
-    QWidget,
-)
+from PySide6.QtWidgets import QDialog, QLineEdit, QPushButton, QSpinBox, QTreeWidget, QTreeWidgetItem, QWidget
 
 from app.editor.session import Session
 from app.editor.streaming import RATES_HZ
@@ -173,10 +165,7 @@ class StreamDialog(Retranslated, QDialog):
         if state.state == "looking":
             return self.tr("stream_dialog.looking_for").format(host=state.host), tokens.text_dim
         if state.state == "no_receiver":
-            return (
-                self.tr("stream_dialog.no_receiver_there_yet_start"),
-                tokens.warning,
-            )
+            return (self.tr("stream_dialog.no_receiver_there_yet_start"), tokens.warning)
         if state.state == "sending":
             return self.tr("stream_dialog.sending_frames_per_second_fewer").format(count=state.sent_hz), tokens.good
         return self.tr("stream_dialog.nothing_is_sent"), tokens.text_dim

@@ -289,11 +289,7 @@ class EventSection(Retranslated, QWidget):
 
     def _set_fade(self, name: str, value: float, token: object | None) -> None:
         ids = self._ids()
-        self._edit(
-            "edit.set_fades",
-            lambda project, plan: edit.set_fades(project, plan, ids, **{name: value}),
-            token,
-        )
+        self._edit("edit.set_fades", lambda project, plan: edit.set_fades(project, plan, ids, **{name: value}), token)
 
     def _set_expression(self, name: str) -> None:
         ids = self._ids()

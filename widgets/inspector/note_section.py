@@ -339,11 +339,7 @@ class NoteSection(Retranslated, QWidget):
         if self._shown is None or self._shown.player is None:
             return
         player_id, ids = self._shown.player.id, frozenset(self._shown.own_ids)
-        self._edit(
-            "edit.give_back",
-            lambda project: edit_events.forget(project, player_id, kind, ids, field),
-            None,
-        )
+        self._edit("edit.give_back", lambda project: edit_events.forget(project, player_id, kind, ids, field), None)
 
     # Words and pictures
 

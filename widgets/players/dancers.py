@@ -9,10 +9,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QTimer
 from PySide6.QtGui import QContextMenuEvent
-from PySide6.QtWidgets import (
-    QGridLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.chance import next_seed
 from app.choreography.library import bundled_choreographies, choreography_path
@@ -298,9 +295,7 @@ class DancersSection(Retranslated, QWidget):
         dancer = self.dancer
         if dancer is not None:
             self._session.attempt(
-                edit.dancer_edit(name, dancer.name),
-                lambda project: change(project, dancer.id),
-                token,
+                edit.dancer_edit(name, dancer.name), lambda project: change(project, dancer.id), token
             )
 
     # Words

@@ -8,11 +8,7 @@ from typing import Literal
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent, QResizeEvent
-from PySide6.QtWidgets import (
-    QScrollArea,
-    QSplitter,
-    QWidget,
-)
+from PySide6.QtWidgets import QScrollArea, QSplitter, QWidget
 
 from app.editor.session import Session
 from app.errors import Message
@@ -281,9 +277,7 @@ class PlayersPanel(Retranslated, QWidget):
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
         self._spread.set_texts(
-            self.tr("players_panel.spread"),
-            "",
-            self.tr("players_panel.how_far_apart_players_become"),
+            self.tr("players_panel.spread"), "", self.tr("players_panel.how_far_apart_players_become")
         )
         self._spread.show_value(self._session.variety)
         self._show_all()

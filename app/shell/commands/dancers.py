@@ -56,13 +56,7 @@ def _has_dancer(session: Session) -> bool:
 
 
 ACTIONS: tuple[Action | EditorAction, ...] = (
-    Action(
-        "dancers.add",
-        add,
-        "edit/players",
-        enabled=lambda session: bool(bundled_choreographies()),
-        icon="add",
-    ),
+    Action("dancers.add", add, "edit/players", enabled=lambda session: bool(bundled_choreographies()), icon="add"),
     EditorAction(
         "dancers.rename",
         lambda editor: editor.window.rename_dancer(),
@@ -82,13 +76,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         icon="duplicate",
     ),
     Action(
-        "dancers.remove",
-        newcomers.remove_dancer,
-        "edit/players",
-        "Del",
-        "dancers",
-        enabled=_has_dancer,
-        icon="delete",
+        "dancers.remove", newcomers.remove_dancer, "edit/players", "Del", "dancers", enabled=_has_dancer, icon="delete"
     ),
     EditorAction(
         "dancers.choreography",
@@ -97,9 +85,5 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=lambda editor: _has_dancer(editor.session),
         icon="information",
     ),
-    EditorAction(
-        "dancers.learn",
-        learn_choreography,
-        "edit/players",
-    ),
+    EditorAction("dancers.learn", learn_choreography, "edit/players"),
 )

@@ -201,24 +201,8 @@ def _kind(kind: GestureKind) -> Action:
 
 
 ACTIONS: tuple[Action, ...] = (
-    Action(
-        "edit.delete",
-        delete,
-        "edit",
-        "Delete",
-        "timeline",
-        has_something,
-        icon="delete",
-    ),
-    Action(
-        "events.give_back",
-        return_to_generated,
-        "edit",
-        "Backspace",
-        "timeline",
-        _can_return,
-        icon="reset",
-    ),
+    Action("edit.delete", delete, "edit", "Delete", "timeline", has_something, icon="delete"),
+    Action("events.give_back", return_to_generated, "edit", "Backspace", "timeline", _can_return, icon="reset"),
     Action(
         "events.give_back_player",
         revert_player,
@@ -234,14 +218,7 @@ ACTIONS: tuple[Action, ...] = (
         has_player,
         icon="breath",
     ),
-    Action(
-        "events.preparation",
-        prepare,
-        "edit/breaths_and_acting",
-        "Shift+B",
-        "timeline",
-        _has_breaths,
-    ),
+    Action("events.preparation", prepare, "edit/breaths_and_acting", "Shift+B", "timeline", _has_breaths),
     Action(
         "events.cue",
         lambda session: add_cues(session, _places(session)),
@@ -251,15 +228,7 @@ ACTIONS: tuple[Action, ...] = (
         has_player,
         icon="cue",
     ),
-    Action(
-        "events.gesture",
-        choose_gesture,
-        "edit/breaths_and_acting",
-        "G",
-        "timeline",
-        has_player,
-        icon="gesture",
-    ),
+    Action("events.gesture", choose_gesture, "edit/breaths_and_acting", "G", "timeline", has_player, icon="gesture"),
     Action(
         "events.expression",
         choose_expression,

@@ -168,33 +168,10 @@ def _can_export(editor: Editor) -> bool:
 
 
 ACTIONS: tuple[EditorAction, ...] = (
-    EditorAction(
-        "file.reimport",
-        read_again,
-        "file",
-        "Ctrl+Shift+I",
-        enabled=is_open,
-    ),
-    EditorAction(
-        "file.reimport_other",
-        read_another,
-        "file",
-        enabled=is_open,
-    ),
-    EditorAction(
-        "file.export_midi",
-        export_midi,
-        "file",
-        enabled=_can_export,
-    ),
-    EditorAction(
-        "export.files",
-        export_files,
-        "export",
-        "Ctrl+E",
-        enabled=_can_export,
-        icon="export",
-    ),
+    EditorAction("file.reimport", read_again, "file", "Ctrl+Shift+I", enabled=is_open),
+    EditorAction("file.reimport_other", read_another, "file", enabled=is_open),
+    EditorAction("file.export_midi", export_midi, "file", enabled=_can_export),
+    EditorAction("export.files", export_files, "export", "Ctrl+E", enabled=_can_export, icon="export"),
     EditorAction(
         "export.playblast",
         playblast,

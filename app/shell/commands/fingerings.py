@@ -130,15 +130,7 @@ def _sign(sign: str) -> Action:
 
 
 ACTIONS: tuple[Action, ...] = (
-    Action(
-        "fingering.cycle",
-        cycle_fingering,
-        "edit/fingering",
-        "F",
-        "timeline",
-        has_notes,
-        icon="fingering",
-    ),
+    Action("fingering.cycle", cycle_fingering, "edit/fingering", "F", "timeline", has_notes, icon="fingering"),
     _sign("0"),
     _sign("1"),
     _sign("2"),

@@ -57,8 +57,7 @@ def clear_mute_and_solo(session: Session) -> None:
     """End every mute and solo."""
     everyone = [player.id for player in session.project.players]
     session.attempt(
-        _count("edit.unmute", len(everyone)),
-        lambda project: edit.change(project, everyone, muted=False, soloed=False),
+        _count("edit.unmute", len(everyone)), lambda project: edit.change(project, everyone, muted=False, soloed=False)
     )
 
 
@@ -130,12 +129,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=_has_players,
         icon="duplicate",
     ),
-    Action(
-        "players.join",
-        join,
-        "edit/players",
-        enabled=_are_several,
-    ),
+    Action("players.join", join, "edit/players", enabled=_are_several),
     Action(
         "players.separate",
         separate,
@@ -178,53 +172,11 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=lambda session: any(player.muted or player.soloed for player in session.project.players),
         icon="sound",
     ),
-    Action(
-        "players.next",
-        partial(step, by=1),
-        "edit/players",
-        "Ctrl+PgDown",
-        enabled=_has_several,
-    ),
-    Action(
-        "players.previous",
-        partial(step, by=-1),
-        "edit/players",
-        "Ctrl+PgUp",
-        enabled=_has_several,
-    ),
-    Action(
-        "players.posture",
-        toggle_posture,
-        "edit/players",
-        enabled=_may_sit_or_stand,
-        icon="seated",
-    ),
-    Action(
-        "players.randomise",
-        newcomers.randomise_players,
-        "edit/players",
-        enabled=_has_players,
-        icon="dice",
-    ),
-    Action(
-        "players.arrange",
-        arrange,
-        "edit/players",
-        enabled=_has_players,
-        icon="stage",
-    ),
-    Action(
-        "players.select_all",
-        select_all,
-        "edit/players",
-        "Ctrl+Shift+A",
-        enabled=_has_several,
-    ),
-    Action(
-        "players.reset",
-        newcomers.reset_players,
-        "edit/players",
-        enabled=_has_players,
-        icon="reset",
-    ),
+    Action("players.next", partial(step, by=1), "edit/players", "Ctrl+PgDown", enabled=_has_several),
+    Action("players.previous", partial(step, by=-1), "edit/players", "Ctrl+PgUp", enabled=_has_several),
+    Action("players.posture", toggle_posture, "edit/players", enabled=_may_sit_or_stand, icon="seated"),
+    Action("players.randomise", newcomers.randomise_players, "edit/players", enabled=_has_players, icon="dice"),
+    Action("players.arrange", arrange, "edit/players", enabled=_has_players, icon="stage"),
+    Action("players.select_all", select_all, "edit/players", "Ctrl+Shift+A", enabled=_has_several),
+    Action("players.reset", newcomers.reset_players, "edit/players", enabled=_has_players, icon="reset"),
 )

@@ -96,17 +96,6 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     _count_in("record.count_in_0", 0),
     _count_in("record.count_in_1", 1),
     _count_in("record.count_in_2", 2),
-    EditorAction(
-        "record.devices",
-        devices,
-        "record",
-        icon="settings",
-    ),
-    EditorAction(
-        "record.latency",
-        latency,
-        "record",
-        enabled=_has_device,
-        icon="clock",
-    ),
+    EditorAction("record.devices", devices, "record", icon="settings"),
+    EditorAction("record.latency", latency, "record", enabled=_has_device, icon="clock"),
 )

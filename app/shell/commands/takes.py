@@ -174,14 +174,7 @@ def _may_sink(session: Session) -> bool:
 
 
 ACTIONS: tuple[Action | EditorAction, ...] = (
-    EditorAction(
-        "takes.listen",
-        listen,
-        "record/takes",
-        "Ctrl+L",
-        enabled=_can_listen,
-        icon="play",
-    ),
+    EditorAction("takes.listen", listen, "record/takes", "Ctrl+L", enabled=_can_listen, icon="play"),
     EditorAction(
         "takes.listen_alone",
         partial(listen, alone=True),
@@ -190,13 +183,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=_can_listen,
         icon="solo",
     ),
-    Action(
-        "takes.whole",
-        whole,
-        "record/takes",
-        enabled=_has_row,
-        icon="check",
-    ),
+    Action("takes.whole", whole, "record/takes", enabled=_has_row, icon="check"),
     Action(
         "takes.above",
         on_timeline(lambda view: view.step_take(-1)),
@@ -215,13 +202,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=_can_step,
         icon="chevron_down",
     ),
-    Action(
-        "takes.before",
-        before,
-        "record/takes",
-        enabled=_has_takes,
-        icon="history",
-    ),
+    Action("takes.before", before, "record/takes", enabled=_has_takes, icon="history"),
     Action(
         "takes.rename",
         on_timeline(lambda view: view.ask_take_name()),
@@ -231,37 +212,9 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=_has_chosen,
         icon="pencil",
     ),
-    Action(
-        "takes.earlier_lane",
-        partial(move, by=-1),
-        "record/takes",
-        enabled=_may_rise,
-    ),
-    Action(
-        "takes.later_lane",
-        partial(move, by=1),
-        "record/takes",
-        enabled=_may_sink,
-    ),
-    Action(
-        "takes.usual_cleaning",
-        usual_cleaning,
-        "record/takes",
-        enabled=_is_cleaned_otherwise,
-        icon="reset",
-    ),
-    Action(
-        "takes.find_beats",
-        find_beats,
-        "record/takes",
-        enabled=_has_chosen,
-        icon="tempo",
-    ),
-    Action(
-        "takes.remove",
-        remove,
-        "record/takes",
-        enabled=_has_chosen,
-        icon="delete",
-    ),
+    Action("takes.earlier_lane", partial(move, by=-1), "record/takes", enabled=_may_rise),
+    Action("takes.later_lane", partial(move, by=1), "record/takes", enabled=_may_sink),
+    Action("takes.usual_cleaning", usual_cleaning, "record/takes", enabled=_is_cleaned_otherwise, icon="reset"),
+    Action("takes.find_beats", find_beats, "record/takes", enabled=_has_chosen, icon="tempo"),
+    Action("takes.remove", remove, "record/takes", enabled=_has_chosen, icon="delete"),
 )

@@ -21,14 +21,7 @@ from widgets.common.fingering_text import short_label
 from widgets.common.menus import add_actions
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.drawing import (
-    draw_mark,
-    draw_path,
-    draw_rects,
-    draw_text,
-    shade,
-    small_font,
-)
+from widgets.timeline.drawing import draw_mark, draw_path, draw_rects, draw_text, shade, small_font
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.alternates import Alternates
 from widgets.timeline.lanes.problems import ProblemMarks
