@@ -107,26 +107,12 @@ def mouthpiece(model: Model, rim_r: float, outer_r: float, length: float, cup: f
     throat = 0.30 * rim_r
     land = outer_r - rim_r
     profile = [
-        (0.90 * cup, throat),
-        (0.62 * cup, 0.62 * rim_r),
-        (0.30 * cup, 0.80 * rim_r),
-        (0.10 * cup, 0.88 * rim_r),
-        (0.0012, 0.93 * rim_r),
-        (0.0003, 0.965 * rim_r),
-        (0.0, rim_r),
-        (0.0004, rim_r + 0.45 * land),
-        (0.0015, rim_r + 0.86 * land),
-        (0.0034, outer_r),
-        (0.0085, outer_r),
-        (0.0105, 0.965 * outer_r),
-        (0.014, 0.90 * outer_r),
-        (0.40 * cup + 0.010, 0.86 * outer_r),
-        (0.75 * cup + 0.010, 0.68 * outer_r),
-        (cup + 0.012, 0.45 * outer_r),
-        (cup + 0.020, 1.05 * shank_r),
-        (length, shank_r),
-        (length, 0.0),
-    ]
+        (0.90 * cup, throat), (0.62 * cup, 0.62 * rim_r), (0.30 * cup, 0.80 * rim_r), (0.10 * cup, 0.88 * rim_r),
+        (0.0012, 0.93 * rim_r), (0.0003, 0.965 * rim_r), (0.0, rim_r), (0.0004, rim_r + 0.45 * land),
+        (0.0015, rim_r + 0.86 * land), (0.0034, outer_r), (0.0085, outer_r), (0.0105, 0.965 * outer_r),
+        (0.014, 0.90 * outer_r), (0.40 * cup + 0.010, 0.86 * outer_r), (0.75 * cup + 0.010, 0.68 * outer_r),
+        (cup + 0.012, 0.45 * outer_r), (cup + 0.020, 1.05 * shank_r), (length, shank_r), (length, 0.0),
+    ]  # fmt: skip
     model.add(SILVER, turned((0, 0, 0), Z, profile, sides=48, hard_deg=50))
 
 
@@ -145,13 +131,9 @@ def ferrule(model: Model, centre: ArrayLike, axis: ArrayLike, radius: float, len
     """A beaded sleeve over a joint of tubes; ``radius`` is theirs, and their bodies stand for it."""
     half, r, bead = length / 2, radius + 0.0009, min(0.002, length / 5)
     profile = [
-        (-half, r + 0.0006),
-        (bead - half, r + 0.0006),
-        (bead - half, r),
-        (half - bead, r),
-        (half - bead, r + 0.0006),
+        (-half, r + 0.0006), (bead - half, r + 0.0006), (bead - half, r), (half - bead, r), (half - bead, r + 0.0006),
         (half, r + 0.0006),
-    ]
+    ]  # fmt: skip
     model.add(NICKEL, solid(centre, axis, profile, sides=20, proxy=False))
 
 
@@ -169,13 +151,9 @@ def stay(start: ArrayLike, end: ArrayLike, thick: float = 0.0028) -> Shape:
     length = float(np.linalg.norm(b - a))
     t = thick
     profile = [
-        (-0.002, 1.65 * t),
-        (0.0015, 1.6 * t),
-        (0.0030, t),
-        (length - 0.0030, t),
-        (length - 0.0015, 1.6 * t),
+        (-0.002, 1.65 * t), (0.0015, 1.6 * t), (0.0030, t), (length - 0.0030, t), (length - 0.0015, 1.6 * t),
         (length + 0.002, 1.65 * t),
-    ]
+    ]  # fmt: skip
     reach = 0.0015 * (b - a) / length
     body = {"shape": "cylinder", "a_m": a - reach, "b_m": b + reach, "radius_m": 1.25 * t}
     return replace(solid(a, b - a, profile, sides=14, proxy=False), proxies=(body,))
@@ -341,12 +319,9 @@ class Piston:
         model.add(SILVER, solid(foot, up, [(top - 0.01, 0.0034), (high - 0.004, 0.0034)], sides=16), node=node)
         b = self.button_r
         button = [
-            (high - 0.0088, 0.0042),
-            (high - 0.0070, 0.85 * b),
-            (high - 0.0058, b),
-            (high - 0.0016, b),
+            (high - 0.0088, 0.0042), (high - 0.0070, 0.85 * b), (high - 0.0058, b), (high - 0.0016, b),
             (high - 0.0004, 0.93 * b),
-        ]
+        ]  # fmt: skip
         model.add(SILVER, solid(foot, up, button, sides=32), node=node)
         pearl = [(high - 0.001, 0.88 * b), (high - 0.0002, 0.84 * b), (high, 0.6 * b)]
         model.add("pearl", solid(foot, up, pearl, sides=32), node=node)
@@ -356,17 +331,9 @@ def rotor(model: Model, node: str, foot: Array, axis: Array, arm: Array, radius:
     """A rotary valve: its casing in the root; the stop arm on top, which turns with the rotor, in ``node``."""
     r = radius
     casing = [
-        (0, 0),
-        (0, r),
-        (0.003, 1.08 * r),
-        (0.006, 1.08 * r),
-        (0.007, r),
-        (length - 0.007, r),
-        (length - 0.006, 1.08 * r),
-        (length - 0.002, 1.08 * r),
-        (length, 0.9 * r),
-        (length + 0.001, 0),
-    ]
+        (0, 0), (0, r), (0.003, 1.08 * r), (0.006, 1.08 * r), (0.007, r), (length - 0.007, r),
+        (length - 0.006, 1.08 * r), (length - 0.002, 1.08 * r), (length, 0.9 * r), (length + 0.001, 0),
+    ]  # fmt: skip
     body = {"shape": "cylinder", "a_m": foot, "b_m": foot + (length + 0.001) * axis, "radius_m": 1.06 * r}
     model.add(NICKEL, replace(turned(foot, axis, casing, sides=32, proxy=False), proxies=(body,)))
     top = foot + (length + 0.001) * axis

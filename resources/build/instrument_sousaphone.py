@@ -19,15 +19,9 @@ from resources.build.instrument_mesh import Array, Model, bend, joined, lengths,
 from resources.build.instrument_tuba import TUBA_BB, blown, row, row_contacts, slides, thumb_ring
 
 ROW = replace(
-    TUBA_BB,
-    middle=(-0.042, 0.0, 0.202),
-    ahead_deg=28.0,
-    first_valve=0.026,
-    row=3,
-    fourth_back=0.0,
-    button=-0.168,
+    TUBA_BB, middle=(-0.042, 0.0, 0.202), ahead_deg=28.0, first_valve=0.026, row=3, fourth_back=0.0, button=-0.168,
     bore=0.00925,
-)
+)  # fmt: skip
 """The valves stand as those of the tuba do, where the right hand finds them."""
 SHOULDER, HIP = np.array([0.162, -0.006]), np.array([-0.284, -0.525])
 """Middle of the tube on the left shoulder and at the right hip, from the lips to the left and up."""
