@@ -223,7 +223,7 @@ def _at_place(
     station = table.stations[index]
     if station.tip_joint < 0:
         return rotations
-    lean = next((lean for lean in hand.leans if _is(lean, table, index)), None)
+    lean = next((lean for lean in hand.leans if lean.places == ((table.finger, index),)), None)
     if lean is None:
         return with_wrist(table, station, rotations, wrist_given(hand, []), wrist_given(hand, given))
     waits = 1.0 - next((weight for one, weight in given if one is lean), np.zeros(len(rotations)))
@@ -254,10 +254,6 @@ def with_wrist(
 def tip_m(table: FingerTable, station: StationTable, rotations: FloatArray) -> FloatArray:
     """Where (K, 3) what touches at a station is in the wrist's frame."""
     return _tip(table, rotations, np.broadcast_to(station.tip_m, (len(rotations), 3)), station.tip_joint)
-
-
-def _is(lean: WristOffset, table: FingerTable, station: int) -> bool:
-    return lean.places == ((table.finger, station),)
 
 
 def _tip(table: FingerTable, rotations: FloatArray, tip_m: FloatArray, joint: int) -> FloatArray:

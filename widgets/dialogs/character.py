@@ -90,7 +90,9 @@ class CharacterDialog(Retranslated, QDialog):
         self._automatic = Button("character_dialog.automatic", lambda: self._give_bone(None), "joint_automatic")
         self._undo = Button("character_dialog.undo", self.undo, "character_undo")
         self._redo = Button("character_dialog.redo", self.redo, "character_redo")
-        self._reset = Button("character_dialog.reset_all", self._start_anew, "character_reset")
+        self._reset = Button(
+            "character_dialog.reset_all", lambda: self.change(Draft(self.draft.title)), "character_reset"
+        )
         self.give = named(QCheckBox(), "character_give")
         self._buttons = OkCancel("character_dialog.keep_character", "character_dialog.cancel")
         self._soon = QTimer(self, singleShot=True, interval=_SOON_MS)
@@ -144,7 +146,7 @@ class CharacterDialog(Retranslated, QDialog):
         self.rows.itemActivated.connect(lambda item, column: self._open(item.data(0, Qt.ItemDataRole.UserRole)))
         self.bones.chosen.connect(lambda bone: self._give_bone(bone))
         self.faces.chosen.connect(self._ask_picture)
-        self.faces.changed.connect(self._give_face)
+        self.faces.changed.connect(lambda face, parts, gesture: self.change(self.draft.with_face(face, parts), gesture))
         self.tabs.currentChanged.connect(self._ask_picture)
         self.title.textEdited.connect(self._rename)
         self._buttons.accepted.connect(self._agree)
@@ -193,9 +195,6 @@ class CharacterDialog(Retranslated, QDialog):
         self.bones.search.clear()
         self.bones.reveal(self._made.joints.bones.get(self._joint))
 
-    def _give_face(self, face: str, parts: dict[str, float] | None, gesture: object) -> None:
-        self.change(self.draft.with_face(face, parts), gesture)
-
     def _rename(self, title: str) -> None:
         # One word is one step.
         self.change(Draft(title, self.draft.joints, self.draft.morphs), self.title)
@@ -214,9 +213,6 @@ class CharacterDialog(Retranslated, QDialog):
         """Make it again."""
         self._steps.redo()
         self._changed()
-
-    def _start_anew(self) -> None:
-        self.change(Draft(self.draft.title))
 
     def _changed(self) -> None:
         self._made = mapped(self._figure, self.draft, self._made)

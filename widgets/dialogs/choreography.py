@@ -70,8 +70,7 @@ class Shown:
 
 class ChoreographyDialog(Retranslated, QDialog):
     """What the selected dancer's choreography has learned. Nothing is changed here. Not modal: it goes with the
-    selection.
-    """
+    selection."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)

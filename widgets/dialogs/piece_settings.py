@@ -65,7 +65,8 @@ class PieceSettingsDialog(Retranslated, QDialog):
         reset_tip = "piece_settings_dialog.all_but_title_as_in"
         self._reset = Button("piece_settings_dialog.reset_to_defaults", self._reset_all, "piece_reset", reset_tip)
         self._lay_out()
-        self._fill_beats()
+        for quarters in self._beat_names():
+            self._felt.addItem("", quarters)
         self._show(self._before)
         for signal in (self._rate.editTextChanged, self._seed.textChanged):
             signal.connect(self._judge)
@@ -184,10 +185,6 @@ class PieceSettingsDialog(Retranslated, QDialog):
         if beat not in names:
             names[beat] = self.tr("piece_settings_dialog.quarters").format(count=f"{beat:.6g}")
         return names
-
-    def _fill_beats(self) -> None:
-        for quarters in self._beat_names():
-            self._felt.addItem("", quarters)
 
     def retranslate(self) -> None:
         """Set every text anew."""

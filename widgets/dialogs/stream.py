@@ -38,12 +38,14 @@ class StreamDialog(Retranslated, QDialog):
         self._rate = named(Combo(), "stream_rate")
         self._list = ColumnList("stream_list", "stream_dialog.performer", "stream_dialog.port")
         self._toggle = named(QPushButton(), "stream_toggle")
-        self._anyway = Button("stream_dialog.send_anyway", self._send_anyway, "stream_anyway")
+        self._anyway = Button(
+            "stream_dialog.send_anyway", lambda: self._state.set(broadcast=self._state.host), "stream_anyway"
+        )
         self._close = Button("stream_dialog.close", self.close, "stream_close")
         self._here = Button("stream_dialog.this_computer", lambda: self._state.set(host=LOOPBACK), "stream_here")
         self._listed: tuple[object, ...] = ()
         self._build()
-        self._host.editingFinished.connect(self._choose_host)
+        self._host.editingFinished.connect(lambda: self._state.set(host=self._host.text().strip() or LOOPBACK))
         self._port.valueChanged.connect(lambda port: self._state.set(port=port))
         self._who.chosen.connect(lambda who: self._state.set(everyone=who == "everyone"))
         self._faces.chosen.connect(lambda faces: self._state.set(faces=faces))
@@ -79,12 +81,6 @@ class StreamDialog(Retranslated, QDialog):
         in_column(
             self._explained, form, self._warning, (self._list, 1), reported, bottom, of=self, margins=14, spacing=10
         )
-
-    def _choose_host(self) -> None:
-        self._state.set(host=self._host.text().strip() or LOOPBACK)
-
-    def _send_anyway(self) -> None:
-        self._state.set(broadcast=self._state.host)
 
     # What is shown
 

@@ -98,7 +98,7 @@ class CorrectionList(Retranslated, QWidget):
         events = edit.events_of(plan) if plan is not None else {}
         bare = self._generated.plan(player.id)
         before = edit.events_of(bare) if bare is not None else {}
-        known = self._event_ids(plan)
+        known = edit.events_of(plan) if plan is not None else {}
         places = []
         for item in corrections:
             id = edit.event_id_of(item)
@@ -113,9 +113,6 @@ class CorrectionList(Retranslated, QWidget):
             )
             places.append(Place(player.id, item, events.get(id), before.get(former), orphan))
         return places
-
-    def _event_ids(self, plan: PlayerPlan | None) -> frozenset[str]:
-        return frozenset(edit.events_of(plan)) if plan is not None else frozenset()
 
     def _tick(self, place: Place) -> int:
         event = place.event or place.generated

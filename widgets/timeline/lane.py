@@ -79,7 +79,7 @@ class Lane(QWidget):
         self.header = LaneHeader(self)
         self.fold_button, self.title = self.header.fold_button, self.header.title
         self.title_row, self.controls = self.header.title_row, self.header.controls
-        self.fold_button.clicked.connect(self._toggle_fold)
+        self.fold_button.clicked.connect(lambda: self.set_folded(not self._folded))
 
         self.plot = Plot(self, self)
         row = QHBoxLayout(self)
@@ -226,9 +226,6 @@ class Lane(QWidget):
             self.preferred_height_px, self.least_height_px = preferred_px, least_px
             self.setMinimumHeight(FOLDED_PX if self._folded else least_px)
             self.height_asked.emit()
-
-    def _toggle_fold(self) -> None:
-        self.set_folded(not self._folded)
 
     @property
     def dragging(self) -> bool:

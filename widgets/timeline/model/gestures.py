@@ -1,6 +1,5 @@
 """What every press on ruler, roll and lanes has in common: a gesture begins once the mouse has gone far enough, follows
-it, and ends in one step of undo, or leaves nothing behind.
-"""
+it, and ends in one step of undo, or leaves nothing behind."""
 
 from __future__ import annotations
 
