@@ -3,10 +3,7 @@
 The table itself is `vocabulary.toml` beside this module. An instrument here need not have a map; the vocabulary says
 what a part is; the maps say which instruments can play it.
 
-Messages
---------
-vocabulary.invalid : file, detail
-    "{file}: {detail}"
+Messages: ``vocabulary.invalid``.
 """
 
 from __future__ import annotations

@@ -1,14 +1,7 @@
 """Recordings: WAV, FLAC, OGG and MP3 files as samples at the rate everything is mixed at.
 
-Messages
---------
-audio.not_readable : file, detail
-audio.empty : file
-audio.too_long : file, most_hours
-audio.too_dense : file, minutes
-audio.unusable : file, rate_hz, channels
-audio.breaks_off : file, seconds
-    A warning: what came before was read.
+Messages: ``audio.not_readable``, ``audio.empty``, ``audio.too_long``, ``audio.too_dense``, ``audio.unusable``,
+``audio.breaks_off``.
 """
 
 from __future__ import annotations

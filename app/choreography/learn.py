@@ -4,13 +4,7 @@ Source: K. Kameda, I. Watanabe, M. Yamamoto, "Music Driven Computer Animation Ba
 (`app.choreography.cuts`) and classified (`app.choreography.basic_motions`), then the states are visible and their
 probabilities are counted (`app.choreography.hidden_markov`).
 
-Messages
---------
-learn.no_motion : motions
-learn.states : states, segments
-learn.no_overlap : motion, music
-cuts.wrong : see `app.choreography.cuts_by_hand.check_cuts`
-learn.done : file, states, segments, length_s, frames; that of `summary`
+Messages: ``learn.no_motion``, ``learn.states``, ``learn.no_overlap``, ``cuts.wrong``, ``learn.done``.
 """
 
 from __future__ import annotations

@@ -4,11 +4,7 @@ Nodes have turns of their own at rest, and scales; joints of BVH files have neit
 turns as the node turns away from its rest, below one root for all. At rest it is where its skin was bound, or where the
 file has it without animation. The longest animation counts.
 
-Messages
---------
-motion.no_animation : file
-motion.too_long : file
-and what the readers say
+Messages: ``motion.no_animation``, ``motion.too_long`` and what the readers say.
 """
 
 from __future__ import annotations

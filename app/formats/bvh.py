@@ -5,12 +5,8 @@ own OFFSET is zero (some readers add it to the channels, others replace it), rot
 the frame time with enough digits for a long take. Source: M. Meredith, S. Maddock, "Motion Capture File Formats
 Explained" (University of Sheffield, 2001).
 
-Messages (with ``file``): ``file.cannot_read`` (reason);
-``bvh.syntax`` (line, found): "{file}, line {line}: {found} does not belong here";
-``bvh.truncated``: "{file} ends too early";
-``bvh.motion`` (detail): "{file}: the motion does not fit the skeleton ({detail})";
-``bvh.too_large``: "{file} describes far more data than a file of its size holds";
-``bvh.unsupported`` (line, what): "{file}, line {line}: {what} is not supported".
+Messages (with ``file``): ``file.cannot_read``, ``bvh.syntax``, ``bvh.truncated``, ``bvh.motion``, ``bvh.too_large``,
+``bvh.unsupported``.
 """
 
 from __future__ import annotations

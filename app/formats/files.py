@@ -2,11 +2,7 @@
 
 A pipe would block its reader for ever and a device may have no end, so what is opened is looked at before it is read.
 
-Messages
---------
-file.cannot_read : file, reason
-file.not_regular : file
-file.too_large : file, size_mb, most_mb
+Messages: ``file.cannot_read``, ``file.not_regular``, ``file.too_large``.
 """
 
 from __future__ import annotations

@@ -1,8 +1,6 @@
 """JSON of any origin -> typed values; nothing but our own error escapes.
 
-Messages
---------
-json.invalid : file, detail
+Messages: ``json.invalid``.
 """
 
 from __future__ import annotations

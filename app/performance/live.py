@@ -4,8 +4,7 @@ The performance is cut into chunks of frames. The owner of the worker thread cal
 makes something; the viewport calls `LiveMotion.pose`, which never waits. After an edit only the chunks are made again
 whose curves changed.
 
-Messages: those of `app.performance.ensemble`; ``character.hold_waiting``; ``player.fault`` (player, detail): "{player}
-cannot be seen because of a fault of the program: {detail}".
+Messages: ``character.hold_waiting``, ``player.fault`` and those of `app.performance.ensemble`.
 """
 
 from __future__ import annotations

@@ -1,9 +1,6 @@
 """How deep breaths are, and where their air does not last.
 
-Messages
---------
-breath.too_long(note, phrase_s, air_s, lung_s): "From note {note} on, {phrase_s} s must be played on one breath; it
-    takes {air_s} s of air, and there are {lung_s}."
+Messages: ``breath.too_long``.
 """
 
 from __future__ import annotations

@@ -2,14 +2,8 @@
 entries, a smile after the last note of a piece that ends brightly; neutral beneath. What a name looks like is in
 ``metadata/expressions``.
 
-Messages
---------
-expression.default(): "The face at rest."
-expression.effort(effort, threshold): "Effort {effort} (from {threshold}): high, loud or long."
-expression.low_loud(pitch, easy_low, loudness): "{pitch} lies below {easy_low} and is loud ({loudness})."
-expression.gives_entry(): "Gives the entry."
-expression.takes_entry(rest_s): "Comes in after {rest_s} s of rest."
-expression.end(bpm): "The last note is over: a bright end, in major, {bpm} beats a minute and not soft."
+Messages: ``expression.default``, ``expression.effort``, ``expression.low_loud``, ``expression.gives_entry``,
+``expression.takes_entry``, ``expression.end``.
 """
 
 from __future__ import annotations

@@ -12,15 +12,8 @@ however long the silence between them.
 Everything random is drawn from player and score position (tick), so the same place repeats in every run, however the
 rest of the piece is edited (Wanderley: players repeat the same bell movement at the same place).
 
-Messages
---------
-gesture.sway(beats, beat_s): "Half a swing in {beats} beats of {beat_s} s."
-gesture.weight_shift(side): "A shift of weight to the {side} foot."
-gesture.bell_height(pitch, mean_pitch): "The melody is around {pitch}; the line's mean is {mean_pitch}."
-gesture.bell_accent(more): "An accent, {more} louder (0..1) than the notes around it."
-gesture.lower_instrument(rest_s): "{rest_s} s of rest: the instrument comes down and is up again before the entry."
-gesture.lower_at_end(after_s): "{after_s} s after the last note the instrument comes down."
-gesture.lower_at_start(rest_s): "The entry is {rest_s} s away: the instrument is still down."
+Messages: ``gesture.sway``, ``gesture.weight_shift``, ``gesture.bell_height``, ``gesture.bell_accent``,
+``gesture.lower_instrument``, ``gesture.lower_at_end``, ``gesture.lower_at_start``.
 """
 
 from __future__ import annotations

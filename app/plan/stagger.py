@@ -1,9 +1,6 @@
 """Players in unison or in octaves breathe one after another: not before the same notes, and within held notes too.
 
-Messages
---------
-breath.staggered(air_s, lung_s): "A breath within a note that others of the line hold on: it takes {air_s} s of air, and
-    there are {lung_s}."
+Messages: ``breath.staggered``.
 """
 
 from __future__ import annotations

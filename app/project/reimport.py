@@ -13,14 +13,7 @@ Dancers stay; what was corrected of their dances moves like other corrections at
 Corrections whose note is gone stay as they are and do nothing (`orphaned`), until they are given another note
 (`reattached`) or taken back.
 
-Messages (`UsageError`)
---------
-reimport.no_note : kind
-    "A correction of this kind (pose, gesture ...) belongs to no note."
-reimport.not_played : note
-    "The player does not play this note."
-piece.too_long : hours, quarters, bars, most_hours, most_quarters, most_bars
-    A note drawn here would lie too late in the new piece.
+Messages (`UsageError`): ``reimport.no_note``, ``reimport.not_played``, ``piece.too_long``.
 """
 
 from __future__ import annotations

@@ -1,9 +1,6 @@
 """Loading characters: our own glTF binaries as they are, others as figures (`app.rig.figure_character`).
 
-Messages
---------
-model.invalid
-    See `app.rig.source`.
+Messages: ``model.invalid``.
 """
 
 from __future__ import annotations

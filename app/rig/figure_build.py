@@ -2,16 +2,7 @@
 
 Scales are multiplied out and every vertex is put where it is in the world at rest.
 
-Messages
---------
-figure.too_large : file
-    "{file} describes more data than any character has"
-figure.no_bones : file
-    "{file} has no bones: no skeleton to play with"
-figure.scaled : file, height_m, factor
-    A note: the file's unit was wrong and has been corrected.
-figure.odd_height : file, height_m
-    A note: no unit explains the figure's height.
+Messages: ``figure.too_large``, ``figure.no_bones``, ``figure.scaled``, ``figure.odd_height``.
 """
 
 from __future__ import annotations

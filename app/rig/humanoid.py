@@ -3,10 +3,7 @@
 Names come from the tables in ``metadata/bone_names``; of all tables the one counts that most joints and the hierarchy
 agree with. Left is where +X is, whatever a name says.
 
-Messages
---------
-figure.no_joint : file, joint, joints
-figure.no_bone : file, joint, bone
+Messages: ``figure.no_joint``, ``figure.no_bone``.
 """
 
 from __future__ import annotations

@@ -1,9 +1,6 @@
 """Loading instrument models, and where their moving parts are for given values of the controls.
 
-Messages
---------
-model.invalid
-    See `app.rig.source`.
+Messages: ``model.invalid``.
 """
 
 from __future__ import annotations

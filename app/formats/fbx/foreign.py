@@ -4,14 +4,8 @@ Any version and both encodings are read by the library ufbx, which knows pre-rot
 units and axes. It runs in a process of its own (`foreign_child`): what a damaged file does to it is reported as an
 error.
 
-Messages (all with ``file``)
---------
-file.cannot_read : reason
-file.too_large : size_mb, most_mb
-fbx.not_fbx : "{file} is not an FBX file"
-fbx.foreign_damaged : detail
-    "{file} is damaged: {detail}"
-fbx.too_large : "{file} describes far more data than a file of its size holds"
+Messages (all with ``file``): ``file.cannot_read``, ``file.too_large``, ``fbx.not_fbx``, ``fbx.foreign_damaged``,
+``fbx.too_large``.
 """
 
 from __future__ import annotations
