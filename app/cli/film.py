@@ -18,7 +18,15 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from app.cli.bars import add_bar_options, requested_span
 from app.cli.display import VIRTUAL, why_no_display
 from app.cli.edit import MOST_PX, THEMES, VIEWS
-from app.cli.options import Commands, add_source_options, frame_rate, open_project, picture_size, within
+from app.cli.options import (
+    Commands,
+    add_players_option,
+    add_source_options,
+    frame_rate,
+    open_project,
+    picture_size,
+    within,
+)
 from app.cli.progress import Progress, find_holds
 from app.cli.status import NO_DISPLAY, report_left_out
 from app.cli.terminal import say, warn
@@ -67,13 +75,9 @@ def add_command(commands: Commands) -> None:
     command.add_argument(
         "--view", choices=VIEWS, help="how the players are seen (default: ensemble; with --player front)"
     )
-    command.add_argument(
-        "--player",
-        dest="players",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="the player or dancer that the view is about; a pattern such as '*sax*'; repeatable; a close-up shows the "
+    add_players_option(
+        command,
+        "the player or dancer that the view is about; a pattern such as '*sax*'; repeatable; a close-up shows the "
         "first (default: the first of the piece)",
     )
     add_bar_options(command)
