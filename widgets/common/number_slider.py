@@ -209,6 +209,15 @@ class NumberSlider(QWidget):
         self._words, self._reads = words, reads
         self.update()
 
+    def show_as_place(self) -> None:
+        """Write and read the value, ticks of the score, as bar, beat and ticks."""
+
+        def tick(text: str) -> float | None:
+            found = self._session.project.score.metre_map.tick_of_label(text)
+            return None if found is None else float(found)
+
+        self.set_wording(lambda value: self._session.project.score.metre_map.label(round(value)), tick)
+
     def value_text(self) -> str:
         """The value as it is written in the control, without its unit."""
         if self._mixed:

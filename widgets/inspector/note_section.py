@@ -91,7 +91,7 @@ class NoteSection(Retranslated, QWidget):
         self._numbers["pitch"].changed.connect(self._set_pitch)
         self._numbers["pitch"].set_wording(self._pitch_text, self._pitch_from)
         self._numbers["onset"].changed.connect(self._set_onset)
-        self._numbers["onset"].set_wording(self._place_text, self._place_from)
+        self._numbers["onset"].show_as_place()
         self._numbers["length"].changed.connect(self._set_length)
         self._numbers["velocity"].changed.connect(self._set_velocity)
         for name, slider in self._lips.items():
@@ -270,13 +270,6 @@ class NoteSection(Retranslated, QWidget):
     def _pitch_from(self, text: str) -> float | None:
         pitch = pitch_from(self._session.pitch_display, text, self._transposition())
         return None if pitch is None else float(pitch)
-
-    def _place_text(self, value: float) -> str:
-        return self._session.project.score.metre_map.label(round(value))
-
-    def _place_from(self, text: str) -> float | None:
-        tick = self._session.project.score.metre_map.tick_of_label(text)
-        return None if tick is None else float(tick)
 
     # Editing
 
