@@ -3,20 +3,8 @@
 Every edit returns another tuple of fingerings, sorted and with ranks that count from 1; `problems_of` says what a map
 with them would be refused for.
 
-Messages
---------
-fingering.unknown_sign : text, signs
-    "'{text}' says nothing on this instrument; its signs are: {signs}"
-fingering.unknown_place : text, places
-    "'{text}' is no place of the slide; there are: {places}"
-fingering.twice : text
-    "'{text}' is there already for this note"
-fingering.no_number : text
-    "'{text}' is no number of cents"
-fingering.last : (nothing)
-    "the only fingering of a note cannot be removed"
-map.not_rewritten : file
-    "{file}: its table of fingerings is written in a way that cannot be changed here; change it in a text editor"
+Messages: ``fingering.unknown_sign``, ``fingering.unknown_place``, ``fingering.twice``, ``fingering.no_number``,
+``fingering.last``, ``map.not_rewritten``.
 """
 
 from __future__ import annotations

@@ -1,11 +1,6 @@
 """Reads instrument maps: TOML text to `InstrumentMap`, refusing with the exact place what is wrong.
 
-Messages
---------
-map.unreadable : file, detail
-    "{file}: cannot be read: {detail}"
-table.invalid : file, place, detail
-    "{file}: {place}: {detail}"; and what `app.formats.toml` says
+Messages: ``map.unreadable``, ``table.invalid`` and what `app.formats.toml` says.
 """
 
 from __future__ import annotations

@@ -3,10 +3,7 @@
 The table itself is `vocabulary.toml` beside this module. An instrument here need not have a map; the vocabulary says
 what a part is; the maps say which instruments can play it.
 
-Messages
---------
-vocabulary.invalid : file, detail
-    "{file}: {detail}"
+Messages: ``vocabulary.invalid``.
 """
 
 from __future__ import annotations
@@ -58,7 +55,6 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     Attributes
     ----------
-    id : str
     kind : {"wind", "percussion", "other"}
     names : tuple of str
         The first is the English name for people; matching ignores case, diacritics, width and punctuation.

@@ -1,8 +1,6 @@
 """Reading and checking the metadata tables; every fault names the file and the line or key path.
 
-Messages
---------
-metadata.missing(kind, name, known); table.invalid(file, place, detail) and what `app.formats.toml` says
+Messages: ``metadata.missing``, ``table.invalid`` and what `app.formats.toml` says.
 """
 
 from __future__ import annotations

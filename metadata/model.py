@@ -458,7 +458,6 @@ class Controller(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     ----------
     name : str
         Id; the file's name.
-    title : ControllerName
     ports : tuple of str
         Regular expressions, of which one is found in the name of its MIDI port, whatever the case; none recognises
         the controller of last resort.
@@ -466,7 +465,6 @@ class Controller(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         Where its breath may be, the most trusted first.
     channel : int
         1..16; 0 where it may be any.
-    bite : BiteSource
     bend_range_semitones : float
         To how many semitones a full pitch bend is played.
     source : str

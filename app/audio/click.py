@@ -20,7 +20,6 @@ def click_track(project: Project, start_s: float, end_s: float) -> Track:
 
     Parameters
     ----------
-    project : Project
     start_s, end_s : float
         Seconds of the performance; from before the first note if the pre-roll is to be counted.
     """

@@ -1,14 +1,7 @@
 """Recordings: WAV, FLAC, OGG and MP3 files as samples at the rate everything is mixed at.
 
-Messages
---------
-audio.not_readable : file, detail
-audio.empty : file
-audio.too_long : file, most_hours
-audio.too_dense : file, minutes
-audio.unusable : file, rate_hz, channels
-audio.breaks_off : file, seconds
-    A warning: what came before was read.
+Messages: ``audio.not_readable``, ``audio.empty``, ``audio.too_long``, ``audio.too_dense``, ``audio.unusable``,
+``audio.breaks_off``.
 """
 
 from __future__ import annotations
@@ -43,10 +36,8 @@ class Recording:
 
     Attributes
     ----------
-    path : str
     samples : int16 array, shape (n, 2)
         At `RATE_HZ`.
-    warnings : tuple of Message
     """
 
     path: str
@@ -68,7 +59,6 @@ def decode(
 
     Parameters
     ----------
-    path : str
     progress : callable
         Called with the share 0..1 that is read.
     stop_requested : callable

@@ -39,7 +39,6 @@ def tuning(sound: Sound, rate_hz: int) -> float:
     Parameters
     ----------
     sound : float32 array, shape (n,)
-    rate_hz : int
 
     Returns
     -------
@@ -64,7 +63,6 @@ def chroma(sound: Sound, rate_hz: int, size: int, hop: int, tuned: float) -> Flo
     Parameters
     ----------
     sound : float32 array, shape (n,)
-    rate_hz : int
     size, hop : int
         Samples of a spectrum, and from one to the next; the first is centred on the first sample.
     tuned : float
@@ -91,7 +89,6 @@ def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> Floats:
     Parameters
     ----------
     sound : float32 array, shape (n,)
-    rate_hz : int
     size, hop : int
         Samples of a spectrum, and from one to the next; the first is centred on the first sample.
 

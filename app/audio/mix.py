@@ -33,7 +33,6 @@ def player_tracks(project: Project, pieces: Mapping[str, Iterable[Piece]]) -> tu
 
     Parameters
     ----------
-    project : Project
     pieces : mapping of str to iterable of Piece
         What is rendered, by player id.
     """
@@ -92,7 +91,6 @@ def mixdown(
         Muted players are silent.
     start_s, end_s : float
         Seconds of the performance; may be negative.
-    rate_hz : int
     progress : callable
         Called with the share 0..1 that is done.
     stop_requested : callable

@@ -91,8 +91,6 @@ def estimate_offset(
     Parameters
     ----------
     samples : int16 array, shape (n, channels)
-    rate_hz : int
-    score : Score
     progress : callable
         Called with the share 0..1 that is done.
     stop_requested : callable

@@ -113,7 +113,6 @@ class Queue:
 
     Parameters
     ----------
-    rate_hz : int
     delay_s : float
         Time from when the device fetches sound until that begins to sound.
     now : callable

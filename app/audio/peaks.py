@@ -25,7 +25,6 @@ class Peaks:
     ----------
     samples : int16 array, shape (samples, channels)
         Kept, not copied.
-    rate_hz : int
     """
 
     def __init__(self, samples: Samples, rate_hz: int) -> None:
@@ -52,7 +51,6 @@ class Peaks:
         ----------
         start_s, end_s : float
             Seconds of the recording; what lies outside of it is silence.
-        width_px : int
 
         Returns
         -------

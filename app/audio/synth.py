@@ -112,8 +112,6 @@ def phrases(part: Part, tempo_map: TempoMap, program: int) -> tuple[Phrase, ...]
 
     Parameters
     ----------
-    part : Part
-    tempo_map : TempoMap
     program : int
         General MIDI program, 0..127.
     """

@@ -41,7 +41,6 @@ class Track:
 
     Parameters
     ----------
-    pieces : iterable of Piece
     left, right : float
         Gains of the two channels.
     """

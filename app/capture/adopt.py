@@ -22,7 +22,6 @@ def takes_of(
 
     Parameters
     ----------
-    journal : Journal
     tempo_map : TempoMap
         What was played back.
     wiring : ControllerMapping

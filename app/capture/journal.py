@@ -111,10 +111,8 @@ class Pass(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    number : int
     times_us : tuple of int
         Microseconds, not descending; before the first note negative.
-    messages : tuple of bytes
     """
 
     number: int
@@ -136,7 +134,6 @@ class JournalWriter:
     ----------
     path : str
         Must not be there; with ``resumed`` it may, and a torn last line is cut off.
-    header : Header
 
     Raises
     ------

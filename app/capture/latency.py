@@ -92,7 +92,6 @@ def hits(events: Iterable[tuple[float, bytes]], breath: BreathSource) -> tuple[f
     ----------
     events : iterable of (float, bytes)
         Seconds, ascending, and messages of the channel that is listened to.
-    breath : BreathSource
     """
     notes: list[float] = []
     breaths: list[float] = []

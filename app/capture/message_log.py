@@ -28,14 +28,12 @@ class MessageRow(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    kind : Kind
     channel : int
         1..16.
     number : int
         Of the note or the controller; -1 where a message has none.
     value : int
         The last one: velocity, 0..127, a bend -8192..8191.
-    count : int
     """
 
     kind: Kind

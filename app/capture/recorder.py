@@ -75,7 +75,6 @@ class Recorder:
         What is put into it is sent.
     journal : SimpleQueue
         What is put into it is written.
-    requested_system : str
     on_open : callable
         Called when a port was opened: the driver's threads are there.
 

@@ -77,7 +77,6 @@ def settled(draft: MotionClip, first_s: float, shown: TimeMap, plain: TimeMap, g
         That map.
     plain : TimeMap
         With a knot at each segment's place: see `app.choreography.warp.arriving`.
-    grid : Grid
     """
     along, speeds = shown.at(first_s + np.arange(len(draft)) / float(draft.fps))
     seen = speeds > LEAST_SPEED

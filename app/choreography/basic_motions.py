@@ -33,7 +33,6 @@ def classify(
         See `app.choreography.features`; in time order.
     states : int or None
         How many there are; None to choose by `SPREAD` and `LEAST_MOTIONS`.
-    seed : int
     proceed : callable
         Called before each run of k-means; what it raises ends the work.
 

@@ -64,7 +64,6 @@ def body_layer(motion: Motion, character: Character) -> BodyLayer:
     ----------
     motion : Motion
         Of a dancer of the same body (`app.choreography.retarget`).
-    character : Character
     """
     fps, skeleton = float(motion.fps), character.skeleton
     chest = skeleton.parents[skeleton.index("leftShoulder")]

@@ -45,8 +45,6 @@ class MotionClip:
 
     Attributes
     ----------
-    shape : BodyShape
-    fps : Fraction
     hips_m : (F, 3) float64
         Place of the hips in the world; the floor is at Y = 0.
     rotations : (F, 16, 4) float64

@@ -3,11 +3,7 @@
 A *bound* is a frame at which a motion starts or ends; motions that meet share one. Every edit gives cuts that can be
 learned from: ascending, without overlap, each with its accent between its bounds.
 
-Messages
---------
-cuts.line : file, line, text
-cuts.order : file, line
-cuts.wrong : motion, start, accent, end, frames
+Messages: ``cuts.line``, ``cuts.order``, ``cuts.wrong``.
 """
 
 from __future__ import annotations

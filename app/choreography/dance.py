@@ -27,7 +27,6 @@ class Manner:
         Of trunk and arms about their usual pose, 1 as captured.
     weight : float
         -1 to 1: how light or heavy it is danced; knees bend by `app.choreography.feet.DEEPER` of a leg more at 1.
-    mirrored : bool
     """
 
     seed: int = 0
@@ -45,7 +44,6 @@ class Step:
     ----------
     segment : int
         In the model.
-    state : int
     place : int
         Of its accent in the grid of beats and half beats.
     start_s, accent_s, end_s : float
@@ -68,8 +66,6 @@ class Dance:
     ----------
     clip : MotionClip
         Its frame 0 is at ``first_s``.
-    first_s : float
-    steps : tuple of Step
     speeds : (T,) float64
         Of the source's time, by frame: 1 as captured, 0 at rest.
     seams : tuple of int

@@ -62,7 +62,6 @@ def stands(clip: MotionClip, contacts: BoolArray) -> tuple[Stand, ...]:
 
     Parameters
     ----------
-    clip : MotionClip
     contacts : (F, 2) bool
         Of the left and the right foot, as captured. A foot that the motion carries away while it should stand, by a
         join or a turn, is taken to step meanwhile.
@@ -110,8 +109,6 @@ def planted(clip: MotionClip, standing: tuple[Stand, ...], weight: float = 0.0) 
 
     Parameters
     ----------
-    clip : MotionClip
-    standing : tuple of Stand
     weight : float
         -1 to 1: the hips of a heavy dancer are lower over the same steps, those of a light one higher.
     """

@@ -31,7 +31,6 @@ class Role:
 
     Attributes
     ----------
-    manner : Manner
     delay_beats : float
         The dance begins so many felt beats after the music.
     x_m : float
@@ -51,7 +50,6 @@ def roles(formation: Formation, dancers: int, manner: Manner, sources: int) -> t
     formation : {"unison", "canon", "mirror", "individual"}
         All dance the same; the same one after the other; the same, every other one as in a mirror; or each a dance of
         its own, with a seed, a preferred source and a size of its own.
-    dancers : int
     manner : Manner
         Of the first, from which those of the others follow.
     sources : int

@@ -56,7 +56,6 @@ class _Plan:
 
     Attributes
     ----------
-    steps : tuple of Step
     times : TimeMap or None
         None without steps.
     hits_s : (N,) float64
@@ -131,11 +130,7 @@ class Choreographer:
 
         Parameters
         ----------
-        rhythm : Rhythm
-        manner : Manner
-        fps : Fraction
         wishes : Constraints, optional
-        weights : Weights, optional
         first_s, end_s : float
             The motion's first frame and its end; by default from the first tick to `REST_S` after the last step.
         """

@@ -18,11 +18,7 @@ IntArray = npt.NDArray[np.int64]
 
 
 def count(
-    states: Sequence[IntArray],
-    symbols_per_segment: Sequence[Sequence[IntArray]],
-    n_states: int,
-    *,
-    smoothing: float,
+    states: Sequence[IntArray], symbols_per_segment: Sequence[Sequence[IntArray]], n_states: int, *, smoothing: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Transition, emission and initial probabilities of the state sequences that were seen.
 
@@ -34,7 +30,6 @@ def count(
     symbols_per_segment : sequence of sequences of (H,) int
         Of each clip, the percussion symbols that sound in each segment; a segment may have none, or one symbol
         several times.
-    n_states : int
     smoothing : float
         Number of observations added to every distribution, shared equally by its outcomes (additive smoothing), so
         that its weight depends neither on the number of states nor on the number of symbols. Greater than 0: an

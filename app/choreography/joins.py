@@ -35,7 +35,6 @@ class Clouds:
 
     Parameters
     ----------
-    clips : sequence of MotionClip
     places : sequence of (clip, frame)
 
     Attributes
@@ -91,7 +90,6 @@ def faded(value: FloatArray, slope: FloatArray, times_s: FloatArray, fade_s: flo
         At time 0, and its rate of change per second.
     times_s : (T,) float64
         From 0 on.
-    fade_s : float
 
     Returns
     -------

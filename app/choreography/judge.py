@@ -42,8 +42,6 @@ def jerking_seams(clip: MotionClip, seams: Sequence[int], usual_rad_s: float) ->
 
     Parameters
     ----------
-    clip : MotionClip
-    seams : sequence of int
     usual_rad_s : float
         See `usual_change_rad_s`.
     """

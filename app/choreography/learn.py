@@ -4,13 +4,7 @@ Source: K. Kameda, I. Watanabe, M. Yamamoto, "Music Driven Computer Animation Ba
 (`app.choreography.cuts`) and classified (`app.choreography.basic_motions`), then the states are visible and their
 probabilities are counted (`app.choreography.hidden_markov`).
 
-Messages
---------
-learn.no_motion : motions
-learn.states : states, segments
-learn.no_overlap : motion, music
-cuts.wrong : see `app.choreography.cuts_by_hand.check_cuts`
-learn.done : file, states, segments, length_s, frames; that of `summary`
+Messages: ``learn.no_motion``, ``learn.states``, ``learn.no_overlap``, ``cuts.wrong``, ``learn.done``.
 """
 
 from __future__ import annotations
@@ -52,11 +46,8 @@ class Pair:
 
     Attributes
     ----------
-    motion : MotionClip
     motion_name : str
         Of the file, without folders.
-    rhythm : Rhythm
-    music_name : str
     offset_s : float or None
         The music's first tick is at this time of the motion; None to find it.
     credits : str
@@ -111,12 +102,10 @@ def learn(
 
     Parameters
     ----------
-    pairs : sequence of Pair
     states : int or None
         Number of basic motions; None to choose it (`app.choreography.basic_motions.SPREAD`).
     seed : int
         Of k-means. The same pairs, states and seed give the same model, to the bit.
-    name : str
     progress : callable
         Called with the share of the work that is done, and with what is done now; what it raises ends the work.
 

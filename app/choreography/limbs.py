@@ -35,7 +35,6 @@ def bend(
 
     Parameters
     ----------
-    clip : MotionClip
     world : JointTransforms
         Of the clip.
     limb : tuple of str

@@ -44,7 +44,6 @@ class MotionSegment:
 
     Attributes
     ----------
-    clip : int
     start, accent, end : int
         Frames at the minimum, the maximum and the next minimum; the segment is ``start`` to ``end`` (half-open), and
         the next segment of the clip, if it follows at once, begins at ``end``.
@@ -65,8 +64,6 @@ class ChoreographyModel:
 
     Attributes
     ----------
-    name : str
-    sources : tuple of Source
     clips : tuple of MotionClip
         The mended motion of each source, all at one frame rate, each with the shape of its own body.
     segments : tuple of MotionSegment

@@ -4,11 +4,7 @@ Nodes have turns of their own at rest, and scales; joints of BVH files have neit
 turns as the node turns away from its rest, below one root for all. At rest it is where its skin was bound, or where the
 file has it without animation. The longest animation counts.
 
-Messages
---------
-motion.no_animation : file
-motion.too_long : file
-and what the readers say
+Messages: ``motion.no_animation``, ``motion.too_long`` and what the readers say.
 """
 
 from __future__ import annotations
@@ -56,7 +52,6 @@ class _Nodes:
         Nodes that are no bones, unless bones hang from them: meshes, cameras, lights.
     rest : (N, 4, 4) float64
         World transforms.
-    fps : Fraction
     translations_m, rotations, scales : (F, N, 3), (F, N, 4), (F, N, 3) float64
         On the parent.
     """

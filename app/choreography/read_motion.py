@@ -5,13 +5,8 @@ Joints between two segments (collars, buttocks, neck, further vertebrae) are fol
 world rotation is that of the file, its offset the mean over the clip of where its joint is on the segment that
 carries it.
 
-Messages
---------
-motion.far : file
-motion.format : file
-motion.incomplete : file, joints
-and those of `guesses`: motion.rate : rate, said; motion.no_unit; motion.lead_in : n; motion.flips : n;
-motion.doubtful : joints; motion.apart : apart_mm
+Messages: ``motion.far``, ``motion.format``, ``motion.incomplete``, ``motion.rate``, ``motion.no_unit``,
+``motion.lead_in``, ``motion.flips``, ``motion.doubtful``, ``motion.apart``.
 """
 
 from __future__ import annotations
@@ -66,12 +61,10 @@ class ReadMotion:
 
     Attributes
     ----------
-    clip : MotionClip
     profile : str
         Table of bone names; empty where the joints were found by shape.
     unit : str
         Key of `UNITS_M`; empty where none fits and the figure was scaled to `HEIGHT_M`.
-    unit_m : float
     up : str
         Axis of the file that points up, e.g. ``"+Z"``.
     file_fps : Fraction

@@ -1,9 +1,6 @@
 """Files of a motion, of its music and of who made it, as a pair to learn from.
 
-Messages
---------
-learn.no_percussion : file
-and what the readers say, also those of cuts (`app.choreography.cuts_by_hand`)
+Messages: ``learn.no_percussion`` and what the readers say, also those of cuts (`app.choreography.cuts_by_hand`).
 """
 
 from __future__ import annotations

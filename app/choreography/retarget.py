@@ -60,8 +60,6 @@ def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0)
 
     Parameters
     ----------
-    clip : MotionClip
-    character : Character
     first_frame_s : float
         Time of the clip's first frame in the performance.
 
@@ -120,11 +118,7 @@ def _clip_socket_height_m(shape: BodyShape) -> float:
 
 
 def _hips_path(
-    skeleton: Skeleton,
-    clip: MotionClip,
-    turned: FloatArray,
-    places_m: dict[str, FloatArray],
-    scale: float,
+    skeleton: Skeleton, clip: MotionClip, turned: FloatArray, places_m: dict[str, FloatArray], scale: float
 ) -> FloatArray:
     """(F, 3) hips of the character: the middle of its hip joints goes the clip's scaled path."""
     middle = 0.5 * (places_m["leftUpperLeg"] + places_m["rightUpperLeg"])

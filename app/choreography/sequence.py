@@ -174,12 +174,8 @@ def choose(
 
     Parameters
     ----------
-    grid : Grid
     scores : (G, S) float64
         See `symbol_scores`.
-    candidates : Candidates
-    seed : int
-    weights : Weights, optional
     wishes : Constraints, optional
     initial, final : (S,) float64, optional
         Log odds of each segment as the first, and as the last.

@@ -104,10 +104,8 @@ class Stitcher:
 
         Parameters
         ----------
-        frames : Frames
         body : int
             The clip whose body dances.
-        fps : Fraction
 
         Returns
         -------

@@ -94,7 +94,6 @@ def arriving(plain: TimeMap, arrivals: FloatArray, grid: Grid) -> TimeMap:
         With a knot at each segment's place; its first and last knot are the ends of the dance.
     arrivals : (A,) float64
         Along the motions, ascending.
-    grid : Grid
     """
     anchors = [
         (float(along), float(time)) for time, along in zip(plain.times_s[1:-1], plain.along_s[1:-1], strict=True)

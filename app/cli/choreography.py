@@ -99,41 +99,32 @@ def _add_learn(actions: Actions) -> None:
         help="a .bvh, .fbx or .glb file and a MIDI file; repeatable",
     )
     of_pair = command.add_argument_group("options of the pair before them")
-    of_pair.add_argument(
+
+    def add(option: str, help: str, **more: Any) -> None:
+        of_pair.add_argument(option, action=_OfPair, default=argparse.SUPPRESS, help=help, **more)
+
+    add(
         "--offset",
-        dest="offset_s",
-        action=_OfPair,
-        type=seconds,
-        default=argparse.SUPPRESS,
-        metavar="SECONDS",
-        help="time of the motion at which the music begins; without it, it is found from the beats of both, with a "
+        "time of the motion at which the music begins; without it, it is found from the beats of both, with a "
         "confidence from 0 to 1",
+        dest="offset_s",
+        type=seconds,
+        metavar="SECONDS",
     )
-    of_pair.add_argument(
-        "--fps",
-        action=_OfPair,
-        type=frame_rate,
-        default=argparse.SUPPRESS,
-        metavar="RATE",
-        help="the motion's true frame rate, where its file says a wrong one",
-    )
-    of_pair.add_argument(
+    add("--fps", "the motion's true frame rate, where its file says a wrong one", type=frame_rate, metavar="RATE")
+    add(
         "--credits",
-        action=_OfPair,
+        "a text file with the origin and the licence of the motion (default: the .txt file beside the motion that has "
+        "its name)",
         type=Path,
-        default=argparse.SUPPRESS,
         metavar="FILE",
-        help="a text file with the origin and the licence of the motion (default: the .txt file beside the motion that "
-        "has its name)",
     )
-    of_pair.add_argument(
+    add(
         "--cuts",
-        action=_OfPair,
+        "a text file with the times of the motion, in seconds, at which it is cut, one in each line; an empty line is "
+        "a rest between motions; without it the cuts are found",
         type=Path,
-        default=argparse.SUPPRESS,
         metavar="FILE",
-        help="a text file with the times of the motion, in seconds, at which it is cut, one in each line; an empty "
-        "line is a rest between motions; without it the cuts are found",
     )
     command.add_argument(
         "--states",
@@ -209,11 +200,7 @@ def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float
                 "given" if confidence is None else f"{confidence:.2f}{'' if confidence >= CONFIDENT else '*'}",
             )
         )
-    lines = [
-        text(summary(model, file)),
-        "",
-        *columns(rows),
-    ]
+    lines = [text(summary(model, file)), "", *columns(rows)]
     if any(source.offset_confidence is not None and source.offset_confidence < CONFIDENT for source in model.sources):
         lines.append(
             "(* another offset would fit nearly as well: if the music begins elsewhere, say where with --offset)"

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final
 from app.cli.bars import add_bar_options, requested_bars, requested_span
 from app.cli.options import (
     Commands,
+    add_players_option,
     add_rate_option,
     add_source_options,
     add_title_option,
@@ -65,14 +66,7 @@ def add_command(commands: Commands) -> None:
         help=f"{', '.join(FILE_FORMATS)}; repeatable, or several with commas (default: {','.join(USUAL_FORMATS)})",
     )
     add_rate_option(command)
-    command.add_argument(
-        "--player",
-        dest="players",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="only this player or dancer; repeatable",
-    )
+    add_players_option(command, "only this player or dancer; repeatable")
     command.add_argument(
         "--skeleton",
         choices=SKELETONS,

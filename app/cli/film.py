@@ -18,7 +18,15 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from app.cli.bars import add_bar_options, requested_span
 from app.cli.display import VIRTUAL, why_no_display
 from app.cli.edit import MOST_PX, THEMES, VIEWS
-from app.cli.options import Commands, add_source_options, frame_rate, open_project, picture_size, within
+from app.cli.options import (
+    Commands,
+    add_players_option,
+    add_source_options,
+    frame_rate,
+    open_project,
+    picture_size,
+    within,
+)
 from app.cli.progress import Progress, find_holds
 from app.cli.status import NO_DISPLAY, report_left_out
 from app.cli.terminal import say, warn
@@ -65,17 +73,11 @@ def add_command(commands: Commands) -> None:
     )
     place.add_argument("--sheet", type=Path, metavar="OUT.png", help="a contact sheet: the frames side by side")
     command.add_argument(
-        "--view",
-        choices=VIEWS,
-        help="how the players are seen (default: ensemble; with --player front)",
+        "--view", choices=VIEWS, help="how the players are seen (default: ensemble; with --player front)"
     )
-    command.add_argument(
-        "--player",
-        dest="players",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="the player or dancer that the view is about; a pattern such as '*sax*'; repeatable; a close-up shows the "
+    add_players_option(
+        command,
+        "the player or dancer that the view is about; a pattern such as '*sax*'; repeatable; a close-up shows the "
         "first (default: the first of the piece)",
     )
     add_bar_options(command)
@@ -366,12 +368,7 @@ def caption_texts(performance: Performance, times_s: Sequence[float], language: 
         # Tempi are stored in whole microseconds: a time on the beat is not exactly a tick.
         tick = round(float(performance.piece.clock.ticks(time_s)))
         time_text = f"{time_s:.2f}".replace("-", "−")
-        found.append(
-            (
-                text(Message("picture.time", {"time": time_text, "frame": frame}), language),
-                metres.label(tick),
-            )
-        )
+        found.append((text(Message("picture.time", {"time": time_text, "frame": frame}), language), metres.label(tick)))
     return found
 
 

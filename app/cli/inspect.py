@@ -24,14 +24,7 @@ from app.performance.judged import all_problems
 from app.performance.loudness import controller_input
 from app.plan.bends import bends
 from app.plan.line import dynamic_mark, staccato
-from app.plan.model import (
-    BreathEvent,
-    CueEvent,
-    ExpressionEvent,
-    FingeringEvent,
-    GestureEvent,
-    PoseEvent,
-)
+from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, FingeringEvent, GestureEvent, PoseEvent
 from app.plan.problem_lines import problem_lines
 from app.project.performers import Dancer, Player
 from app.score.model import Note, UnplayedPart
@@ -250,7 +243,7 @@ def tables(file: str, found: Table) -> list[str]:
     """The same for people: one line per player, then what is not played and what to look at."""
     lines = [
         f"{file}: {found['duration_s']:.2f} s, {_counted(len(found['players']), 'player')}, "
-        f"{found['ticks_per_beat']} ticks per quarter, tempo {_tempo(found['tempo'])}",
+        f"{found['ticks_per_beat']} ticks per quarter, tempo {_tempo(found['tempo'])}"
     ]
     if found["players"]:
         head = ("player", "instrument", "notes", "range", "breaths", "cues", "first fingerings")

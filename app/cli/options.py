@@ -126,6 +126,11 @@ def text_encoding(text: str) -> str:
     return text
 
 
+def add_players_option(command: argparse.ArgumentParser, help: str) -> None:
+    """Declare who is meant."""
+    command.add_argument("--player", dest="players", action="append", default=[], metavar="NAME", help=help)
+
+
 def add_file_options(command: argparse.ArgumentParser) -> None:
     """Declare the file and how it is read."""
     command.add_argument("file", type=Path, metavar="FILE", help="a Standard MIDI File or a .suisou project")
@@ -248,9 +253,7 @@ def _saved_project(arguments: argparse.Namespace) -> Project:
 
 def _cast_project(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) -> Project:
     return project_from_score(
-        _read_score(arguments, map_choices(maps.values())),
-        maps,
-        seed=getattr(arguments, "seed", None) or 0,
+        _read_score(arguments, map_choices(maps.values())), maps, seed=getattr(arguments, "seed", None) or 0
     )
 
 

@@ -185,12 +185,7 @@ def _write(target: Path, path: Path, tempo: float) -> None:
     end_us = round(journal.syncs[-1].position_s * 1e6)
     try:
         notes = write_take(
-            target,
-            take.times_us,
-            take.messages,
-            name=journal.header.port,
-            beats_per_minute=tempo,
-            end_us=end_us,
+            target, take.times_us, take.messages, name=journal.header.port, beats_per_minute=tempo, end_us=end_us
         )
     except FileError as error:
         reason = error.message.arguments.get("reason", text(error.message))

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
-from app.cli.options import Commands, add_source_options, frame_rate, open_project, seconds, within
+from app.cli.options import Commands, add_players_option, add_source_options, frame_rate, open_project, seconds, within
 from app.cli.progress import Progress, find_holds
 from app.cli.status import report_left_out
 from app.cli.summary import look_at
@@ -54,14 +54,7 @@ def add_command(commands: Commands) -> None:
         "VSeeFace, Warudo or Blender to follow: one character for each port. Ends with the piece, or at Ctrl+C.",
     )
     add_source_options(command)
-    command.add_argument(
-        "--player",
-        dest="players",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="only this player or dancer; repeatable (default: all, each on a port of their own)",
-    )
+    add_players_option(command, "only this player or dancer; repeatable (default: all, each on a port of their own)")
     command.add_argument(
         "--host", type=_host, default=LOOPBACK, help=f"name or address of a computer (default: {LOOPBACK})"
     )

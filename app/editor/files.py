@@ -49,9 +49,6 @@ class Files(QObject):
 
     Parameters
     ----------
-    session : Session
-    settings : Settings
-    questions : Questions
     autosave : Autosave or None
         None: unsaved work is not written down by itself.
 

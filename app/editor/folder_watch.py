@@ -22,7 +22,6 @@ class FolderWatch(QObject):
 
     Parameters
     ----------
-    parent : QObject
     folder : callable
         Where it is; need not be there yet.
     suffixes : collection of str

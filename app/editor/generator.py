@@ -62,7 +62,6 @@ class Generator(QObject):
 
     Parameters
     ----------
-    session : Session
     tasks : Tasks
         Where plans are made that take long.
 
@@ -369,7 +368,7 @@ class _Worker:
         clock, requests = self._clock, self._wishes
         start_s, others_s = clock.monotonic(), clock.process_time() - clock.thread_time()
         try:
-            more = self._live.work(self._interrupted)
+            more = self._live.work(lambda: self._closed or self._pending is not None)
         except PlayerFault as fault:
             # The others go on.
             self._report(partial(Generator._fell, fault=fault))
@@ -425,6 +424,3 @@ class _Worker:
         if broken is not self._reported_broken and (at_once or now_s - self._reported_broken_s >= TELL_BROKEN_S):
             self._reported_broken, self._reported_broken_s = broken, now_s
             self._report(lambda generator: generator._session.set_broken(broken))
-
-    def _interrupted(self) -> bool:
-        return self._closed or self._pending is not None

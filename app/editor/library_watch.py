@@ -24,8 +24,6 @@ class LibraryWatch(QObject):
 
     Parameters
     ----------
-    session : Session
-    library : UserFolder
     read_again : str, optional
         Id of the message (maps) that says what was read again.
     """

@@ -24,10 +24,8 @@ class LivePlayer(QObject):
 
     Parameters
     ----------
-    session : Session
     chosen : callable
         Id of that player; None: no one.
-    parent : QObject
     """
 
     def __init__(self, session: Session, chosen: Callable[[], str | None], parent: QObject) -> None:
@@ -49,7 +47,6 @@ class LivePlayer(QObject):
             Of `time.perf_counter`.
         raw : str
             A message of MIDI in hexadecimal.
-        wiring : ControllerMapping
         """
         playing = self._ready()
         if playing is not None:

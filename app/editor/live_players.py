@@ -110,7 +110,6 @@ class LivePlayers(QObject):
 
         Parameters
         ----------
-        player_id : str
         at_s : float
             Which moment of the piece it is.
         """

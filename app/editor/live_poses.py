@@ -14,13 +14,7 @@ from app.performance.chunks import Pose
 
 class LivePoses:
     """Poses of the performance; of players that are played now (`session.live_players`), those of now. Any thread may
-    call it.
-
-    Parameters
-    ----------
-    session : Session
-    poses : Poses
-    """
+    call it."""
 
     def __init__(self, session: Session, poses: Poses) -> None:
         self._session, self._poses = session, poses

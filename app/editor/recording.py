@@ -24,7 +24,6 @@ class Recording(State):
         Devices that are there.
     port : str
         The chosen one, there or not; empty: none.
-    connection : Connection
     refusal : Message or None
         Why the device, or every device, cannot be had.
     controller : str

@@ -26,7 +26,6 @@ class Selection(msgspec.Struct, frozen=True):
     ----------
     notes : frozenset of str
         Note ids, unique in the score.
-    events : frozenset of EventKey
     span : (int, int) or None
         A range of ticks, half-open.
     take : str or None

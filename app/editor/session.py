@@ -24,7 +24,7 @@ from app.editor.tokens import DARK
 from app.editor.viewport_state import ViewportState
 from app.errors import AppError, Message
 from app.performance.ensemble import Performance
-from app.plan.model import Problem
+from app.plan.model import PlayerPlan, Problem
 from app.project.document import Change, Document
 from app.project.grid import Grid
 from app.project.model import Project
@@ -162,6 +162,16 @@ class Session(QObject):
             self.performance_changed.emit()
             if performance.planned and performance.project is self.project:
                 self.select(self._selection.planned(performance.plans))
+
+    @property
+    def plans(self) -> Mapping[str, PlayerPlan]:
+        """The newest plan of every player by id; none before they are made."""
+        return self._performance.plans if self._performance.planned else {}
+
+    @property
+    def plan(self) -> PlayerPlan | None:
+        """The plan of the player in front, if there are both."""
+        return self.plans.get(self._players[0]) if self._players else None
 
     def problems(self, player_id: str) -> tuple[Problem, ...]:
         """What is wrong with a player's performance, its motion as far as it was made included, by time; the same tuple

@@ -3,11 +3,7 @@
 The file is a TOML table that may be edited by hand. A value that is not possible is as if it were not there; a file
 that cannot be read at all is left as it is, and what is chosen meanwhile is kept until it can be, or the editor ends.
 
-Messages
---------
-settings.value : file, place, detail
-settings.set_aside : file
-    After the message that says why.
+Messages: ``settings.value``, ``settings.set_aside``.
 """
 
 from __future__ import annotations
@@ -55,7 +51,6 @@ class Setting(Generic[T]):
     ----------
     key : str
         ``section/name``, or a whole section.
-    default : T
     kind : type, optional
         What is possible, as msgspec understands it; by default the default's type.
     held : SettingBinding, optional

@@ -59,11 +59,6 @@ class _Job:
 class Stems(QObject):
     """The players' tracks.
 
-    Parameters
-    ----------
-    tasks : Tasks
-    parent : QObject
-
     Signals
     -------
     changed()
@@ -100,7 +95,6 @@ class Stems(QObject):
 
         Parameters
         ----------
-        project : Project
         from_s : float
             What sounds from here on is rendered first.
         """

@@ -171,8 +171,7 @@ class Streamer(QObject):
             state.set(lines=lines)
             if state.everyone and len(lines) < len(project.seen):
                 reported = Message(
-                    "stream.no_room",
-                    {"count": len(project.seen), "port": state.port, "most": MOST_PORT},
+                    "stream.no_room", {"count": len(project.seen), "port": state.port, "most": MOST_PORT}
                 )
                 self._session.notice(reported, Severity.WARNING)
         everyone = {performer.id: performer for performer in project.performers}

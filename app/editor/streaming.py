@@ -44,10 +44,8 @@ class Streaming(State):
     everyone : bool
         Every player and dancer, each to a port of their own, at their places on the stage; else the one in front, in
         the middle.
-    faces : FaceNames
     rate_hz : int
         Frames in a second while something moves.
-    state : StreamState
     lines : tuple of StreamTarget
         Who is sent where.
     sent_hz : int
@@ -75,7 +73,6 @@ class Streaming(State):
 
         Parameters
         ----------
-        project : Project
         front : sequence of str
             Ids of the selected players, the active one first.
         """

@@ -23,13 +23,10 @@ class Tokens(msgspec.Struct, frozen=True):
         Panels; what stands out of them (buttons, headers); what lies in them (fields, lanes).
     line, line_strong : str
         Hairlines and bar lines.
-    text, text_dim : str
     accent, accent_text : str
         Selection, focus, the playhead; text upon it.
     by_hand : str
         The mark of what the user made.
-    warning, error, good : str
-    players : tuple of str
     """
 
     name: str

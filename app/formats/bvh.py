@@ -5,12 +5,8 @@ own OFFSET is zero (some readers add it to the channels, others replace it), rot
 the frame time with enough digits for a long take. Source: M. Meredith, S. Maddock, "Motion Capture File Formats
 Explained" (University of Sheffield, 2001).
 
-Messages (with ``file``): ``file.cannot_read`` (reason);
-``bvh.syntax`` (line, found): "{file}, line {line}: {found} does not belong here";
-``bvh.truncated``: "{file} ends too early";
-``bvh.motion`` (detail): "{file}: the motion does not fit the skeleton ({detail})";
-``bvh.too_large``: "{file} describes far more data than a file of its size holds";
-``bvh.unsupported`` (line, what): "{file}, line {line}: {what} is not supported".
+Messages (with ``file``): ``file.cannot_read``, ``bvh.syntax``, ``bvh.truncated``, ``bvh.motion``, ``bvh.too_large``,
+``bvh.unsupported``.
 """
 
 from __future__ import annotations
@@ -55,7 +51,6 @@ class BvhClip:
         Relative to the parent; the root's is zero.
     end_sites_cm : mapping of int to ndarray, shape (3,)
         Ends of the joints that have no child.
-    fps : Fraction
     root_translation_cm : ndarray, shape (F, 3)
     rotations_xyzw : ndarray, shape (F, J, 4)
         Relative to the parent.
@@ -78,7 +73,6 @@ def write_bvh(path: str | os.PathLike[str], clip: BvhClip) -> None:
 
     Parameters
     ----------
-    path : str or path-like
     clip : BvhClip
         Names have no blanks; children need not follow their parent directly (the file's order of joints is depth
         first). The root's offset is not written: its place is in `root_translation_cm`. Every joint without a child

@@ -54,7 +54,6 @@ def quaternions(angles_degrees: npt.NDArray[np.floating], order: str) -> npt.NDA
     ----------
     angles_degrees : ndarray, shape (..., 3)
         In the order of `order`.
-    order : str
 
     Returns
     -------

@@ -2,11 +2,7 @@
 
 A pipe would block its reader for ever and a device may have no end, so what is opened is looked at before it is read.
 
-Messages
---------
-file.cannot_read : file, reason
-file.not_regular : file
-file.too_large : file, size_mb, most_mb
+Messages: ``file.cannot_read``, ``file.not_regular``, ``file.too_large``.
 """
 
 from __future__ import annotations
@@ -47,7 +43,6 @@ def read_file(path: str | os.PathLike[str], most_bytes: int) -> bytes:
 
     Parameters
     ----------
-    path : str or path-like
     most_bytes : int
         A longer file is refused before any of it is read.
 

@@ -25,7 +25,6 @@ def join_meshes(meshes: Sequence[SkinnedMesh], name: str) -> SkinnedMesh:
     ----------
     meshes : sequence of SkinnedMesh
         At least one, with polygons of the same number of corners, bound in the same pose.
-    name : str
 
     Returns
     -------

@@ -1,8 +1,6 @@
 """JSON of any origin -> typed values; nothing but our own error escapes.
 
-Messages
---------
-json.invalid : file, detail
+Messages: ``json.invalid``.
 """
 
 from __future__ import annotations
@@ -21,7 +19,6 @@ def decode_json(content: bytes, kind: type[T] | msgspec.json.Decoder[T], file: s
 
     Parameters
     ----------
-    content : bytes
     kind : type or decoder of that type
     file : str
         Where it is from, for messages.

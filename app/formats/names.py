@@ -12,7 +12,6 @@ def numbered(
 
     Parameters
     ----------
-    names : iterable of str
     taken : iterable of str
         Names that are not free.
     key : callable

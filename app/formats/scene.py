@@ -26,7 +26,6 @@ class Bone:
 
     Attributes
     ----------
-    name : str
     parent : int
         Index of a bone before this one; -1 for the one root.
     translation_cm : ndarray, shape (3,)
@@ -96,7 +95,6 @@ class SkinnedMesh:
     world_from_bone_bind : ndarray, shape (J, 4, 4)
         Where every bone of the scene was when the mesh was bound; the same for all meshes of a scene, and not
         necessarily the bones' rest pose.
-    morphs : tuple of MorphTarget
     """
 
     name: str
@@ -118,8 +116,6 @@ class Clip:
 
     Attributes
     ----------
-    name : str
-    fps : Fraction
     frames : int
         Number of frames F, at least 1; the clip lasts ``(F - 1) / fps`` seconds.
     rotations_xyzw : ndarray, shape (F, J, 4)
@@ -170,8 +166,6 @@ class Scene:
     ----------
     bones : tuple of Bone
         Parents first; exactly one root, the first.
-    meshes : tuple of SkinnedMesh
-    clip : Clip or None
     creator : str
         Program and version that made the file.
     name : str

@@ -4,11 +4,7 @@ Reading is meant for files of any origin. What the format allows and no table of
 64 bits, nan and infinity, names and tables nested deeper than any real file. Besides being wrong, each of them makes
 some step behind the parser fail, or take longer than the square of the file's size.
 
-Messages (`MapError`)
---------
-table.syntax : file, line, column, detail
-table.not_utf8 : file, byte
-table.invalid : file, place, detail
+Messages (`MapError`): ``table.syntax``, ``table.invalid``.
 """
 
 from __future__ import annotations
@@ -47,7 +43,6 @@ def read_toml(path: str | os.PathLike[str], file: str | None = None) -> dict[str
 
     Parameters
     ----------
-    path : str or path-like
     file : str, optional
         What the file is called in messages, by default its path.
 
@@ -116,7 +111,6 @@ def toml(table: Mapping[str, Any], above: tuple[str, ...] = ()) -> str:
 
     Parameters
     ----------
-    table : mapping
     above : tuple of str
         Keys of the tables that it is in.
     """

@@ -74,7 +74,6 @@ def write_usd(path: str | os.PathLike[str], scene: Scene, sound: Sound | None = 
     ----------
     path : str or path-like
         ``.usdc`` (binary) or ``.usda`` (text).
-    scene : Scene
     sound : Sound, optional
         Played along.
 

@@ -129,7 +129,6 @@ class UserFolder(Generic[V, S]):
 
         Parameters
         ----------
-        folder : Path
         before : Shelf, optional
             What was read before: what did not change stays the same object, and good versions of what is wrong now
             stay in use.

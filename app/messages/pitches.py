@@ -30,7 +30,6 @@ def pitch_name(pitch: float, middle_c_octave: int = 4, steps: Sequence[str] = LE
     ----------
     pitch : float
         A mean is named by the nearest semitone.
-    middle_c_octave : int
     steps : sequence of str
         What C, D, E, F, G, A and B are called.
     """

@@ -106,9 +106,4 @@ def _solve_arm(
         target_m = exact_target(limb, root_m, target_m)
     pose = solve_limb(limb, root_m, held.clavicle, target_m, target_rotation, pole)
     joint, _ = clavicle_of(skeleton, side)
-    return {
-        joint: held.moved,
-        limb.upper: pose.upper,
-        limb.lower: pose.lower,
-        limb.end: pose.end,
-    }
+    return {joint: held.moved, limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}

@@ -61,7 +61,6 @@ class Place:
 
     Attributes
     ----------
-    aside : Aside
     pivot_m : (3,) float64
         What it swings about: the shoulder of a body that keeps still.
     swing_rad : (3,) float64

@@ -392,12 +392,8 @@ class Layers:
     ----------
     full, leaning : Curve
         How full the lungs are, and the lean that prepares a breath.
-    nods : Nods
     sway, weight, height : Curve
         Where sway, weight and bell go, -1..1.
-    bobbing : Bobbing
-    lowered : Curve
-    poses : Poses
     """
 
     full: Curve

@@ -74,7 +74,6 @@ class Spring:
 
     Parameters
     ----------
-    value : float
     settles_s : float
         After this long it is as good as there.
     """

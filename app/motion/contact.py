@@ -114,7 +114,6 @@ def carry(
     hold, carriage, lowered
     body, base : Trunk
         The trunk as it moves, (F,), and in the posture before any motion, (1,).
-    motion : BodyMotion
     morphs : mapping of str to (F,)
     mouth_open : (F,) float64
         How far the mouth is open for a breath, 0..1: then one lip alone carries the mouthpiece.

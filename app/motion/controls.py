@@ -54,7 +54,6 @@ def window_s(control: Control, distance: float, duration_s: float, gap_s: float)
 
     Parameters
     ----------
-    control : Control
     distance : float
         How far it goes, 0..1 of its travel.
     duration_s, gap_s : float

@@ -133,8 +133,6 @@ class Face:
     ----------
     at_lips : Curve
         1 while the lips are formed.
-    tension, effort, air : Curve or Trace
-    tongue, mouth_open : Envelopes
     expressions : dict of str to Envelopes
         By name.
     """
@@ -195,7 +193,6 @@ def face_morphs(
 
     Parameters
     ----------
-    face : Drivers
     embouchure : Embouchure
         Weights of the instrument's kind of embouchure.
     lips : Lips

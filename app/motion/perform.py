@@ -57,7 +57,6 @@ class Frames:
     levels, look, face
         Body, eyes and face.
     controls : dict of str to (F,) float64
-    placed : dict of str to Placed
     raised : (F,) float64
         As the curves of `PerformanceCurves`.
     danced : (F, 12) float64 or None
@@ -83,19 +82,15 @@ class PerformanceCurves:
 
     Attributes
     ----------
-    plan : PlayerPlan
-    instrument_map : InstrumentMap
     felt_beats : tuple of (tick, ticks)
     parameters : PlayerParameters
         As set, with less sway where the instrument lies still.
     posture : Posture
         With head and trunk turned to the instrument.
-    body : Body
     expressions : dict of str to Expression
         Those the plan names.
     player : Player
         What does not change with time.
-    layers, face, gaze
     controls : dict of str to Curve
         By the instrument's control.
     stations : dict of str to Curve

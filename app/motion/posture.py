@@ -36,7 +36,6 @@ class Stance:
         Bend of the knees before any motion.
     ankles_m, feet : dict of side to (3,) and (4,) float64
         Place and rotation of both feet; they stay.
-    legs : dict of side to Limb
     seated : bool
         The hips stay on the seat.
     """

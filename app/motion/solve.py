@@ -103,7 +103,6 @@ class Curves:
 
     Attributes
     ----------
-    body : BodyMotion
     controls, morphs : dict of str to (F,) float64
     mouth_open : (F,) float64
         How far the mouth is open for a breath.
@@ -148,10 +147,8 @@ def solve(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -
 
     Parameters
     ----------
-    player : Player
     curves : Curves
         With `padding` frames more at both ends than are requested.
-    fps : Fraction
     first_frame_s : float
         Time of the first requested frame.
     """

@@ -25,7 +25,6 @@ class Stretch:
 
     Attributes
     ----------
-    first, last : int
     start_s, end_s : float
         In the middle of the silences; infinite where the line begins or ends.
     """

@@ -74,7 +74,6 @@ def station_curves(
     ----------
     fingerings : sequence of FingeringEvent
         In order.
-    instrument : InstrumentMap
     controls : mapping of str to Curve
         What `app.motion.controls.control_curves` makes of the same fingerings.
     """

@@ -99,7 +99,6 @@ def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[Flo
 
     Parameters
     ----------
-    player : Player
     instrument : InstrumentMap
         Of the library.
     number : int

@@ -42,10 +42,8 @@ def body_problems(
 
     Parameters
     ----------
-    player : Player
     instrument : InstrumentMap
         Of the library.
-    fingerings : tuple of FingeringEvent
     memo : Memo
         Of the performance.
     waiting : bool
@@ -73,11 +71,7 @@ def _posed(player: Player) -> Player:
 
 
 def _reached(
-    before: Reached | None,
-    player: Player,
-    held: InstrumentMap,
-    revision: int,
-    fingerings: tuple[FingeringEvent, ...],
+    before: Reached | None, player: Player, held: InstrumentMap, revision: int, fingerings: tuple[FingeringEvent, ...]
 ) -> Reached:
     def holding() -> Holding:
         posture = player.parameters.posture

@@ -1,14 +1,7 @@
 """Which players are visible: what each needs is found player by player, and one that lacks something is excluded with
 the reason, so that the others continue.
 
-Messages
---------
-player.left_out : player, reason
-    "{player} is excluded: {reason}"
-player.not_seen : players
-    "these players cannot be seen: {players}; the list of problems says why"
-player.all_left_out : file, reasons
-    "{file}: none of the players can be seen: {reasons}"
+Messages: ``player.left_out``, ``player.not_seen``, ``player.all_left_out``.
 """
 
 from __future__ import annotations
@@ -69,13 +62,8 @@ class Performer:
 
     Attributes
     ----------
-    player : Player
-    character : Character
-    body : Body
     instrument : InstrumentMap
         As the body plays it (`app.performance.bodies.suited_to`).
-    model : InstrumentModel
-    hold : GripPose
     """
 
     player: Player

@@ -46,7 +46,6 @@ class DanceSteps:
 
     Attributes
     ----------
-    dancer : Dancer
     steps : tuple of Step
         In order; empty where the music has no beats, and with an error.
     ticks : tuple of int
@@ -57,7 +56,6 @@ class DanceSteps:
         Ticks of all places that an accent can have, ascending.
     pinned : tuple of tuple of DanceCorrection
         Of each step, what is pinned at its place.
-    forbidden : tuple of ForbidState
     choreographer : Choreographer or None
         None with an error.
     error : Message or None

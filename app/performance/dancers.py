@@ -68,14 +68,10 @@ class Dancing:
     ----------
     dancer : Dancer
         The seed is the dancer's and the project's together.
-    choreographer : Choreographer
     rhythm : Rhythm
         As the dancer follows it.
-    corrections : sequence of DanceCorrection
     tempo_map : TempoMap
         Of the piece: when the corrections' ticks are.
-    character : Character
-    time_frame : TimeFrame
     """
 
     def __init__(

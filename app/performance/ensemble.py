@@ -132,9 +132,7 @@ class Performance:
         return self._ensemble
 
     def prepare(
-        self,
-        stop_requested: Callable[[], bool] = lambda: False,
-        progress: Callable[[float], None] = lambda share: None,
+        self, stop_requested: Callable[[], bool] = lambda: False, progress: Callable[[float], None] = lambda share: None
     ) -> None:
         """Make all plans, if they are not made yet.
 

@@ -29,8 +29,6 @@ def judged_problems(
 
     Parameters
     ----------
-    performance : Performance
-    performer : Performer
     motion : Motion, optional
         Some frames of the player's; without it all are made for this, and let go again.
     """

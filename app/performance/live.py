@@ -4,8 +4,7 @@ The performance is cut into chunks of frames. The owner of the worker thread cal
 makes something; the viewport calls `LiveMotion.pose`, which never waits. After an edit only the chunks are made again
 whose curves changed.
 
-Messages: those of `app.performance.ensemble`; ``character.hold_waiting``; ``player.fault`` (player, detail): "{player}
-cannot be seen because of a fault of the program: {detail}".
+Messages: ``character.hold_waiting``, ``player.fault`` and those of `app.performance.ensemble`.
 """
 
 from __future__ import annotations
@@ -55,7 +54,6 @@ class _Track:
 
     Attributes
     ----------
-    player : Player or Dancer
     plan : PlayerPlan
         Of a dancer one without events.
     known : tuple of Problem
@@ -140,7 +138,6 @@ class LiveMotion:
 
     Parameters
     ----------
-    performance : Performance
     budget_bytes : int
         What all chunks together may take; what is farthest from the playhead goes first.
     """

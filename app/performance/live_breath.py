@@ -63,7 +63,6 @@ class LiveBreath:
 
     Parameters
     ----------
-    playing : PerformanceCurves
     expressions : dict of str to Expression
         What ``neutral``, ``strained`` and ``puffed`` look like is seen.
     """

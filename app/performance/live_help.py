@@ -53,7 +53,6 @@ class LiveHelp:
 
         Parameters
         ----------
-        now_s : float
         arrived_s : float
             When the hands are where they are going.
         needed : Help

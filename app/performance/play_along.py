@@ -77,10 +77,7 @@ class PlayAlong:
             (one.player_id, one.player.put_aside) for one in self._whole.played if one.player_id != self.player_id
         )
         return {
-            player_id: (
-                place.rest.position_m[0].astype(np.float32),
-                place.rest.rotation[0].astype(np.float32),
-            )
+            player_id: (place.rest.position_m[0].astype(np.float32), place.rest.rotation[0].astype(np.float32))
             for player_id, place in others
             if place is not None
         }
@@ -142,8 +139,6 @@ class PlayAlong:
 
         Parameters
         ----------
-        time_s : float
-        raw : str
         wiring : ControllerMapping
             With what the controller sends breath and bite.
         """
@@ -174,7 +169,6 @@ class PlayAlong:
 
         Parameters
         ----------
-        time_s : float
         at_s : float, optional
             Which moment of the piece it is: what an animator holds differently there is held so. Without it, as last
             time.

@@ -7,31 +7,9 @@ lungs' budget, a catch breath is taken before a note that follows a phrase's end
 of the tail of the note before, whose lips then leave early while its sound stays. In runs whose notes are too short
 for that the player leaves out a note: its lips leave at once.
 
-Messages
---------
-breath.first(beats): "The first breath, in the {beats} beats before the entry."
-breath.rest_whole(rest_beats, min_beats, last_beat_beats): "A rest of {rest_beats} beats (from {min_beats} to below
-    {last_beat_beats}): the breath takes all of it."
-breath.last_beat(rest_beats, last_beat_beats, prepare_beats): "A rest of {rest_beats} beats (from {last_beat_beats}
-    to below {prepare_beats}): the breath takes its last beat."
-breath.prepared(rest_beats, prepare_beats): "A rest of {rest_beats} beats (from {prepare_beats}): prepared, then the
-    last beat."
-breath.preparation(rest_beats, prepare_beats): "A rest of {rest_beats} beats (from {prepare_beats}): getting ready to
-    breathe."
-breath.catch(after_note, phrase_s, lung_s, from_note_ms): "A catch breath after note {after_note}: {phrase_s} s
-    without a breath in a rest need more than the {lung_s} s of air there are; {from_note_ms} ms come out of that
-    note's tail."
-breath.catch_dropped(after_note, phrase_s, lung_s): "catch breath in place of note {after_note}, which is excluded:
-    {phrase_s} s without a breath in a rest need more than the {lung_s} s of air there are, and no note is long enough
-    to take it from."
-breath.catch_dropped_two(first_note, after_note, phrase_s, lung_s): "catch breath in place of notes {first_note} and
-    {after_note}, which are excluded: {phrase_s} s without a breath in a rest need more than the {lung_s} s of air
-    there are, and no note is long enough to take it from."
-breath.blown(gap_s): "from the recorded breath: {gap_s} s without blowing"
-    Within a note too, which is blown on afterwards.
-breath.blown_preparation(gap_s): "from the recorded breath: {gap_s} s without blowing; breath preparation"
-breath.blown_short(gap_s): "from the recorded breath: {gap_s} s without blowing, used because air runs
-    out"
+Messages: ``breath.first``, ``breath.rest_whole``, ``breath.last_beat``, ``breath.prepared``, ``breath.preparation``,
+``breath.catch``, ``breath.catch_dropped``, ``breath.catch_dropped_two``, ``breath.blown``,
+``breath.blown_preparation``, ``breath.blown_short``.
 """
 
 from __future__ import annotations
@@ -191,7 +169,6 @@ class _Given(NamedTuple):
         What the rules made of rests, ...
     kept : tuple of BreathEvent
         ... less what was removed or set by hand.
-    by_hand : tuple of BreathEvent
     may : (N,) bool
         Before which notes the rules may make a breath.
     """
@@ -213,7 +190,6 @@ class _Stock(NamedTuple):
         Part of the lungs that the breath before each note fills.
     air_s : (N,) float
         How much air there is at each note.
-    room : Room
     """
 
     used: FloatArray
@@ -335,17 +311,7 @@ def _catches(line: _Breather, score: _Score, stock: _Stock, may: BoolArray, shar
     def between(times: LineTimes, used: FloatArray, filled: FloatArray) -> list[int]:
         full = levels(used, score.lung_s, filled)
         return catch_places(
-            times,
-            used,
-            line.piece,
-            score.lung_s,
-            filled,
-            full,
-            may,
-            taken,
-            seeds,
-            score.rests,
-            stock.room,
+            times, used, line.piece, score.lung_s, filled, full, may, taken, seeds, score.rests, stock.room
         )
 
     catches = between(score.steady, stock.steady_used, stock.refill)

@@ -1,9 +1,6 @@
 """How deep breaths are, and where their air does not last.
 
-Messages
---------
-breath.too_long(note, phrase_s, air_s, lung_s): "From note {note} on, {phrase_s} s must be played on one breath; it
-    takes {air_s} s of air, and there are {lung_s}."
+Messages: ``breath.too_long``.
 """
 
 from __future__ import annotations
@@ -24,11 +21,7 @@ LEAST_DEPTH = 0.3
 
 
 def with_depths(
-    events: tuple[BreathEvent, ...],
-    used: FloatArray,
-    lung_s: float,
-    refill: FloatArray,
-    index_of: dict[str, int],
+    events: tuple[BreathEvent, ...], used: FloatArray, lung_s: float, refill: FloatArray, index_of: dict[str, int]
 ) -> tuple[BreathEvent, ...]:
     """Depths by what the phrase to come needs, within what the time allows. Those set by hand stay."""
     breaths, used_s = [*np.flatnonzero(refill > 0.0).tolist(), len(refill)], used.tolist()

@@ -3,16 +3,8 @@
 A correction wins over the generator and its result carries ``corrected=True``. One whose anchor is gone (its note was
 deleted, its event is no longer made) is handed back as a problem, never dropped silently.
 
-Messages
---------
-correction.orphaned(kind, anchor): "The correction ({kind}) for {anchor} has lost its place: it is kept, but does
-    nothing."
-correction.no_such_fingering(note, label): "{label} is not a fingering of note {note} on this instrument; the search
-    chose."
-breath.inside_note(note): "This breath, placed by hand, lies inside the sounding note {note}."
-correction.by_hand(): "Set by hand."
-correction.empty_span(kind, anchor): "The correction ({kind}) for {anchor} ends before it begins; it does nothing."
-correction.unknown_expression(name, known): "There is no expression {name}; there are: {known}."
+Messages: ``correction.orphaned``, ``correction.no_such_fingering``, ``breath.inside_note``, ``correction.by_hand``,
+``correction.empty_span``, ``correction.unknown_expression``.
 """
 
 from __future__ import annotations
@@ -23,15 +15,7 @@ from typing import Final, Literal, TypeAlias, TypeVar
 import msgspec
 
 from app.errors import Message
-from app.plan.model import (
-    BreathEvent,
-    CueEvent,
-    EmbouchureEvent,
-    ExpressionEvent,
-    GestureEvent,
-    PoseTarget,
-    Problem,
-)
+from app.plan.model import BreathEvent, CueEvent, EmbouchureEvent, ExpressionEvent, GestureEvent, PoseTarget, Problem
 from app.score.tempo import TempoMap
 
 BY_HAND = Message("correction.by_hand")

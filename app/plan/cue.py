@@ -8,18 +8,8 @@ What an accompaniment plays that is not on stage sounds too: an entry with it ne
 The nod's acceleration peak marks the preparatory beat and its duration the tempo (Bishop and Goebl 2017). It falls on a
 beat of the metre: before a pickup on the one before the beat that the pickup lies in.
 
-Messages
---------
-All with ``leader_reason``, which is "chosen" (by the player's parameter) or "melody" (the first part of the section
-that has the melody), and ``beat_s``, how long the preparatory beat lasts.
-
-cue.start(): "Starts the piece."
-cue.after_rest(rest_s): "Brings everyone in after {rest_s} s of common rest."
-cue.after_pause(rest_s): "Brings everyone in after a general pause of {rest_s} s."
-cue.after_fermata(): "Goes on after a fermata."
-cue.tempo(bpm): "Gives the new tempo, {bpm} beats a minute."
-cue.section(count, rest_s): "Brings in {count} players who come in after {rest_s} s of rest, while others play."
-cue.joins(rest_s): "Comes in after {rest_s} s of rest, while others play."
+Messages: ``cue.start``, ``cue.after_rest``, ``cue.after_pause``, ``cue.after_fermata``, ``cue.tempo``, ``cue.section``,
+``cue.joins``.
 """
 
 from __future__ import annotations
@@ -82,7 +72,6 @@ class Entry(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    tick : int
     reason : str
         Id of the message, but for a section.
     number : float or None
@@ -247,11 +236,7 @@ def _new_tempo(lasts_s: FloatArray, place: int) -> Literal["cue.tempo", "cue.aft
 
 
 def _joining(
-    sounding: list[tuple[int, Rhythm]],
-    lines: _Spans,
-    shared: list[Entry],
-    piece: Piece,
-    musicians: tuple[str, ...],
+    sounding: list[tuple[int, Rhythm]], lines: _Spans, shared: list[Entry], piece: Piece, musicians: tuple[str, ...]
 ) -> list[Entry]:
     """Where players come in after long rests of their own while others play; those within a bar are one entry."""
     first = int(lines.starts[0])

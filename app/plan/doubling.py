@@ -4,10 +4,7 @@ The change is in the middle of the rest between the last note of one and the fir
 the hand moves, the second is picked up. Players are assumed to need about two seconds: the three steps at an
 unhurried pace and a small margin.
 
-Messages
---------
-doubling.rest_short(before, after, rest_s, needed_s): the rest is too short for the change.
-doubling.overlap(before, after, seconds): the first still sounds when the second begins.
+Messages: ``doubling.rest_short``, ``doubling.overlap``.
 """
 
 from __future__ import annotations
@@ -142,7 +139,6 @@ def held_plan(plan: PlayerPlan, first: str, found: Sequence[Change], names: Mapp
 
     Parameters
     ----------
-    plan : PlayerPlan
     first : str
         See `first_played`.
     found : sequence of Change

@@ -100,7 +100,6 @@ def mean_around(
     starts_s, lasts_s, loudness : (N,) float64
         Notes in order, or parts of them.
     at_s : (K,) float64
-    around_s : float
     """
     knots_s = np.stack((starts_s, starts_s + lasts_s), axis=1).ravel()
     sums = []

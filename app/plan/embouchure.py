@@ -1,11 +1,7 @@
 """Lips and tongue: one embouchure per note (T5 of the thesis: high notes drawn tight, low notes relaxed), and the
 tongue's stroke before each attack.
 
-Messages
---------
-embouchure.register(pitch, low, high, loudness): "{pitch} in a range of {low}-{high}, loudness {loudness}."
-embouchure.controller(pitch, low, high, loudness): "{pitch} in a range of {low}-{high}; from the recorded breath:
-    average loudness {loudness}."
+Messages: ``embouchure.register``, ``embouchure.controller``.
 """
 
 from __future__ import annotations

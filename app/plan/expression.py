@@ -2,14 +2,8 @@
 entries, a smile after the last note of a piece that ends brightly; neutral beneath. What a name looks like is in
 ``metadata/expressions``.
 
-Messages
---------
-expression.default(): "The face at rest."
-expression.effort(effort, threshold): "Effort {effort} (from {threshold}): high, loud or long."
-expression.low_loud(pitch, easy_low, loudness): "{pitch} lies below {easy_low} and is loud ({loudness})."
-expression.gives_entry(): "Gives the entry."
-expression.takes_entry(rest_s): "Comes in after {rest_s} s of rest."
-expression.end(bpm): "The last note is over: a bright end, in major, {bpm} beats a minute and not soft."
+Messages: ``expression.default``, ``expression.effort``, ``expression.low_loud``, ``expression.gives_entry``,
+``expression.takes_entry``, ``expression.end``.
 """
 
 from __future__ import annotations
@@ -21,15 +15,7 @@ import numpy as np
 from app.errors import Message
 from app.plan.ending import Ending
 from app.plan.line import LineTimes
-from app.plan.model import (
-    BreathEvent,
-    CueEvent,
-    EmbouchureEvent,
-    ExpressionEvent,
-    FloatArray,
-    GestureEvent,
-    TimeFrame,
-)
+from app.plan.model import BreathEvent, CueEvent, EmbouchureEvent, ExpressionEvent, FloatArray, GestureEvent, TimeFrame
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
@@ -90,11 +76,7 @@ def plan_expressions(
         clock,
         lambda peak: Message(
             "expression.low_loud",
-            {
-                "pitch": int(times.pitch[peak]),
-                "easy_low": easy_low,
-                "loudness": round(float(times.loudness[peak]), 2),
-            },
+            {"pitch": int(times.pitch[peak]), "easy_low": easy_low, "loudness": round(float(times.loudness[peak]), 2)},
         ),
     )
     events += _entries(faces["brows_up"], notes, times, clock, breaths, cues)

@@ -4,16 +4,8 @@ The search (Viterbi over the ranked fingerings of every note) keeps the first ch
 alternate worth its intonation and its unfamiliarity. Afterwards every run of alternates and every phrase is compared
 with the first choices: one that travels further or needs a faster motion is played with first choices after all.
 
-Messages
---------
-fingering.first_choice(label): "{label}: the first choice."
-fingering.trill(label, first, time_ms): "{label} instead of {first}: less motion in a trill at {time_ms} ms a note."
-fingering.speed(label, first, time_ms): "{label} instead of {first}: less motion where a note has {time_ms} ms."
-fingering.by_hand(label): "{label}: set by hand."
-fingering.out_of_range(note, pitch, low, high, played_pitch): "Note {note} ({pitch}) lies outside the range
-    {low}-{high} of this instrument; shown with the fingering of {played_pitch}."
-fingering.starts_early(note, label, needed_ms, available_ms): "The way to {label} takes {needed_ms} ms, but only
-    {available_ms} ms are free before note {note}; it must start earlier."
+Messages: ``fingering.first_choice``, ``fingering.trill``, ``fingering.speed``, ``fingering.by_hand``,
+``fingering.out_of_range``, ``fingering.starts_early``.
 """
 
 from __future__ import annotations

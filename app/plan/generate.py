@@ -276,14 +276,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     events = breaths.events
     lips, by_hand = restricted(parameters, "lips"), _of(corrections, SetEmbouchure)
     made_lips = memo.step(
-        "made embouchures",
-        plan_embouchures,
-        notes,
-        times,
-        instrument,
-        lips,
-        breaths.early_end_s,
-        steps is not None,
+        "made embouchures", plan_embouchures, notes, times, instrument, lips, breaths.early_end_s, steps is not None
     )
     embouchures = memo.step("embouchures", correct_embouchures, made_lips, by_hand)
     traces = memo.step("traces", plan_traces, notes, times, clock, instrument, lips, line.controller, envelope, by_hand)

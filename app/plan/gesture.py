@@ -12,15 +12,8 @@ however long the silence between them.
 Everything random is drawn from player and score position (tick), so the same place repeats in every run, however the
 rest of the piece is edited (Wanderley: players repeat the same bell movement at the same place).
 
-Messages
---------
-gesture.sway(beats, beat_s): "Half a swing in {beats} beats of {beat_s} s."
-gesture.weight_shift(side): "A shift of weight to the {side} foot."
-gesture.bell_height(pitch, mean_pitch): "The melody is around {pitch}; the line's mean is {mean_pitch}."
-gesture.bell_accent(more): "An accent, {more} louder (0..1) than the notes around it."
-gesture.lower_instrument(rest_s): "{rest_s} s of rest: the instrument comes down and is up again before the entry."
-gesture.lower_at_end(after_s): "{after_s} s after the last note the instrument comes down."
-gesture.lower_at_start(rest_s): "The entry is {rest_s} s away: the instrument is still down."
+Messages: ``gesture.sway``, ``gesture.weight_shift``, ``gesture.bell_height``, ``gesture.bell_accent``,
+``gesture.lower_instrument``, ``gesture.lower_at_end``, ``gesture.lower_at_start``.
 """
 
 from __future__ import annotations
@@ -268,16 +261,9 @@ def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynami
     arches = arches * np.minimum(vigour, 1.5)
     amounts = grown(heights, vigour) + arches + np.minimum(ACCENT_LIFT * accents, MOST_ACCENT_LIFT)
     # Plain lists: a loop over single numbers of an array costs several times as much.
-    contour, vigours, breaks = heights.tolist(), vigour.tolist(), (apart | turns | (accents > 0.0)).tolist()
     accented = accents.tolist()
-    firsts: list[int] = []
-    for place, height in enumerate(contour):
-        if firsts and not breaks[place] and not accented[firsts[-1]]:
-            change = vigours[place] / vigours[firsts[-1]]
-            near = abs(contour[firsts[-1]] - height) < CONTOUR_STEP
-            if near and 1.0 / VIGOUR_STEP < change < VIGOUR_STEP:
-                continue
-        firsts.append(place)
+    breaks = (apart | turns | (accents > 0.0)).tolist()
+    firsts = _bell_starts(heights.tolist(), vigour.tolist(), breaks, accented)
     first, last = starts[firsts], ends[[*(place - 1 for place in firsts[1:]), len(starts) - 1]] - 1
     rows = zip(
         firsts,
@@ -305,6 +291,19 @@ def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynami
         )
         for place, note, start_tick, end_tick, start_s, end_s, amount in rows
     ]
+
+
+def _bell_starts(heights: list[float], vigour: list[float], breaks: list[bool], accented: list[float]) -> list[int]:
+    """Beats at which the bell goes elsewhere: at another height, with another vigour, at a break, after an accent."""
+    firsts: list[int] = []
+    for place, height in enumerate(heights):
+        if firsts and not breaks[place] and not accented[firsts[-1]]:
+            change = vigour[place] / vigour[firsts[-1]]
+            near = abs(heights[firsts[-1]] - height) < CONTOUR_STEP
+            if near and 1.0 / VIGOUR_STEP < change < VIGOUR_STEP:
+                continue
+        firsts.append(place)
+    return firsts
 
 
 def _arches(

@@ -115,7 +115,6 @@ class Piece(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    clock : TempoMap
     metre_map : MetreMap
         With the beat that is felt, and the bars where they are felt to begin.
     accompaniment : tuple of (start tick, end tick)

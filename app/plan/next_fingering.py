@@ -28,12 +28,7 @@ class Fingered:
 
 
 class NextFingering:
-    """Chooses fingerings one by one.
-
-    Parameters
-    ----------
-    instrument : InstrumentMap
-    """
+    """Chooses fingerings one by one."""
 
     def __init__(self, instrument: InstrumentMap) -> None:
         self._low = instrument.range.low

@@ -46,7 +46,6 @@ def written_onsets(
     Parameters
     ----------
     onsets : (N,) int64
-    quarter_ticks : int
     bars : (B,) int64
         Where bars begin: places are counted from there.
     reach_ticks : (N,) int64, optional
@@ -148,7 +147,6 @@ def simplest_places(
     ----------
     first, last, near : (N,)
         Ticks; where no division has a place between, the nearest one of the finest is taken.
-    quarter_ticks : int
     """
     at: FloatArray = np.asarray(near, np.float64) / quarter_ticks
     low, high = first / quarter_ticks - 1e-9, last / quarter_ticks + 1e-9

@@ -38,7 +38,6 @@ class Parameter:
         The control fills up to here, more can be typed; None: up to the highest value.
     step : float
         Of the control.
-    decimals : int
     choices : tuple of (value, word)
         A list instead of a slider; the words are ids of texts.
     section : str

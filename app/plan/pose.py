@@ -1,9 +1,6 @@
 """What the animator holds differently: bell, head, elbows and trunk, as far as a body goes.
 
-Messages
---------
-pose.beyond_reach(target, angle, asked_deg, most_deg): "The {target} cannot be held {asked_deg} degrees {angle}; it goes
-    to {most_deg}."
+Messages: ``pose.beyond_reach``.
 """
 
 from __future__ import annotations

@@ -148,14 +148,7 @@ def _event(
 ) -> BreathEvent:
     """From one tick and second to another."""
     return BreathEvent(
-        id=id,
-        kind=kind,
-        start_tick=start[0],
-        end_tick=end[0],
-        start_s=start[1],
-        end_s=end[1],
-        depth=1.0,
-        reason=reason,
+        id=id, kind=kind, start_tick=start[0], end_tick=end[0], start_s=start[1], end_s=end[1], depth=1.0, reason=reason
     )
 
 
@@ -185,8 +178,7 @@ def _rest_reason(index: int, rest: float, long: bool, prepared: bool, parameters
             {"rest_beats": rest, "last_beat_beats": last, "prepare_beats": parameters.breath_prepare_beats},
         )
     return Message(
-        "breath.rest_whole",
-        {"rest_beats": rest, "min_beats": parameters.breath_min_beats, "last_beat_beats": last},
+        "breath.rest_whole", {"rest_beats": rest, "min_beats": parameters.breath_min_beats, "last_beat_beats": last}
     )
 
 

@@ -117,7 +117,6 @@ class Table:
 
     Attributes
     ----------
-    choices : tuple of tuple of Fingering
     values : (P, K, C) float64
         Of the controls of pitch.
     cost : (P, K) float64

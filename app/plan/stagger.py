@@ -1,9 +1,6 @@
 """Players in unison or in octaves breathe one after another: not before the same notes, and within held notes too.
 
-Messages
---------
-breath.staggered(air_s, lung_s): "A breath within a note that others of the line hold on: it takes {air_s} s of air, and
-    there are {lung_s}."
+Messages: ``breath.staggered``.
 """
 
 from __future__ import annotations
@@ -110,7 +107,6 @@ def shared_with(line: SharedLine, others: Sequence[SharedLine], breathed: Sequen
 
     Parameters
     ----------
-    line : SharedLine
     others : sequence of SharedLine
         Of all other players.
     breathed : sequence of Breathed
@@ -150,7 +146,6 @@ def within_held(
     ----------
     used : (N + 1,) float
         `app.plan.lungs.air_used_s`.
-    lung_s : float
     """
     events = []
     for index, others_s in shared.held:

@@ -1,9 +1,6 @@
 """A wind player sounds one note at a time: what of a line can be played, and what to report to the animator.
 
-Messages
---------
-note.struck_together(note, other): only one of a chord can sound, and it is not this one.
-note.overlaps(note, other, overlap_ms): a note still sounds when the next begins.
+Messages: ``note.struck_together``, ``note.overlaps``.
 """
 
 from __future__ import annotations

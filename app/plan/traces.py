@@ -47,7 +47,6 @@ def plan_traces(
 
     Parameters
     ----------
-    controller : ControllerInput or None
     blown : BreathEnvelope or None
         ``controller.breath`` in time.
     """

@@ -34,10 +34,7 @@ def note_of(correction: Correction) -> str | None:
 
 
 def moved(
-    correction: C,
-    note_ids: Mapping[str, str],
-    place: Callable[[int], int] | None = None,
-    scale: Fraction = Fraction(1),
+    correction: C, note_ids: Mapping[str, str], place: Callable[[int], int] | None = None, scale: Fraction = Fraction(1)
 ) -> C:
     """The correction about other notes and places; the same value where nothing changes.
 

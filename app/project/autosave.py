@@ -7,11 +7,7 @@ A project that has no file yet is kept in the user's state folder, each running 
 second editor has open, because two editors must not write one autosave; one beside whose file a crash left work that
 the user has not decided about; and one whose folder refuses (read-only, full, gone, not answering) until it does not.
 
-Messages (warnings)
---------
-autosave.elsewhere : file, reason, folder
-autosave.refused : file, reason, folder, folder_reason
-autosave.nowhere : folder, reason
+Messages (warnings): ``autosave.elsewhere``, ``autosave.refused``, ``autosave.nowhere``.
 """
 
 from __future__ import annotations
@@ -165,7 +161,6 @@ class Autosave:
     ----------
     presence : Presence
         This editor's.
-    delay_s : float
     """
 
     def __init__(self, presence: Presence, delay_s: float = DELAY_S) -> None:

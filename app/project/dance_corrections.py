@@ -16,7 +16,6 @@ class PinState(_Correction, frozen=True, tag="pin_state"):
 
     Attributes
     ----------
-    tick : int
     state : int
         Index of the choreography's basic motion.
     """
@@ -38,7 +37,6 @@ class UseSegment(_Correction, frozen=True, tag="use_segment"):
 
     Attributes
     ----------
-    tick : int
     segment : int
         Index of the choreography's segment.
     """

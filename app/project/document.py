@@ -47,12 +47,7 @@ Observer = Callable[[Change], None]
 
 
 class Document:
-    """A project with its history.
-
-    Parameters
-    ----------
-    project : Project
-    """
+    """A project with its history."""
 
     def __init__(self, project: Project) -> None:
         self._project = project

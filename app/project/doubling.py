@@ -3,10 +3,7 @@
 A `Player` is one instrument part. A player who doubles another shares that player's body: the player of the first
 instrument stands for the musician, and has the character, the parameters and the place.
 
-Messages
---------
-doubling.posture(player, other): no posture fits both instruments.
-doubling.together(player, other, seconds): both sound at once for that many seconds.
+Messages: ``doubling.posture``, ``doubling.together``.
 """
 
 from __future__ import annotations

@@ -38,7 +38,6 @@ class ImportWish(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    rows : tuple of ImportRow
     dances : bool
         Whether a dancer is to move to its percussion.
     """
@@ -81,8 +80,6 @@ class Outcome(msgspec.Struct, frozen=True):
     ----------
     players : int
         Musicians: one who plays several instruments counts once.
-    warnings : tuple of Message
-    unplayed : tuple of UnplayedPart
     instruments : dict of PartAssignment to tuple of str
         Wishes without a name, and the ids of the maps that would play them.
     """

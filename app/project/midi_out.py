@@ -1,7 +1,6 @@
 """A project's piece as a MIDI file: what its players play, under their names.
 
-Messages: ``midi.onto_source`` (file, count): "{file} is what the piece was read from, and holds {count} parts more that
-no one plays here; write to another file".
+Messages: ``midi.onto_source``.
 """
 
 from __future__ import annotations
@@ -20,8 +19,6 @@ def export_midi(project: Project, path: Path, maps: Mapping[str, InstrumentMap])
 
     Parameters
     ----------
-    project : Project
-    path : Path
     maps : mapping of str to InstrumentMap
         By id. Of a player whose instrument is not there, the part says what it is for.
 

@@ -20,25 +20,10 @@ Migration: TypeAlias = Callable[[Raw], Raw]
 VERSION_KEY: Final = "schema_version"
 
 
-def _with_read_notes(raw: Raw) -> Raw:
-    """1 to 2: what the MIDI file held is kept; of an older file no one knows."""
-    return {**raw, "edited_notes": {}}
-
-
 def _with_transpositions(raw: Raw) -> Raw:
     """2 to 3: how a part that the file has in written pitches was transposed; no one could say so before."""
     parts = [{**part, "transposed_semitones": 0} for part in raw["score"]["parts"]]
     return {**raw, "score": {**raw["score"], "parts": parts}}
-
-
-def _with_takes(raw: Raw) -> Raw:
-    """3 to 4: takes are kept."""
-    return {**raw, "takes": {}}
-
-
-def _with_markers(raw: Raw) -> Raw:
-    """4 to 5: the markers of the MIDI file are kept; a piece that was read before has them when it is read again."""
-    return {**raw, "score": {**raw["score"], "markers": []}}
 
 
 def _with_unplayed_sounding(raw: Raw) -> Raw:
@@ -65,19 +50,17 @@ def _with_parameters(raw: Raw, version: int) -> Raw:
     return {**raw, "dancers": [{**dancer, **of_dancers} for dancer in raw["dancers"]]} if of_dancers else raw
 
 
-def _with_doublings(raw: Raw) -> Raw:
-    """8 to 9: a player may share the body of another; before, each player had one."""
-    return {**raw, "players": [{**player, "doubles": ""} for player in raw["players"]]}
-
-
 STRUCTURE: Final[Mapping[int, Migration]] = {
-    2: _with_read_notes,
+    # What the MIDI file held is kept; of an older file no one knows.
+    2: lambda raw: {**raw, "edited_notes": {}},
     3: _with_transpositions,
-    4: _with_takes,
-    5: _with_markers,
+    4: lambda raw: {**raw, "takes": {}},
+    # The markers of the MIDI file are kept; a piece that was read before has them when it is read again.
+    5: lambda raw: {**raw, "score": {**raw["score"], "markers": []}},
     6: _with_unplayed_sounding,
     7: _with_dancers,
-    9: _with_doublings,
+    # A player may share the body of another; before, each player had one.
+    9: lambda raw: {**raw, "players": [{**player, "doubles": ""} for player in raw["players"]]},
 }
 """By the version that they lead to. New parameters say themselves since which version they are there."""
 

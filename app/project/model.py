@@ -44,7 +44,6 @@ class CompSpan(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     ----------
     start_tick, end_tick : int
         Half-open: the notes that begin in it.
-    take_id : str
     """
 
     start_tick: int
@@ -102,7 +101,6 @@ class Project:
 
     Attributes
     ----------
-    score : Score
     players : tuple of Player
         In the order of the score. Players of one musician have the same character, parameters and place.
     corrections : mapping of str to tuple of Correction
@@ -229,21 +227,14 @@ class Project:
         return {part.id: part for part in self.score.parts}
 
 
-def project_from_score(
-    score: Score,
-    maps: Mapping[str, InstrumentMap],
-    *,
-    seed: int = 0,
-) -> Project:
+def project_from_score(score: Score, maps: Mapping[str, InstrumentMap], *, seed: int = 0) -> Project:
     """Cast a score: a player for every part, with a name, a character, a place and a size of motion of their own, which
     the parts of one musician share.
 
     Parameters
     ----------
-    score : Score
     maps : mapping of str to InstrumentMap
         By id; every part names one of them.
-    seed : int
     """
     parts = score.parts
     instruments = [maps[part.map_id] for part in parts]
@@ -281,10 +272,7 @@ def project_from_score(
             )
         )
     return Project(
-        score,
-        tuple(players),
-        seed=seed,
-        read_notes={part.id: {note.id: note for note in part.notes} for part in parts},
+        score, tuple(players), seed=seed, read_notes={part.id: {note.id: note for note in part.notes} for part in parts}
     )
 
 

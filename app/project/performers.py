@@ -20,9 +20,6 @@ class Player(msgspec.Struct, frozen=True):
         Stays the same whatever the player is called.
     name : str
         Unique in the project, also where case does not count.
-    part_id, instrument_id, character_id : str
-    parameters : PlayerParameters
-    stage : StagePosition
     colour : str
         ``"#rrggbb"``; empty: the theme's, by the player's place in the project.
     muted, soloed : bool
@@ -57,10 +54,8 @@ class Dancer(msgspec.Struct, frozen=True):
     choreography : str
         Absolute path of a ``.choreography`` file as this machine knows it, or the name of a bundled one (see
         `app.choreography.library`); a project's file keeps a path relative to itself.
-    character_id : str
     stage : StagePosition
         Where the dance begins, and which way the dancer faces.
-    seed : int
     delay_beats : float
         How much later than the music the dance begins, in felt beats: two dancers of one seed dance in canon.
     mirrored : bool

@@ -4,9 +4,7 @@ Each is a small TOML file in a folder of the user's; its name stands in it, and 
 that, so that a name can be anything and never becomes a path. A project holds a copy of the expressions it uses and
 does not need these files.
 
-Messages
---------
-preset.no_name, preset.none_of_name : name, table.invalid : file, place, detail; file.cannot_write : file, reason
+Messages: ``preset.no_name``, ``preset.none_of_name``, ``table.invalid``, ``file.cannot_write``.
 """
 
 from __future__ import annotations
@@ -130,13 +128,7 @@ _PRESETS: Final = Named(_read_preset, lambda preset: preset.name)
 _EXPRESSIONS: Final = Named(read_named_expression, lambda expression: expression.name)
 
 
-def _save(
-    folder: Path,
-    name: str,
-    known: Mapping[str, object],
-    tables: Named[Any],
-    table: Mapping[str, Any],
-) -> None:
+def _save(folder: Path, name: str, known: Mapping[str, object], tables: Named[Any], table: Mapping[str, Any]) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -17,17 +17,7 @@ from app.formats.atomic import sweep
 from app.project.autosave import autosave_path
 from app.project.model import Project
 from app.project.presence import NOTE, editors, forget, note_of, remove
-from app.project.storage import (
-    AUTOSAVE,
-    SUFFIX,
-    Autosaved,
-    autosave_facts,
-    content_hash,
-    decode,
-    file_hash,
-    load,
-    read,
-)
+from app.project.storage import AUTOSAVE, SUFFIX, Autosaved, autosave_facts, content_hash, decode, file_hash, load, read
 
 
 @dataclass(frozen=True)
@@ -44,7 +34,6 @@ class Recoverable:
         The file's name, else the piece's title, else the name of the MIDI file it came from; may be empty.
     changed_s : float
         When it was written as the clock of that day had it, seconds since 1970 (UTC); only to be shown.
-    note_count : int
     token : str
         Of the editor; empty where it left no trace but the file.
     facts : Autosaved or None

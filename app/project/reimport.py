@@ -13,14 +13,7 @@ Dancers stay; what was corrected of their dances moves like other corrections at
 Corrections whose note is gone stay as they are and do nothing (`orphaned`), until they are given another note
 (`reattached`) or taken back.
 
-Messages (`UsageError`)
---------
-reimport.no_note : kind
-    "A correction of this kind (pose, gesture ...) belongs to no note."
-reimport.not_played : note
-    "The player does not play this note."
-piece.too_long : hours, quarters, bars, most_hours, most_quarters, most_bars
-    A note drawn here would lie too late in the new piece.
+Messages (`UsageError`): ``reimport.no_note``, ``reimport.not_played``, ``piece.too_long``.
 """
 
 from __future__ import annotations
@@ -72,7 +65,6 @@ class PartMatch:
     ----------
     part_id : str
         It keeps this id.
-    former_name, name : str
     kept, added, removed : int
         Notes.
     by_hand : int
@@ -94,7 +86,6 @@ class Conflict:
 
     Attributes
     ----------
-    part_id, note_id : str
     read : Note
         What the file held before.
     by_hand : Note or None
@@ -126,7 +117,6 @@ class Reimport:
     ----------
     project : Project
         The very same value where the file says nothing new.
-    parts : tuple of PartMatch
     added, removed : tuple of str
         Ids of notes that are new in the project, and of notes that are in it no more.
     new_players, gone_players, idle_players : tuple of str

@@ -46,7 +46,6 @@ class Tree:
     ----------
     parents : tuple of int
         A parent before its children.
-    children : tuple of tuple of int
     above : tuple of frozenset of int
         All bones above each.
     below : tuple of int

@@ -1,9 +1,6 @@
 """Loading characters: our own glTF binaries as they are, others as figures (`app.rig.figure_character`).
 
-Messages
---------
-model.invalid
-    See `app.rig.source`.
+Messages: ``model.invalid``.
 """
 
 from __future__ import annotations
@@ -39,8 +36,6 @@ class Reading:
     ----------
     figure : Figure
         Upright, facing +Z.
-    joints : JointMapping
-    face : FaceMapping
     """
 
     figure: Figure
@@ -58,7 +53,6 @@ def load_character(
 
     Parameters
     ----------
-    path : Path
     id : str
         The character's; by the file's name where empty.
     joints : mapping of str to str
@@ -89,7 +83,6 @@ def read_character(
 
     Parameters
     ----------
-    path : Path
     joints, morphs : mapping
         The user's corrections, as in `load_character`.
     """

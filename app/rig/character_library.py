@@ -3,18 +3,8 @@
 The user's own character is a file (VRM, glTF or FBX) and beside it ``<id>.toml``, which names the file and says what
 was corrected by hand: which bone is which joint, which morphs make a face.
 
-Messages
---------
-character.missing : id, known
-    "There is no character named '{id}'; known: {known}"
-table.invalid : file, place, detail
-    "{file}: {place}: {detail}"; and what `app.formats.toml` says
-character.file_missing : file, name
-    "{file} names {name}, which is not beside it"
-character.odd_name : file
-    "the name of {file} has characters that cannot be shown; rename it"
-character.taken : file, id
-    "{file} describes '{id}', which is a character of ours"
+Messages: ``character.missing``, ``table.invalid``, ``character.file_missing``, ``character.odd_name``,
+``character.taken`` and what `app.formats.toml` says.
 """
 
 from __future__ import annotations
@@ -226,7 +216,6 @@ def add_character(
 
     Parameters
     ----------
-    path : Path
     title : str
         What it is called; by its file's name where empty.
     joints, morphs : mapping

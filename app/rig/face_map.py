@@ -3,10 +3,7 @@
 Names come from the tables in ``metadata/faces``. The table that makes most shapes leads; what it leaves out is taken
 from the others. What no table makes is missing, and is reported as such.
 
-Messages
---------
-figure.no_shape : file, shape
-figure.no_morph : file, shape, morph
+Messages: ``figure.no_shape``, ``figure.no_morph``.
 """
 
 from __future__ import annotations
@@ -53,7 +50,6 @@ def map_morphs(figure: Figure, requested: Mapping[str, Mapping[str, float]] | No
 
     Parameters
     ----------
-    figure : Figure
     requested : mapping of str to mapping of str to float
         The user's corrections, weights of own morphs by shape; none: the face does not make it.
 

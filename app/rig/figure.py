@@ -29,7 +29,6 @@ class Figure:
     ----------
     file : str
         For messages.
-    origin : Origin
     bone_names : tuple of str
         As in the file, each once.
     parents : tuple of int
@@ -70,7 +69,6 @@ class OwnSkeleton:
 
     Attributes
     ----------
-    figure : Figure
     bone_of_joint : tuple of int
         By joint of the character's skeleton: the bone of the figure, or -1 for a joint that the file lacks and that
         was supplied (a finger of a mitten, our root).

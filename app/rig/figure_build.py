@@ -2,16 +2,7 @@
 
 Scales are multiplied out and every vertex is put where it is in the world at rest.
 
-Messages
---------
-figure.too_large : file
-    "{file} describes more data than any character has"
-figure.no_bones : file
-    "{file} has no bones: no skeleton to play with"
-figure.scaled : file, height_m, factor
-    A note: the file's unit was wrong and has been corrected.
-figure.odd_height : file, height_m
-    A note: no unit explains the figure's height.
+Messages: ``figure.too_large``, ``figure.no_bones``, ``figure.scaled``, ``figure.odd_height``.
 """
 
 from __future__ import annotations
@@ -52,7 +43,6 @@ class Nodes:
 
     Attributes
     ----------
-    names : sequence of str
     parents : sequence of int
         In any order; -1: none.
     world_from_node : (N, 4, 4) float64
@@ -81,7 +71,6 @@ class Part:
     ----------
     mesh : Mesh
         `Mesh.joints` are places in `nodes`.
-    nodes : tuple of int
     world_from_mesh : (M, 4, 4) float64
         For each of them, at rest.
     """
@@ -106,11 +95,8 @@ def build_figure(
     file : str
         For messages.
     origin : str
-    nodes : Nodes
-    parts : sequence of Part
     humanoid : mapping of str to int
         VRM 1.0 joint to node.
-    expressions : mapping
 
     Raises
     ------

@@ -8,10 +8,7 @@ skeleton's. A joint that the file lacks is supplied so that the motion can be gi
   hang from it; the joints between lie on it too;
 - at the end of a chain (fingers of a mitten, toes, eyes) it follows our own bodies' proportions and carries nothing.
 
-Messages
---------
-character.incomplete : file, joints
-    "{file} cannot play: no bone was found for {joints} ..."
+Messages: ``character.incomplete``.
 """
 
 from __future__ import annotations
@@ -48,8 +45,6 @@ def figure_character(
 
     Parameters
     ----------
-    figure : Figure
-    id : str
     bones : mapping of str to int
         The bone of each VRM 1.0 joint that has one.
     morphs : mapping of str to mapping of str to float

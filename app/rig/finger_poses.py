@@ -47,7 +47,6 @@ def finger_rotations(
 
     Parameters
     ----------
-    hold : GripPose
     controls : dict of str to (F,)
         Values 0..1; a control that is absent is at 0.
     frames : int
@@ -120,11 +119,7 @@ def _ways(table: FingerTable, where: Placed | None, frames: IntArray, joints: sl
 
 
 def _posed(
-    hand: HandHold,
-    ways: Sequence[_Way],
-    placed: Mapping[str, Placed] | None,
-    controls: Controls,
-    raised: FloatArray,
+    hand: HandHold, ways: Sequence[_Way], placed: Mapping[str, Placed] | None, controls: Controls, raised: FloatArray
 ) -> list[FloatArray]:
     """Rotations (K, n, 4) of the fingers of one hand on their ways, all that is solved for them solved together.
 
@@ -228,7 +223,7 @@ def _at_place(
     station = table.stations[index]
     if station.tip_joint < 0:
         return rotations
-    lean = next((lean for lean in hand.leans if _is(lean, table, index)), None)
+    lean = next((lean for lean in hand.leans if lean.places == ((table.finger, index),)), None)
     if lean is None:
         return with_wrist(table, station, rotations, wrist_given(hand, []), wrist_given(hand, given))
     waits = 1.0 - next((weight for one, weight in given if one is lean), np.zeros(len(rotations)))
@@ -259,10 +254,6 @@ def with_wrist(
 def tip_m(table: FingerTable, station: StationTable, rotations: FloatArray) -> FloatArray:
     """Where (K, 3) what touches at a station is in the wrist's frame."""
     return _tip(table, rotations, np.broadcast_to(station.tip_m, (len(rotations), 3)), station.tip_joint)
-
-
-def _is(lean: WristOffset, table: FingerTable, station: int) -> bool:
-    return lean.places == ((table.finger, station),)
 
 
 def _tip(table: FingerTable, rotations: FloatArray, tip_m: FloatArray, joint: int) -> FloatArray:

@@ -29,7 +29,6 @@ class Asked:
 
     Attributes
     ----------
-    chain : Chain
     rotations : (K, n, 4) float64
         As it is.
     joint : int

@@ -6,10 +6,7 @@ are the map's contacts on the deformed skin, no skin inside the instrument's pro
 each other, a straight wrist under a natural elbow, and fingers near their relaxed curl (`app.rig.grip_residuals`). The
 fingers that work a control are then solved for values between (`app.rig.grip_fingers`).
 
-Messages
---------
-character.landmarks_missing : id, missing
-    "The character '{id}' lacks what playing needs: {missing}"
+Messages: ``character.landmarks_missing``.
 """
 
 from __future__ import annotations
@@ -62,9 +59,6 @@ def fit_hold(
 
     Parameters
     ----------
-    character : Character
-    model : InstrumentModel
-    instrument_map : InstrumentMap
     body : Body
         Limits of the joints and posture.
     progress : callable

@@ -68,9 +68,6 @@ def suited(
 
     Parameters
     ----------
-    character : Character
-    instrument : InstrumentMap
-    body : Body
     model : callable
         Loads the map's model; asked only where arms are short.
     """

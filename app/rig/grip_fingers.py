@@ -9,15 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from app.rig.grip_problem import (
-    COUPLING_RAD,
-    Problem,
-    Touch,
-    contact_at,
-    finger_dofs,
-    nodes_at,
-    touch_at,
-)
+from app.rig.grip_problem import COUPLING_RAD, Problem, Touch, contact_at, finger_dofs, nodes_at, touch_at
 from app.rig.grip_residuals import PENETRATION_M, STEP, WORKED_RAD, inside_proxy, pressed
 from app.rig.hand import (
     FINGERS,
@@ -331,10 +323,7 @@ class _Finger:
         change = (skin[1:] - skin[0]) / step[:, :, None, None]
         push, rise = pressed(depth)
         skin_slope = -np.einsum("nsvi,svi->svn", change, slope) * rise[..., None] / PENETRATION_M
-        return (
-            np.concatenate([slant, skin_slope], axis=1),
-            np.concatenate([smooth[0], push / PENETRATION_M], axis=1),
-        )
+        return (np.concatenate([slant, skin_slope], axis=1), np.concatenate([smooth[0], push / PENETRATION_M], axis=1))
 
     def _residuals(
         self, x: FloatArray, usual: FloatArray, usual_rad: float, which: IntArray

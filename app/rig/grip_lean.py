@@ -94,13 +94,7 @@ def leanings(
 
 
 def _leant(
-    problem: Problem,
-    scene: GripScene,
-    x: FloatArray,
-    one: Solved,
-    index: int,
-    homes: dict[int, Solved],
-    eased: float,
+    problem: Problem, scene: GripScene, x: FloatArray, one: Solved, index: int, homes: dict[int, Solved], eased: float
 ) -> Leaning:
     there = _lean_problem(problem, scene, one.number, one.station, x, eased)
     assert there.anchor is not None

@@ -21,15 +21,7 @@ from app.rig.grip_problem import (
     worked_dofs,
     wrist_transform,
 )
-from app.rig.hand import (
-    ball_centres,
-    flesh_radius,
-    joint_rotations,
-    skinned,
-    turned,
-    wrist_from_joint,
-    wrist_from_mesh,
-)
+from app.rig.hand import ball_centres, flesh_radius, joint_rotations, skinned, turned, wrist_from_joint, wrist_from_mesh
 from app.rig.ik import TWIST_SHARE
 from app.rig.proxy import Bodies, Nodes, gradient, inside
 

@@ -167,7 +167,6 @@ def hand_model(character: Character, side: Side, body: Body, profile: SkeletonPr
 
     Parameters
     ----------
-    character : Character
     side : str
     body : Body
         Gives the limits.

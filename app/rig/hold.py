@@ -159,7 +159,6 @@ class WristOffset:
 
     Attributes
     ----------
-    finger : str
     station : int
         Its place in ``FingerTable.stations``; that table is for the wrist that has given way.
     moved_m, turned : (3,) float64
@@ -197,16 +196,13 @@ class HandHold:
     instrument_from_hand_m, instrument_from_hand_rotation : (S, 3) and (S, 4) float64
         The hand joint (the wrist) in the instrument's frame, before its node moves. One row; or, for a hand that a
         control carries, one per value of ``values``: the grip turns in the fingers as the arm stretches.
-    fingers : tuple of FingerTable
     elbow_direction : (3,) float64
         Unit pole: where the elbow points off the line from shoulder to wrist, in the frame of the player (+Z ahead,
         +X left, +Y up), chosen for a straight wrist.
-    contacts : tuple of ContactFit
     penetration_m : float
         Deepest vertex of hand and fingers inside the instrument's proxy, over all samples.
     values : (S,) float64
         Values of the control in ``motion`` at which the wrist is given; ascending, from 0.
-    leans : tuple of WristOffset
     """
 
     side: Side
@@ -288,14 +284,7 @@ class Lips:
 
 @dataclass(frozen=True)
 class GripPose:
-    """A character's hold of an instrument; see the module.
-
-    Attributes
-    ----------
-    character_id, instrument_id : str
-    hands : tuple of HandHold
-    lips : Lips
-    """
+    """A character's hold of an instrument; see the module."""
 
     character_id: str
     instrument_id: str
@@ -319,7 +308,6 @@ def hand_targets(
 
     Parameters
     ----------
-    hand : HandHold
     world_from_instrument_m, world_from_instrument_rotation : (F, 3) and (F, 4) float64
     controls : dict of str to (F,)
         Values 0..1; a control that is absent is at 0.

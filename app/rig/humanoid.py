@@ -3,10 +3,7 @@
 Names come from the tables in ``metadata/bone_names``; of all tables the one counts that most joints and the hierarchy
 agree with. Left is where +X is, whatever a name says.
 
-Messages
---------
-figure.no_joint : file, joint, joints
-figure.no_bone : file, joint, bone
+Messages: ``figure.no_joint``, ``figure.no_bone``.
 """
 
 from __future__ import annotations
@@ -90,7 +87,6 @@ def map_joints(figure: Figure, requested: Mapping[str, str] | None = None) -> Jo
 
     Parameters
     ----------
-    figure : Figure
     requested : mapping of str to str
         The user's corrections, bone by joint; empty: the figure has no such joint.
 

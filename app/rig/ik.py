@@ -109,7 +109,6 @@ def solve_limb(
 
     Parameters
     ----------
-    limb : Limb
     root_m : (F, 3) float64
         World position of the upper joint (shoulder or hip joint).
     parent_rotation : (F, 4) float64
@@ -119,10 +118,6 @@ def solve_limb(
     pole : (F, 3) or (3,) float64
         World direction in which the middle joint points off the line from root to target; need not be a unit vector
         nor orthogonal.
-
-    Returns
-    -------
-    LimbPose
     """
     a, b = limb.upper_m, limb.lower_m
     line = target_m - root_m

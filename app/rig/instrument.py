@@ -1,9 +1,6 @@
 """Loading instrument models, and where their moving parts are for given values of the controls.
 
-Messages
---------
-model.invalid
-    See `app.rig.source`.
+Messages: ``model.invalid``.
 """
 
 from __future__ import annotations
@@ -100,10 +97,7 @@ def part_transform(motion: MotionOfPart, values: npt.ArrayLike) -> tuple[FloatAr
 
 
 def node_transforms(
-    model: InstrumentModel,
-    instrument_map: InstrumentMap,
-    controls: Mapping[str, npt.NDArray[np.floating]],
-    frames: int,
+    model: InstrumentModel, instrument_map: InstrumentMap, controls: Mapping[str, npt.NDArray[np.floating]], frames: int
 ) -> tuple[FloatArray, FloatArray]:
     """Transforms of a model's nodes in the instrument's frame.
 

@@ -191,7 +191,6 @@ class _Mouth:
 
     Attributes
     ----------
-    mesh : str
     vertices : (V,) int32
     positions_m : (V, 3) float64
     deltas_m : dict of str to (V, 3) float64

@@ -34,7 +34,6 @@ class Mesh:
     joints, weights : (V, K) int32 and float32
         Skinning of a character's mesh; weights of a vertex sum to 1. An instrument's mesh is rigid: K = 1 and the
         index is a node of the `InstrumentModel`.
-    morphs : tuple of Morph
     """
 
     name: str

@@ -56,11 +56,8 @@ class Character:
 
     Attributes
     ----------
-    skeleton : Skeleton
     joint_from_mesh : (J, 4, 4) float64
         Inverse bind matrices; skinning is ``world_from_joint @ joint_from_mesh @ position``.
-    meshes : tuple of Mesh
-    landmarks : dict of str to Landmark
     own : OwnSkeleton or None
         The skeleton of the file it came from; None: the file's skeleton is this one.
     """

@@ -123,8 +123,6 @@ def inside(some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: FloatArra
 
     Parameters
     ----------
-    some : Bodies
-    nodes : Nodes
     points_m : (P, 3) float64
         The centre of each ball in the instrument's frame.
     radius_m : (P,) float64

@@ -1,11 +1,6 @@
 """Opening a character's file, whatever its format: glTF, GLB, VRM 0.x and 1.0, FBX.
 
-Messages
---------
-figure.too_large : file
-figure.unknown_format : file
-    "{file} is neither VRM, glTF nor FBX"
-file.cannot_read : file, reason
+Messages: ``figure.too_large``, ``figure.unknown_format``, ``file.cannot_read``.
 """
 
 from __future__ import annotations

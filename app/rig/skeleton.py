@@ -79,17 +79,12 @@ def forward(
 
     Parameters
     ----------
-    skeleton : Skeleton
     rotations : (F, J, 4)
         ``parent_from_joint`` of every joint.
     hips_m : (F, 3), optional
         Translation of the hips in the root's frame; the rest offset if absent.
     joints : iterable of int, optional
         All if absent.
-
-    Returns
-    -------
-    JointTransforms
     """
     requested = closure(skeleton, range(len(skeleton.names)) if joints is None else joints)
     place = {joint: index for index, joint in enumerate(requested)}

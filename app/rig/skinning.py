@@ -164,7 +164,6 @@ class LandmarkSet:
 
     Attributes
     ----------
-    names : tuple of str
     joints : (J,) int
     joint_from_mesh : (J, 3, 4) float64
     points : (J, 4, L) float64
@@ -212,7 +211,6 @@ def landmark_positions(
 
     Parameters
     ----------
-    character : Character
     names : sequence of str
         L landmarks.
     transforms : JointTransforms

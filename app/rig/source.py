@@ -1,9 +1,6 @@
 """What characters and instruments are built from: a glTF file's nodes at rest and its meshes, joined by material.
 
-Messages
---------
-model.invalid : file, detail
-    "{file}: {detail}"
+Messages: ``model.invalid``.
 """
 
 from __future__ import annotations
@@ -31,8 +28,6 @@ class Source:
 
     Attributes
     ----------
-    file : str
-    gltf : GltfModel
     world_from_node : (N, 4, 4) float64
         At rest.
     """

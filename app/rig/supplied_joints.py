@@ -30,11 +30,7 @@ HAND_M: Final = (
         "IndexIntermediate": (0.135, -0.005, 0.027),
         "IndexDistal": (0.159, -0.005, 0.027),
     },
-    {
-        "MiddleProximal": (0.107, 0.0, 0.0),
-        "MiddleIntermediate": (0.143, 0.0, 0.0),
-        "MiddleDistal": (0.171, 0.0, 0.0),
-    },
+    {"MiddleProximal": (0.107, 0.0, 0.0), "MiddleIntermediate": (0.143, 0.0, 0.0), "MiddleDistal": (0.171, 0.0, 0.0)},
     {
         "RingProximal": (0.101, 0.0, -0.020),
         "RingIntermediate": (0.132, 0.0, -0.020),

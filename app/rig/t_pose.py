@@ -105,7 +105,6 @@ def facing_ahead(figure: Figure, bones: Mapping[str, int], tips_m: Mapping[str, 
 
     Parameters
     ----------
-    figure : Figure
     bones : mapping of str to int
         By VRM 1.0 joint.
     tips_m : mapping of str to (3,) float64, optional
@@ -166,7 +165,6 @@ def turns_to_t_pose(figure: Figure, rest: Rest, bones: Mapping[str, int]) -> dic
     ----------
     figure : Figure
         Upright.
-    rest : Rest
     bones : mapping of str to int
         By VRM 1.0 joint; the required ones are there.
     """

@@ -31,7 +31,6 @@ class MapChoice(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    map_id : str
     plays, substitutes_for : tuple of str
         Ids in the vocabulary of instruments: its own, and those it may stand in for.
     concert_low, concert_high : int
@@ -61,13 +60,10 @@ class TrackChannel(msgspec.Struct, frozen=True):
     ----------
     track : int
         Counted from 0.
-    channel : int
     name, instrument_name : str
         The track's texts for people, empty if there are none.
-    program : int or None
     onset_ticks, end_ticks, pitches, velocities, numbers : list of int
         One entry per note, by onset; ``numbers`` is the note's place among the track's note-ons, from 1.
-    curves : tuple of ControllerCurve
     reported : tuple of str
         Of a track that says nothing itself: ids of the instruments that the file's name says it may be for.
     played_on : str
@@ -149,10 +145,8 @@ class Candidates(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    how : How
     instrument : Instrument or None
         What the track is for, where that is said.
-    maps : tuple of MapChoice
     exact : frozenset of str
         Ids of the maps that play just this instrument, not a kind of it.
     unknown : bool
@@ -171,7 +165,6 @@ class Candidates(msgspec.Struct, frozen=True):
 
         Parameters
         ----------
-        pitches : sequence of int
         written : bool
             They are written ones, not those that sound.
         """

@@ -63,7 +63,6 @@ class Container(msgspec.Struct, frozen=True):
         As in the file: positive ticks per quarter, or negative SMPTE (signed 16 bits).
     tracks : tuple of Track
         At least one.
-    warnings : tuple of Message
     """
 
     format: int

@@ -37,7 +37,6 @@ class Cleaned:
     onsets_s, ends_s : float64
         Of a note that is kept; of an excluded one, as it was played.
     pitches, velocities : int64
-    faults : tuple of Fault
     """
 
     onsets_s: npt.NDArray[np.float64]

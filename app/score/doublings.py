@@ -29,7 +29,6 @@ def doubled_instruments(
 
     Parameters
     ----------
-    events : TrackEvents
     channels : sequence of int
         Of the notes.
     name : str

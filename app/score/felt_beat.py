@@ -30,8 +30,6 @@ def felt_beats(clock: TempoMap, metre_map: MetreMap, bars: IntArray) -> FeltBeat
 
     Parameters
     ----------
-    clock : TempoMap
-    metre_map : MetreMap
     bars : (B,) int64
         Where the bars of the piece begin, B >= 1.
     """

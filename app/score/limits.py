@@ -32,7 +32,6 @@ def too_long(score: Score, end_tick: int | None = None) -> dict[str, Argument] |
 
     Parameters
     ----------
-    score : Score
     end_tick : int, optional
         Where it ends, by default where its last note does, whether it has a player or not.
 

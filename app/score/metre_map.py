@@ -46,7 +46,6 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
 
     Attributes
     ----------
-    ticks_per_quarter : int
     metres : tuple of Metre
         By tick, at least one. The first extends backwards, so that the pre-roll has bars too.
     has_pickup : bool

@@ -79,7 +79,6 @@ class PercussionHit(msgspec.Struct, frozen=True, gc=False):
 
     Attributes
     ----------
-    tick : int
     pitch : int
         MIDI note 0..127: the sound of a drum kit that is struck.
     velocity : int
@@ -182,17 +181,11 @@ class Score(msgspec.Struct, frozen=True, dict=True):
 
     Attributes
     ----------
-    title : str
-    ticks_per_quarter : int
-    tempo_map : TempoMap
     metres : tuple of Metre
         By tick, at least one, the first at tick 0.
     pickup_ticks : int
         Length of an incomplete first bar, 0 if there is none. A MIDI file has no mark for it; it is known where the
         file gives the first bar a metre of its own, or restates the metre before a bar is over.
-    parts : tuple of Part
-    unplayed : tuple of UnplayedPart
-    warnings : tuple of Message
     markers : tuple of Marker
         By tick; at one tick in the order of the file. Some may lie behind the last note.
     percussion : tuple of PercussionHit

@@ -44,8 +44,6 @@ def muted_spans(
 
     Parameters
     ----------
-    events : TrackEvents
-    channels : collection of int
     name : str
         Of the track.
     texts : sequence of (tick, text)

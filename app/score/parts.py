@@ -90,7 +90,6 @@ def parts_of(
 
     Parameters
     ----------
-    streams : sequence of TrackChannel
     maps : sequence of MapChoice
         Earlier ones are preferred where all else is equal.
     piece : Score
@@ -142,10 +141,8 @@ def assigned_parts(
 
     Parameters
     ----------
-    streams : sequence of TrackChannel
     wishes : sequence of PartAssignment
         A stream is asked for at most once.
-    maps : sequence of MapChoice
     piece : Score
         Its tempo and metres.
     stop_requested : callable

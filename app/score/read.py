@@ -95,15 +95,10 @@ class MidiContents(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    title : str
-    tempo_map : TempoMap
-    metres : tuple of Metre
-    pickup_ticks : int
     streams : tuple of TrackChannel
         The notes of each track, by channel.
     warnings : tuple of Message
         What was repaired or skipped.
-    markers : tuple of Marker
     """
 
     title: str
@@ -120,7 +115,6 @@ def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoi
 
     Parameters
     ----------
-    path : Path
     encoding : str, optional
         Of the file's texts; otherwise guessed text by text (`app.score.texts`).
     maps : sequence of MapChoice

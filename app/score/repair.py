@@ -37,7 +37,6 @@ class Repaired(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    data : bytes
     truncated_at : int or None
         Offset in the track of the event that its end cuts off.
     skipped : int

@@ -38,12 +38,10 @@ def without_key_switches(
 
     Parameters
     ----------
-    stream : TrackChannel
     found : Candidates
         The maps it may go to.
     maps : sequence of MapChoice
         All there are.
-    tempo_map : TempoMap
     """
     pitches = np.array(stream.pitches)
     for away in _far(pitches):

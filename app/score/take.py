@@ -36,8 +36,6 @@ class ControllerMapping(msgspec.Struct, frozen=True, forbid_unknown_fields=True)
     ----------
     channel : int
         1..16; 0: any.
-    breath : BreathSource
-    bite : BiteSource
     """
 
     channel: int = 0
@@ -83,15 +81,12 @@ class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True):
     ----------
     id : str
         ``"take:1"`` and so on; unique in the project, never used again.
-    name : str
     colour : str
         ``"#rrggbb"``; empty: the player's.
     device : str
         The port it came from.
     recorded : str
         When, as ISO 8601 in UTC; empty where no one knows.
-    wiring : ControllerMapping
-    cleaning : Cleaning
     tempo_map : TempoMap
         The tempo map during the recording: the events keep their places in the music when the piece's tempo changes.
     start_us, end_us : int

@@ -42,7 +42,6 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
 
     Attributes
     ----------
-    ticks_per_quarter : int
     changes : tuple of TempoChange
         By tick, one per tick, at least one, the first at tick 0.
     """

@@ -10,7 +10,6 @@ def decoded(data: bytes, encoding: str | None = None) -> str:
 
     Parameters
     ----------
-    data : bytes
     encoding : str, optional
         Overrides the guess (`app.encoding.guessed`); what it cannot decode becomes U+FFFD.
     """

@@ -98,8 +98,7 @@ class TrackEvents(msgspec.Struct):
             return self.channels[next(iter(channels))]
         together = [self.channels[channel] for channel in channels]
         rows = sorted(
-            (row for notes in together for row in zip(*msgspec.structs.astuple(notes), strict=True)),
-            key=itemgetter(-1),
+            (row for notes in together for row in zip(*msgspec.structs.astuple(notes), strict=True)), key=itemgetter(-1)
         )
         return ChannelNotes(*map(list, zip(*rows, strict=True)))
 

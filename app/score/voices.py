@@ -175,7 +175,6 @@ def split_voices(
     ----------
     notes : sequence of Note
         By onset.
-    tempo_map : TempoMap
     most : int
         Voices.
     least : int

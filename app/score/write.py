@@ -96,8 +96,6 @@ def write_midi(score: Score, path: Path, performers: Mapping[str, Performer] | N
 
     Parameters
     ----------
-    score : Score
-    path : Path
     performers : mapping of str to Performer, optional
         By part id; a part that is not there has its own name and what it is for.
 

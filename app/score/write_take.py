@@ -32,7 +32,6 @@ def write_take(
 
     Parameters
     ----------
-    path : Path
     times_us : sequence of int
         Microseconds, not descending.
     messages : sequence of bytes

@@ -40,7 +40,6 @@ class RowAction(QAction):
 
     Parameters
     ----------
-    row : Row
     table : ActionTable
         Knows what the row is about, and its shortcuts.
     """

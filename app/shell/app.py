@@ -61,10 +61,8 @@ class Start:
 
     Attributes
     ----------
-    file : Path or None
     screenshot : Path or None
         Draw the window once, write it there, and end.
-    time_s : float
     view, language, theme : str
         Empty: as the user left it.
     size : (int, int)
@@ -97,10 +95,6 @@ class Program(QObject):
 
     Parameters
     ----------
-    settings : Settings
-    tasks : Tasks
-    questions : Questions
-    autosave : Autosave or None
     audible : bool
         Whether the performance can be played.
     playback : Playback, optional

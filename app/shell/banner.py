@@ -26,12 +26,7 @@ Texts = Callable[[], tuple[str, tuple[str, ...]]]
 
 
 class Banner(Retranslated, QFrame):
-    """One question at a time.
-
-    Parameters
-    ----------
-    session : Session
-    """
+    """One question at a time."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)

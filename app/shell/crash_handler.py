@@ -42,17 +42,12 @@ class CrashHandler:
         Shows it.
     write_down : callable
         Writes unsaved work down.
-    log : Path
     clock : callable
         Seconds.
     """
 
     def __init__(
-        self,
-        session: Session,
-        write_down: Callable[[], None],
-        log: Path,
-        clock: Callable[[], float] = time.monotonic,
+        self, session: Session, write_down: Callable[[], None], log: Path, clock: Callable[[], float] = time.monotonic
     ) -> None:
         self._session = session
         self._write_down = write_down

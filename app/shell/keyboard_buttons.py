@@ -13,11 +13,6 @@ class KeyboardButtons(QObject):
 
     A button that was clicked keeps the keyboard too, and there Space goes on to play. Watched is only what has the
     keyboard: a filter of the whole application would have Python asked a hundred times in every frame.
-
-    Parameters
-    ----------
-    application : QApplication
-    parent : QObject
     """
 
     def __init__(self, application: QApplication, parent: QObject) -> None:

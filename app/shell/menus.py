@@ -46,13 +46,7 @@ class Menu(Retranslated, QMenu):
 
 
 class Menus:
-    """The menus of a menu bar.
-
-    Parameters
-    ----------
-    bar : QMenuBar
-    table : ActionTable
-    """
+    """The menus of a menu bar."""
 
     def __init__(self, bar: QMenuBar, table: ActionTable) -> None:
         self._bar = bar

@@ -20,7 +20,6 @@ def show_preferences(editor: Editor, page: str) -> PreferencesDialog:
 
     Parameters
     ----------
-    editor : Editor
     page : str
         ``"general"`` or ``"shortcuts"``.
     """

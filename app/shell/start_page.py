@@ -26,14 +26,7 @@ RECENT_PX, LEAST_FOLDER_PX = 370, 90
 
 
 class StartPage(Retranslated, QScrollArea):
-    """The start page.
-
-    Parameters
-    ----------
-    session : Session
-    files : Files
-    settings : Settings
-    """
+    """The start page."""
 
     def __init__(self, session: Session, files: Files, settings: Settings, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -42,8 +42,6 @@ class StatusLine(Retranslated, QStatusBar):
 
     Parameters
     ----------
-    session : Session
-    files : Files
     tasks : ThreadTasks or None
         None: work is not shown.
     """
@@ -337,11 +335,9 @@ def problem_count(session: Session) -> int:
 
 def severity_colour(severity: Severity, tokens: Tokens) -> str:
     """The colour of a notice's mark."""
-    return {
-        Severity.INFORMATION: tokens.accent,
-        Severity.WARNING: tokens.warning,
-        Severity.ERROR: tokens.error,
-    }[severity]
+    return {Severity.INFORMATION: tokens.accent, Severity.WARNING: tokens.warning, Severity.ERROR: tokens.error}[
+        severity
+    ]
 
 
 def _show_value(bar: QProgressBar, value: int) -> None:

@@ -33,8 +33,6 @@ class FaceLayout:
 
     Attributes
     ----------
-    names : tuple of str
-    morphs : tuple of str
     shares : (len(names), len(morphs)) float64 or None
         None: each name is one morph.
     """

@@ -31,7 +31,6 @@ class Head:
 
     Attributes
     ----------
-    address : str
     fixed : tuple of str or int
         Its first arguments, the same in every frame.
     floats : int
@@ -44,12 +43,7 @@ class Head:
 
 
 class Packets:
-    """A frame's messages as bundles, in their order.
-
-    Parameters
-    ----------
-    heads : sequence of Head
-    """
+    """A frame's messages as bundles, in their order."""
 
     def __init__(self, heads: Sequence[Head]) -> None:
         self.floats = sum(head.floats for head in heads)
@@ -74,9 +68,7 @@ class Packets:
             bundle.add_content(message)
             end += _LENGTH + message.size
             words.extend(range(end // _WORD - count, end // _WORD))
-        self._bundles.append(
-            (bundle.build().dgram, np.array(words, np.intp), slice(first, first + sum(floats))),
-        )
+        self._bundles.append((bundle.build().dgram, np.array(words, np.intp), slice(first, first + sum(floats))))
 
     def filled(self, values: npt.NDArray[np.floating]) -> list[bytes]:
         """The datagrams of a frame.

@@ -1,15 +1,6 @@
 """Datagrams to a program that listens, here or elsewhere; nothing ever waits for it.
 
-Messages
---------
-stream.host_unknown : host
-    "no computer is called {host}: ..."
-stream.port : port
-    "{port} is no port ..."
-stream.not_sent : host, port, reason
-    "nothing can be sent to {host}, port {port} ({reason}) ..."
-stream.to_many : host
-    "{host} is no single computer ..."
+Messages: ``stream.host_unknown``, ``stream.port``, ``stream.not_sent``, ``stream.to_many``.
 """
 
 from __future__ import annotations
@@ -48,7 +39,6 @@ class Address:
         As it was asked for.
     family : int
         Of the Internet's addresses.
-    at : SocketAddress
     """
 
     host: str
@@ -130,7 +120,6 @@ class Sender:
 
     Parameters
     ----------
-    address : Address
     broadcast : bool
         Whether the address may be that of many computers.
 

@@ -37,20 +37,14 @@ class Sent:
 
     Parameters
     ----------
-    character : Character
     instrument : str or None
         Name of its tracker; None: the performer holds none.
-    faces : FaceNames
     doubles : tuple of str
         Names of the trackers of other instruments that the performer changes to.
     """
 
     def __init__(
-        self,
-        character: Character,
-        instrument: str | None,
-        faces: FaceNames = "arkit",
-        doubles: tuple[str, ...] = (),
+        self, character: Character, instrument: str | None, faces: FaceNames = "arkit", doubles: tuple[str, ...] = ()
     ) -> None:
         skeleton, own = character.skeleton, character.own
         self._hips = skeleton.index("hips")
@@ -92,7 +86,6 @@ class Sent:
 
         Parameters
         ----------
-        pose : Pose
         time_s : float
             Since the stream began.
         stage : StagePosition, optional

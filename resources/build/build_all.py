@@ -28,7 +28,6 @@ class Step:
 
     Attributes
     ----------
-    name : str
     files : tuple of str
         What it writes, as patterns from the repository's root; what else lies in these folders is written by people.
     commands : callable

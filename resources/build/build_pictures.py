@@ -25,7 +25,6 @@ class Picture:
 
     Attributes
     ----------
-    name : str
     options : tuple of str
         Of ``suisou edit``.
     crop : (int, int, int, int) or None

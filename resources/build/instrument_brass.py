@@ -80,12 +80,7 @@ class Frame:
 
 
 def arc(
-    frame: Frame,
-    centre: Sequence[float],
-    radius: float,
-    start_deg: float,
-    end_deg: float,
-    step_m: float = 0.010,
+    frame: Frame, centre: Sequence[float], radius: float, start_deg: float, end_deg: float, step_m: float = 0.010
 ) -> Array:
     """Part of a circle about the third axis: 0 degrees lies against the second axis, 90 along the first."""
     count = max(4, int(np.ceil(abs(np.radians(end_deg - start_deg)) * radius / step_m)))
@@ -112,26 +107,12 @@ def mouthpiece(model: Model, rim_r: float, outer_r: float, length: float, cup: f
     throat = 0.30 * rim_r
     land = outer_r - rim_r
     profile = [
-        (0.90 * cup, throat),
-        (0.62 * cup, 0.62 * rim_r),
-        (0.30 * cup, 0.80 * rim_r),
-        (0.10 * cup, 0.88 * rim_r),
-        (0.0012, 0.93 * rim_r),
-        (0.0003, 0.965 * rim_r),
-        (0.0, rim_r),
-        (0.0004, rim_r + 0.45 * land),
-        (0.0015, rim_r + 0.86 * land),
-        (0.0034, outer_r),
-        (0.0085, outer_r),
-        (0.0105, 0.965 * outer_r),
-        (0.014, 0.90 * outer_r),
-        (0.40 * cup + 0.010, 0.86 * outer_r),
-        (0.75 * cup + 0.010, 0.68 * outer_r),
-        (cup + 0.012, 0.45 * outer_r),
-        (cup + 0.020, 1.05 * shank_r),
-        (length, shank_r),
-        (length, 0.0),
-    ]
+        (0.90 * cup, throat), (0.62 * cup, 0.62 * rim_r), (0.30 * cup, 0.80 * rim_r), (0.10 * cup, 0.88 * rim_r),
+        (0.0012, 0.93 * rim_r), (0.0003, 0.965 * rim_r), (0.0, rim_r), (0.0004, rim_r + 0.45 * land),
+        (0.0015, rim_r + 0.86 * land), (0.0034, outer_r), (0.0085, outer_r), (0.0105, 0.965 * outer_r),
+        (0.014, 0.90 * outer_r), (0.40 * cup + 0.010, 0.86 * outer_r), (0.75 * cup + 0.010, 0.68 * outer_r),
+        (cup + 0.012, 0.45 * outer_r), (cup + 0.020, 1.05 * shank_r), (length, shank_r), (length, 0.0),
+    ]  # fmt: skip
     model.add(SILVER, turned((0, 0, 0), Z, profile, sides=48, hard_deg=50))
 
 
@@ -141,10 +122,7 @@ def receiver(model: Model, start: ArrayLike, axis: ArrayLike, radius: float, len
     model.add(
         NICKEL,
         solid(
-            start,
-            axis,
-            [(0, 1.12 * r), (0.002, 1.2 * r), (0.005, 1.2 * r), (0.006, 1.06 * r), (length, r)],
-            sides=24,
+            start, axis, [(0, 1.12 * r), (0.002, 1.2 * r), (0.005, 1.2 * r), (0.006, 1.06 * r), (length, r)], sides=24
         ),
     )
 
@@ -153,13 +131,9 @@ def ferrule(model: Model, centre: ArrayLike, axis: ArrayLike, radius: float, len
     """A beaded sleeve over a joint of tubes; ``radius`` is theirs, and their bodies stand for it."""
     half, r, bead = length / 2, radius + 0.0009, min(0.002, length / 5)
     profile = [
-        (-half, r + 0.0006),
-        (bead - half, r + 0.0006),
-        (bead - half, r),
-        (half - bead, r),
-        (half - bead, r + 0.0006),
+        (-half, r + 0.0006), (bead - half, r + 0.0006), (bead - half, r), (half - bead, r), (half - bead, r + 0.0006),
         (half, r + 0.0006),
-    ]
+    ]  # fmt: skip
     model.add(NICKEL, solid(centre, axis, profile, sides=20, proxy=False))
 
 
@@ -177,13 +151,9 @@ def stay(start: ArrayLike, end: ArrayLike, thick: float = 0.0028) -> Shape:
     length = float(np.linalg.norm(b - a))
     t = thick
     profile = [
-        (-0.002, 1.65 * t),
-        (0.0015, 1.6 * t),
-        (0.0030, t),
-        (length - 0.0030, t),
-        (length - 0.0015, 1.6 * t),
+        (-0.002, 1.65 * t), (0.0015, 1.6 * t), (0.0030, t), (length - 0.0030, t), (length - 0.0015, 1.6 * t),
         (length + 0.002, 1.65 * t),
-    ]
+    ]  # fmt: skip
     reach = 0.0015 * (b - a) / length
     body = {"shape": "cylinder", "a_m": a - reach, "b_m": b + reach, "radius_m": 1.25 * t}
     return replace(solid(a, b - a, profile, sides=14, proxy=False), proxies=(body,))
@@ -340,35 +310,18 @@ class Piston:
         r, top, low, high = self.casing_r, self.top, self.bottom, self.button
         casing = [(low, r), (top - 0.004, r)]
         model.add(NICKEL, solid(foot, up, casing, sides=32))
-        cap = [
-            (top - 0.010, 1.09 * r),
-            (top - 0.001, 1.13 * r),
-            (top, 1.06 * r),
-            (top + 0.005, 0.5 * r),
-        ]
+        cap = [(top - 0.010, 1.09 * r), (top - 0.001, 1.13 * r), (top, 1.06 * r), (top + 0.005, 0.5 * r)]
         model.add(SILVER, solid(foot, up, cap, sides=32))
-        under = [
-            (low - 0.010, 0.4 * r),
-            (low - 0.006, 1.02 * r),
-            (low - 0.003, 1.12 * r),
-            (low + 0.008, 1.12 * r),
-        ]
+        under = [(low - 0.010, 0.4 * r), (low - 0.006, 1.02 * r), (low - 0.003, 1.12 * r), (low + 0.008, 1.12 * r)]
         model.add(SILVER, solid(foot, up, under, sides=32))
         felt = [(top + 0.004, 0.62 * r), (top + 0.0075, 0.62 * r)]
         model.add("felt", solid(foot, up, felt, sides=24))
-        model.add(
-            SILVER,
-            solid(foot, up, [(top - 0.01, 0.0034), (high - 0.004, 0.0034)], sides=16),
-            node=node,
-        )
+        model.add(SILVER, solid(foot, up, [(top - 0.01, 0.0034), (high - 0.004, 0.0034)], sides=16), node=node)
         b = self.button_r
         button = [
-            (high - 0.0088, 0.0042),
-            (high - 0.0070, 0.85 * b),
-            (high - 0.0058, b),
-            (high - 0.0016, b),
+            (high - 0.0088, 0.0042), (high - 0.0070, 0.85 * b), (high - 0.0058, b), (high - 0.0016, b),
             (high - 0.0004, 0.93 * b),
-        ]
+        ]  # fmt: skip
         model.add(SILVER, solid(foot, up, button, sides=32), node=node)
         pearl = [(high - 0.001, 0.88 * b), (high - 0.0002, 0.84 * b), (high, 0.6 * b)]
         model.add("pearl", solid(foot, up, pearl, sides=32), node=node)
@@ -378,29 +331,15 @@ def rotor(model: Model, node: str, foot: Array, axis: Array, arm: Array, radius:
     """A rotary valve: its casing in the root; the stop arm on top, which turns with the rotor, in ``node``."""
     r = radius
     casing = [
-        (0, 0),
-        (0, r),
-        (0.003, 1.08 * r),
-        (0.006, 1.08 * r),
-        (0.007, r),
-        (length - 0.007, r),
-        (length - 0.006, 1.08 * r),
-        (length - 0.002, 1.08 * r),
-        (length, 0.9 * r),
-        (length + 0.001, 0),
-    ]
+        (0, 0), (0, r), (0.003, 1.08 * r), (0.006, 1.08 * r), (0.007, r), (length - 0.007, r),
+        (length - 0.006, 1.08 * r), (length - 0.002, 1.08 * r), (length, 0.9 * r), (length + 0.001, 0),
+    ]  # fmt: skip
     body = {"shape": "cylinder", "a_m": foot, "b_m": foot + (length + 0.001) * axis, "radius_m": 1.06 * r}
     model.add(NICKEL, replace(turned(foot, axis, casing, sides=32, proxy=False), proxies=(body,)))
     top = foot + (length + 0.001) * axis
     model.add(
         SILVER,
-        solid(
-            top - 0.002 * axis,
-            axis,
-            [(0, 0.0036), (0.008, 0.0036), (0.009, 0.0025)],
-            sides=18,
-            proxy=False,
-        ),
+        solid(top - 0.002 * axis, axis, [(0, 0.0036), (0.008, 0.0036), (0.009, 0.0025)], sides=18, proxy=False),
         node=node,
     )
     bar = tube(
@@ -413,13 +352,7 @@ def rotor(model: Model, node: str, foot: Array, axis: Array, arm: Array, radius:
     model.add(SILVER, bar, node=node)
     model.add(
         SILVER,
-        solid(
-            top + 0.001 * axis + 0.85 * r * arm,
-            axis,
-            [(0, 0.003), (0.008, 0.003)],
-            sides=14,
-            proxy=False,
-        ),
+        solid(top + 0.001 * axis + 0.85 * r * arm, axis, [(0, 0.003), (0.008, 0.003)], sides=14, proxy=False),
         node=node,
     )
 

@@ -30,10 +30,8 @@ class Pin:
         How far it can be drawn out.
     kept_m : float
         How much of the rod the tube keeps then.
-    radius, tube_radius : float
     tip_profile : tuple of (float, float)
         Distances behind the tip, and radii there; the last is the tip's.
-    tip_material : str
     """
 
     tube: tuple[float, float]

@@ -85,26 +85,11 @@ class Sizes:
 
 
 PICCOLO = Sizes(
-    column=0.3317,
-    correction=0.0285,
-    radius=0.0073,
-    cup=0.0058,
-    opening=0.0024,
-    rise=0.0016,
-    keys=0.66,
-    head=0.082,
-    crown=0.036,
-    plate=(0.0165, 0.0135, 0.0105),
-    plate_high=0.0023,
-    axis=(0.0, -0.0126, 0.0059),
-    hole=(0.0052, 0.0045),
-    bearing=(-0.0050, 118.0),
-    g_sharp=0.0080,
-    trill_touch=(-28.0, 0.0085),
-    foot=False,
-    open_hole=0.0,
+    column=0.3317, correction=0.0285, radius=0.0073, cup=0.0058, opening=0.0024, rise=0.0016, keys=0.66, head=0.082,
+    crown=0.036, plate=(0.0165, 0.0135, 0.0105), plate_high=0.0023, axis=(0.0, -0.0126, 0.0059), hole=(0.0052, 0.0045),
+    bearing=(-0.0050, 118.0), g_sharp=0.0080, trill_touch=(-28.0, 0.0085), foot=False, open_hole=0.0,
     body_material="grenadilla",
-)
+)  # fmt: skip
 
 
 class Flute:
@@ -171,12 +156,8 @@ class Flute:
         profile = [(place * size / 0.033, radius) for place, radius in barrel]
         work.model.add("silver", turned(self.axis(s.head - 0.018), -X, profile, sides=44))
         end_ring = [
-            (-0.0032, 0.98 * r),
-            (-0.0030, 1.07 * r),
-            (-0.0006, 1.07 * r),
-            (0.0002, 1.02 * r),
-            (0.0002, 0.93 * r),
-        ]
+            (-0.0032, 0.98 * r), (-0.0030, 1.07 * r), (-0.0006, 1.07 * r), (0.0002, 1.02 * r), (0.0002, 0.93 * r),
+        ]  # fmt: skip
         work.model.add("silver", turned(self.axis(self.end), -X, end_ring, sides=44, proxy=False))
         inside = [(0.0006, 0.93 * r), (0.0001, 0.92 * r), (0.0001, 0.0)]
         work.model.add("dark_plastic", turned(self.axis(self.end), -X, inside[1:], sides=36, proxy=False))
@@ -353,7 +334,4 @@ def net(rings: list[Array], *, inward: bool = False) -> Shape:
     return creased(points, corners[:, ::-1] if inward else corners, 40.0)
 
 
-INSTRUMENTS = {
-    "flute": entry(lambda: Flute(Sizes()).make()),
-    "piccolo": entry(lambda: Flute(PICCOLO).make()),
-}
+INSTRUMENTS = {"flute": entry(lambda: Flute(Sizes()).make()), "piccolo": entry(lambda: Flute(PICCOLO).make())}

@@ -274,11 +274,7 @@ def _thumb_lever(model: Model, f: Frame) -> None:
     )
     model.add(NICKEL, tube(arm, 0.0022, sides=12), node="thumb_valve")
     hub = f.at((a - 0.008, PIVOT_B, n))
-    model.add(
-        NICKEL,
-        solid(hub, f.way(1, 0, 0), [(0, 0.0042), (0.016, 0.0042)], sides=18),
-        node="thumb_valve",
-    )
+    model.add(NICKEL, solid(hub, f.way(1, 0, 0), [(0, 0.0042), (0.016, 0.0042)], sides=18), node="thumb_valve")
     model.add(
         "felt",
         tube([f.at((a + 0.05, PIVOT_B + 0.016, n + 0.002)), f.at((0.380, 0.152, 0.040))], 0.0008, sides=8),

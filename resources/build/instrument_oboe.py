@@ -309,7 +309,4 @@ ENGLISH_HORN = Sizes(
     lowest=("key_B",),
 )  # fmt: skip
 
-INSTRUMENTS = {
-    "oboe": entry(lambda: Oboe(OBOE).make()),
-    "english_horn": entry(lambda: Oboe(ENGLISH_HORN).make()),
-}
+INSTRUMENTS = {"oboe": entry(lambda: Oboe(OBOE).make()), "english_horn": entry(lambda: Oboe(ENGLISH_HORN).make())}

@@ -14,31 +14,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from resources.build.instrument_brass import (
-    BRASS,
-    NICKEL,
-    Bell,
-    Frame,
-    Z,
-    bell,
-    contact,
-    ferrule,
-    inside_out,
-    stay,
-)
+from resources.build.instrument_brass import BRASS, NICKEL, Bell, Frame, Z, bell, contact, ferrule, inside_out, stay
 from resources.build.instrument_mesh import Array, Model, bend, joined, lengths, solid, tube, unit
 from resources.build.instrument_tuba import TUBA_BB, blown, row, row_contacts, slides, thumb_ring
 
 ROW = replace(
-    TUBA_BB,
-    middle=(-0.042, 0.0, 0.202),
-    ahead_deg=28.0,
-    first_valve=0.026,
-    row=3,
-    fourth_back=0.0,
-    button=-0.168,
+    TUBA_BB, middle=(-0.042, 0.0, 0.202), ahead_deg=28.0, first_valve=0.026, row=3, fourth_back=0.0, button=-0.168,
     bore=0.00925,
-)
+)  # fmt: skip
 """The valves stand as those of the tuba do, where the right hand finds them."""
 SHOULDER, HIP = np.array([0.162, -0.006]), np.array([-0.284, -0.525])
 """Middle of the tube on the left shoulder and at the right hip, from the lips to the left and up."""
@@ -148,12 +131,7 @@ def _bell(model: Model) -> None:
     bell(model, BELL, RIM, ahead, before, radius(COLLAR_DEG), rings=34, sides=64)
     collar = int(np.argmin(np.abs(before[:, 1] - (turn[1] - ELBOW_R - 0.06)) + (before[:, 2] > STEM[2] + 0.01)))
     thick = float(grown[collar])
-    profile = [
-        (-0.022, thick + 0.004),
-        (-0.016, thick + 0.006),
-        (0.016, thick + 0.006),
-        (0.022, thick + 0.004),
-    ]
+    profile = [(-0.022, thick + 0.004), (-0.016, thick + 0.006), (0.016, thick + 0.006), (0.022, thick + 0.004)]
     model.add(NICKEL, solid(before[collar], (0, 1, 0), profile, sides=40))
 
 

@@ -161,10 +161,7 @@ def _gooseneck(model: Model, at: Layout) -> None:
         model.add(NICKEL, turned(foot - 0.122 * Z, -Z, [(z, r * size) for z, r in sleeve]))
     edge = BELL - float(at.bell.radius(BELL_Z - BELL_STAY_Z)) * ACROSS + BELL_STAY_Z * Z
     model.add(NICKEL, brace(LOWER + 0.0100 * ACROSS + BELL_STAY_Z * Z, edge, 0.0033))
-    model.add(
-        NICKEL,
-        brace(GOOSENECK + 0.0100 * ACROSS - 0.132 * Z, BELL - 0.0122 * ACROSS - 0.132 * Z, 0.0033),
-    )
+    model.add(NICKEL, brace(GOOSENECK + 0.0100 * ACROSS - 0.132 * Z, BELL - 0.0122 * ACROSS - 0.132 * Z, 0.0033))
 
 
 def _bell(model: Model, at: Layout) -> None:
@@ -176,10 +173,7 @@ def _bell(model: Model, at: Layout) -> None:
     rear = GOOSENECK + 0.5 * (BELL - GOOSENECK) + (REAR_Z - float(np.linalg.norm(BELL - GOOSENECK)) / 2) * Z
     weight = [(0, 0.0150), (0.0015, 0.0165), (0.0095, 0.0165), (0.0110, 0.0150)]
     bar = REAR_Z + 0.006
-    model.add(
-        NICKEL,
-        brace(GOOSENECK + 0.0090 * ACROSS + bar * Z, BELL - 0.0108 * ACROSS + bar * Z, 0.0030),
-    )
+    model.add(NICKEL, brace(GOOSENECK + 0.0090 * ACROSS + bar * Z, BELL - 0.0108 * ACROSS + bar * Z, 0.0030))
     middle = GOOSENECK + 0.5 * (BELL - GOOSENECK) + bar * Z
     model.add(NICKEL, solid(middle - 0.0055 * OUT, OUT, weight, sides=36))
     model.add(BRASS, solid(rear - 0.006 * Z, -Z, [(0, 0.006), (0.006, 0.004)]))
@@ -273,10 +267,7 @@ def _trigger(model: Model) -> None:
     paddle = [(0, 0.0070), (0.0006, 0.0082), (0.0026, 0.0086), (0.0034, 0.0080)]
     model.add(NICKEL, solid(TRIGGER_PAD, Z, paddle, sides=32), node=node)
     link_end = GOOSENECK + 0.0265 * OUT + (ROTOR_Z + 0.012) * Z
-    model.add(
-        NICKEL,
-        solid(GOOSENECK + ROTOR_Z * Z, OUT, [(0.0235, 0.0095), (0.0265, 0.0095)]),
-    )
+    model.add(NICKEL, solid(GOOSENECK + ROTOR_Z * Z, OUT, [(0.0235, 0.0095), (0.0265, 0.0095)]))
     model.add(NICKEL, tube([pivot + 0.0085 * OUT, link_end], 0.0015, sides=12))
 
 

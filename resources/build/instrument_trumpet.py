@@ -203,11 +203,7 @@ def _through_first_valve(model: Model, at: Layout) -> None:
 def _water_key(model: Model, node: str, place: Array, back: Array) -> None:
     """Nipple, lever and thumb plate under a bow."""
     down = -Y
-    model.add(
-        BRASS,
-        solid(place - 0.001 * down, down, [(0, 0.0035), (0.004, 0.0035)]),
-        node=node,
-    )
+    model.add(BRASS, solid(place - 0.001 * down, down, [(0, 0.0035), (0.004, 0.0035)]), node=node)
     model.add("cork", solid(place + 0.003 * down, down, [(0, 0.0030), (0.0014, 0.0030)]), node=node)
     arm = bend(
         [place + 0.0048 * down, place + 0.0052 * down + 0.014 * back, place + 0.0022 * down + 0.032 * back], 0.012
@@ -251,12 +247,7 @@ def _valves(model: Model, at: Layout) -> None:
             (0.0678, 0.0074), (0.0676, 0.0070),
         ]  # fmt: skip
         model.add(SILVER, solid(foot, Y, button, sides=36), node=node)
-        pearl = [
-            (0.0670, 0.0071),
-            (0.0677, 0.0071),
-            (0.0679, 0.0066),
-            (BUTTON_TOP_Y, 0.0050),
-        ]
+        pearl = [(0.0670, 0.0071), (0.0677, 0.0071), (0.0679, 0.0066), (BUTTON_TOP_Y, 0.0050)]
         model.add("pearl", solid(foot, Y, pearl, sides=36), node=node)
     for low, high, y in ((0, 1, -0.045), (1, 2, -0.040), (0, 1, -0.066), (1, 2, -0.064)):
         knuckle = [(VALVE_X, y, at.valves[low]), (VALVE_X, y, at.valves[high])]
@@ -363,12 +354,7 @@ def _second_slide(model: Model, at: Layout) -> None:
     model.add(BRASS, tube(joined(upper + 0.020 * ahead, bow, lower + 0.020 * ahead), 0.0062))
     knob = (upper + lower) / 2 + (0.034 + 0.011 + 0.0058) * ahead
     model.add(
-        NICKEL,
-        solid(
-            knob,
-            ahead,
-            [(0, 0.0022), (0.004, 0.0018), (0.0055, 0.0042), (0.008, 0.0044), (0.009, 0.0030)],
-        ),
+        NICKEL, solid(knob, ahead, [(0, 0.0022), (0.004, 0.0018), (0.0055, 0.0042), (0.008, 0.0044), (0.009, 0.0030)])
     )
 
 

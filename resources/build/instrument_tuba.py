@@ -113,74 +113,26 @@ class Layout:
 
 
 EUPHONIUM = Layout(
-    middle=(0.030, 0.0, 0.085),
-    ahead_deg=40.0,
-    lean_deg=11.0,
-    bottom=-0.475,
-    rim=0.205,
-    width=0.235,
-    branch_r=0.031,
-    bell=Bell(0.150, 0.050, 0.68),
-    first_valve=0.064,
-    apart=0.034,
-    row=3,
-    button=-0.110,
-    piston=Piston(),
-    rim_r=0.0145,
-    outer_r=0.0190,
-    shank=0.060,
-    top_bow=-0.085,
-    side_valve=(-0.064, -0.225, 0.030),
-)
+    middle=(0.030, 0.0, 0.085), ahead_deg=40.0, lean_deg=11.0, bottom=-0.475, rim=0.205, width=0.235, branch_r=0.031,
+    bell=Bell(0.150, 0.050, 0.68), first_valve=0.064, apart=0.034, row=3, button=-0.110, piston=Piston(), rim_r=0.0145,
+    outer_r=0.0190, shank=0.060, top_bow=-0.085, side_valve=(-0.064, -0.225, 0.030),
+)  # fmt: skip
 BARITONE = replace(
-    EUPHONIUM,
-    bell=Bell(0.120, 0.040, 0.66),
-    branch_r=0.024,
-    bottom=-0.455,
-    rim=0.195,
-    width=0.205,
-    side_valve=None,
-    rim_r=0.0140,
-    outer_r=0.0185,
-    bore=0.0080,
-)
+    EUPHONIUM, bell=Bell(0.120, 0.040, 0.66), branch_r=0.024, bottom=-0.455, rim=0.195, width=0.205, side_valve=None,
+    rim_r=0.0140, outer_r=0.0185, bore=0.0080,
+)  # fmt: skip
 TUBA_BB = Layout(
-    middle=(0.085, 0.0, 0.125),
-    ahead_deg=28.0,
-    lean_deg=6.0,
-    bottom=-0.565,
-    rim=0.360,
-    width=0.330,
-    branch_r=0.054,
-    bell=Bell(0.2150, 0.092, 0.62),
-    first_valve=0.104,
-    apart=0.032,
-    row=4,
-    button=-0.130,
-    piston=Piston(casing_r=0.0135, bottom=-0.130, button_r=0.0115, button=0.082),
-    rim_r=0.0180,
-    outer_r=0.0225,
-    shank=0.062,
-    top_bow=0.020,
-    bore=0.0105,
-    fourth_back=0.027,
-    thumb=(0.004, -0.018),
-)
+    middle=(0.085, 0.0, 0.125), ahead_deg=28.0, lean_deg=6.0, bottom=-0.565, rim=0.360, width=0.330, branch_r=0.054,
+    bell=Bell(0.2150, 0.092, 0.62), first_valve=0.104, apart=0.032, row=4, button=-0.130,
+    piston=Piston(casing_r=0.0135, bottom=-0.130, button_r=0.0115, button=0.082), rim_r=0.0180, outer_r=0.0225,
+    shank=0.062, top_bow=0.020, bore=0.0105, fourth_back=0.027, thumb=(0.004, -0.018),
+)  # fmt: skip
 
 TUBA_EB = replace(
-    TUBA_BB,
-    middle=(0.080, 0.0, 0.120),
-    bottom=-0.558,
-    rim=0.305,
-    width=0.315,
-    branch_r=0.050,
-    bell=Bell(0.2050, 0.086, 0.62),
-    row=3,
-    apart=0.035,
-    side_valve=(-0.090, -0.228, 0.026),
-    side_grip=(0.005, 0.010),
+    TUBA_BB, middle=(0.080, 0.0, 0.120), bottom=-0.558, rim=0.305, width=0.315, branch_r=0.050,
+    bell=Bell(0.2050, 0.086, 0.62), row=3, apart=0.035, side_valve=(-0.090, -0.228, 0.026), side_grip=(0.005, 0.010),
     top_bow=-0.020,
-)
+)  # fmt: skip
 
 
 def build(at: Layout) -> Model:

@@ -13,17 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from resources.build.instrument_brass import (
-    BRASS,
-    NICKEL,
-    Bell,
-    Frame,
-    contact,
-    loop,
-    paddle,
-    rotor,
-    stay,
-)
+from resources.build.instrument_brass import BRASS, NICKEL, Bell, Frame, contact, loop, paddle, rotor, stay
 from resources.build.instrument_mesh import Model, bend, solid, tube
 from resources.build.instrument_tuba import TUBA_BB, Layout, airway, blown
 
@@ -65,14 +55,9 @@ TUBA_F = Rotary(
     }
 )
 TUBA_C = replace(
-    TUBA_F,
-    middle=(-0.080, 0.0, 0.125),
-    bottom=-0.565,
-    rim=0.365,
-    width=0.328,
-    branch_r=0.053,
+    TUBA_F, middle=(-0.080, 0.0, 0.125), bottom=-0.565, rim=0.365, width=0.328, branch_r=0.053,
     bell=Bell(0.210, 0.092, 0.62),
-)
+)  # fmt: skip
 
 
 def _rotor_v(at: Rotary, k: int) -> float:

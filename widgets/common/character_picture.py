@@ -98,8 +98,6 @@ def picture(
 
     Parameters
     ----------
-    shown : Seen
-    width_px, height_px : int
     crop : Crop
         All of the body, or its head.
     weights : mapping of str to float, optional
@@ -207,12 +205,7 @@ def _in_front(points: Floats, triangles: npt.NDArray[np.intp], width: int, heigh
 
 
 def _painted(
-    front: npt.NDArray[np.int64],
-    points: Floats,
-    positions: Floats,
-    normals: Floats,
-    shown: Seen,
-    size: tuple[int, int],
+    front: npt.NDArray[np.int64], points: Floats, positions: Floats, normals: Floats, shown: Seen, size: tuple[int, int]
 ) -> npt.NDArray[np.uint8]:
     """Colours (pixels, 4), shaded smoothly where the vertices' normals are."""
     width, height = size

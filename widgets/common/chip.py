@@ -18,8 +18,6 @@ class Chip(QAbstractButton):
 
     Parameters
     ----------
-    session : Session
-    text, note : str
     by_hand : bool
         It is the user's choice.
     outlined : bool

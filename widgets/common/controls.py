@@ -84,7 +84,6 @@ class Button(Retranslated, QPushButton):
 
     Parameters
     ----------
-    text_id : str
     run : callable
         Called without arguments when it is clicked.
     name : str
@@ -112,7 +111,6 @@ class PictureButton(Button):
 
     Parameters
     ----------
-    session : Session
     picture : str
         See `icon`.
     text_id, run, name, tip_id
@@ -137,7 +135,6 @@ class IconButton(Retranslated, QToolButton):
 
     Parameters
     ----------
-    session : Session
     picture : str
         See `icon`.
     tip_id : str

@@ -42,10 +42,7 @@ class Slot:
 
 def hand_text(hand: str) -> str:
     """``"left"`` or ``"right"`` as one sign."""
-    hands = {
-        "left": tr("fingering_name.l"),
-        "right": tr("fingering_name.r"),
-    }
+    hands = {"left": tr("fingering_name.l"), "right": tr("fingering_name.r")}
     return hands.get(hand, hand)
 
 

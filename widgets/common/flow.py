@@ -11,7 +11,6 @@ class FlowLayout(QLayout):
 
     Parameters
     ----------
-    parent : QWidget, optional
     gap_px : int
         Between neighbours and between lines.
     """

@@ -27,7 +27,6 @@ def icon(name: str, tokens: Tokens, colour: str | None = None) -> QIcon:
     ----------
     name : str
         A file of ``resources/icons`` without its ending.
-    tokens : Tokens
     colour : str, optional
         ``#rrggbb`` instead of the theme's.
 

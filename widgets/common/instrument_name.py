@@ -20,9 +20,6 @@ def instrument_name(instrument: InstrumentMap) -> str:
 
 def character_name(character_id: str) -> str:
     """The name of a character: the bundled ones have one in every language, others their file's."""
-    names = {
-        "woman_adult": tr("character_name.woman"),
-        "man_adult": tr("character_name.man"),
-    }
+    names = {"woman_adult": tr("character_name.woman"), "man_adult": tr("character_name.man")}
     own = character_library().own.get(character_id)
     return names.get(character_id, (own.title if own is not None else "") or character_id)

@@ -31,8 +31,6 @@ class Cell:
 
     Attributes
     ----------
-    control : Control
-    box : QRectF
     home : bool
         Drawn as a circle: where its finger is at home.
     """
@@ -60,7 +58,6 @@ def chart(instrument: InstrumentMap, width: float, advance: Callable[[str], floa
 
     Parameters
     ----------
-    instrument : InstrumentMap
     width : float
         Of the picture; too many keys for it are drawn narrower, never under one another.
     advance : callable

@@ -12,10 +12,7 @@ def morph_name(morph: str) -> str:
     """What a morph target does, in words; its own name where there are none."""
     stem, side = morph, ""
     if morph not in _WHOLE:
-        for ending, sign in (
-            ("Left", tr("morph.left_side")),
-            ("Right", tr("morph.right_side")),
-        ):
+        for ending, sign in (("Left", tr("morph.left_side")), ("Right", tr("morph.right_side"))):
             if morph.endswith(ending):
                 stem, side = morph.removesuffix(ending), sign
     words = {

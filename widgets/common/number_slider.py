@@ -67,14 +67,12 @@ class NumberSlider(QWidget):
         What a reset returns to.
     step : float
         Of keys and wheel, and of a drag without ``slides``.
-    decimals : int
     slides : bool
         Whether the range is short enough to be filled like a slider; else a drag moves by steps.
     resets : bool
         Whether there is a value to return to; without one a double click types.
     fills : (float, float), optional
         The part of the range that fills the control and that a drag reaches; the rest can be typed. None: all of it.
-    parent : QWidget, optional
 
     Signals
     -------
@@ -166,7 +164,6 @@ class NumberSlider(QWidget):
 
         Parameters
         ----------
-        value : float
         mixed : bool
             It stands for several different ones; a drag starts from ``value``.
         default : float, optional
@@ -211,6 +208,15 @@ class NumberSlider(QWidget):
         """Write and read the value in another way than as a number, e.g. a pitch by its name."""
         self._words, self._reads = words, reads
         self.update()
+
+    def show_as_place(self) -> None:
+        """Write and read the value, ticks of the score, as bar, beat and ticks."""
+
+        def tick(text: str) -> float | None:
+            found = self._session.project.score.metre_map.tick_of_label(text)
+            return None if found is None else float(found)
+
+        self.set_wording(lambda value: self._session.project.score.metre_map.label(round(value)), tick)
 
     def value_text(self) -> str:
         """The value as it is written in the control, without its unit."""

@@ -19,8 +19,6 @@ def pitch_text(display: PitchDisplay, concert_pitch: int, transposition_semitone
 
     Parameters
     ----------
-    display : PitchDisplay
-    concert_pitch : int
     transposition_semitones : int
         Written minus concert pitch of the instrument; counts where pitches are shown as written.
     """

@@ -47,10 +47,8 @@ def ask(
 
     Parameters
     ----------
-    parent : QWidget or None
     name : str
         Object name.
-    title, text, explanation : str
     answers : mapping of str to Role
         Roles by the buttons' texts; the one that rejects is what Escape presses.
     usual : Role

@@ -115,14 +115,12 @@ class Section(QWidget):
 
     Parameters
     ----------
-    session : Session
     name : str
         Object name; whether it is folded is remembered by it.
     folded : bool
         Until the user folds or unfolds it.
     remembers : bool
         False: it is so at every start.
-    parent : QWidget, optional
 
     Attributes
     ----------

@@ -25,7 +25,6 @@ def message_text(message: Message, session: Session | None = None, player_id: st
 
     Parameters
     ----------
-    message : Message
     session : Session or None
         With it notes are reported by pitch and place, named by the user's settings; without it notes by their ids.
     player_id : str or None
@@ -141,10 +140,7 @@ def _controls() -> dict[str, str]:
     names |= {
         f"{word}_slide": slide.format(number=1 + index) for index, word in enumerate(("first", "second", "third"))
     }
-    return names | {
-        "slide": tr("word.slide"),
-        "trigger": tr("word.trigger"),
-    }
+    return names | {"slide": tr("word.slide"), "trigger": tr("word.trigger")}
 
 
 def parameter_text(text_id: str) -> str:
@@ -155,21 +151,11 @@ def parameter_text(text_id: str) -> str:
 _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
     "kind": lambda: {tag: word.lower() for tag, word in _corrections().items()},
     "target": _targets,
-    "side": lambda: {
-        "left": tr("word.left"),
-        "right": tr("word.right"),
-    },
+    "side": lambda: {"left": tr("word.left"), "right": tr("word.right")},
     "touch": _touches,
     "map": lambda: {id: instrument_name(instrument) for id, instrument in all_maps().items()},
     "control": _controls,
-    "angle": lambda: {
-        "up": tr("word.up_and_down"),
-        "left": tr("word.to_side"),
-        "roll": tr("word.leaning"),
-    },
-    "leader_reason": lambda: {
-        "chosen": tr("word.chosen_as_leader"),
-        "melody": tr("word.leads_melody"),
-    },
+    "angle": lambda: {"up": tr("word.up_and_down"), "left": tr("word.to_side"), "roll": tr("word.leaning")},
+    "leader_reason": lambda: {"chosen": tr("word.chosen_as_leader"), "melody": tr("word.leads_melody")},
 }
 """Arguments that are one of a few words."""

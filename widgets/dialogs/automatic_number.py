@@ -23,8 +23,6 @@ class AutomaticNumber(QWidget):
     ----------
     name : str
         Of the number for tests and style; the check box has ``_automatic`` behind it.
-    least, most, step : float
-    decimals : int
     """
 
     changed = Signal()

@@ -70,10 +70,7 @@ def places() -> Mapping[str, tuple[float, float]]:
         way = (-math.sin(math.radians(degrees)), -math.cos(math.radians(degrees)))
         parts = ("Metacarpal", "Proximal", "Distal") if finger == "Thumb" else ("Proximal", "Intermediate", "Distal")
         for part, far in zip(parts, along, strict=True):
-            found[f"left{finger}{part}"] = (
-                _PALM[0] + first[0] + way[0] * far,
-                _PALM[1] + first[1] + way[1] * far,
-            )
+            found[f"left{finger}{part}"] = (_PALM[0] + first[0] + way[0] * far, _PALM[1] + first[1] + way[1] * far)
     for joint, (x, y) in list(found.items()):
         if joint.startswith("left"):
             found[joint.replace("left", "right", 1)] = (-x, y)

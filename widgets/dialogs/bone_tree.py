@@ -17,11 +17,6 @@ from widgets.common.layouts import in_column
 class BoneTree(QWidget):
     """Bones; Enter or a double click chooses one.
 
-    Parameters
-    ----------
-    session : Session
-    figure : Figure
-
     Signals
     -------
     chosen(str)

@@ -11,15 +11,7 @@ from typing import Final
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QImage, QKeyEvent, QKeySequence, QPixmap
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QDialog,
-    QLineEdit,
-    QScrollArea,
-    QTabWidget,
-    QTreeWidgetItem,
-    QWidget,
-)
+from PySide6.QtWidgets import QCheckBox, QDialog, QLineEdit, QScrollArea, QTabWidget, QTreeWidgetItem, QWidget
 
 from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
@@ -34,14 +26,7 @@ from widgets.common.plain import Label, verbatim, verbatim_title
 from widgets.common.text import message_text
 from widgets.dialogs.body_map import BodyMap, joints
 from widgets.dialogs.bone_tree import BoneTree
-from widgets.dialogs.character_draft import (
-    Draft,
-    Steps,
-    character_of,
-    joint_name,
-    mapped,
-    not_played,
-)
+from widgets.dialogs.character_draft import Draft, Steps, character_of, joint_name, mapped, not_played
 from widgets.dialogs.face_map_page import FaceMapPage
 
 PICTURE_PX: Final = QSize(250, 340)
@@ -56,15 +41,12 @@ class CharacterDialog(Retranslated, QDialog):
 
     Parameters
     ----------
-    session : Session
     path : Path
         Of the file, for its name.
-    figure : Figure
     draft : Draft
         What is known of it already.
     offered : str
         Name of the player it may be given to, or of several; empty: no one.
-    parent : QWidget, optional
 
     Signals
     -------
@@ -108,7 +90,9 @@ class CharacterDialog(Retranslated, QDialog):
         self._automatic = Button("character_dialog.automatic", lambda: self._give_bone(None), "joint_automatic")
         self._undo = Button("character_dialog.undo", self.undo, "character_undo")
         self._redo = Button("character_dialog.redo", self.redo, "character_redo")
-        self._reset = Button("character_dialog.reset_all", self._start_anew, "character_reset")
+        self._reset = Button(
+            "character_dialog.reset_all", lambda: self.change(Draft(self.draft.title)), "character_reset"
+        )
         self.give = named(QCheckBox(), "character_give")
         self._buttons = OkCancel("character_dialog.keep_character", "character_dialog.cancel")
         self._soon = QTimer(self, singleShot=True, interval=_SOON_MS)
@@ -162,7 +146,7 @@ class CharacterDialog(Retranslated, QDialog):
         self.rows.itemActivated.connect(lambda item, column: self._open(item.data(0, Qt.ItemDataRole.UserRole)))
         self.bones.chosen.connect(lambda bone: self._give_bone(bone))
         self.faces.chosen.connect(self._ask_picture)
-        self.faces.changed.connect(self._give_face)
+        self.faces.changed.connect(lambda face, parts, gesture: self.change(self.draft.with_face(face, parts), gesture))
         self.tabs.currentChanged.connect(self._ask_picture)
         self.title.textEdited.connect(self._rename)
         self._buttons.accepted.connect(self._agree)
@@ -211,9 +195,6 @@ class CharacterDialog(Retranslated, QDialog):
         self.bones.search.clear()
         self.bones.reveal(self._made.joints.bones.get(self._joint))
 
-    def _give_face(self, face: str, parts: dict[str, float] | None, gesture: object) -> None:
-        self.change(self.draft.with_face(face, parts), gesture)
-
     def _rename(self, title: str) -> None:
         # One word is one step.
         self.change(Draft(title, self.draft.joints, self.draft.morphs), self.title)
@@ -232,9 +213,6 @@ class CharacterDialog(Retranslated, QDialog):
         """Make it again."""
         self._steps.redo()
         self._changed()
-
-    def _start_anew(self) -> None:
-        self.change(Draft(self.draft.title))
 
     def _changed(self) -> None:
         self._made = mapped(self._figure, self.draft, self._made)

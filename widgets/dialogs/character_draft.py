@@ -29,7 +29,6 @@ class Draft:
 
     Attributes
     ----------
-    title : str
     joints : mapping of str to str
         Bones by joint that are not found by themselves; empty: none.
     morphs : mapping of str to mapping of str to float
@@ -53,13 +52,7 @@ class Draft:
 
 @dataclass(frozen=True, eq=False)
 class Mapped:
-    """What a draft makes of a figure.
-
-    Attributes
-    ----------
-    joints : JointMapping
-    faces : FaceMapping
-    """
+    """What a draft makes of a figure."""
 
     draft: Draft
     joints: JointMapping
@@ -97,12 +90,7 @@ def character_of(figure: Figure, made: Mapped) -> Character:
 
 
 class Steps:
-    """Drafts, one after another, that can be gone back to.
-
-    Parameters
-    ----------
-    first : Draft
-    """
+    """Drafts, one after another, that can be gone back to."""
 
     def __init__(self, first: Draft) -> None:
         self._done, self._undone = [first], list[Draft]()

@@ -10,12 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtWidgets import (
-    QDialog,
-    QPlainTextEdit,
-    QTabWidget,
-    QWidget,
-)
+from PySide6.QtWidgets import QDialog, QPlainTextEdit, QTabWidget, QWidget
 
 from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
@@ -51,9 +46,6 @@ class Shown:
 
     Attributes
     ----------
-    dancer : Dancer
-    model : ChoreographyModel
-    motions : tuple of BasicMotion
     used : mapping of int to int
         How often the dancer dances each basic motion of the piece.
     symbols : tuple of int
@@ -78,13 +70,7 @@ class Shown:
 
 class ChoreographyDialog(Retranslated, QDialog):
     """What the selected dancer's choreography has learned. Nothing is changed here. Not modal: it goes with the
-    selection.
-
-    Parameters
-    ----------
-    session : Session
-    parent : QWidget, optional
-    """
+    selection."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -57,10 +57,6 @@ class CutPanel(Retranslated, QWidget):
     -------
     changed(tuple of Cut or None)
         The user set other cuts; None: found ones again.
-
-    Parameters
-    ----------
-    session : Session
     """
 
     changed = Signal(object)

@@ -152,7 +152,6 @@ class CutPlot(QWidget):
         Parameters
         ----------
         curve_rad_s2 : (F,) float64
-        fps : Fraction
         start_s : float
             Time of the motion's file at its first frame.
         hits_s : (H,) float64

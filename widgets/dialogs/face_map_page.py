@@ -7,10 +7,7 @@ from functools import partial
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import (
-    QTreeWidgetItem,
-    QWidget,
-)
+from PySide6.QtWidgets import QTreeWidgetItem, QWidget
 
 from app.editor.session import Session
 from metadata.model import ARKIT_MORPHS
@@ -29,7 +26,6 @@ class FaceMapPage(QWidget):
 
     Parameters
     ----------
-    session : Session
     morphs : sequence of str
         The file's own.
 
@@ -64,7 +60,7 @@ class FaceMapPage(QWidget):
         self.list.currentItemChanged.connect(self._chosen)
         self._title, self._none = Label(), wrapped(Label())
         self._add = named(Combo(), "face_add")
-        self._add.chosen.connect(self._add_part)
+        self._add.chosen.connect(lambda morph: self._set_part(morph, 1.0, None))
         self._reset = Button("face_map_page.automatic", lambda: self.changed.emit(self._face, None, None), "face_reset")
         self._column = in_column(spacing=4)
         self._build()
@@ -97,9 +93,6 @@ class FaceMapPage(QWidget):
             self._face = item.data(0, Qt.ItemDataRole.UserRole)
             self._show_editor()
             self.chosen.emit(self._face)
-
-    def _add_part(self, morph: str) -> None:
-        self.changed.emit(self._face, {**self._parts.get(self._face, {}), morph: 1.0}, None)
 
     def _set_part(self, morph: str, factor: float, token: object) -> None:
         self.changed.emit(self._face, {**self._parts.get(self._face, {}), morph: factor}, token)

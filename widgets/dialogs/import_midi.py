@@ -29,16 +29,7 @@ from app.editor.tasks import Progress, StopRequested, Tasks
 from app.editor.tokens import LEAST_TARGET_PX, Tokens
 from app.errors import Message
 from app.messages.pitches import pitch_name
-from app.project.importing import (
-    ImportRow,
-    ImportWish,
-    Outcome,
-    automatic,
-    merged,
-    outcome_of,
-    separated,
-    usual_rows,
-)
+from app.project.importing import ImportRow, ImportWish, Outcome, automatic, merged, outcome_of, separated, usual_rows
 from app.rig.character_library import characters
 from app.score.choose import TrackChannel, is_drum_kit
 from app.score.model import UnplayedPart
@@ -69,13 +60,10 @@ class ImportDialog(Retranslated, QDialog):
 
     Parameters
     ----------
-    contents : MidiContents
     maps : mapping of str to InstrumentMap
         Every installed instrument by id.
-    tokens : Tokens
     tasks : Tasks
         Where what comes of the choices is worked out.
-    parent : QWidget, optional
     """
 
     def __init__(

@@ -37,12 +37,10 @@ class LatencyDialog(Retranslated, QDialog):
 
     Parameters
     ----------
-    session : Session
     playback : Playback
         Plays the clicks; becomes the dialog's. Its device and its clock are those of the playback of a take.
     now_ns : callable
         The clock of the events.
-    parent : QWidget, optional
 
     Signals
     -------

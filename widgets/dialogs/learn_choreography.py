@@ -10,12 +10,7 @@ from typing import Final
 import msgspec
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QDragEnterEvent, QDropEvent, QKeyEvent
-from PySide6.QtWidgets import (
-    QPushButton,
-    QSpinBox,
-    QTreeWidgetItem,
-    QWidget,
-)
+from PySide6.QtWidgets import QPushButton, QSpinBox, QTreeWidgetItem, QWidget
 
 from app.choreography.cuts_by_hand import Cuts
 from app.choreography.learn import Pair, analyse, learn, summary
@@ -65,8 +60,6 @@ class _Row:
 
     Attributes
     ----------
-    draft : PairDraft
-    found : Found
     history : CutHistory
         Of the cuts of the draft.
     reading : int
@@ -107,10 +100,8 @@ class LearnDialog(WorkingDialog):
 
     Parameters
     ----------
-    session : Session
     folder : Path
         Where files are looked for, and where the choreography is saved unless the user says otherwise.
-    parent : QWidget, optional
     """
 
     used = Signal(object)

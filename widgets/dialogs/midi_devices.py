@@ -8,13 +8,7 @@ from __future__ import annotations
 import msgspec
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QKeyEvent
-from PySide6.QtWidgets import (
-    QDialog,
-    QGroupBox,
-    QPushButton,
-    QTreeWidgetItem,
-    QWidget,
-)
+from PySide6.QtWidgets import QDialog, QGroupBox, QPushButton, QTreeWidgetItem, QWidget
 
 from app.audio.beep import BEEP_S, beep_track
 from app.audio.playback import Playback
@@ -44,10 +38,8 @@ class MidiDevicesDialog(Retranslated, QDialog):
 
     Parameters
     ----------
-    session : Session
     playback : Playback
         For a beep; becomes the dialog's.
-    parent : QWidget, optional
 
     Signals
     -------

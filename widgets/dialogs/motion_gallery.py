@@ -17,14 +17,7 @@ from PySide6.QtCore import (
     Signal,
 )
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
-from PySide6.QtWidgets import (
-    QAbstractItemView,
-    QListView,
-    QStyle,
-    QStyledItemDelegate,
-    QStyleOptionViewItem,
-    QWidget,
-)
+from PySide6.QtWidgets import QAbstractItemView, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TEXT_PT
@@ -47,7 +40,6 @@ class MotionModel(QAbstractListModel):
 
     Attributes
     ----------
-    motions : sequence of BasicMotion
     used : mapping of int to int
         How often a basic motion is danced.
     sources : int

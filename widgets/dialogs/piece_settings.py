@@ -8,13 +8,7 @@ from functools import partial
 from typing import Any, TypeVar, cast
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtWidgets import (
-    QDialog,
-    QDialogButtonBox,
-    QDoubleSpinBox,
-    QLineEdit,
-    QWidget,
-)
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QDoubleSpinBox, QLineEdit, QWidget
 
 from app.editor.session import Session
 from app.errors import Message
@@ -36,13 +30,7 @@ Value = TypeVar("Value", str, float)
 
 
 class PieceSettingsDialog(Retranslated, QDialog):
-    """Changes the settings of the piece in one step, or none.
-
-    Parameters
-    ----------
-    session : Session
-    parent : QWidget, optional
-    """
+    """Changes the settings of the piece in one step, or none."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -77,7 +65,8 @@ class PieceSettingsDialog(Retranslated, QDialog):
         reset_tip = "piece_settings_dialog.all_but_title_as_in"
         self._reset = Button("piece_settings_dialog.reset_to_defaults", self._reset_all, "piece_reset", reset_tip)
         self._lay_out()
-        self._fill_beats()
+        for quarters in self._beat_names():
+            self._felt.addItem("", quarters)
         self._show(self._before)
         for signal in (self._rate.editTextChanged, self._seed.textChanged):
             signal.connect(self._judge)
@@ -196,10 +185,6 @@ class PieceSettingsDialog(Retranslated, QDialog):
         if beat not in names:
             names[beat] = self.tr("piece_settings_dialog.quarters").format(count=f"{beat:.6g}")
         return names
-
-    def _fill_beats(self) -> None:
-        for quarters in self._beat_names():
-            self._felt.addItem("", quarters)
 
     def retranslate(self) -> None:
         """Set every text anew."""

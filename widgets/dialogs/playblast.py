@@ -12,9 +12,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QSize, QTimer, Signal
-from PySide6.QtWidgets import (
-    QWidget,
-)
+from PySide6.QtWidgets import QWidget
 
 from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
@@ -50,13 +48,10 @@ class PlayblastDialog(WorkingDialog):
 
     Parameters
     ----------
-    session : Session
     film : Film
         Called in the window's thread, as what it returns is.
-    sound : Sound
     path : Path
         Proposed file.
-    parent : QWidget, optional
     """
 
     filmed = Signal(object)

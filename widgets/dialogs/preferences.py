@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 from PySide6.QtCore import QSize, Qt, Signal, SignalInstance
@@ -38,7 +37,6 @@ class Choice:
 
     Attributes
     ----------
-    name, label : str
     options : tuple of (value, word)
         Label and words are English, translated in the context ``Setting``.
     chosen : callable
@@ -65,7 +63,6 @@ class PreferencesDialog(Retranslated, QDialog):
 
     Parameters
     ----------
-    session : Session
     choices : sequence of Choice
         In their order.
     shortcuts, conflicts, menu_of : callable
@@ -131,7 +128,7 @@ class PreferencesDialog(Retranslated, QDialog):
         field = panel(in_row(*radios, STRETCH, margins=0, spacing=16))
         group = QButtonGroup(field)
         for radio, (value, _) in zip(radios, choice.options, strict=True):
-            radio.clicked.connect(partial(_call, choice.choose, value))
+            radio.clicked.connect(lambda _checked, choose=choice.choose, value=value: choose(value))
             group.addButton(radio)
         self._radios[choice.name] = radios
         return field
@@ -198,7 +195,3 @@ class PreferencesDialog(Retranslated, QDialog):
     def sizeHint(self) -> QSize:
         """Room for the list of shortcuts."""
         return QSize(760, 560)
-
-
-def _call(choose: Callable[[Any], object], value: object, *_: object) -> None:
-    choose(value)

@@ -158,11 +158,7 @@ def _mixed(below: str, above: str, share: float) -> QColor:
     one, other = QColor(below), QColor(above)
     red, green, blue = (
         below + (above - below) * share
-        for below, above in (
-            (one.redF(), other.redF()),
-            (one.greenF(), other.greenF()),
-            (one.blueF(), other.blueF()),
-        )
+        for below, above in ((one.redF(), other.redF()), (one.greenF(), other.greenF()), (one.blueF(), other.blueF()))
     )
     return QColor.fromRgbF(red, green, blue)
 

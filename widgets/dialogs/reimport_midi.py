@@ -33,15 +33,12 @@ class ReimportDialog(Retranslated, QDialog):
     ----------
     before : Project
         The project as it is.
-    outcome : Reimport
     file : str
         Name of the MIDI file.
     title : callable
         Names a correction.
     note_title : callable
         Names a note of a part, by part id and note.
-    tokens : Tokens
-    parent : QWidget, optional
     """
 
     def __init__(
@@ -165,11 +162,7 @@ class ReimportDialog(Retranslated, QDialog):
         reported = (
             (self.tr("reimport_dialog.new_players"), outcome.new_players, after),
             (self.tr("reimport_dialog.players_whose_part_is_gone"), outcome.gone_players, before),
-            (
-                self.tr("reimport_dialog.players_whose_part_is_gone_kept_for_what"),
-                outcome.idle_players,
-                after,
-            ),
+            (self.tr("reimport_dialog.players_whose_part_is_gone_kept_for_what"), outcome.idle_players, after),
         )
         return [text.format(names=", ".join(names[id_] for id_ in ids)) for text, ids, names in reported if ids]
 

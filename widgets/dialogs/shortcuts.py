@@ -7,13 +7,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeySequence
-from PySide6.QtWidgets import (
-    QAbstractItemView,
-    QKeySequenceEdit,
-    QLineEdit,
-    QTreeWidgetItem,
-    QWidget,
-)
+from PySide6.QtWidgets import QAbstractItemView, QKeySequenceEdit, QLineEdit, QTreeWidgetItem, QWidget
 
 from app.editor.session import Session
 from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named, wrapped
@@ -29,7 +23,6 @@ class ShortcutRow:
 
     Attributes
     ----------
-    id : str
     text, place, context : str
         What it does, where it stands in the menus, where its shortcut holds; in the language of the editor.
     keys, default : str
@@ -49,7 +42,6 @@ class ShortcutsPage(Retranslated, QWidget):
 
     Parameters
     ----------
-    session : Session
     rows : callable
         Gives the rows as they are now.
     conflicts : callable

@@ -7,15 +7,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import (
-    QDialog,
-    QLineEdit,
-    QPushButton,
-    QSpinBox,
-    QTreeWidget,
-    QTreeWidgetItem,
-    QWidget,
-)
+from PySide6.QtWidgets import QDialog, QLineEdit, QPushButton, QSpinBox, QTreeWidget, QTreeWidgetItem, QWidget
 
 from app.editor.session import Session
 from app.editor.streaming import RATES_HZ
@@ -31,13 +23,7 @@ _LIST_PX = 130
 
 
 class StreamDialog(Retranslated, QDialog):
-    """The live stream. Not modal: one plays, and looks at the other program.
-
-    Parameters
-    ----------
-    session : Session
-    parent : QWidget, optional
-    """
+    """The live stream. Not modal: one plays, and looks at the other program."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -52,12 +38,14 @@ class StreamDialog(Retranslated, QDialog):
         self._rate = named(Combo(), "stream_rate")
         self._list = ColumnList("stream_list", "stream_dialog.performer", "stream_dialog.port")
         self._toggle = named(QPushButton(), "stream_toggle")
-        self._anyway = Button("stream_dialog.send_anyway", self._send_anyway, "stream_anyway")
+        self._anyway = Button(
+            "stream_dialog.send_anyway", lambda: self._state.set(broadcast=self._state.host), "stream_anyway"
+        )
         self._close = Button("stream_dialog.close", self.close, "stream_close")
         self._here = Button("stream_dialog.this_computer", lambda: self._state.set(host=LOOPBACK), "stream_here")
         self._listed: tuple[object, ...] = ()
         self._build()
-        self._host.editingFinished.connect(self._choose_host)
+        self._host.editingFinished.connect(lambda: self._state.set(host=self._host.text().strip() or LOOPBACK))
         self._port.valueChanged.connect(lambda port: self._state.set(port=port))
         self._who.chosen.connect(lambda who: self._state.set(everyone=who == "everyone"))
         self._faces.chosen.connect(lambda faces: self._state.set(faces=faces))
@@ -93,12 +81,6 @@ class StreamDialog(Retranslated, QDialog):
         in_column(
             self._explained, form, self._warning, (self._list, 1), reported, bottom, of=self, margins=14, spacing=10
         )
-
-    def _choose_host(self) -> None:
-        self._state.set(host=self._host.text().strip() or LOOPBACK)
-
-    def _send_anyway(self) -> None:
-        self._state.set(broadcast=self._state.host)
 
     # What is shown
 
@@ -179,10 +161,7 @@ class StreamDialog(Retranslated, QDialog):
         if state.state == "looking":
             return self.tr("stream_dialog.looking_for").format(host=state.host), tokens.text_dim
         if state.state == "no_receiver":
-            return (
-                self.tr("stream_dialog.no_receiver_there_yet_start"),
-                tokens.warning,
-            )
+            return (self.tr("stream_dialog.no_receiver_there_yet_start"), tokens.warning)
         if state.state == "sending":
             return self.tr("stream_dialog.sending_frames_per_second_fewer").format(count=state.sent_hz), tokens.good
         return self.tr("stream_dialog.nothing_is_sent"), tokens.text_dim

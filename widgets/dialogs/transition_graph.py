@@ -62,7 +62,6 @@ class TransitionGraph(QWidget):
             See `widgets.common.dance_figures`.
         used : frozenset of int
             Basic motions that the dancer dances, which are drawn in their colour.
-        colour : str
         """
         self._transition, self._figures, self._used, self._colour = transition, figures, used, colour
         if self.looked_at >= len(transition):

@@ -20,7 +20,6 @@ class WorkingDialog(Retranslated, QDialog):
     ----------
     name, prefix : str
         Object name, and what the names of its buttons begin with.
-    parent : QWidget, optional
 
     Attributes
     ----------

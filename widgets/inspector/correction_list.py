@@ -79,8 +79,7 @@ class CorrectionList(Retranslated, QWidget):
         """Show what was done by hand for the selected players."""
         if not self.isVisible():
             return
-        project, performance = self._session.project, self._session.performance
-        plans = performance.plans if performance.planned else {}
+        project, plans = self._session.project, self._session.plans
         lost = {(orphan.player_id, orphan.correction) for orphan in orphaned(project)}
         places: list[Place] = []
         for player_id in self._session.players:
@@ -99,7 +98,7 @@ class CorrectionList(Retranslated, QWidget):
         events = edit.events_of(plan) if plan is not None else {}
         bare = self._generated.plan(player.id)
         before = edit.events_of(bare) if bare is not None else {}
-        known = self._event_ids(plan)
+        known = edit.events_of(plan) if plan is not None else {}
         places = []
         for item in corrections:
             id = edit.event_id_of(item)
@@ -114,9 +113,6 @@ class CorrectionList(Retranslated, QWidget):
             )
             places.append(Place(player.id, item, events.get(id), before.get(former), orphan))
         return places
-
-    def _event_ids(self, plan: PlayerPlan | None) -> frozenset[str]:
-        return frozenset(edit.events_of(plan)) if plan is not None else frozenset()
 
     def _tick(self, place: Place) -> int:
         event = place.event or place.generated

@@ -95,7 +95,7 @@ class EventSection(Retranslated, QWidget):
     def _connect(self) -> None:
         for side in ("start", "end"):
             ticks, seconds = self._numbers[f"{side}_tick"], self._numbers[f"{side}_s"]
-            ticks.set_wording(self._place_text, self._place_from)
+            ticks.show_as_place()
             ticks.changed.connect(lambda value, token, side=side: self._set_side(side, round(value), token))
             seconds.changed.connect(lambda value, token, side=side: self._set_side_s(side, value, token))
         self._numbers["amount"].changed.connect(self._set_amount)
@@ -289,11 +289,7 @@ class EventSection(Retranslated, QWidget):
 
     def _set_fade(self, name: str, value: float, token: object | None) -> None:
         ids = self._ids()
-        self._edit(
-            "edit.set_fades",
-            lambda project, plan: edit.set_fades(project, plan, ids, **{name: value}),
-            token,
-        )
+        self._edit("edit.set_fades", lambda project, plan: edit.set_fades(project, plan, ids, **{name: value}), token)
 
     def _set_expression(self, name: str) -> None:
         ids = self._ids()
@@ -304,13 +300,6 @@ class EventSection(Retranslated, QWidget):
         self._edit("edit.give_back", lambda project, plan: edit.give_back(project, plan.player_id, ids))
 
     # Words
-
-    def _place_text(self, value: float) -> str:
-        return self._session.project.score.metre_map.label(round(value))
-
-    def _place_from(self, text: str) -> float | None:
-        tick = self._session.project.score.metre_map.tick_of_label(text)
-        return None if tick is None else float(tick)
 
     def _amount_word(self, field: str) -> str:
         return {

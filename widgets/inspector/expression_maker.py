@@ -129,7 +129,7 @@ class ExpressionMaker(Retranslated, QWidget):
         self._section.header.toggled.connect(self._unfolded)
         self._choice.chosen.connect(self._choose)
         self._title.editingFinished.connect(self._rename)
-        self._playing.clicked.connect(self._set_playing)
+        self._playing.clicked.connect(lambda playing: self._put(None, while_playing=playing))
         for name, slider in self._fades.items():
             slider.changed.connect(lambda value, token, name=name: self._put(token, **{name: value}))
             slider.released.connect(session.document.end_gesture)
@@ -256,9 +256,6 @@ class ExpressionMaker(Retranslated, QWidget):
         weights = {**expression.weights, **dict.fromkeys(morphs, value)}
         kept = {name: weights[name] for name in ARKIT_MORPHS if weights.get(name)}
         self._put(token, weights=kept)
-
-    def _set_playing(self, playing: bool) -> None:
-        self._put(None, while_playing=playing)
 
     def duplicate(self) -> None:
         """Make custom from the expression shown, under a name of its own; one from the folder comes as it is."""

@@ -91,14 +91,14 @@ class NoteSection(Retranslated, QWidget):
         self._numbers["pitch"].changed.connect(self._set_pitch)
         self._numbers["pitch"].set_wording(self._pitch_text, self._pitch_from)
         self._numbers["onset"].changed.connect(self._set_onset)
-        self._numbers["onset"].set_wording(self._place_text, self._place_from)
+        self._numbers["onset"].show_as_place()
         self._numbers["length"].changed.connect(self._set_length)
         self._numbers["velocity"].changed.connect(self._set_velocity)
         for name, slider in self._lips.items():
             slider.changed.connect(lambda value, token, name=name: self._set_lips(name, value, token))
-            slider.reset.connect(lambda _, name=name: self._reset_lips(name))
-        self._fingering_by_hand.reverted.connect(self._revert_fingering)
-        self._lips_by_hand.reverted.connect(self._revert_lips)
+            slider.reset.connect(lambda _, name=name: self._without(SetEmbouchure, name))
+        self._fingering_by_hand.reverted.connect(lambda: self._without(PinFingering))
+        self._lips_by_hand.reverted.connect(lambda: self._without(SetEmbouchure))
         self._session.theme_changed.connect(self._apply_theme)
         self._apply_theme()
 
@@ -134,7 +134,8 @@ class NoteSection(Retranslated, QWidget):
             self._numbers[name].show_value(value, mixed=mixed, by_hand=False)
 
     def _show_plan(self, shown: SelectedNotes) -> None:
-        plan, player = self._plan(shown), shown.player
+        player = shown.player
+        plan = self._session.plans.get(player.id) if player is not None else None
         instrument = _instrument(player)
         there = plan is not None and player is not None and instrument is not None
         self._fingering.setVisible(there)
@@ -150,12 +151,6 @@ class NoteSection(Retranslated, QWidget):
         words = (sentence(problem.message, self._session, player.id) for problem in reported[:5])
         self._problems.setText("\n".join(f"⚠ {text}" for text in words))
         self._problems.setVisible(bool(reported))
-
-    def _plan(self, shown: SelectedNotes) -> PlayerPlan | None:
-        performance = self._session.performance
-        if shown.player is None or not performance.planned:
-            return None
-        return performance.plans.get(shown.player.id)
 
     def _show_fingering(
         self, shown: SelectedNotes, plan: PlayerPlan, bare: PlayerPlan | None, instrument: InstrumentMap
@@ -276,13 +271,6 @@ class NoteSection(Retranslated, QWidget):
         pitch = pitch_from(self._session.pitch_display, text, self._transposition())
         return None if pitch is None else float(pitch)
 
-    def _place_text(self, value: float) -> str:
-        return self._session.project.score.metre_map.label(round(value))
-
-    def _place_from(self, text: str) -> float | None:
-        tick = self._session.project.score.metre_map.tick_of_label(text)
-        return None if tick is None else float(tick)
-
     # Editing
 
     def _edit(self, name: str, change: object, token: object | None) -> None:
@@ -339,25 +327,12 @@ class NoteSection(Retranslated, QWidget):
                 token,
             )
 
-    def _reset_lips(self, name: str) -> None:
-        self._without(SetEmbouchure, name)
-
-    def _revert_lips(self) -> None:
-        self._without(SetEmbouchure, None)
-
-    def _revert_fingering(self) -> None:
-        self._without(PinFingering, None)
-
-    def _without(self, kind: type[PinFingering] | type[SetEmbouchure], field: str | None) -> None:
+    def _without(self, kind: type[PinFingering] | type[SetEmbouchure], field: str | None = None) -> None:
         """Take corrections of the shown notes back, or only one value of them."""
         if self._shown is None or self._shown.player is None:
             return
         player_id, ids = self._shown.player.id, frozenset(self._shown.own_ids)
-        self._edit(
-            "edit.give_back",
-            lambda project: edit_events.forget(project, player_id, kind, ids, field),
-            None,
-        )
+        self._edit("edit.give_back", lambda project: edit_events.forget(project, player_id, kind, ids, field), None)
 
     # Words and pictures
 

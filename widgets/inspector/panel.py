@@ -36,12 +36,7 @@ class _State(msgspec.Struct, frozen=True):
 
 
 class InspectorPanel(Retranslated, QWidget):
-    """Selected notes and events above, lists below.
-
-    Parameters
-    ----------
-    session : Session
-    """
+    """Selected notes and events above, lists below."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -120,13 +115,8 @@ class InspectorPanel(Retranslated, QWidget):
         notes, events, take = self._notes.show_notes(), self._events.show_events(), self._take.show_take()
         self._empty.setVisible(not notes and not events and not take and not self._maker.is_open)
         varied = any(key.event_id.startswith("vary:") for key in self._session.selection.events)
-        self._empty.setText(self._varied_text() if varied else self._empty_text())
-
-    def _varied_text(self) -> str:
-        return self.tr("inspector_panel.these_bars_are_performed_anew")
-
-    def _empty_text(self) -> str:
-        return self.tr("inspector_panel.click_note_in_timeline_to")
+        performed, click = "inspector_panel.these_bars_are_performed_anew", "inspector_panel.click_note_in_timeline_to"
+        self._empty.setText(self.tr(performed if varied else click))
 
     def _changed(self, change: Change) -> None:
         if change.before.score.parts is not change.after.score.parts or change.opened:

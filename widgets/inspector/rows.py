@@ -152,7 +152,6 @@ class LineList(QListView):
 
     Parameters
     ----------
-    session : Session
     has_details : bool
         Whether lines have a second and third row.
 

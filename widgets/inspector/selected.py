@@ -85,15 +85,15 @@ def selected_notes(session: Session, finder: NoteFinder) -> SelectedNotes | None
 
 def selected_events(session: Session) -> tuple[PlayerPlan, tuple[Placed, ...]] | None:
     """The selected events of one player and one kind (that of the first in time), with the player's plan."""
-    keys, performance = session.selection.events, session.performance
-    if not keys or not performance.planned:
+    keys = session.selection.events
+    if not keys:
         return None
     order = {player.id: number for number, player in enumerate(session.project.players)}
     owners = {key.player_id for key in keys}
     requested = [player_id for player_id in session.players if player_id in owners]
     requested += sorted(owners - set(requested), key=lambda player_id: order.get(player_id, 0))
     for player_id in requested:
-        plan = performance.plans.get(player_id)
+        plan = session.plans.get(player_id)
         if plan is None:
             continue
         events = placed_events(plan, sorted(key.event_id for key in keys if key.player_id == player_id))

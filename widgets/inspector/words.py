@@ -70,11 +70,7 @@ def event_text(score: Score, event: Event | None) -> str:
 
 def embouchure_text(correction: SetEmbouchure, event: Event) -> str:
     """The values of an embouchure that were set by hand."""
-    names = {
-        "tension": tr("inspector.tension"),
-        "effort": tr("inspector.effort"),
-        "air": tr("inspector.air"),
-    }
+    names = {"tension": tr("inspector.tension"), "effort": tr("inspector.effort"), "air": tr("inspector.air")}
     return ", ".join(
         f"{word} {getattr(event, name):.2f}" for name, word in names.items() if getattr(correction, name) is not None
     )

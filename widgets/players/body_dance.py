@@ -33,12 +33,7 @@ _VARIATION = "dance_variation"
 
 
 class BodyDanceRows(Retranslated, QWidget):
-    """Generated or a choreography, how much of it, and which of its dances; the latter two while there is one.
-
-    Parameters
-    ----------
-    session : Session
-    """
+    """Generated or a choreography, how much of it, and which of its dances; the latter two while there is one."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -45,7 +45,8 @@ class DancerList(OrderedList):
     def show_dancers(self, dancers: Sequence[Dancer], selected: Dancer | None) -> None:
         """Show these, and which of them is selected."""
         self._showing = True
-        if [self._item_id(row) for row in range(self.rows.rowCount())] != [dancer.id for dancer in dancers]:
+        shown = [str(self.rows.item(row).data(ID_ROLE)) for row in range(self.rows.rowCount())]
+        if shown != [dancer.id for dancer in dancers]:
             self.rows.clear()
             for dancer in dancers:
                 item = QStandardItem()
@@ -67,9 +68,6 @@ class DancerList(OrderedList):
                 self.selectionModel().setCurrentIndex(item.index(), flags)
         self._showing = False
         self.viewport().update()
-
-    def _item_id(self, row: int) -> str:
-        return str(self.rows.item(row).data(ID_ROLE))
 
     def _edited(self, item: QStandardItem) -> None:
         if not self._showing:

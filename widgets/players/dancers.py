@@ -9,10 +9,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QTimer
 from PySide6.QtGui import QContextMenuEvent
-from PySide6.QtWidgets import (
-    QGridLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.chance import next_seed
 from app.choreography.library import bundled_choreographies, choreography_path
@@ -50,12 +47,7 @@ _SOURCE = DANCER_PARAMETERS["source"]
 
 
 class DancersSection(Retranslated, QWidget):
-    """The list of dancers, and what the selected one dances, how and where.
-
-    Parameters
-    ----------
-    session : Session
-    """
+    """The list of dancers, and what the selected one dances, how and where."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -303,9 +295,7 @@ class DancersSection(Retranslated, QWidget):
         dancer = self.dancer
         if dancer is not None:
             self._session.attempt(
-                edit.dancer_edit(name, dancer.name),
-                lambda project: change(project, dancer.id),
-                token,
+                edit.dancer_edit(name, dancer.name), lambda project: change(project, dancer.id), token
             )
 
     # Words

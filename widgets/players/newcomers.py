@@ -1,6 +1,8 @@
-"""Adding players and dancers and removing dancers: the edit, and the selection afterwards."""
+"""What commands and the panel do with players and dancers: the edit, and the selection afterwards."""
 
 from __future__ import annotations
+
+from typing import Literal
 
 from app.editor.session import Session
 from app.errors import Message
@@ -78,5 +80,37 @@ def duplicate_players(session: Session) -> None:
         made.extend(player_ids)
         return result
 
-    if session.attempt(Message("edit.duplicate_players", {"count": len(chosen)}), duplicate):
+    if session.attempt(_counted("edit.duplicate_players", chosen), duplicate):
         session.set_players(tuple(made))
+
+
+def remove_players(session: Session) -> None:
+    """Send the selected players away."""
+    chosen = session.players
+    session.attempt(_counted("edit.remove_players", chosen), lambda project: players.remove_players(project, chosen))
+
+
+def mark_players(session: Session, field: Literal["muted", "soloed"], on: bool, chosen: tuple[str, ...]) -> None:
+    """Mute or solo players, or end it."""
+    ids = {"muted": ("edit.unmute", "edit.mute"), "soloed": ("edit.unsolo", "edit.solo")}
+    name = _counted(ids[field][on], chosen)
+    session.attempt(name, lambda project: players.change(project, chosen, **{field: on}))
+
+
+def randomise_players(session: Session) -> None:
+    """Make the selected players differ, or everyone where fewer than two are selected."""
+    several = len(session.players) > 1
+    chosen = session.players if several else tuple(player.id for player in session.project.players)
+    name, spread = _counted("edit.randomise_players", chosen), session.variety
+    session.attempt(name, lambda project: players.randomise(project, chosen, spread))
+
+
+def reset_players(session: Session) -> None:
+    """Return the parameters of the selected players to what they were cast with."""
+    chosen = session.players
+    name = _counted("edit.reset_parameters", chosen)
+    session.attempt(name, lambda project: players.reset_parameters(project, chosen))
+
+
+def _counted(id: str, chosen: tuple[str, ...]) -> Message:
+    return Message(id, {"count": len(chosen)})

@@ -171,13 +171,7 @@ class OrderedList(QListView):
 
 
 class RowDelegate(QStyledItemDelegate):
-    """Draws what the rows of both lists have: colour, selection, number of problems, frame of the keyboard.
-
-    Parameters
-    ----------
-    session : Session
-    view : OrderedList
-    """
+    """Draws what the rows of both lists have: colour, selection, number of problems, frame of the keyboard."""
 
     def __init__(self, session: Session, view: OrderedList) -> None:
         super().__init__(view)
@@ -190,8 +184,6 @@ class RowDelegate(QStyledItemDelegate):
 
         Parameters
         ----------
-        painter : QPainter
-        option : QStyleOptionViewItem
         colour : str
             Of the bar at the left.
         opacity : float

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
+from typing import Literal
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent, QResizeEvent
-from PySide6.QtWidgets import (
-    QScrollArea,
-    QSplitter,
-    QWidget,
-)
+from PySide6.QtWidgets import QScrollArea, QSplitter, QWidget
 
 from app.editor.session import Session
 from app.errors import Message
@@ -27,7 +25,14 @@ from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
 from widgets.common.text import sentence
 from widgets.players.dancers import DancersSection
-from widgets.players.newcomers import add_player, duplicate_players
+from widgets.players.newcomers import (
+    add_player,
+    duplicate_players,
+    mark_players,
+    randomise_players,
+    remove_players,
+    reset_players,
+)
 from widgets.players.parameters import ParameterSections
 from widgets.players.player_list import PlayerList, Row
 from widgets.players.preset_section import PresetSection
@@ -57,21 +62,17 @@ LIST_SHARE = 0.5
 
 
 class PlayersPanel(Retranslated, QWidget):
-    """The list of players, and below it the parameters of those selected.
-
-    Parameters
-    ----------
-    session : Session
-    """
+    """The list of players, and below it the parameters of those selected."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("players")
         self._session = session
+        duplicate, remove = partial(duplicate_players, session), partial(remove_players, session)
         self._tools = {
             "add": self._tool("add", "players_panel.add_player", self._offer_instruments),
-            "duplicate": self._tool("duplicate", "players_panel.duplicate_same_part", self._duplicate),
-            "remove": self._tool("delete", "players_panel.remove_selected_players", self._remove),
+            "duplicate": self._tool("duplicate", "players_panel.duplicate_same_part", duplicate),
+            "remove": self._tool("delete", "players_panel.remove_selected_players", remove),
         }
         self.list = named(PlayerList(session), "player_list")
         self._empty = wrapped(Caption("players_panel.no_players_yet_add_player"))
@@ -84,12 +85,12 @@ class PlayersPanel(Retranslated, QWidget):
         self._spread = named(NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05), "spread")
         throw = (
             "players_panel.randomise",
-            self._randomise,
+            partial(randomise_players, session),
             "randomise",
             "players_panel.amplitude_sway_weight_shift_bell",
         )
         self._throw = PictureButton(session, "dice", *throw)
-        reset = ("players_panel.reset", self._reset_all, "reset_parameters")
+        reset = ("players_panel.reset", partial(reset_players, session), "reset_parameters")
         self._reset = PictureButton(session, "reset", *reset, "players_panel.return_all_parameters_of_selected")
         self._build()
         self._connect()
@@ -134,9 +135,9 @@ class PlayersPanel(Retranslated, QWidget):
         session.theme_changed.connect(self._show_list)
         session.dancer_changed.connect(self._show_dancers)
         self.list.chosen.connect(session.set_players)
-        self.list.mute_clicked.connect(self._mute)
+        self.list.mute_clicked.connect(partial(self._toggle, "muted"))
         self.list.arm_clicked.connect(self._arm)
-        self.list.solo_clicked.connect(self._solo)
+        self.list.solo_clicked.connect(partial(self._toggle, "soloed"))
         self.list.moved.connect(self._move)
         self.list.rows.renamed.connect(self._rename)
         self._parameters.dice_thrown.connect(self._reseed)
@@ -197,8 +198,11 @@ class PlayersPanel(Retranslated, QWidget):
 
     def _show_list(self) -> None:
         project, performance = self._session.project, self._session.performance
-        plans = performance.plans if performance.planned else {}
-        first = min((plan.cues[0] for plan in plans.values() if plan.cues), key=lambda cue: cue.start_s, default=None)
+        first = min(
+            (plan.cues[0] for plan in self._session.plans.values() if plan.cues),
+            key=lambda cue: cue.start_s,
+            default=None,
+        )
         leader = first.player_id if first is not None else None
         maps = all_maps()
         rows = []
@@ -245,34 +249,20 @@ class PlayersPanel(Retranslated, QWidget):
 
     # Editing
 
-    def _name(self, id: str) -> Message:
-        return Message(id, {"count": len(self._session.players)})
-
     def _rename(self, player_id: str, name: str) -> None:
         before = self._session.project.player(player_id).name
         self._session.attempt(
             Message("edit.rename_player", {"player": before}), lambda project: edit.rename(project, player_id, name)
         )
 
-    def _toggle(self, player_id: str, field: str, ids: tuple[str, str]) -> None:
+    def _toggle(self, field: Literal["muted", "soloed"], player_id: str) -> None:
         """Mute or solo one player, or all the selected where the player is one of them."""
-        player = self._session.project.player(player_id)
-        on = not getattr(player, field)
         chosen = self._session.players if player_id in self._session.players else (player_id,)
-        self._session.attempt(
-            Message(ids[0] if on else ids[1], {"count": len(chosen)}),
-            lambda project: edit.change(project, chosen, **{field: on}),
-        )
+        mark_players(self._session, field, not getattr(self._session.project.player(player_id), field), chosen)
 
     def _arm(self, player_id: str) -> None:
         recording = self._session.recording
         recording.set(armed="" if recording.armed == player_id else player_id)
-
-    def _mute(self, player_id: str) -> None:
-        self._toggle(player_id, "muted", ("edit.mute", "edit.unmute"))
-
-    def _solo(self, player_id: str) -> None:
-        self._toggle(player_id, "soloed", ("edit.solo", "edit.unsolo"))
 
     def _move(self, player_ids: tuple[str, ...], before: int) -> None:
         self._session.attempt(
@@ -291,13 +281,6 @@ class PlayersPanel(Retranslated, QWidget):
         """Add a player of this instrument, in front."""
         add_player(self._session, instrument_id)
 
-    def _duplicate(self) -> None:
-        duplicate_players(self._session)
-
-    def _remove(self) -> None:
-        chosen = self._session.players
-        self._session.attempt(self._name("edit.remove_players"), lambda project: edit.remove_players(project, chosen))
-
     def _reseed(self) -> None:
         chosen = self._session.players
         self._session.attempt(edit.parameter_edit("seed", len(chosen)), lambda project: vary_players(project, chosen))
@@ -305,30 +288,12 @@ class PlayersPanel(Retranslated, QWidget):
     def _set_spread(self, value: float, token: object) -> None:
         self._session.variety = value
 
-    def _randomise(self) -> None:
-        chosen = self._session.players
-        if len(chosen) < 2:
-            chosen = tuple(player.id for player in self._session.project.players)
-        spread = self._session.variety
-        self._session.attempt(
-            Message("edit.randomise_players", {"count": len(chosen)}),
-            lambda project: edit.randomise(project, chosen, spread),
-        )
-
-    def _reset_all(self) -> None:
-        chosen = self._session.players
-        self._session.attempt(
-            self._name("edit.reset_parameters"), lambda project: edit.reset_parameters(project, chosen)
-        )
-
     # Words
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
         self._spread.set_texts(
-            self.tr("players_panel.spread"),
-            "",
-            self.tr("players_panel.how_far_apart_players_become"),
+            self.tr("players_panel.spread"), "", self.tr("players_panel.how_far_apart_players_become")
         )
         self._spread.show_value(self._session.variety)
         self._show_all()

@@ -29,21 +29,9 @@ def name_places(sliders: dict[str, NumberSlider]) -> None:
     """Set their words in the language of the editor."""
     metres = tr("place.metres")
     words = {
-        "x_m": (
-            tr("place.x"),
-            metres,
-            tr("place.to_right_as_audience_sees"),
-        ),
-        "z_m": (
-            tr("place.z"),
-            metres,
-            tr("place.towards_audience_from_middle"),
-        ),
-        "turn_rad": (
-            tr("place.turn"),
-            "°",
-            tr("place.0_faces_audience_positive_turns"),
-        ),
+        "x_m": (tr("place.x"), metres, tr("place.to_right_as_audience_sees")),
+        "z_m": (tr("place.z"), metres, tr("place.towards_audience_from_middle")),
+        "turn_rad": (tr("place.turn"), "°", tr("place.0_faces_audience_positive_turns")),
     }
     for name, (label, unit, tip) in words.items():
         sliders[name].set_texts(label, unit, tip)

@@ -37,8 +37,6 @@ class Row:
 
     Attributes
     ----------
-    player : Player
-    colour : str
     instrument : str
         In the language of the editor.
     problems : int

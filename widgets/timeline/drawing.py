@@ -108,12 +108,10 @@ def draw_groups(
 
     Parameters
     ----------
-    painter : QPainter
     boxes : four arrays (N,)
         Left, top, width and height, pixels.
     group : array (N,)
         Ascending; what colour each has.
-    colours : sequence of QColor
     """
     if not len(group):
         return

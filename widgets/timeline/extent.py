@@ -39,9 +39,9 @@ def selected_span(session: Session) -> tuple[float, float] | None:
             for note in part.notes
             if note.id in selection.notes
         )
-    if selection.events and session.performance.planned:
+    if selection.events:
         requested = {(key.player_id, key.event_id) for key in selection.events}
-        for player_id, plan in session.performance.plans.items():
+        for player_id, plan in session.plans.items():
             for events in (plan.fingerings, plan.breaths, plan.embouchures, plan.cues, plan.gestures, plan.expressions):
                 places.extend((event.start_s, event.end_s) for event in events if (player_id, event.id) in requested)
     if not places:

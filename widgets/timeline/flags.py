@@ -40,10 +40,8 @@ def lay_flags(score: Score, axis: TimeAxis, metrics: QFontMetricsF, left_px: flo
 
     Parameters
     ----------
-    score : Score
     axis : TimeAxis
         Its pixels count from ``left_px``.
-    metrics : QFontMetricsF
     left_px, right_px : float
         Between these there is room.
     """

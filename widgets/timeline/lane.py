@@ -7,22 +7,12 @@ the hooks.
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import (
-    QKeyEvent,
-    QMouseEvent,
-    QWheelEvent,
-)
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QMenu,
-    QWidget,
-)
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QWheelEvent
+from PySide6.QtWidgets import QHBoxLayout, QMenu, QWidget
 
 from app.editor.selection import Selection
 from app.editor.session import Session
-from app.plan.model import PlayerPlan
 from app.project.document import Change
-from app.project.performers import Player
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.hands import mouse_at
 from widgets.timeline.lane_header import GUTTER_PX, LaneHeader
@@ -43,7 +33,6 @@ class Lane(QWidget):
 
     Parameters
     ----------
-    session : Session
     axis : TimeAxis
         Shared by all lanes.
 
@@ -207,11 +196,6 @@ class Lane(QWidget):
         """The value at a height."""
         bottom, top = self._y_range
         return top - y_px / self.plot_rect.height() * (top - bottom)
-
-    def plan_of(self, player: Player) -> PlayerPlan | None:
-        """A player's plan if the plans are made already: a lane never waits for them."""
-        performance = self.session.performance
-        return performance.plans.get(player.id) if performance.planned else None
 
     @property
     def is_empty(self) -> bool:

@@ -4,12 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QHideEvent, QPainter, QPaintEvent, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QScrollBar,
-    QToolButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QHBoxLayout, QScrollBar, QToolButton, QWidget
 
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
@@ -60,10 +55,6 @@ class Playhead(QWidget):
 
 class TimelinePanel(Retranslated, QWidget):
     """The timeline panel. It is the session's `TimelineView`.
-
-    Parameters
-    ----------
-    session : Session
 
     Signals
     -------

@@ -20,8 +20,6 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.editor.session import Session
-from app.plan.model import PlayerPlan
-from app.project.performers import Player
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_lines
 from widgets.timeline.model.hand import LaneMouse
@@ -43,7 +41,6 @@ class LaneView(Protocol):
     def y_range(self) -> tuple[float, float]: ...
     def y_px(self, value: float) -> float: ...
     def lines(self) -> Lines: ...
-    def plan_of(self, player: Player) -> PlayerPlan | None: ...
     def font(self) -> QFont: ...
 
 

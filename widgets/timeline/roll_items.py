@@ -157,7 +157,6 @@ def picture_behind(lane: RollView, behind: Behind, alpha: int, ratio: float) -> 
 
     Parameters
     ----------
-    lane : RollView
     behind : Behind
         Later players lie over those before.
     alpha : int
@@ -276,7 +275,7 @@ class Labels(LaneItem[RollView]):
         table, colour = front
         player = lane.session.player
         self._know_problems(table, lane.session.problems(player.id) if player is not None else ())
-        self._know(table, lane.plan_of(player) if player is not None else None)
+        self._know(table, lane.session.plan)
         wider = exposed.adjusted(-60.0, 0.0, 4.0, 0.0)
         rows = lane.visible(table, wider)
         self._paint_problems(painter, table, rows)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
 from PySide6.QtGui import (
@@ -293,7 +295,8 @@ class Ruler(Retranslated, Strip):
         """The gesture that a press begins."""
         session, far, at_start = self.session, along(QApplication.startDragDistance() / 2), held.endswith("_start")
         if mark is not None:
-            return HoldMark(session, mouse, far, (mark.kind, mark.tick), self, self._refuse_first)
+            stays = partial(session.notice, Message("tempo.first_stays"), Severity.WARNING)
+            return HoldMark(session, mouse, far, (mark.kind, mark.tick), self, stays)
         if held == "playhead":
             return HoldPlayhead(session, mouse, far, self.sought.emit)
         if held in ("loop_start", "loop_end"):
@@ -309,9 +312,6 @@ class Ruler(Retranslated, Strip):
                 lambda tick: max(tick, 0),
             )
         return Seek(session, mouse, far, self._tick_at) if held else None
-
-    def _refuse_first(self) -> None:
-        self.session.notice(Message("tempo.first_stays"), Severity.WARNING)
 
     def _drag(self, gesture: Gesture, mouse: LaneMouse) -> None:
         gesture.drag(mouse)

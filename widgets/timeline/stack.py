@@ -70,7 +70,6 @@ class LaneStack(QScrollArea):
 
     Parameters
     ----------
-    session : Session
     lanes : sequence of Lane
     elastic : Lane
         One of them.

@@ -16,13 +16,6 @@ from widgets.timeline.pictured import Pictured
 class Strip(Pictured):
     """A row above the lanes, along their time axis.
 
-    Parameters
-    ----------
-    session : Session
-    axis : TimeAxis
-    height_px : int
-    parent : QWidget or None
-
     Signals
     -------
     sought(float)

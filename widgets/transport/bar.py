@@ -153,8 +153,8 @@ class TransportBar(Retranslated, QWidget):
         self.speed.changed.connect(lambda percent, _: listening.set(speed=percent / 100))
         self.volume.changed.connect(lambda percent, _: listening.set(volume=percent / 100))
         self.source.chosen.connect(self._choose_source)
-        self.snap.chosen.connect(self._choose_snap)
-        self.snap_button.clicked.connect(self._toggle_snap)
+        self.snap.chosen.connect(lambda name: self._session.set_grid(Grid(GRIDS[name])))
+        self.snap_button.clicked.connect(lambda on: self._session.set_grid(Grid(self._session.grid.quarters, on)))
 
     # What the user does
 
@@ -179,12 +179,6 @@ class TransportBar(Retranslated, QWidget):
         for known in SOURCES:
             if known == source:
                 self._session.listening.set(source=known)
-
-    def _choose_snap(self, name: str) -> None:
-        self._session.set_grid(Grid(GRIDS[name]))
-
-    def _toggle_snap(self, on: bool) -> None:
-        self._session.set_grid(Grid(self._session.grid.quarters, on))
 
     # What is shown
 

@@ -43,10 +43,7 @@ class BarsField(NumberSlider):
     def __init__(self, session: Session) -> None:
         super().__init__(session, -1e7, 1e9, default=0.0, step=1.0, decimals=0, slides=False)
         self.setObjectName("bars_field")
-        self.set_wording(
-            lambda tick: session.project.score.metre_map.label(round(tick)),
-            lambda text: _float(session.project.score.metre_map.tick_of_label(text)),
-        )
+        self.show_as_place()
 
 
 class ClockField(NumberSlider):
@@ -64,7 +61,3 @@ class FramesField(NumberSlider):
     def __init__(self, session: Session) -> None:
         super().__init__(session, -1e7, 1e8, default=0.0, step=1.0, decimals=0, slides=False)
         self.setObjectName("frames_field")
-
-
-def _float(value: int | None) -> float | None:
-    return None if value is None else float(value)

@@ -3,14 +3,8 @@
 Meant for files of any origin: every length is checked before it is believed, records may nest only so deep, and an
 array is never unpacked to more than its compressed bytes can hold.
 
-Messages (all with ``file`` and the ``offset`` of the trouble in bytes):
-``fbx.not_binary``: "{file} is not a binary FBX file";
-``fbx.truncated``: "{file} ends in the middle of a record (byte {offset})";
-``fbx.bad_record``: "{file}: the record at byte {offset} does not fit into its surroundings";
-``fbx.bad_property``: "{file}: the property at byte {offset} is of an unknown kind or too long for its record";
-``fbx.bad_array``: "{file}: the array at byte {offset} is damaged";
-``fbx.too_large``: "{file} describes far more data than a file of its size holds";
-``fbx.too_deep``: "{file}: the records at byte {offset} are nested too deeply".
+Messages (all with ``file`` and the ``offset`` of the trouble in bytes): ``fbx.not_binary``, ``fbx.truncated``,
+``fbx.bad_record``, ``fbx.bad_property``, ``fbx.bad_array``, ``fbx.too_large``, ``fbx.too_deep``.
 """
 
 from __future__ import annotations
@@ -53,7 +47,6 @@ def read_elements(data: bytes, file: str) -> Element:
 
     Parameters
     ----------
-    data : bytes
     file : str
         Its name, for messages.
 

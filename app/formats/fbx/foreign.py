@@ -4,14 +4,8 @@ Any version and both encodings are read by the library ufbx, which knows pre-rot
 units and axes. It runs in a process of its own (`foreign_child`): what a damaged file does to it is reported as an
 error.
 
-Messages (all with ``file``)
---------
-file.cannot_read : reason
-file.too_large : size_mb, most_mb
-fbx.not_fbx : "{file} is not an FBX file"
-fbx.foreign_damaged : detail
-    "{file} is damaged: {detail}"
-fbx.too_large : "{file} describes far more data than a file of its size holds"
+Messages (all with ``file``): ``file.cannot_read``, ``file.too_large``, ``fbx.not_fbx``, ``fbx.foreign_damaged``,
+``fbx.too_large``.
 """
 
 from __future__ import annotations
@@ -58,12 +52,10 @@ class FbxNode:
 
     Attributes
     ----------
-    name : str
     parent : int
         -1: none.
     kind : str
         What hangs on it: ``BONE``, ``MESH``, ``EMPTY``, ``CAMERA``, ``LOD_GROUP`` ...
-    visible : bool
     world_from_node, world_from_geometry : (4, 4) float64
         As the file poses it. The vertices of a mesh on the node are in its geometry's space.
     """
@@ -82,7 +74,6 @@ class FbxCluster:
 
     Attributes
     ----------
-    node : int
     bone_from_mesh : (4, 4) float64
         The inverse bind matrix.
     world_from_bone : (4, 4) float64
@@ -122,7 +113,6 @@ class FbxMesh:
 
     Attributes
     ----------
-    name : str
     nodes : tuple of int
         Where it hangs; more than one: it is shown as often.
     points : (P, 3) float64
@@ -133,9 +123,6 @@ class FbxMesh:
     face_materials : (F,) int64
     normals, uvs : (C, 3) and (C, 2) float64, or None
         By corner; v points up.
-    materials : tuple of FbxMaterial
-    skins : tuple of tuple of FbxCluster
-    morphs : tuple of FbxMorph
     """
 
     name: str
@@ -169,7 +156,6 @@ class FbxMotion:
         As in `FbxContent`.
     bound : tuple of (int, (4, 4) float64)
         Nodes, and where each was when a mesh was bound to it.
-    fps : Fraction
     transforms : (F, N, 10) float64
         Of each node on its parent: translation in metres, rotation xyzw, scale. No frames: the file has no animation.
     """

@@ -4,11 +4,8 @@ It understands what that writes: bones in centimetres without scaling, pivots or
 scene or those of each figure under a Null, and linear keys on frames; the clip has what these curves are at every
 frame. Anything else is refused, never quietly misread.
 
-Messages, beside those of `app.formats.fbx.decode` (all with ``file``):
-``file.cannot_read`` (reason): "{file} cannot be read: {reason}";
-``fbx.missing`` (what): "{file} has no {what}";
-``fbx.unsupported`` (what): "{file}: {what} is not supported";
-``fbx.contradiction`` (detail): "{file} contradicts itself: {detail}".
+Messages: ``file.cannot_read``, ``fbx.missing``, ``fbx.unsupported``, ``fbx.contradiction``
+and those of `app.formats.fbx.decode`.
 """
 
 from __future__ import annotations

@@ -40,11 +40,6 @@ _BESIDE_CM = 5e-4
 def write_scene(path: str | os.PathLike[str], scene: Scene) -> None:
     """Write a scene as a binary FBX file, whole or not at all; the same scene always gives the same.
 
-    Parameters
-    ----------
-    path : str or path-like
-    scene : Scene
-
     Raises
     ------
     FileError
@@ -135,7 +130,6 @@ class _Figure:
     ----------
     node : int
         What its root bone and meshes hang from: a node of its own, or the file's root.
-    bone_ids : list of int
     channel_ids : dict of str to list of int
         Channels that a morph of that name drives.
     """

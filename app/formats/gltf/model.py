@@ -46,11 +46,9 @@ class GltfPrimitive:
     uvs : ndarray, shape (V, 2), or None
         First set; v points down, as glTF has it.
     triangles : ndarray of int64, shape (T, 3)
-    material : int or None
     joint_indices : ndarray of int64, shape (V, 4 * sets)
         Into the skin's joints; all sets side by side, no columns without a skin.
     weights : ndarray, shape (V, 4 * sets)
-    morphs : tuple of GltfMorph
     """
 
     positions: FloatArray
@@ -77,7 +75,6 @@ class GltfSkin:
 
     Attributes
     ----------
-    name : str
     joints : tuple of int
         Indices of nodes.
     joint_from_mesh_bind : ndarray, shape (J, 4, 4)
@@ -109,15 +106,11 @@ class GltfNode:
 
     Attributes
     ----------
-    name : str
     parent : int
         -1: none.
     translation : ndarray, shape (3,)
     rotation_xyzw : ndarray, shape (4,)
     scale : ndarray, shape (3,)
-    mesh : int or None
-    skin : int or None
-    extensions : mapping
     """
 
     name: str
@@ -136,7 +129,6 @@ class GltfChannel:
 
     Attributes
     ----------
-    node : int
     path : str
         ``translation``, ``rotation`` or ``scale``.
     interpolation : str

@@ -5,13 +5,8 @@ the file is ever opened. Units stay glTF's: metres,
 right-handed, Y up, quaternions xyzw. Source: Khronos, "glTF 2.0 Specification", sections 3.6 (buffers and accessors),
 3.7 (geometry, skins, morph targets) and 4 (GLB).
 
-Messages (all with ``file``): ``file.cannot_read`` (reason);
-``gltf.not_gltf``: "{file} is not a glTF 2.0 file";
-``gltf.damaged`` (what): "{file} is damaged: {what} is wrong";
-``gltf.external`` (uri): "{file} needs the file {uri} beside it; only files that hold everything themselves are read";
-``gltf.unsupported`` (what): "{file} uses {what}, which is not supported";
-``gltf.too_large``: "{file} describes far more data than a file of its size holds; export the character alone";
-``gltf.too_deep`` (most): "{file} nests its nodes more than {most} deep".
+Messages (all with ``file``): ``file.cannot_read``, ``gltf.not_gltf``, ``gltf.damaged``, ``gltf.external``,
+``gltf.unsupported``, ``gltf.too_large``, ``gltf.too_deep``.
 """
 
 from __future__ import annotations
@@ -68,7 +63,6 @@ def read_glb(path: str | os.PathLike[str], *, animated: bool = False) -> GltfMod
 
     Parameters
     ----------
-    path : str or path-like
     animated : bool
         Whether animations are read too; most files are read for what they show.
 

@@ -55,11 +55,6 @@ Pieces = list[bytes | memoryview]
 def write_glb(path: str | os.PathLike[str], scene: Scene) -> None:
     """Write a scene as a GLB file, whole or not at all; the same scene always gives the same.
 
-    Parameters
-    ----------
-    path : str or path-like
-    scene : Scene
-
     Raises
     ------
     FileError

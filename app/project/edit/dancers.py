@@ -1,10 +1,6 @@
 """Edits of dancers: who dances, what, where and how.
 
-Messages
---------
-player.no_name(): a name must have at least one sign that can be seen.
-dancer.too_many(most): a project has no room for more dancers.
-dancer.no_choreography(file): this is neither a choreography file nor a bundled choreography.
+Messages: ``player.no_name``, ``dancer.too_many``, ``dancer.no_choreography``.
 """
 
 from __future__ import annotations

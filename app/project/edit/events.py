@@ -3,10 +3,7 @@
 All take the plan that the user saw, and event ids of that plan. Those that may give an event another id (a breath
 dragged to another note) return the new ids beside the project.
 
-Messages
---------
-edit.no_note_to_breathe_for(): "There is no note after this place to breathe for."
-edit.no_note_to_cue(): "There is no note after this place to give a cue to."
+Messages: ``edit.no_note_to_breathe_for``, ``edit.no_note_to_cue``.
 """
 
 from __future__ import annotations

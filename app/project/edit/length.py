@@ -1,8 +1,6 @@
 """How long a piece may become: no edit makes one that no file could hold.
 
-Messages (`UsageError`)
---------
-piece.too_long : hours, quarters, bars, most_hours, most_quarters, most_bars
+Messages (`UsageError`): ``piece.too_long``.
 """
 
 from __future__ import annotations

@@ -3,16 +3,8 @@
 A note made here is called ``"n:<number>"``, the next one free: no file's note is called so ("track:number"), and the
 same edits give the same names. Erasing a note erases its corrections; undo restores both.
 
-Messages
---------
-note.before_start(): a note would begin before the piece.
-note.after_all_pieces(): a note would end later than a project can hold.
-note.pitch_outside(pitch, low, high): there is no such pitch.
-note.velocity_outside(velocity, low, high): there is no such velocity.
-note.too_short(): a note would have no length.
-note.nothing_to_split(): no chosen note sounds across that place.
-note.nothing_to_join(): no two chosen notes follow one another at one pitch.
-piece.too_long(hours, quarters, bars, most_hours, most_quarters, most_bars): a note would lie too late.
+Messages: ``note.before_start``, ``note.after_all_pieces``, ``note.pitch_outside``, ``note.velocity_outside``,
+``note.too_short``, ``note.nothing_to_split``, ``note.nothing_to_join``, ``piece.too_long``.
 """
 
 from __future__ import annotations

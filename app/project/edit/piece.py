@@ -1,14 +1,7 @@
 """The piece as a whole: begun anew, its title, picture rate, beat, recording, and the animator's own expressions.
 
-Messages (`UsageError`)
---------
-piece.value_outside : what, low, high
-piece.no_recording
-piece.path_unusable : path
-expression.invalid : name, place, detail
-expression.no_name
-expression.name_taken : name
-expression.none_of_name : name
+Messages (`UsageError`): ``piece.value_outside``, ``piece.no_recording``, ``piece.path_unusable``,
+``expression.invalid``, ``expression.no_name``, ``expression.name_taken``, ``expression.none_of_name``.
 """
 
 from __future__ import annotations

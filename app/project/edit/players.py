@@ -1,10 +1,6 @@
 """Edits of players: adding and removing, their parts, parameters and places.
 
-Messages
---------
-player.no_name(): a name must have at least one sign that can be seen.
-player.too_many(most): a project has no room for more players.
-doubling.posture, doubling.together: see `app.project.doubling`.
+Messages: ``player.no_name``, ``player.too_many``, ``doubling.posture``, ``doubling.together``.
 """
 
 from __future__ import annotations

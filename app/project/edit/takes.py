@@ -4,14 +4,8 @@ A take is kept as it was played. What of it a part has is said by the comp: span
 from. Only what is swiped over is changed, so that whatever was corrected by hand elsewhere stays; a note of a take has
 the same id whenever it is brought in, so that corrections about it wait for it.
 
-Messages
---------
-take.none(take) : there is no such take.
-take.too_many(most) : a project has no room for more takes.
-take.invalid(place, detail) : what was recorded cannot be kept, for example because its journal is damaged.
-take.not_free(part) : other parts have notes, so the tempo is not one take's to say.
-piece.too_long(hours, quarters, bars, most_hours, most_quarters, most_bars) : a note of a take would lie too late.
-take.too_few_notes(count, least), take.no_beats() : no beat is found (`app.score.beats`).
+Messages: ``take.none``, ``take.too_many``, ``take.invalid``, ``take.not_free``, ``piece.too_long``,
+``take.too_few_notes``, ``take.no_beats``.
 """
 
 from __future__ import annotations

@@ -1,19 +1,7 @@
 """Tempo, metre and pickup. Notes keep their ticks; what changes is when they sound and where the bar lines stand.
 
-Messages (`UsageError`)
---------
-tempo.outside : low, high
-    A tempo in quarters per minute that no one can play.
-tempo.first_stays
-    The tempo and the metre at the beginning can be changed, but neither moved nor removed.
-tempo.none_here : tick
-metre.none_here : tick
-metre.impossible : numerator, denominator
-metre.pickup_too_long : most
-metre.inside_pickup
-tempo.place_outside : tick
-    A place before the piece, or beyond what a project can hold.
-piece.too_long : hours, quarters, bars, and how much of each there may be at most
+Messages (`UsageError`): ``tempo.outside``, ``tempo.first_stays``, ``tempo.none_here``, ``metre.none_here``,
+``metre.impossible``, ``metre.pickup_too_long``, ``metre.inside_pickup``, ``tempo.place_outside``, ``piece.too_long``.
 """
 
 from __future__ import annotations

@@ -84,11 +84,7 @@ def _language(code: str) -> EditorAction:
 
 ACTIONS: tuple[Action | EditorAction, ...] = (
     EditorAction(
-        "application.palette",
-        lambda editor: editor.window.show_palette(),
-        "help",
-        "Ctrl+Shift+P",
-        icon="search",
+        "application.palette", lambda editor: editor.window.show_palette(), "help", "Ctrl+Shift+P", icon="search"
     ),
     EditorAction(
         "application.full_screen",
@@ -121,24 +117,8 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     _theme("light"),
     _language("en"),
     _language("ja"),
-    EditorAction(
-        "application.instruments",
-        instruments,
-        "edit",
-        "Ctrl+Alt+I",
-    ),
-    EditorAction(
-        "application.preferences",
-        preferences,
-        "edit",
-        "Ctrl+,",
-        icon="settings",
-    ),
-    EditorAction(
-        "application.shortcuts",
-        lambda editor: preferences(editor, "shortcuts"),
-        "help",
-        icon="keyboard",
-    ),
+    EditorAction("application.instruments", instruments, "edit", "Ctrl+Alt+I"),
+    EditorAction("application.preferences", preferences, "edit", "Ctrl+,", icon="settings"),
+    EditorAction("application.shortcuts", lambda editor: preferences(editor, "shortcuts"), "help", icon="keyboard"),
     EditorAction("application.about", about, "help", icon="information"),
 )

@@ -13,10 +13,7 @@ def _felt(name: str, quarters: float | None) -> Action:
         session.attempt(Message("edit.set_felt_beat"), lambda project: set_felt_beat(project, quarters))
 
     return Action(
-        f"beat.{name}",
-        run,
-        "edit/felt_beat",
-        checked=lambda session: session.project.felt_beat_quarters == quarters,
+        f"beat.{name}", run, "edit/felt_beat", checked=lambda session: session.project.felt_beat_quarters == quarters
     )
 
 

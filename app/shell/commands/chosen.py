@@ -7,7 +7,6 @@ from collections.abc import Callable
 
 from app.editor.session import Session
 from app.editor.timeline_view import TimelineView
-from app.plan.model import PlayerPlan
 from app.project.performers import Player
 from app.score.model import Note
 
@@ -41,11 +40,6 @@ def events_by_player(session: Session) -> dict[str, list[str]]:
         if key.player_id in known:
             result[key.player_id].append(key.event_id)
     return result
-
-
-def plan_of(session: Session, player_id: str) -> PlayerPlan | None:
-    """A player's plan, if the plans are made already."""
-    return session.performance.plans.get(player_id) if session.performance.planned else None
 
 
 def selected_ticks(session: Session) -> tuple[int, int] | None:

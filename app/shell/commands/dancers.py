@@ -51,22 +51,12 @@ def _dance(session: Session, path: Path) -> None:
     )
 
 
-def _has_choreographies(session: Session) -> bool:
-    return bool(bundled_choreographies())
-
-
 def _has_dancer(session: Session) -> bool:
     return session.dancer is not None
 
 
 ACTIONS: tuple[Action | EditorAction, ...] = (
-    Action(
-        "dancers.add",
-        add,
-        "edit/players",
-        enabled=_has_choreographies,
-        icon="add",
-    ),
+    Action("dancers.add", add, "edit/players", enabled=lambda session: bool(bundled_choreographies()), icon="add"),
     EditorAction(
         "dancers.rename",
         lambda editor: editor.window.rename_dancer(),
@@ -86,13 +76,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         icon="duplicate",
     ),
     Action(
-        "dancers.remove",
-        newcomers.remove_dancer,
-        "edit/players",
-        "Del",
-        "dancers",
-        enabled=_has_dancer,
-        icon="delete",
+        "dancers.remove", newcomers.remove_dancer, "edit/players", "Del", "dancers", enabled=_has_dancer, icon="delete"
     ),
     EditorAction(
         "dancers.choreography",
@@ -101,9 +85,5 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=lambda editor: _has_dancer(editor.session),
         icon="information",
     ),
-    EditorAction(
-        "dancers.learn",
-        learn_choreography,
-        "edit/players",
-    ),
+    EditorAction("dancers.learn", learn_choreography, "edit/players"),
 )

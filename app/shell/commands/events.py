@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QCursor
 from PySide6.QtWidgets import QApplication, QMainWindow, QMenu
 
+from app.editor.additions import add_breaths, add_cues, add_expressions, add_gestures
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import PlayerPlan
 from app.project.edit.events import (
     GESTURE_KINDS,
-    Edited,
     GestureKind,
-    add_breath,
-    add_cue,
-    add_expression,
-    add_gesture,
     event_id_of,
     give_back,
     give_back_player,
@@ -30,7 +25,7 @@ from app.project.edit.events import (
 from app.project.edit.notes import erase
 from app.project.model import Project
 from app.shell.action import Action
-from app.shell.commands.chosen import events_by_player, has_player, has_something, notes_by_player, plan_of
+from app.shell.commands.chosen import events_by_player, has_player, has_something, notes_by_player
 from widgets.common.controls import named
 from widgets.common.event_names import expression_name
 from widgets.common.plain import verbatim
@@ -49,7 +44,7 @@ def _places(session: Session) -> list[tuple[PlayerPlan, int]]:
     found = [(player.id, notes[0].onset_tick) for player, notes in notes_by_player(session).items()]
     if not found and session.player is not None:
         found = [(session.player.id, _playhead_tick(session))]
-    return [(plan, tick) for player_id, tick in found if (plan := plan_of(session, player_id)) is not None]
+    return [(plan, tick) for player_id, tick in found if (plan := session.plans.get(player_id)) is not None]
 
 
 def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
@@ -65,68 +60,10 @@ def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
             start = session.grid.snap(session.project.score, _playhead_tick(session))
             span = (start, start + NEW_BEATS * session.project.metre_map.felt_ticks_at(start))
         found = [(session.player.id, *span)]
-    return [(plan, start, end) for player_id, start, end in found if (plan := plan_of(session, player_id)) is not None]
-
-
-def _add(session: Session, name: Message, edits: Iterable[tuple[str, Callable[[Project], Edited]]]) -> None:
-    """Make several additions one step, and select what was added."""
-    chosen = tuple(edits)
-    if not chosen:
-        return
-    keys: set[EventKey] = set()
-
-    def whole(project: Project) -> Project:
-        for player_id, edit in chosen:
-            project, event_ids = edit(project)
-            keys.update(EventKey(player_id, event_id) for event_id in event_ids)
-        return project
-
-    if session.attempt(name, whole):
-        session.select(Selection(events=frozenset(keys)))
+    return [(plan, start, end) for player_id, start, end in found if (plan := session.plans.get(player_id)) is not None]
 
 
 # Adding
-
-
-def breathe(session: Session) -> None:
-    """Add a breath before the selected notes, or before the next note from the playhead on."""
-    _add_at(session, Message("edit.add_breath"), add_breath)
-
-
-def cue(session: Session) -> None:
-    """Let the player give a cue to the selected entry, or to the next one from the playhead on."""
-    _add_at(session, Message("edit.add_cue"), add_cue)
-
-
-def _add_at(session: Session, name: Message, edit: Callable[[Project, PlayerPlan, int], Edited]) -> None:
-    def at(plan: PlayerPlan, tick: int) -> Callable[[Project], Edited]:
-        return lambda project: edit(project, plan, tick)
-
-    _add(session, name, [(plan.player_id, at(plan, tick)) for plan, tick in _places(session)])
-
-
-def gesture(session: Session, kind: GestureKind) -> None:
-    """Add a gesture over the selection or at the playhead."""
-    amount = 1.0 if kind == "lower_instrument" else 0.5
-
-    def edit(plan: PlayerPlan, start: int, end: int) -> Callable[[Project], Edited]:
-        return lambda project: add_gesture(project, plan.player_id, kind, start, end, amount)
-
-    spans = _spans(session)
-    _add(session, Message("edit.add_gesture"), [(plan.player_id, edit(plan, *span)) for plan, *span in spans])
-
-
-def expression(session: Session, name: str) -> None:
-    """Add an expression over the selection or at the playhead."""
-    face = session.performance.expressions[name]
-
-    def edit(plan: PlayerPlan, start: int, end: int) -> Callable[[Project], Edited]:
-        return lambda project: add_expression(
-            project, plan.player_id, name, start, end, 1.0, face.fade_in_s, face.fade_out_s
-        )
-
-    spans = _spans(session)
-    _add(session, Message("edit.add_expression"), [(plan.player_id, edit(plan, *span)) for plan, *span in spans])
 
 
 def choose_gesture(session: Session) -> None:
@@ -144,7 +81,7 @@ def choose_expression(session: Session) -> None:
     for name in sorted(session.performance.expressions, key=lambda name: (name in own, name)):
         entry = menu.addAction(verbatim(expression_name(name)))
         entry.setObjectName(f"expression_{name}")
-        entry.triggered.connect(lambda _=False, name=name: expression(session, name))
+        entry.triggered.connect(lambda _=False, name=name: add_expressions(session, name, _spans(session)))
     menu.popup(QCursor.pos())
 
 
@@ -167,13 +104,11 @@ def delete(session: Session) -> None:
         notes = session.selection.notes
         session.attempt(Message("edit.erase_notes", {"count": len(notes)}), lambda project: erase(project, notes))
         return
-    plans = {player_id: plan_of(session, player_id) for player_id in events}
+    found = [(plan, ids) for player_id, ids in events.items() if (plan := session.plans.get(player_id)) is not None]
 
     def edit(project: Project) -> Project:
-        for player_id, ids in events.items():
-            plan = plans[player_id]
-            if plan is not None:
-                project = remove(project, plan, ids)
+        for plan, ids in found:
+            project = remove(project, plan, ids)
         return project
 
     count = sum(map(len, events.values()))
@@ -217,10 +152,6 @@ def revert_player(session: Session) -> None:
         )
 
 
-def _player_corrected(session: Session) -> bool:
-    return session.player is not None and bool(session.project.corrections.get(session.player.id))
-
-
 # Preparations
 
 
@@ -247,15 +178,14 @@ def _has_breaths(session: Session) -> bool:
 
 def prepare(session: Session) -> None:
     """Turn the preparatory motion before the selected breaths on or off."""
-    requested = _breathing_notes(session)
-    plans = {player_id: plan_of(session, player_id) for player_id in requested}
+    requested, plans = _breathing_notes(session), session.plans
+    found = [
+        (plans[player_id], note_id) for player_id, ids in requested.items() if player_id in plans for note_id in ids
+    ]
 
     def edit(project: Project) -> Project:
-        for player_id, note_ids in requested.items():
-            plan = plans[player_id]
-            for note_id in note_ids if plan is not None else ():
-                assert plan is not None
-                project = toggle_preparation(project, plan, note_id).project
+        for plan, note_id in found:
+            project = toggle_preparation(project, plan, note_id).project
         return project
 
     session.attempt(Message("edit.toggle_preparation"), edit)
@@ -264,72 +194,41 @@ def prepare(session: Session) -> None:
 def _kind(kind: GestureKind) -> Action:
     return Action(
         f"gesture.{kind}",
-        lambda session: gesture(session, kind),
+        lambda session: add_gestures(session, kind, _spans(session)),
         "edit/breaths_and_acting/add_gesture",
         enabled=has_player,
     )
 
 
 ACTIONS: tuple[Action, ...] = (
-    Action(
-        "edit.delete",
-        delete,
-        "edit",
-        "Delete",
-        "timeline",
-        has_something,
-        icon="delete",
-    ),
-    Action(
-        "events.give_back",
-        return_to_generated,
-        "edit",
-        "Backspace",
-        "timeline",
-        _can_return,
-        icon="reset",
-    ),
+    Action("edit.delete", delete, "edit", "Delete", "timeline", has_something, icon="delete"),
+    Action("events.give_back", return_to_generated, "edit", "Backspace", "timeline", _can_return, icon="reset"),
     Action(
         "events.give_back_player",
         revert_player,
         "edit",
-        enabled=_player_corrected,
+        enabled=lambda session: session.player is not None and bool(session.project.corrections.get(session.player.id)),
     ),
     Action(
         "events.breath",
-        breathe,
+        lambda session: add_breaths(session, _places(session)),
         "edit/breaths_and_acting",
         "B",
         "timeline",
         has_player,
         icon="breath",
     ),
-    Action(
-        "events.preparation",
-        prepare,
-        "edit/breaths_and_acting",
-        "Shift+B",
-        "timeline",
-        _has_breaths,
-    ),
+    Action("events.preparation", prepare, "edit/breaths_and_acting", "Shift+B", "timeline", _has_breaths),
     Action(
         "events.cue",
-        cue,
+        lambda session: add_cues(session, _places(session)),
         "edit/breaths_and_acting",
         "C",
         "timeline",
         has_player,
         icon="cue",
     ),
-    Action(
-        "events.gesture",
-        choose_gesture,
-        "edit/breaths_and_acting",
-        "G",
-        "timeline",
-        has_player,
-        icon="gesture",
-    ),
+    Action("events.gesture", choose_gesture, "edit/breaths_and_acting", "G", "timeline", has_player, icon="gesture"),
     Action(
         "events.expression",
         choose_expression,

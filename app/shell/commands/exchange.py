@@ -170,44 +170,17 @@ def _can_export(editor: Editor) -> bool:
     return bool(editor.session.project.players) and editor.files.is_open
 
 
-def _can_film(editor: Editor) -> bool:
-    return _can_export(editor) and editor.window.viewport.has_gl
-
-
 ACTIONS: tuple[EditorAction, ...] = (
-    EditorAction(
-        "file.reimport",
-        read_again,
-        "file",
-        "Ctrl+Shift+I",
-        enabled=is_open,
-    ),
-    EditorAction(
-        "file.reimport_other",
-        read_another,
-        "file",
-        enabled=is_open,
-    ),
-    EditorAction(
-        "file.export_midi",
-        export_midi,
-        "file",
-        enabled=_can_export,
-    ),
-    EditorAction(
-        "export.files",
-        export_files,
-        "export",
-        "Ctrl+E",
-        enabled=_can_export,
-        icon="export",
-    ),
+    EditorAction("file.reimport", read_again, "file", "Ctrl+Shift+I", enabled=is_open),
+    EditorAction("file.reimport_other", read_another, "file", enabled=is_open),
+    EditorAction("file.export_midi", export_midi, "file", enabled=_can_export),
+    EditorAction("export.files", export_files, "export", "Ctrl+E", enabled=_can_export, icon="export"),
     EditorAction(
         "export.playblast",
         playblast,
         "export",
         "Ctrl+Shift+E",
-        enabled=_can_film,
+        enabled=lambda editor: _can_export(editor) and editor.window.viewport.has_gl,
         icon="film",
     ),
 )

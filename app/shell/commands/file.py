@@ -10,10 +10,7 @@ from app.shell.editor import Editor, EditorAction, is_open
 
 def open_file(editor: Editor) -> None:
     """Ask for a project or MIDI file and open it."""
-    kinds = (
-        (tr("files.projects_and_midi_files"), (SUFFIX, *MIDI_SUFFIXES)),
-        (tr("files.all_files"), ("",)),
-    )
+    kinds = ((tr("files.projects_and_midi_files"), (SUFFIX, *MIDI_SUFFIXES)), (tr("files.all_files"), ("",)))
     path = editor.questions.open_file(tr("files.open"), editor.files.folder, _filters(kinds))
     if path is not None:
         editor.files.open(path)

@@ -12,7 +12,7 @@ from app.project.model import Project
 from app.project.performers import Player
 from app.score.model import Note
 from app.shell.action import Action
-from app.shell.commands.chosen import has_notes, notes_by_player, plan_of
+from app.shell.commands.chosen import has_notes, notes_by_player
 from instrument_maps.model import Fingering
 
 TYPED_TOGETHER_S = 0.6
@@ -106,7 +106,7 @@ def cycle_fingering(session: Session) -> None:
     """Pin the next alternate of each selected note; after the last comes the first choice."""
     pins: dict[str, dict[str, str]] = {}
     for player, notes in notes_by_player(session).items():
-        plan = plan_of(session, player.id)
+        plan = session.plans.get(player.id)
         now = {event.note_id: event.label for event in plan.fingerings} if plan is not None else {}
         for note in notes:
             known = choices(session, player, note)
@@ -130,15 +130,7 @@ def _sign(sign: str) -> Action:
 
 
 ACTIONS: tuple[Action, ...] = (
-    Action(
-        "fingering.cycle",
-        cycle_fingering,
-        "edit/fingering",
-        "F",
-        "timeline",
-        has_notes,
-        icon="fingering",
-    ),
+    Action("fingering.cycle", cycle_fingering, "edit/fingering", "F", "timeline", has_notes, icon="fingering"),
     _sign("0"),
     _sign("1"),
     _sign("2"),

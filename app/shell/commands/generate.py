@@ -90,31 +90,8 @@ def _has_varied_bars(session: Session) -> bool:
 
 
 ACTIONS: tuple[Action, ...] = (
-    Action(
-        "generate.everyone",
-        vary_everyone,
-        "generate",
-        "Ctrl+Alt+G",
-        enabled=has_everyone,
-    ),
-    Action(
-        "generate.players",
-        vary_players,
-        "generate",
-        "Ctrl+Shift+G",
-        enabled=_has_players,
-    ),
-    Action(
-        "generate.bars",
-        vary_bars,
-        "generate",
-        "Ctrl+G",
-        enabled=_has_bars,
-    ),
-    Action(
-        "generate.bars_back",
-        unvary_bars,
-        "generate",
-        enabled=_has_varied_bars,
-    ),
+    Action("generate.everyone", vary_everyone, "generate", "Ctrl+Alt+G", enabled=has_everyone),
+    Action("generate.players", vary_players, "generate", "Ctrl+Shift+G", enabled=_has_players),
+    Action("generate.bars", vary_bars, "generate", "Ctrl+G", enabled=_has_bars),
+    Action("generate.bars_back", unvary_bars, "generate", enabled=_has_varied_bars),
 )

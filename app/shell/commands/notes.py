@@ -94,10 +94,6 @@ def select_span(session: Session) -> None:
     session.select(Selection(found))
 
 
-def _has_span(session: Session) -> bool:
-    return session.selection.span is not None or session.loop_s is not None
-
-
 # Editing
 
 
@@ -152,10 +148,7 @@ def duplicate(session: Session) -> None:
         step = session.grid.step_ticks(score)
         length = round(-(-length // step) * step)
     _edit_making(
-        session,
-        _name("edit.duplicate_notes", ids),
-        lambda project: notes.duplicate(project, ids, length),
-        frozenset(),
+        session, _name("edit.duplicate_notes", ids), lambda project: notes.duplicate(project, ids, length), frozenset()
     )
 
 
@@ -313,44 +306,17 @@ ACTIONS: tuple[Action, ...] = (
     _row("notes.copy", copy, "Ctrl+C", "copy", "edit"),
     _row("notes.paste", paste, "Ctrl+V", "paste", "edit", has_player),
     _row("notes.duplicate", duplicate, "Ctrl+D", "duplicate", "edit"),
-    _row(
-        "notes.select_all",
-        select_all,
-        "Ctrl+A",
-        "",
-        "edit/select",
-        has_player,
-    ),
-    _row(
-        "notes.select_none",
-        select_none,
-        "Alt+A",
-        "",
-        "edit/select",
-        lambda session: bool(session.selection),
-    ),
-    _row(
-        "notes.select_pitch",
-        select_pitch,
-        "Alt+S",
-        "",
-        "edit/select",
-    ),
-    _row(
-        "notes.select_bar",
-        select_bar,
-        "Alt+B",
-        "",
-        "edit/select",
-        has_player,
-    ),
+    _row("notes.select_all", select_all, "Ctrl+A", "", "edit/select", has_player),
+    _row("notes.select_none", select_none, "Alt+A", "", "edit/select", lambda session: bool(session.selection)),
+    _row("notes.select_pitch", select_pitch, "Alt+S", "", "edit/select"),
+    _row("notes.select_bar", select_bar, "Alt+B", "", "edit/select", has_player),
     _row(
         "notes.select_span",
         select_span,
         "Alt+R",
         "",
         "edit/select",
-        _has_span,
+        lambda session: session.selection.span is not None or session.loop_s is not None,
     ),
     _tool(Tool.SELECT, "V", "pointer"),
     _tool(Tool.DRAW, "D", "pencil"),
@@ -363,30 +329,10 @@ ACTIONS: tuple[Action, ...] = (
     _row("notes.down", partial(transpose, by_pitch=-1), "Down"),
     _row("notes.octave_up", partial(transpose, by_pitch=12), "Shift+Up"),
     _row("notes.octave_down", partial(transpose, by_pitch=-12), "Shift+Down"),
-    _row(
-        "notes.earlier",
-        partial(nudge, steps=-1),
-        "Left",
-        enabled=has_something,
-    ),
-    _row(
-        "notes.later",
-        partial(nudge, steps=1),
-        "Right",
-        enabled=has_something,
-    ),
-    _row(
-        "notes.frame_earlier",
-        partial(nudge_frames, frames=-1),
-        "Ctrl+Left",
-        enabled=has_something,
-    ),
-    _row(
-        "notes.frame_later",
-        partial(nudge_frames, frames=1),
-        "Ctrl+Right",
-        enabled=has_something,
-    ),
+    _row("notes.earlier", partial(nudge, steps=-1), "Left", enabled=has_something),
+    _row("notes.later", partial(nudge, steps=1), "Right", enabled=has_something),
+    _row("notes.frame_earlier", partial(nudge_frames, frames=-1), "Ctrl+Left", enabled=has_something),
+    _row("notes.frame_later", partial(nudge_frames, frames=1), "Ctrl+Right", enabled=has_something),
     _row("notes.louder", partial(change_velocity, by=VELOCITY_STEP), "+;="),
     _row("notes.softer", partial(change_velocity, by=-VELOCITY_STEP), "-"),
 )

@@ -33,12 +33,6 @@ def add(session: Session) -> None:
     newcomers.add_player(session, instrument_id)
 
 
-def remove(session: Session) -> None:
-    """Send the selected players away."""
-    chosen = session.players
-    session.attempt(_count("edit.remove_players", len(chosen)), lambda project: edit.remove_players(project, chosen))
-
-
 def join(session: Session) -> None:
     """Let one musician play what the selected players play, in turn: the first of them in the list."""
     chosen = [player for player in session.project.players if player.id in session.players]
@@ -59,27 +53,11 @@ def separate(session: Session) -> None:
     session.attempt(_count("edit.separate_players", count), lambda project: edit.separate(project, chosen))
 
 
-def mute(session: Session, on: bool) -> None:
-    """Mute or unmute the selected players."""
-    _change(session, "muted", on, "edit.mute" if on else "edit.unmute")
-
-
-def solo(session: Session, on: bool) -> None:
-    """Solo or unsolo the selected players."""
-    _change(session, "soloed", on, "edit.solo" if on else "edit.unsolo")
-
-
-def _change(session: Session, field: str, on: bool, name: str) -> None:
-    chosen = session.players
-    session.attempt(_count(name, len(chosen)), lambda project: edit.change(project, chosen, **{field: on}))
-
-
 def clear_mute_and_solo(session: Session) -> None:
     """End every mute and solo."""
     everyone = [player.id for player in session.project.players]
     session.attempt(
-        _count("edit.unmute", len(everyone)),
-        lambda project: edit.change(project, everyone, muted=False, soloed=False),
+        _count("edit.unmute", len(everyone)), lambda project: edit.change(project, everyone, muted=False, soloed=False)
     )
 
 
@@ -104,16 +82,6 @@ def toggle_posture(session: Session) -> None:
     )
 
 
-def randomise(session: Session) -> None:
-    """Make the selected players differ, or everyone where fewer than two are selected."""
-    several = len(session.players) > 1
-    chosen = session.players if several else tuple(player.id for player in session.project.players)
-    spread = session.variety
-    session.attempt(
-        _count("edit.randomise_players", len(chosen)), lambda project: edit.randomise(project, chosen, spread)
-    )
-
-
 def arrange(session: Session) -> None:
     """Put everyone on the automatic arc."""
     session.attempt(Message("edit.arrange_players"), edit.arrange)
@@ -123,14 +91,6 @@ def select_all(session: Session) -> None:
     """Select every player; the active one stays active."""
     others = tuple(player.id for player in session.project.players if player.id not in session.players[:1])
     session.set_players((*session.players[:1], *others))
-
-
-def reset(session: Session) -> None:
-    """Return the parameters of the selected players to what they were cast with."""
-    chosen = session.players
-    session.attempt(
-        _count("edit.reset_parameters", len(chosen)), lambda project: edit.reset_parameters(project, chosen)
-    )
 
 
 def _has_players(session: Session) -> bool:
@@ -145,24 +105,8 @@ def _are_several(session: Session) -> bool:
     return len({session.project.musician(player).id for player in _chosen(session)}) > 1
 
 
-def _double(session: Session) -> bool:
-    return any(player.doubles for player in _chosen(session))
-
-
 def _has_several(session: Session) -> bool:
     return len(session.project.players) > 1
-
-
-def _is_muted(session: Session) -> bool:
-    return session.player is not None and session.player.muted
-
-
-def _is_soloed(session: Session) -> bool:
-    return session.player is not None and session.player.soloed
-
-
-def _is_quiet(session: Session) -> bool:
-    return any(player.muted or player.soloed for player in session.project.players)
 
 
 ACTIONS: tuple[Action | EditorAction, ...] = (
@@ -185,21 +129,16 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=_has_players,
         icon="duplicate",
     ),
-    Action(
-        "players.join",
-        join,
-        "edit/players",
-        enabled=_are_several,
-    ),
+    Action("players.join", join, "edit/players", enabled=_are_several),
     Action(
         "players.separate",
         separate,
         "edit/players",
-        enabled=_double,
+        enabled=lambda session: any(player.doubles for player in _chosen(session)),
     ),
     Action(
         "players.remove",
-        remove,
+        newcomers.remove_players,
         "edit/players",
         "Del",
         "players",
@@ -208,78 +147,36 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "players.mute",
-        mute,
+        lambda session, on: newcomers.mark_players(session, "muted", on, session.players),
         "edit/players",
         "M",
         "players",
         enabled=_has_players,
-        checked=_is_muted,
+        checked=lambda session: session.player is not None and session.player.muted,
         icon="mute",
     ),
     Action(
         "players.solo",
-        solo,
+        lambda session, on: newcomers.mark_players(session, "soloed", on, session.players),
         "edit/players",
         "S",
         "players",
         enabled=_has_players,
-        checked=_is_soloed,
+        checked=lambda session: session.player is not None and session.player.soloed,
         icon="solo",
     ),
     Action(
         "players.hear_everyone",
         clear_mute_and_solo,
         "edit/players",
-        enabled=_is_quiet,
+        enabled=lambda session: any(player.muted or player.soloed for player in session.project.players),
         icon="sound",
     ),
-    Action(
-        "players.next",
-        partial(step, by=1),
-        "edit/players",
-        "Ctrl+PgDown",
-        enabled=_has_several,
-    ),
-    Action(
-        "players.previous",
-        partial(step, by=-1),
-        "edit/players",
-        "Ctrl+PgUp",
-        enabled=_has_several,
-    ),
-    Action(
-        "players.posture",
-        toggle_posture,
-        "edit/players",
-        enabled=_may_sit_or_stand,
-        icon="seated",
-    ),
-    Action(
-        "players.randomise",
-        randomise,
-        "edit/players",
-        enabled=_has_players,
-        icon="dice",
-    ),
-    Action(
-        "players.arrange",
-        arrange,
-        "edit/players",
-        enabled=_has_players,
-        icon="stage",
-    ),
-    Action(
-        "players.select_all",
-        select_all,
-        "edit/players",
-        "Ctrl+Shift+A",
-        enabled=_has_several,
-    ),
-    Action(
-        "players.reset",
-        reset,
-        "edit/players",
-        enabled=_has_players,
-        icon="reset",
-    ),
+    Action("players.next", partial(step, by=1), "edit/players", "Ctrl+PgDown", enabled=_has_several),
+    Action("players.previous", partial(step, by=-1), "edit/players", "Ctrl+PgUp", enabled=_has_several),
+    Action("players.posture", toggle_posture, "edit/players", enabled=_may_sit_or_stand, icon="seated"),
+    Action("players.randomise", newcomers.randomise_players, "edit/players", enabled=_has_players, icon="dice"),
+    Action("players.arrange", arrange, "edit/players", enabled=_has_players, icon="stage"),
+    Action("players.select_all", select_all, "edit/players", "Ctrl+Shift+A", enabled=_has_several),
+    Action("players.reset", newcomers.reset_players, "edit/players", enabled=_has_players, icon="reset"),
 )

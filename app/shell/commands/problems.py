@@ -52,18 +52,7 @@ def _has_problems(session: Session) -> bool:
 
 ACTIONS: tuple[Action, ...] = (
     Action(
-        "problems.next",
-        lambda session: go_to_problem(session, 1),
-        "view",
-        "F8",
-        enabled=_has_problems,
-        icon="problem",
+        "problems.next", lambda session: go_to_problem(session, 1), "view", "F8", enabled=_has_problems, icon="problem"
     ),
-    Action(
-        "problems.previous",
-        lambda session: go_to_problem(session, -1),
-        "view",
-        "Shift+F8",
-        enabled=_has_problems,
-    ),
+    Action("problems.previous", lambda session: go_to_problem(session, -1), "view", "Shift+F8", enabled=_has_problems),
 )

@@ -70,10 +70,6 @@ def _can_record(session: Session) -> bool:
     return session.playback is not None and session.player is not None
 
 
-def _is_armed(session: Session) -> bool:
-    return session.player is not None and session.recording.armed == session.player.id
-
-
 ACTIONS: tuple[Action | EditorAction, ...] = (
     EditorAction(
         "record.toggle",
@@ -88,7 +84,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         arm,
         "record",
         enabled=_can_record,
-        checked=_is_armed,
+        checked=lambda session: session.player is not None and session.recording.armed == session.player.id,
     ),
     Action(
         "record.punch",
@@ -100,17 +96,6 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     _count_in("record.count_in_0", 0),
     _count_in("record.count_in_1", 1),
     _count_in("record.count_in_2", 2),
-    EditorAction(
-        "record.devices",
-        devices,
-        "record",
-        icon="settings",
-    ),
-    EditorAction(
-        "record.latency",
-        latency,
-        "record",
-        enabled=_has_device,
-        icon="clock",
-    ),
+    EditorAction("record.devices", devices, "record", icon="settings"),
+    EditorAction("record.latency", latency, "record", enabled=_has_device, icon="clock"),
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 
 from app.editor.listening import RecordedTake
@@ -72,37 +73,34 @@ def before(session: Session) -> None:
         session.attempt(Message("edit.comp_before"), lambda project: edit.comp(project, player.id, BEFORE, *span))
 
 
-def remove(session: Session) -> None:
-    """Throw the selected take away; what the part has of it stays."""
+def _change(session: Session, id: str, change: Callable[..., Project], *values: object) -> bool:
+    """Change the selected take, if there is one; whether that was done."""
     chosen = _chosen(session)
     if chosen is None:
-        return
+        return False
     player, take = chosen
-    name = Message("edit.remove_take", {"take": take.name})
-    if session.attempt(name, lambda project: edit.remove_take(project, player.id, take.id)):
+    return session.attempt(
+        Message(id, {"take": take.name}), lambda project: change(project, player.id, take.id, *values)
+    )
+
+
+def remove(session: Session) -> None:
+    """Throw the selected take away; what the part has of it stays."""
+    if _change(session, "edit.remove_take", edit.remove_take):
         session.select(Selection())
 
 
 def move(session: Session, by: int) -> None:
     """Put the selected take above the one above it (-1), or below the one below it (1)."""
     chosen = _chosen(session)
-    if chosen is None:
-        return
-    player, take = chosen
-    place = _takes(session).index(take) + by
-    target = place if by < 0 else place + 1
-    name = Message("edit.move_take", {"take": take.name})
-    session.attempt(name, lambda project: edit.move_take(project, player.id, take.id, target))
+    if chosen is not None:
+        place = _takes(session).index(chosen[1]) + by
+        _change(session, "edit.move_take", edit.move_take, place if by < 0 else place + 1)
 
 
 def usual_cleaning(session: Session) -> None:
     """Clean the selected take as every take is cleaned at first."""
-    chosen = _chosen(session)
-    if chosen is None:
-        return
-    player, take = chosen
-    name = Message("edit.clean_take", {"take": take.name})
-    session.attempt(name, lambda project: edit.set_cleaning(project, player.id, take.id, Cleaning()))
+    _change(session, "edit.clean_take", edit.set_cleaning, Cleaning())
 
 
 def find_beats(session: Session) -> None:
@@ -158,30 +156,19 @@ def _can_step(session: Session) -> bool:
     return _has_takes(session) and session.timeline_view is not None and session.selection.span is not None
 
 
+def _may_move(session: Session, edge: int) -> bool:
+    """Whether the selected take is not yet the first (0) or the last (-1)."""
+    chosen = _chosen(session)
+    return chosen is not None and chosen[1] is not _takes(session)[edge]
+
+
 def _is_cleaned_otherwise(session: Session) -> bool:
     chosen = _chosen(session)
     return chosen is not None and chosen[1].cleaning != Cleaning()
 
 
-def _may_rise(session: Session) -> bool:
-    chosen = _chosen(session)
-    return chosen is not None and chosen[1] is not _takes(session)[0]
-
-
-def _may_sink(session: Session) -> bool:
-    chosen = _chosen(session)
-    return chosen is not None and chosen[1] is not _takes(session)[-1]
-
-
 ACTIONS: tuple[Action | EditorAction, ...] = (
-    EditorAction(
-        "takes.listen",
-        listen,
-        "record/takes",
-        "Ctrl+L",
-        enabled=_can_listen,
-        icon="play",
-    ),
+    EditorAction("takes.listen", listen, "record/takes", "Ctrl+L", enabled=_can_listen, icon="play"),
     EditorAction(
         "takes.listen_alone",
         partial(listen, alone=True),
@@ -190,13 +177,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=_can_listen,
         icon="solo",
     ),
-    Action(
-        "takes.whole",
-        whole,
-        "record/takes",
-        enabled=_has_row,
-        icon="check",
-    ),
+    Action("takes.whole", whole, "record/takes", enabled=_has_row, icon="check"),
     Action(
         "takes.above",
         on_timeline(lambda view: view.step_take(-1)),
@@ -215,13 +196,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=_can_step,
         icon="chevron_down",
     ),
-    Action(
-        "takes.before",
-        before,
-        "record/takes",
-        enabled=_has_takes,
-        icon="history",
-    ),
+    Action("takes.before", before, "record/takes", enabled=_has_takes, icon="history"),
     Action(
         "takes.rename",
         on_timeline(lambda view: view.ask_take_name()),
@@ -231,37 +206,9 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=_has_chosen,
         icon="pencil",
     ),
-    Action(
-        "takes.earlier_lane",
-        partial(move, by=-1),
-        "record/takes",
-        enabled=_may_rise,
-    ),
-    Action(
-        "takes.later_lane",
-        partial(move, by=1),
-        "record/takes",
-        enabled=_may_sink,
-    ),
-    Action(
-        "takes.usual_cleaning",
-        usual_cleaning,
-        "record/takes",
-        enabled=_is_cleaned_otherwise,
-        icon="reset",
-    ),
-    Action(
-        "takes.find_beats",
-        find_beats,
-        "record/takes",
-        enabled=_has_chosen,
-        icon="tempo",
-    ),
-    Action(
-        "takes.remove",
-        remove,
-        "record/takes",
-        enabled=_has_chosen,
-        icon="delete",
-    ),
+    Action("takes.earlier_lane", partial(move, by=-1), "record/takes", enabled=lambda session: _may_move(session, 0)),
+    Action("takes.later_lane", partial(move, by=1), "record/takes", enabled=lambda session: _may_move(session, -1)),
+    Action("takes.usual_cleaning", usual_cleaning, "record/takes", enabled=_is_cleaned_otherwise, icon="reset"),
+    Action("takes.find_beats", find_beats, "record/takes", enabled=_has_chosen, icon="tempo"),
+    Action("takes.remove", remove, "record/takes", enabled=_has_chosen, icon="delete"),
 )

@@ -15,10 +15,6 @@ def _has_view(session: Session) -> bool:
     return session.timeline_view is not None
 
 
-def _can_zoom_to_selection(session: Session) -> bool:
-    return _has_view(session) and bool(session.selection)
-
-
 def _zoom(name: str, run: Callable[[TimelineView], None], keys: str) -> Action:
     return Action(f"timeline.{name}", on_timeline(run), "view", keys, enabled=_has_view, icon=name)
 
@@ -70,7 +66,7 @@ ACTIONS: tuple[Action, ...] = (
         "view",
         "Z",
         "timeline",
-        enabled=_can_zoom_to_selection,
+        enabled=lambda session: _has_view(session) and bool(session.selection),
         icon="zoom_selection",
     ),
     _shown(Ghosts.GHOSTS, "ghosts"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from operator import is_
 
 import numpy as np
@@ -11,19 +11,11 @@ from PySide6.QtCore import QPoint, QPointF, QRectF
 from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
-from app.editor.selection import EventKey, Selection
+from app.editor.additions import add_cues, add_expressions, add_gestures
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import GestureEvent, PlayerPlan
-from app.project.edit.events import (
-    GESTURE_KINDS,
-    Edited,
-    GestureKind,
-    add_cue,
-    add_expression,
-    add_gesture,
-    set_expression,
-)
+from app.project.edit.events import GESTURE_KINDS, set_expression
 from app.project.edit.found_events import event_id_of
 from app.project.edit.generation import variations
 from app.project.model import Project
@@ -312,23 +304,23 @@ class ActingLane(RegionLane):
             self._add_cue(mouse)
         elif kind == "expression":
             menu = passing_menu(self)
-            self._expression_entries(menu, lambda name: self._add_expression(name, mouse))
+            self._expression_entries(menu, lambda name: add_expressions(self.session, name, self._spans(mouse)))
             menu.popup(QPoint(*mouse.screen_px))
         else:
             for gesture in GESTURE_KINDS:
                 if gesture == kind:
-                    self._add_gesture(gesture, mouse)
+                    add_gestures(self.session, gesture, self._spans(mouse))
 
     def menu_entries(self, menu: QMenu, region: Region | None, mouse: LaneMouse) -> None:
         if region is not None and region.kind == "expression" and not region.removed:
             other = menu.addMenu(self.tr("acting_lane.another_expression"))
             self._expression_entries(other, self._choose_expression, region)
         adding = menu.addMenu(self.tr("acting_lane.add_expression_here"))
-        self._expression_entries(adding, lambda name: self._add_expression(name, mouse))
+        self._expression_entries(adding, lambda name: add_expressions(self.session, name, self._spans(mouse)))
         gestures = menu.addMenu(self.tr("acting_lane.add_gesture_here"))
         for kind in GESTURE_KINDS:
             entry = gestures.addAction(kind_name(kind))
-            entry.triggered.connect(lambda _=False, kind=kind: self._add_gesture(kind, mouse))
+            entry.triggered.connect(lambda _=False, kind=kind: add_gestures(self.session, kind, self._spans(mouse)))
         menu.addAction(self.tr("acting_lane.add_cue_here")).triggered.connect(lambda _=False: self._add_cue(mouse))
 
     def _expression_entries(self, menu: QMenu, chosen: Callable[[str], None], now: Region | None = None) -> None:
@@ -353,41 +345,13 @@ class ActingLane(RegionLane):
 
         self.session.attempt(Message("edit.set_expression"), edit)
 
-    def _new_span(self, mouse: LaneMouse) -> tuple[int, int]:
+    def _spans(self, mouse: LaneMouse) -> list[tuple[PlayerPlan, int, int]]:
+        """Where a new event of the player in front is."""
         start = self.snap(mouse.tick, mouse)
-        return start, start + NEW_BEATS * self.session.project.metre_map.felt_ticks_at(start)
+        end = start + NEW_BEATS * self.session.project.metre_map.felt_ticks_at(start)
+        plan = self.session.plan
+        return [] if plan is None else [(plan, start, end)]
 
     def _add_cue(self, mouse: LaneMouse) -> None:
-        self._add(Message("edit.add_cue"), lambda project, plan: add_cue(project, plan, round(mouse.tick)))
-
-    def _add_expression(self, name: str, mouse: LaneMouse) -> None:
-        face = self.session.performance.expressions[name]
-        self._add(
-            Message("edit.add_expression"),
-            lambda project, plan: add_expression(
-                project, plan.player_id, name, *self._new_span(mouse), 1.0, face.fade_in_s, face.fade_out_s
-            ),
-        )
-
-    def _add_gesture(self, kind: GestureKind, mouse: LaneMouse) -> None:
-        amount = 1.0 if kind == "lower_instrument" else 0.5
-        self._add(
-            Message("edit.add_gesture"),
-            lambda project, plan: add_gesture(project, plan.player_id, kind, *self._new_span(mouse), amount),
-        )
-
-    def _add(self, name: Message, edit: Callable[[Project, PlayerPlan], Edited]) -> None:
-        """Add an event for the player in front, and select it."""
-        player = self.session.player
-        plan = self.plan_of(player) if player is not None else None
-        if plan is None:
-            return
-        ids: Sequence[str] = ()
-
-        def whole(project: Project) -> Project:
-            nonlocal ids
-            project, ids = edit(project, plan)
-            return project
-
-        if self.session.attempt(name, whole):
-            self.session.select(Selection(events=frozenset(EventKey(plan.player_id, event_id) for event_id in ids)))
+        plan = self.session.plan
+        add_cues(self.session, [] if plan is None else [(plan, round(mouse.tick))])

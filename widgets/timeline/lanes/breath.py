@@ -6,12 +6,11 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QMenu, QWidget
 
-from app.editor.selection import EventKey, Selection
+from app.editor.additions import add_breaths
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import PlayerPlan
-from app.project.edit.events import add_breath, toggle_preparation
-from app.project.model import Project
+from app.project.edit.events import toggle_preparation
 from widgets.common.event_names import kind_name
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_mark, draw_text, shade
@@ -100,27 +99,15 @@ class BreathLane(RegionLane):
         return "\n".join(lines)
 
     def add_at(self, mouse: LaneMouse) -> None:
-        player = self.session.player
-        plan = self.plan_of(player) if player is not None else None
-        if plan is None:
-            return
-        ids: list[str] = []
-
-        def edit(project: Project) -> Project:
-            made = add_breath(project, plan, round(mouse.tick))
-            ids.extend(made.event_ids)
-            return made.project
-
-        if self.session.attempt(Message("edit.add_breath"), edit):
-            self.session.select(Selection(events=frozenset(EventKey(plan.player_id, event_id) for event_id in ids)))
+        plan = self.session.plan
+        add_breaths(self.session, [] if plan is None else [(plan, round(mouse.tick))])
 
     def menu_entries(self, menu: QMenu, region: Region | None, mouse: LaneMouse) -> None:
         menu.addAction(self.tr("breath_lane.add_breath_here")).triggered.connect(lambda _=False: self.add_at(mouse))
         if region is None or (region.removed and region.kind == "breath"):
             return
         note_id = region.event_id.split(":", 1)[1]
-        player = self.session.project.player(region.player_id)
-        plan = self.plan_of(player)
+        plan = self.session.plans.get(region.player_id)
         if plan is None:
             return
         has = any(event.id == f"preparation:{note_id}" for event in plan.breaths)

@@ -171,7 +171,7 @@ class CurvesLane(Lane):
     def refresh(self) -> None:
         """Show the plan and the part of the player in front, where they are others."""
         player, project = self.session.player, self.session.project
-        plan = self.plan_of(player) if player is not None else None
+        plan = self.session.plan
         part = project.part(player) if player is not None else None
         if part is not self._part:
             self._part = part
@@ -255,10 +255,8 @@ class CurvesLane(Lane):
         left = self.axis.x_px(event.start_s)
         middle = self.plot_rect.height() / 2
         name = self.curve_name(self.curve)
-        self.number.open(QRectF(left, middle, 1.0, 1.0), self.value_of(event), 2, self._set_values, name)
-
-    def _set_values(self, value: float) -> None:
-        self._change_values(lambda _: value)
+        box = QRectF(left, middle, 1.0, 1.0)
+        self.number.open(box, self.value_of(event), 2, lambda value: self._change_values(lambda _: value), name)
 
     def _change_values(self, change: Callable[[EmbouchureEvent], float]) -> None:
         """Give the chosen curve another value at all selected notes."""

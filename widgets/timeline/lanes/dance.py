@@ -56,7 +56,9 @@ class DanceLane(RowLane):
         self._selected_at: tuple[str, int] | None = None
         self.moving: MoveStep | None = None
         self._shown_of: Performance | None = None
-        self._names = RowNames(self, self._row_names)
+        self._names = RowNames(
+            self, lambda: [(dancer.name, self.row_rect(at).center().y()) for at, dancer in enumerate(self.dancers)]
+        )
         DancesItem(self)
         self.retranslate()
         self._rows_changed()
@@ -134,9 +136,6 @@ class DanceLane(RowLane):
         self.update_items()
 
     # Where rows lie
-
-    def _row_names(self) -> Sequence[tuple[str, float]]:
-        return [(dancer.name, self.row_rect(at).center().y()) for at, dancer in enumerate(self.dancers)]
 
     def count_rows(self) -> int:
         return len(self.dancers)

@@ -131,12 +131,7 @@ class DancesItem(LaneItem[DancesView]):
         draw_figures(painter, placed(drawn, middles, box.bottom() - 2.0, height), QColor(colour), 1.5, height)
 
     def _paint_marks(
-        self,
-        painter: QPainter,
-        box: QRectF,
-        dance: DanceSteps,
-        here: npt.NDArray[np.int64],
-        selected: int | None,
+        self, painter: QPainter, box: QRectF, dance: DanceSteps, here: npt.NDArray[np.int64], selected: int | None
     ) -> None:
         tokens, axis = self.lane.session.tokens, self.lane.axis
         for at in here.tolist():

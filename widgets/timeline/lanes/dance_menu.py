@@ -41,9 +41,6 @@ class DanceMenu(QMenu):
 
     Parameters
     ----------
-    lane : Dances
-    parent : QWidget
-    dancer_id : str
     number : int
         Of the step.
     """

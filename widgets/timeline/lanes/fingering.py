@@ -21,14 +21,7 @@ from widgets.common.fingering_text import short_label
 from widgets.common.menus import add_actions
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.drawing import (
-    draw_mark,
-    draw_path,
-    draw_rects,
-    draw_text,
-    shade,
-    small_font,
-)
+from widgets.timeline.drawing import draw_mark, draw_path, draw_rects, draw_text, shade, small_font
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.alternates import Alternates
 from widgets.timeline.lanes.problems import ProblemMarks
@@ -206,7 +199,7 @@ class FingeringLane(Lane):
     def refresh(self) -> None:
         """Show the plan of the player in front, if it is another."""
         player = self.session.player
-        plan = self.plan_of(player) if player is not None else None
+        plan = self.session.plan
         if plan is self._plan and plan is not None:
             return
         if plan is None and player is not None and self._plan is not None and self._plan.player_id == player.id:

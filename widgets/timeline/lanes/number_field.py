@@ -16,12 +16,7 @@ WIDTH_PX = 84
 
 
 class NumberField(QLineEdit):
-    """A field over the plot: Enter takes the number, Escape or a press elsewhere leaves everything as it was.
-
-    Parameters
-    ----------
-    lane : Lane
-    """
+    """A field over the plot: Enter takes the number, Escape or a press elsewhere leaves everything as it was."""
 
     def __init__(self, lane: Lane) -> None:
         super().__init__(lane.plot)

@@ -27,7 +27,6 @@ class ProblemMarks(LaneItem[Lane]):
 
     Parameters
     ----------
-    lane : Lane
     rooms : tuple of str
         First parts of the ids of the messages that belong to the lane.
     """
@@ -126,7 +125,7 @@ class ProblemsLane(Lane):
     def refresh(self) -> None:
         """Show the problems of the player in front."""
         player = self.session.player
-        if player is not None and player.id == self._player_id and self.plan_of(player) is None:
+        if player is not None and player.id == self._player_id and self.session.plan is None:
             # Problems of players that are being planned again stay until the plans are there.
             return
         problems = self.session.problems(player.id) if player is not None else ()

@@ -182,7 +182,7 @@ class RegionLane(Lane):
     def refresh(self) -> None:
         """Make the regions anew if anything they show is another value."""
         player = self.session.player
-        plan = self.plan_of(player) if player is not None else None
+        plan = self.session.plan
         project = self.session.project
         if plan is None and player is not None and self._made_for and self._made_for[-2] == player.id:
             # New plans are on their way: what is shown stays until they are there.
@@ -315,7 +315,7 @@ class RegionLane(Lane):
             region = self._table.by_key.get(key)
             if region is not None and not region.removed and not region.steady:
                 requested[key.player_id][key.event_id] = change(region)
-        plans = self.session.performance.plans if self.session.performance.planned else {}
+        plans = self.session.plans
 
         def edit(project: Project) -> Project:
             for player_id, amounts in requested.items():

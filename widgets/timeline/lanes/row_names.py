@@ -20,7 +20,6 @@ class RowNames(QWidget):
 
     Parameters
     ----------
-    lane : Lane
     names : callable
         Gives words and the heights of their middles, pixels of the plot, from the top.
     """

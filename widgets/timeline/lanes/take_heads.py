@@ -52,10 +52,6 @@ class Headed(TakesView, Protocol):
 class TakeHeads(QWidget):
     """Beside the rows, in the lane's header.
 
-    Parameters
-    ----------
-    lane : Headed
-
     Attributes
     ----------
     dropped_before : int or None

@@ -79,10 +79,6 @@ class DragCurve(Gesture):
 
     Parameters
     ----------
-    session : Editing
-    origin : object
-    at : LaneMouse
-    player_id, curve : str
     starts : mapping of str to float
         The values at the press, by note.
     height_px : float

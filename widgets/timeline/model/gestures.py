@@ -1,6 +1,5 @@
 """What every press on ruler, roll and lanes has in common: a gesture begins once the mouse has gone far enough, follows
-it, and ends in one step of undo, or leaves nothing behind.
-"""
+it, and ends in one step of undo, or leaves nothing behind."""
 
 from __future__ import annotations
 
@@ -90,7 +89,6 @@ class Step:
 
     Parameters
     ----------
-    session : Editing
     origin : object
         Who edits; it skips its own echo.
     """
@@ -188,9 +186,6 @@ class Band(Gesture):
 
     Parameters
     ----------
-    plane : Plane
-    at : LaneMouse
-    far : Far
     take : callable
         Selects what is in a box between the press and a place.
 

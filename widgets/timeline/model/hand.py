@@ -47,7 +47,6 @@ class LaneMouse:
     ----------
     x_px, y_px : float
         From the upper left corner of the plot.
-    time_s : float
     value : float
         On the lane's own vertical scale.
     tick : float

@@ -58,11 +58,8 @@ def visible_lines(score: Score, grid: Grid, start_s: float, end_s: float, px_per
 
     Parameters
     ----------
-    score : Score
     grid : Grid
         Its steps show where there is room for them and it is on.
-    start_s, end_s : float
-    px_per_s : float
     """
     tempo, metre_map = score.tempo_map, score.metre_map
     first = metre_map.bar_of_tick(int(np.floor(tempo.ticks(start_s))))

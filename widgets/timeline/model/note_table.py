@@ -37,13 +37,7 @@ class Sounding:
 
 
 class NoteTable(Sounding):
-    """Arrays with an entry for every note of a part, ordered by onset.
-
-    Parameters
-    ----------
-    part : Part
-    tempo : TempoMap
-    """
+    """Arrays with an entry for every note of a part, ordered by onset."""
 
     def __init__(self, part: Part, tempo: TempoMap) -> None:
         self.part = part
@@ -98,10 +92,6 @@ class NoteTable(Sounding):
 class Together(Sounding):
     """The notes of several tables as one: what is visible of fifty players is found at once.
 
-    Parameters
-    ----------
-    tables : sequence of NoteTable
-
     Attributes
     ----------
     owner : array (N,)
@@ -125,7 +115,6 @@ class Behind:
 
     Parameters
     ----------
-    tables : sequence of NoteTable
     colours : sequence of str
         For each table.
     before : Behind, optional

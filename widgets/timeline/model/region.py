@@ -23,7 +23,6 @@ class Region(msgspec.Struct):
         Counted from the top.
     amount : float
         0..1, or -1..1 where it is ``signed``.
-    reason : Message or None
     fades, fades_outside : bool
         Whether it comes and goes by fades that can be dragged; whether they lie before its start and after its end
         instead of within.

@@ -43,12 +43,10 @@ class RegionDrag(Gesture):
 
     Parameters
     ----------
-    lane : RegionPlane
     region : Region or None
         What is under the mouse.
     zone : str
         Which part of it.
-    mouse : LaneMouse
     before : Selection
         The selection before the press.
 
@@ -61,7 +59,6 @@ class RegionDrag(Gesture):
         How the dragged regions will be, for as long as no plan shows it.
     hidden : frozenset of EventKey
         What the plan shows that the preview stands for.
-    lasso : Box or None
     """
 
     def __init__(

@@ -32,10 +32,8 @@ class RollGesture(Gesture):
 
     Parameters
     ----------
-    roll : RollPlane
     mouse : LaneMouse
         The press.
-    far : Far, optional
 
     Attributes
     ----------

@@ -85,13 +85,10 @@ def lay_marks(
 
     Parameters
     ----------
-    score : Score
     axis : Scale
         Its pixels count from ``left_px``.
-    metrics : Metrics
     left_px, right_px : float
         Between these there is room.
-    height_px : float
     """
     metres, bpm = score.metres, score.tempo_map.bpm
     texts: dict[str, Callable[[int], str]] = {

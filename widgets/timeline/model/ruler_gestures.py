@@ -1,6 +1,5 @@
 """What a press on the ruler becomes: a span is selected, an edge of the loop or of the punch, the playhead or a mark is
-dragged.
-"""
+dragged."""
 
 from __future__ import annotations
 
@@ -54,9 +53,6 @@ class HoldEdge(Gesture):
 
     Parameters
     ----------
-    at : LaneMouse
-    far : Far
-    at_start : bool
     span : callable
         What the span is now; None: none.
     put : callable

@@ -1,0 +1,65 @@
+"""Adding events: what is added in one step, by a command or with the mouse, is selected then."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from typing import TypeAlias
+
+from app.editor.selection import EventKey, Selection
+from app.editor.session import Session
+from app.errors import Message
+from app.plan.model import PlayerPlan
+from app.project.edit import events as edit
+from app.project.edit.events import Edited, GestureKind
+from app.project.model import Project
+
+Addition: TypeAlias = tuple[PlayerPlan, Callable[[Project], Edited]]
+"""Whose plan it is, and the edit."""
+Places: TypeAlias = Iterable[tuple[PlayerPlan, int]]
+"""Whose event it is, and its tick."""
+Spans: TypeAlias = Iterable[tuple[PlayerPlan, int, int]]
+"""Whose event it is, and its ticks."""
+
+
+def add_breaths(session: Session, places: Places) -> None:
+    """Add a breath before the first note from each place on."""
+    _add(session, "edit.add_breath", [(plan, partial(edit.add_breath, plan=plan, tick=tick)) for plan, tick in places])
+
+
+def add_cues(session: Session, places: Places) -> None:
+    """Add a cue to the first entry from each place on."""
+    _add(session, "edit.add_cue", [(plan, partial(edit.add_cue, plan=plan, tick=tick)) for plan, tick in places])
+
+
+def add_gestures(session: Session, kind: GestureKind, spans: Spans) -> None:
+    """Add a gesture over each span."""
+    amount = 1.0 if kind == "lower_instrument" else 0.5
+    add = partial(edit.add_gesture, kind=kind, amount=amount)
+    made = [
+        (plan, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end)) for plan, start, end in spans
+    ]
+    _add(session, "edit.add_gesture", made)
+
+
+def add_expressions(session: Session, name: str, spans: Spans) -> None:
+    """Add an expression of full strength, with its own fades, over each span."""
+    face = session.performance.expressions[name]
+    add = partial(edit.add_expression, expression=name, fade_in_s=face.fade_in_s, fade_out_s=face.fade_out_s)
+    made = [
+        (plan, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end)) for plan, start, end in spans
+    ]
+    _add(session, "edit.add_expression", made)
+
+
+def _add(session: Session, id: str, additions: Sequence[Addition]) -> None:
+    keys: set[EventKey] = set()
+
+    def whole(project: Project) -> Project:
+        for plan, add in additions:
+            project, event_ids = add(project)
+            keys.update(EventKey(plan.player_id, event_id) for event_id in event_ids)
+        return project
+
+    if additions and session.attempt(Message(id), whole):
+        session.select(Selection(events=frozenset(keys)))
