@@ -469,8 +469,7 @@ def test_more_notes_at_once_than_any_section_plays_are_left_out() -> None:
         "part": score.parts[0].name,
         "most": MOST_VOICES,
         "count": 4,
-        "bar": 1,
-        "beat": 1.0,
+        "place": "1.1.000",
         "pitch": 50,
     }
 
