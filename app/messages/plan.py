@@ -228,8 +228,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "need {air_s:g} s of air, but {lung_s:g} s are available, and no note is long enough to shorten"
         ),
         (
-            "音符 {after_note} を除外した息継ぎ: 休符でブレスできない {phrase_s:g} 秒に {air_s:g} 秒分の息が必要ですが、"
-            "{lung_s:g} 秒分しかありません。短くできる長さの音もありません"
+            "音符 {after_note} を除外した息継ぎ: 休符でブレスできない {phrase_s:g} 秒に {air_s:g} "
+            "秒分の息が必要ですが、{lung_s:g} 秒分しかありません。短くできる長さの音もありません"
         ),
     ),
     "breath.catch_dropped_two": (

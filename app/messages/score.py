@@ -141,6 +141,18 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ),
         "トラック {track} に不正なテンポが {count} 個あるため（最初はティック {tick}）、無視しました",
     ),
+    "midi.no_notes": (
+        "the file has no notes in {tracks} {tracks:track|tracks}, so there are no players",
+        "ファイルの {tracks} トラックに音符が 1 つもないため、奏者がいません",
+    ),
+    "midi.track_without_notes": (
+        "track {track} ({name}) has no notes and {count} other {count:event|events}",
+        "トラック {track}（{name}）には音符がなく、ほかのイベントが {count} 個あります",
+    ),
+    "midi.unnamed_track_without_notes": (
+        "track {track} has no notes and {count} other {count:event|events}",
+        "トラック {track} には音符がなく、ほかのイベントが {count} 個あります",
+    ),
     # MIDI files that were written, and what they cannot hold
     "midi.written": ("{file} saved: {count} {count:track|tracks}", "{file} を保存しました（{count} トラック）"),
     "midi.written_but": (
@@ -274,7 +286,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "slurred, the first in {part} at {place} ({pitch})"
         ),
         (
-            "{count} 音が次の音に重なるため、スラーとして次の音の始まりまで縮めました（最初は {part} の {place} の {pitch}）"
+            "{count} 音が次の音に重なるため、スラーとして次の音の始まりまで縮めました（最初は {part} の "
+            "{place} の {pitch}）"
         ),
     ),
     "score.key_switches": (
