@@ -65,6 +65,8 @@ class Files(QObject):
         There is unsaved work on the file that was just opened.
     missing(Path)
         The recording of the project that was just opened is not where it was.
+    silent(Path)
+        A MIDI file was opened in which no one plays or dances.
     overtaken(Path, Then or None)
         The project was not saved: its file was changed outside since it was opened. `save_over` would replace that.
     """
@@ -73,6 +75,7 @@ class Files(QObject):
     opened = Signal()
     found = Signal(object)
     missing = Signal(object)
+    silent = Signal(object)
     overtaken = Signal(object, object)
 
     def __init__(
@@ -260,6 +263,8 @@ class Files(QObject):
             for warning in project.score.warnings[:1]:
                 self.session.notice(warning, Severity.WARNING)
             self.changed.emit()
+            if not project.players and not project.dancers:
+                self.silent.emit(path)
 
         self.session.tasks.run(Message("work.open"), read, asked, self._failed(path), key="open")
 

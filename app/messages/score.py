@@ -142,8 +142,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "トラック {track} に不正なテンポが {count} 個あるため（最初はティック {tick}）、無視しました",
     ),
     "midi.no_notes": (
-        "the file has no notes in {tracks} {tracks:track|tracks}, so there are no players",
-        "ファイルの {tracks} トラックに音符が 1 つもないため、奏者がいません",
+        "the file has {tracks} {tracks:track|tracks} and no notes",
+        "ファイルに音符がありません（{tracks} トラック）",
     ),
     "midi.track_without_notes": (
         "track {track} ({name}) has no notes and {count} other {count:event|events}",

@@ -37,6 +37,7 @@ from widgets.common.icons import icon
 from widgets.common.layouts import in_column, panel
 from widgets.common.paths import dropped_paths
 from widgets.common.plain import verbatim, verbatim_title
+from widgets.common.text import message_text, sentence
 from widgets.inspector.panel import InspectorPanel
 from widgets.players.panel import PlayersPanel
 from widgets.timeline.panel import TimelinePanel
@@ -53,6 +54,8 @@ TIMELINE_SHARE: Final = 0.52
 """Of the window's height: the work is done there; what is left shows the players."""
 SHORT_PX: Final = 880
 """In a window lower than this the inspector has the whole height: above the timeline it could show two rows."""
+_REASONS: Final = 4
+"""Where no one plays, so many reasons are shown."""
 SIDES: Final = {
     "players": Qt.DockWidgetArea.LeftDockWidgetArea,
     "inspector": Qt.DockWidgetArea.RightDockWidgetArea,
@@ -168,6 +171,7 @@ class Window(Retranslated, QMainWindow):
         self._files.opened.connect(self._show_page)
         self._files.found.connect(self._offer_recovery)
         self._files.missing.connect(self._ask_for_media)
+        self._files.silent.connect(self._say_why_no_one_plays)
         self._files.overtaken.connect(self._ask_to_save_over)
         self.session.theme_changed.connect(self._apply_theme)
         picture = self.viewport.findChild(QOpenGLWidget)
@@ -337,6 +341,23 @@ class Window(Retranslated, QMainWindow):
             ),
             (partial(self._find_media, path), self._remove_media),
         )
+
+    def _say_why_no_one_plays(self, path: Path) -> None:
+        score = self.session.project.score
+
+        def why() -> str:
+            lines = [self.tr("window.has_no_players").format(name=shown(path.name))]
+            lines += [sentence(message) for message in score.warnings[:_REASONS] if not score.unplayed]
+            line = self.tr("import_dialog.is_not_played")
+            lines += [
+                line.format(name=part.name, reason=message_text(part.reason)) for part in score.unplayed[:_REASONS]
+            ]
+            return "\n".join([*lines, *["…"] * (len(score.unplayed) > _REASONS)])
+
+        another = (self.tr("window.open_another_file"), self._table.actions["file.open"].trigger)
+        again = (self.tr("window.assign_tracks"), partial(self._files.open, path))
+        answers = (again, another) if score.unplayed else (another,)
+        self.banner.ask(lambda: (why(), tuple(text for text, _ in answers)), tuple(run for _, run in answers))
 
     def _ask_to_save_over(self, path: Path, then: Callable[[], None] | None) -> None:
         self.banner.ask(
