@@ -256,9 +256,9 @@ class Files(QObject):
 
         def done(project: Project) -> None:
             self._become(project, None)
-            self.settings.folder = str(path.parent)
-            # The bundled example is offered by itself; it is no file of this user's.
+            # The bundled example is offered by itself; it is no file of this user's, and nothing is written beside it.
             if not path.is_relative_to(Path(str(files("resources")))):
+                self.settings.folder = str(path.parent)
                 self.settings.add_recent(path)
             for warning in project.score.warnings[:1]:
                 self.session.notice(warning, Severity.WARNING)
