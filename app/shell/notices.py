@@ -66,7 +66,8 @@ class NoticeList(QFrame):
         policy = show.sizePolicy()
         policy.setRetainSizeWhenHidden(True)
         show.setSizePolicy(policy)
-        show.setVisible(folder is not None)
+        if folder is None:
+            show.hide()
         return panel(in_row((mark, 0, Qt.AlignmentFlag.AlignTop), (text, 1), show, margins=0))
 
     def _show(self, folder: Path | None) -> None:
