@@ -55,7 +55,7 @@ def run(arguments: Sequence[str]) -> int:
     """Run with these arguments (without the program's own name) and return the exit status."""
     from app.cli import main as command_line
     from app.cli import parser
-    from app.cli.display import why_no_display
+    from app.cli.display import example_hint, why_no_display
     from app.cli.status import BAD_USE, NO_DISPLAY
     from app.cli.terminal import warn
 
@@ -71,6 +71,8 @@ def run(arguments: Sequence[str]) -> int:
     reason = why_no_display()
     if reason is not None:
         warn(reason)
+        if parsed.file is None:
+            warn(example_hint())
         return NO_DISPLAY
     return edit(parsed)
 

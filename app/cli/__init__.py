@@ -11,7 +11,7 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Sequence
-from typing import NoReturn
+from typing import Final, NoReturn
 
 import app.cli.characters
 import app.cli.choreography
@@ -111,10 +111,14 @@ def main(arguments: Sequence[str]) -> int:
     return DONE if status is None else status
 
 
+_OTHERWISE_PLACED: Final = frozenset({"file", "folder", "host"})
+"""Arguments of messages that say themselves what they are about."""
+
+
 def _with_file(error: AppError, parsed: argparse.Namespace) -> str:
     """What is wrong with the input, and with which file, also where the room that found out knows no files."""
     sentence = error_text(error)
-    if "file" in error.message.arguments or "file" not in parsed:
+    if "file" not in parsed or not _OTHERWISE_PLACED.isdisjoint(error.message.arguments):
         return sentence
     return f"{shown(parsed.file)}: {sentence}"
 

@@ -26,7 +26,7 @@ def requested_bars(performance: Performance, arguments: argparse.Namespace) -> t
     Raises
     ------
     UsageError
-        ``bars.none``: the piece does not have them, or they are in the wrong order.
+        ``bars.no_bar``: the piece does not have one of them; ``bars.order``: they are in the wrong order.
     """
     if arguments.from_bar is None and arguments.to_bar is None:
         return None
@@ -35,13 +35,16 @@ def requested_bars(performance: Performance, arguments: argparse.Namespace) -> t
     highest = score.last_bar
     first = lowest if arguments.from_bar is None else arguments.from_bar
     last = highest if arguments.to_bar is None else arguments.to_bar
-    if not lowest <= first <= last <= highest:
-        raise UsageError("bars.none", first=first, last=last, lowest=lowest, highest=highest)
+    for bar in (arguments.from_bar, arguments.to_bar):
+        if bar is not None and not lowest <= bar <= highest:
+            raise UsageError("bars.no_bar", number=bar, lowest=lowest, highest=highest)
+    if first > last:
+        raise UsageError("bars.order", first=first, last=last)
     return first, last
 
 
 def requested_span(performance: Performance, arguments: argparse.Namespace, fps: Fraction) -> FrameSpan:
-    """The frames of the bars with the pre-roll before them, or of everything. Raises UsageError (``bars.none``)."""
+    """The frames of the bars with the pre-roll before them, or of everything. Raises UsageError as `requested_bars`."""
     from app.performance.span import bars_span, whole_span
 
     bars = requested_bars(performance, arguments)

@@ -90,7 +90,7 @@ def list_characters(arguments: argparse.Namespace) -> None:
         return
     for row in rows:
         mark = "*" if row["own"] else ""
-        say(f"{row['id']}{mark}".ljust(28) + f" {row['title'] or row['id']}")
+        say(f"{row['id']}{mark}".ljust(28) + f" {row['title']}" if row["title"] else f"{row['id']}{mark}")
     say("", f"your own (*): {shown(known.folder)}")
     for problem in problems.values():
         say(f"  {problem}")

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import socket
 import sys
 from collections.abc import Mapping
+from importlib.resources import as_file, files
 from pathlib import Path
 from typing import Final
 
@@ -38,6 +40,13 @@ def why_no_display(
         return None
     asked = " and ".join(filter(None, (wayland, display)))
     return f"{what} needs a display, and none answers at {asked}. {instead}"
+
+
+def example_hint() -> str:
+    """What to type to see something on the disk, where the editor cannot show its example."""
+    with as_file(files("resources") / "examples" / "quartet.mid") as path:
+        command = f"suisou export {shlex.quote(str(path.absolute()))} --to out"
+    return f"to try the bundled quartet: {command}"
 
 
 def _wayland_socket(name: str, environment: Mapping[str, str]) -> Path:

@@ -62,6 +62,8 @@ class Files(QObject):
         There is unsaved work on the file that was just opened.
     missing(Path)
         The recording of the project that was just opened is not where it was.
+    silent(Path)
+        A MIDI file was opened in which no one plays or dances.
     overtaken(Path, Then or None)
         The project was not saved: its file was changed outside since it was opened. `save_over` would replace that.
     """
@@ -70,6 +72,7 @@ class Files(QObject):
     opened = Signal()
     found = Signal(object)
     missing = Signal(object)
+    silent = Signal(object)
     overtaken = Signal(object, object)
 
     def __init__(
@@ -250,13 +253,15 @@ class Files(QObject):
 
         def done(project: Project) -> None:
             self._become(project, None)
-            self.settings.folder = str(path.parent)
-            # The bundled example is offered by itself; it is no file of this user's.
+            # The bundled example is offered by itself; it is no file of this user's, and nothing is written beside it.
             if not path.is_relative_to(Path(str(files("resources")))):
+                self.settings.folder = str(path.parent)
                 self.settings.add_recent(path)
             for warning in project.score.warnings[:1]:
                 self.session.notice(warning, Severity.WARNING)
             self.changed.emit()
+            if not project.players and not project.dancers:
+                self.silent.emit(path)
 
         self.session.tasks.run(Message("work.open"), read, asked, self._failed(path), key="open")
 

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Final
 
 import msgspec
-from PySide6.QtCore import QObject, Qt, QTimer
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
 from app.audio.playback import Playback
 from app.capture.adopt import takes_of
@@ -103,7 +103,14 @@ class Recorder(QObject):
         The clock of the events.
     make_playback : callable
         Makes what plays a beep, or clicks, beside the performance.
+
+    Signals
+    -------
+    device_missing()
+        A take was to begin, and there is no device to record from.
     """
+
+    device_missing = Signal()
 
     def __init__(
         self,
@@ -311,6 +318,7 @@ class Recorder(QObject):
         self.begin()
         if state.connection != "open" or self._link is None:
             session.notice(Message("record.no_device"), Severity.WARNING)
+            self.device_missing.emit()
             return
         start_s = session.playhead_s
         if session.loop_s is not None and not session.loop_s[0] <= start_s < session.loop_s[1]:

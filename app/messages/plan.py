@@ -214,32 +214,33 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "breath.catch": (
         (
-            "catch breath after note {after_note}: {phrase_s:g} s since the last breath in a rest exceed the "
-            "{lung_s:g} s of air; the note is shortened by {from_note_ms:g} ms"
+            "catch breath after note {after_note}: {phrase_s:g} s without a breath in a rest need {air_s:g} s of air, "
+            "but {lung_s:g} s are available; the note is shortened by {from_note_ms:g} ms"
         ),
         (
-            "音符 {after_note} の後の息継ぎ: 休符でのブレスから {phrase_s:g} 秒続き、{lung_s:g} "
-            "秒分の息では足りません。その音を {from_note_ms:g} ms 短くします"
+            "音符 {after_note} の後の息継ぎ: 休符でブレスできない {phrase_s:g} 秒に {air_s:g} 秒分の息が必要ですが、"
+            "{lung_s:g} 秒分しかありません。その音を {from_note_ms:g} ms 短くします"
         ),
     ),
     "breath.catch_dropped": (
         (
-            "catch breath in place of note {after_note}, which is excluded: {phrase_s:g} s since the last breath "
-            "in a rest exceed the {lung_s:g} s of air, and no note is long enough to shorten"
+            "catch breath in place of note {after_note}, which is excluded: {phrase_s:g} s without a breath in a rest "
+            "need {air_s:g} s of air, but {lung_s:g} s are available, and no note is long enough to shorten"
         ),
         (
-            "音符 {after_note} を除外した息継ぎ: 休符でのブレスから {phrase_s:g} 秒続き、{lung_s:g} "
-            "秒分の息では足りません。短くできる長さの音もありません"
+            "音符 {after_note} を除外した息継ぎ: 休符でブレスできない {phrase_s:g} 秒に {air_s:g} "
+            "秒分の息が必要ですが、{lung_s:g} 秒分しかありません。短くできる長さの音もありません"
         ),
     ),
     "breath.catch_dropped_two": (
         (
-            "catch breath in place of notes {first_note} and {after_note}, which are excluded: {phrase_s:g} s since "
-            "the last breath in a rest exceed the {lung_s:g} s of air, and no note is long enough to shorten"
+            "catch breath in place of notes {first_note} and {after_note}, which are excluded: {phrase_s:g} s without "
+            "a breath in a rest need {air_s:g} s of air, but {lung_s:g} s are available, and no note is long enough "
+            "to shorten"
         ),
         (
-            "音符 {first_note} と {after_note} を除外した息継ぎ: 休符でのブレスから {phrase_s:g} 秒続き、{lung_s:g} "
-            "秒分の息では足りません。短くできる長さの音もありません"
+            "音符 {first_note} と {after_note} を除外した息継ぎ: 休符でブレスできない {phrase_s:g} 秒に {air_s:g} "
+            "秒分の息が必要ですが、{lung_s:g} 秒分しかありません。短くできる長さの音もありません"
         ),
     ),
     "breath.staggered": (

@@ -53,9 +53,13 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "player {player!r} was not found; choose one of: {possible}",
         "奏者 {player!r} が見つかりません。指定できるもの: {possible}",
     ),
-    "bars.none": (
-        "bars {first} to {last} do not exist; the piece has bars {lowest} to {highest}",
-        "{first} から {last} の小節はありません。この曲の小節は {lowest} から {highest} までです",
+    "bars.no_bar": (
+        "bar {number} does not exist; the piece has bars {lowest} to {highest}",
+        "{number} 小節はありません。この曲の小節は {lowest} から {highest} までです",
+    ),
+    "bars.order": (
+        "the first bar ({first}) is after the last bar ({last})",
+        "最初の小節（{first}）が最後の小節（{last}）より後にあります",
     ),
     "export.no_players": (
         "{file}: there are no players to export; 'suisou inspect' shows why each part is not played",

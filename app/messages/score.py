@@ -141,6 +141,18 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ),
         "トラック {track} に不正なテンポが {count} 個あるため（最初はティック {tick}）、無視しました",
     ),
+    "midi.no_notes": (
+        "the file has {tracks} {tracks:track|tracks} and no notes",
+        "ファイルに音符がありません（{tracks} トラック）",
+    ),
+    "midi.track_without_notes": (
+        "track {track} ({name}) has no notes and {count} other {count:event|events}",
+        "トラック {track}（{name}）には音符がなく、ほかのイベントが {count} 個あります",
+    ),
+    "midi.unnamed_track_without_notes": (
+        "track {track} has no notes and {count} other {count:event|events}",
+        "トラック {track} には音符がなく、ほかのイベントが {count} 個あります",
+    ),
     # MIDI files that were written, and what they cannot hold
     "midi.written": ("{file} saved: {count} {count:track|tracks}", "{file} を保存しました（{count} トラック）"),
     "midi.written_but": (
@@ -149,11 +161,11 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "midi.tempo_unwritable": (
         (
-            "bar {bar}: MIDI files support tempos of {low:g} to {high:g} quarter notes per minute, not {bpm:g}; "
+            "{place}: MIDI files support tempos of {low:g} to {high:g} quarter notes per minute, not {bpm:g}; "
             "change the tempo and export again"
         ),
         (
-            "小節 {bar}: MIDI ファイルのテンポは毎分 {low:g} から {high:g} 四分音符までで、{bpm:g} "
+            "{place}: MIDI ファイルのテンポは毎分 {low:g} から {high:g} 四分音符までで、{bpm:g} "
             "は保存できません。テンポを変更してからもう一度書き出してください"
         ),
     ),
@@ -222,21 +234,21 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "score.chosen_by_range_partly": (
         (
             "{part}: the instrument cannot be determined from name or program; {map} was chosen, but {outside} of "
-            "{total} notes are outside its range, the first at bar {bar}, beat {beat:g} ({pitch})"
+            "{total} notes are outside its range, the first at {place} ({pitch})"
         ),
         (
             "{part}: 名前やプログラム番号から楽器を判定できないため、{map} を選びましたが、{total} 音のうち "
-            "{outside} 音が音域外です（最初は {bar} 小節 {beat:g} 拍の {pitch}）"
+            "{outside} 音が音域外です（最初は {place} の {pitch}）"
         ),
     ),
     "score.looks_written": (
         (
-            "{part}: {outside} of {total} notes are outside the range of {map}, the first at bar {bar}, beat "
-            "{beat:g} ({pitch}), but all fit as written pitches; import this part as written pitch"
+            "{part}: {outside} of {total} notes are outside the range of {map}, the first at "
+            "{place} ({pitch}), but all fit as written pitches; import this part as written pitch"
         ),
         (
-            "{part}: {total} 音のうち {outside} 音が {map} の音域外ですが（最初は {bar} 小節 {beat:g} 拍の "
-            "{pitch}）、記譜音と見なすとすべて収まります。このパートを「記譜音」として読み込んでください"
+            "{part}: {total} 音のうち {outside} 音が {map} の音域外ですが（最初は {place} の {pitch}）、"
+            "記譜音と見なすとすべて収まります。このパートを「記譜音」として読み込んでください"
         ),
     ),
     "score.too_many_players": (
@@ -250,55 +262,46 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "score.notes_left_out": (
         (
             "{part}: split among the maximum of {most} players; {count} further overlapping {count:note was|notes "
-            "were} excluded, the first at bar {bar}, beat {beat:g} ({pitch})"
+            "were} excluded, the first at {place} ({pitch})"
         ),
-        (
-            "{part}: 上限の {most} 人で分担し、それ以上に重なる {count} 音を除外しました（最初は {bar} 小節 "
-            "{beat:g} 拍の {pitch}）"
-        ),
+        ("{part}: 上限の {most} 人で分担し、それ以上に重なる {count} 音を除外しました（最初は {place} の {pitch}）"),
     ),
     "score.doubling": (
-        (
-            "{part}: the player changes to {instrument} for {count} {count:note|notes}, the first at bar {bar}, "
-            "beat {beat:g} ({pitch})"
-        ),
-        ("{part}: 奏者が {count} 音を {instrument} に持ち替えて演奏します。最初は {bar} 小節 {beat:g} 拍目（{pitch}）"),
+        ("{part}: the player changes to {instrument} for {count} {count:note|notes}, the first at {place} ({pitch})"),
+        ("{part}: 奏者が {count} 音を {instrument} に持ち替えて演奏します。最初は {place}（{pitch}）"),
     ),
     "score.stray_notes": (
         (
-            "{count} overlapping {count:note was|notes were} excluded, the first at bar {bar}, beat {beat:g} "
-            "({pitch}); too few and too short for another player"
+            "{count} overlapping {count:note was|notes were} excluded, the first at {place} ({pitch}); "
+            "too few and too short for another player"
         ),
         (
-            "ほかの音と重なる {count} 音を除外しました（最初は {bar} 小節 {beat:g} 拍の {pitch}）。"
+            "ほかの音と重なる {count} 音を除外しました（最初は {place} の {pitch}）。"
             "別の奏者に分けるには少なく短いためです"
         ),
     ),
     "score.slurred": (
         (
             "{count} {count:note overlaps the next one and was|notes overlap the next ones and were} shortened as "
-            "slurred, the first in {part} at bar {bar}, beat {beat:g} ({pitch})"
+            "slurred, the first in {part} at {place} ({pitch})"
         ),
         (
-            "{count} 音が次の音に重なるため、スラーとして次の音の始まりまで縮めました（最初は {part} の {bar} 小節 "
-            "{beat:g} 拍の {pitch}）"
+            "{count} 音が次の音に重なるため、スラーとして次の音の始まりまで縮めました（最初は {part} の "
+            "{place} の {pitch}）"
         ),
     ),
     "score.key_switches": (
         (
             "{count} {count:note|notes} far outside the range of the instrument {count:was|were} treated as key "
-            "{count:switch|switches}, the first at bar {bar}, beat {beat:g} ({pitch})"
+            "{count:switch|switches}, the first at {place} ({pitch})"
         ),
-        "楽器の音域から遠い {count} 音をキースイッチと見なしました（最初は {bar} 小節 {beat:g} 拍の {pitch}）",
+        "楽器の音域から遠い {count} 音をキースイッチと見なしました（最初は {place} の {pitch}）",
     ),
     "score.voices": (
         (
             "{part}: split among {voices} players because {count} {count:note keeps|notes keep} overlapping others,"
-            " the first at bar {bar}, beat {beat:g} ({pitch})"
+            " the first at {place} ({pitch})"
         ),
-        (
-            "{part}: {count} 音がほかの音と重なり続けるため、{voices} 人で分担します（最初は {bar} 小節 {beat:g} "
-            "拍の {pitch}）"
-        ),
+        ("{part}: {count} 音がほかの音と重なり続けるため、{voices} 人で分担します（最初は {place} の {pitch}）"),
     ),
 }

@@ -14,6 +14,7 @@ from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.performers import Player
 from app.rig.character_library import bundled_characters, character_revision
+from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 
 
@@ -53,8 +54,8 @@ def body_problems(
         held, lacking = suited_to(player, instrument)
         if waiting:
             return BodyProblems((*lacking, Message("character.hold_waiting", {})))
-        # Holds of our own bodies meet all touches; what another's misses is reported as soon as it is known.
-        ours = player.character_id in bundled_characters()
+        # Holds of our own bodies on our instruments meet all touches; what another misses is reported once it is known.
+        ours = player.character_id in bundled_characters() and bundled_maps().get(instrument.id) is instrument
         missed = None if ours or not is_held(player, instrument) else missed_message(hold_of(player, held))
         revision = character_revision(player.character_id)
         found = memo.revised(f"reach:{player.id}", _reached, _posed(player), held, revision, fingerings)

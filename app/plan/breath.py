@@ -334,7 +334,7 @@ def _caught(
     if score.gaps is not None:
         blown = [index for index in catches if index not in spare and score.gaps.played[index]]
         found |= {index: blown_catch(line.notes[index], line.piece, score.gaps, index) for index in blown}
-    found |= _made(line, stock, [index for index in catches if index not in found])
+    found |= _made(line, stock, score.lung_s, [index for index in catches if index not in found])
     return [found[index] for index in catches]
 
 
@@ -358,7 +358,16 @@ def _cut_notes(line: _Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[i
     return early_end_s, problems
 
 
-def _made(line: _Breather, stock: _Stock, catches: list[int]) -> dict[int, BreathEvent]:
+def _needed_s(stock: _Stock, lung_s: float, first: IntArray, last: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Air that stretches of notes take, and that there is for them: as it is played, or at the tempo of the score
+    where they are short of air only there."""
+    played_s, steady_s = (used[last] - used[first] for used in (stock.used, stock.steady_used))
+    full_s = levels(stock.steady_used, lung_s, stock.refill)[first] * lung_s
+    is_short = played_s > stock.air_s[first]
+    return np.where(is_short, played_s, steady_s), np.where(is_short, stock.air_s[first], full_s)
+
+
+def _made(line: _Breather, stock: _Stock, lung_s: float, catches: list[int]) -> dict[int, BreathEvent]:
     """Catch breaths out of the notes before, by the notes that they come before."""
     if not catches:
         return {}
@@ -377,12 +386,16 @@ def _made(line: _Breather, stock: _Stock, catches: list[int]) -> dict[int, Breat
         onset_s.tolist(),
         np.maximum(times.played_end_s[at - 1] - start_s, 0.0).tolist(),
         (times.played_end_s[last - 1] - times.onset_s[first]).tolist(),
-        stock.air_s[first].tolist(),
+        *(seconds.tolist() for seconds in _needed_s(stock, lung_s, first, last)),
         strict=True,
     )
     found = {}
-    for index, dropped, start_tick, end_tick, begins_s, ends_s, from_note_s, phrase_s, air_s in rows:
-        why: dict[str, Argument] = {"phrase_s": round(phrase_s, 2), "lung_s": round(air_s, 2)}
+    for index, dropped, start_tick, end_tick, begins_s, ends_s, from_note_s, phrase_s, air_s, full_s in rows:
+        why: dict[str, Argument] = {
+            "phrase_s": round(phrase_s, 2),
+            "air_s": round(air_s, 2),
+            "lung_s": round(full_s, 2),
+        }
         after = notes[index - 1].id
         if dropped > 1:
             first_note = notes[index - dropped].id

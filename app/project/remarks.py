@@ -8,8 +8,18 @@ from app.messages import text
 
 def sayable(message: Message) -> Message:
     """The message itself where it can be worded, else ``project.unknown_remark`` (remark), which names it."""
+    message = _placed(message)
     try:
         text(message)
     except (KeyError, IndexError, ValueError, TypeError, AttributeError):
         return Message("project.unknown_remark", {"remark": message.id})
     return message
+
+
+def _placed(message: Message) -> Message:
+    """A message of the time when positions were counted as bar and beat, with its position as it is written now."""
+    arguments = message.arguments
+    bar, beat = arguments.get("bar"), arguments.get("beat")
+    if "place" in arguments or not isinstance(bar, int) or not isinstance(beat, int | float):
+        return message
+    return Message(message.id, {**arguments, "place": f"{bar}.{int(beat)}"})

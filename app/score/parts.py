@@ -16,14 +16,14 @@ score.outside_ranges : lowest, highest
 
 score.unknown_instrument : lowest, highest
     "nothing says which instrument plays it ({lowest} to {highest}); choose one"
-score.stray_notes : part, count, bar, beat, pitch
+score.stray_notes : part, count, place, pitch
     "{count} notes sound together with others, the first at ...; too few and too short for another player"
-score.key_switches : part, count, bar, beat, pitch
+score.key_switches : part, count, place, pitch
     "{count} notes far from the instrument's range are key switches, the first at ..."
 
 Warnings
 --------
-Those about notes name the first of them: ``bar``, ``beat`` and ``pitch``.
+Those about notes name the first of them: ``place``, its position as `MetreMap.label` writes it, and ``pitch``.
 
 score.substituted : part, instrument, map
     "{part}: there is no instrument map for {instrument}; {map} plays it instead"
@@ -31,24 +31,24 @@ score.instrument_from_file_name : part, map
     "{part}: neither its name nor its program says what it is; the file's name does, so {map} plays it"
 score.chosen_by_range : part, map
     "{part}: neither its name nor its program says what it is; {map} plays it because the range fits"
-score.chosen_by_range_partly : part, map, outside, total, bar, beat, pitch
+score.chosen_by_range_partly : part, map, outside, total, place, pitch
     "{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes lie
     outside its range, the first at ..."
-score.looks_written : part, map, outside, total, bar, beat, pitch
+score.looks_written : part, map, outside, total, place, pitch
     "{part}: {outside} of {total} notes lie outside the range of {map}, the first at ..., but all fit as written
     pitches: the part looks untransposed; import its pitches as written"
 score.left_out : (a reason)
     "excluded on import"
 score.too_many_players : most (a reason)
     "the piece has {most} players already, and more cannot play"
-score.voices : part, voices, count, bar, beat, pitch
+score.voices : part, voices, count, place, pitch
     "{part}: {voices} players share it, for {count} notes sound together with others, the first at ..."
-score.doubling : part, instrument, count, bar, beat, pitch
+score.doubling : part, instrument, count, place, pitch
     "{part}: the player of this track changes to {instrument} for {count} notes, the first at ...; a player has one
     instrument here, so another one plays them"
-score.notes_left_out : part, most, count, bar, beat, pitch
+score.notes_left_out : part, most, count, place, pitch
     "{part}: {most} players share it, and {count} notes that sound together with theirs are excluded, the first at ..."
-score.slurred : part, count, bar, beat, pitch
+score.slurred : part, count, place, pitch
     "{count} notes last into the next one and end there as slurred notes, the first in {part} at ..."
 """
 
@@ -246,9 +246,8 @@ def _reason(stream: TrackChannel, crowded: bool, maps: Sequence[MapChoice]) -> M
 def _about(id_: str, part: str, notes: Sequence[Note], piece: Score, **more: Argument) -> Message:
     """A message about some notes: how many, and where the first one is."""
     first = notes[0]
-    bar, beat, _ = piece.metre_map.place_of_tick(first.onset_tick)
-    place: dict[str, Argument] = {"bar": bar, "beat": beat, "pitch": first.pitch}
-    return Message(id_, {"part": part, "count": len(notes), **place, **more})
+    where: dict[str, Argument] = {"place": piece.metre_map.label(first.onset_tick), "pitch": first.pitch}
+    return Message(id_, {"part": part, "count": len(notes), **where, **more})
 
 
 def _switches(streams: Sequence[TrackChannel], own: Sequence[int], places: Sequence[Sequence[int]]) -> list[Note]:

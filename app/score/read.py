@@ -45,6 +45,10 @@ midi.impossible_metre : track, tick, count
     "Track {track} has {count} impossible time signatures, the first at tick {tick}; they were left out"
 midi.impossible_tempo : track, tick, count
     "Track {track} has {count} impossible tempos, the first at tick {tick}; they were left out"
+midi.no_notes : tracks
+    "The file has no notes in its {tracks} tracks"
+midi.track_without_notes : track, name, count, and midi.unnamed_track_without_notes : track, count
+    "Track {track} ({name}) has no notes and {count} other events", of each of the first tracks of such a file
 """
 
 from __future__ import annotations
@@ -73,7 +77,7 @@ from app.score.parts import PartAssignment, assigned_parts, parts_of, stream_nam
 from app.score.repair import Repaired, last_suspicious, repaired
 from app.score.tempo import TempoChange, TempoMap
 from app.score.texts import decoded
-from app.score.tracks import LEAST_TEMPO, TrackEvents, gather
+from app.score.tracks import LEAST_TEMPO, TrackEvents, gather, no_notes
 from instrument_maps.vocabulary import vocabulary
 
 # What mido raises on bytes it does not understand, found by reading it and by fuzzing.
@@ -207,6 +211,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         ticks_per_quarter = TempoMap.of_smpte(_ticks_per_second(ticks_per_quarter)).ticks_per_quarter
     warnings = list(container.warnings)
     tracks: list[TrackEvents] = []
+    counts: list[int] = []
     begin = 0
     for index, track in enumerate(container.tracks):
         messages, problems = _messages(track, index, str(path))
@@ -215,6 +220,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         begin = events.end_tick
         warnings += _track_warnings(events, index)
         tracks.append(events)
+        counts.append(sum(not message.is_meta for message in messages) if not events.channels else 0)
     if container.format == 2 and len(tracks) > 1:
         warnings.append(Message("midi.patterns", {"patterns": len(tracks)}))
     tempo_map, tempo_warnings = _tempo_map(container, tracks)
@@ -230,7 +236,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         metres=metres,
         pickup_ticks=pickup_ticks,
         streams=tuple(named_by_file(streams, stem)),
-        warnings=(*warnings, *tempo_warnings, *metre_warnings),
+        warnings=(*no_notes(tracks, counts, encoding), *warnings, *tempo_warnings, *metre_warnings),
         markers=_markers(tracks, encoding),
     )
 

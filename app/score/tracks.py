@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections import deque
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from itertools import compress
 from operator import itemgetter
 from typing import Any, Final
 
 import msgspec
 
-from app.score.limits import LAST_TICK
+from app.errors import Message
+from app.score.limits import LAST_TICK, MOST_NAME
 from app.score.model import ControllerCurve, CurveKind
+from app.score.texts import decoded
 
 CONTROLLERS: Final[dict[CurveKind, int]] = {"breath": 2, "volume": 7, "expression": 11, "bite": 16}
 """The curves that are MIDI controllers, and their numbers."""
@@ -24,6 +26,8 @@ _MODULATION: Final = 1
 _PLAYED_SHARE: Final = 0.8
 """It is dynamics where it is up under such a share of the notes; a vibrato comes and goes."""
 _NOTES_OFF = frozenset({120, 123})
+_TRACKS_NAMED: Final = 8
+"""Of a file without notes so many tracks are named."""
 
 
 class ChannelNotes(msgspec.Struct):
@@ -289,3 +293,17 @@ def _close(events: TrackEvents) -> None:
             if end == onset:
                 events.zero_length += 1
                 ends[index] = onset + 1
+
+
+def no_notes(tracks: Sequence[TrackEvents], counts: Sequence[int], encoding: str | None) -> list[Message]:
+    """What the tracks of a file without notes have instead, ``counts`` events each; nothing of other files."""
+    if any(events.channels for events in tracks):
+        return []
+    warnings = [Message("midi.no_notes", {"tracks": len(tracks)})]
+    for number, (events, count) in enumerate(zip(tracks[:_TRACKS_NAMED], counts, strict=False), 1):
+        name = decoded(events.name, encoding)[:MOST_NAME]
+        if name:
+            warnings.append(Message("midi.track_without_notes", {"track": number, "name": name, "count": count}))
+        else:
+            warnings.append(Message("midi.unnamed_track_without_notes", {"track": number, "count": count}))
+    return warnings

@@ -23,7 +23,7 @@ meaning (1, modulation; 77, vibrato depth) would add a vibrato to the one that w
 
 Errors
 ------
-midi.tempo_unwritable : bar, bpm, low, high
+midi.tempo_unwritable : place, bpm, low, high
     "bar {bar}: a MIDI file cannot hold a tempo of {bpm} quarters per minute; from {low} to {high} it can"
 
 Warnings
@@ -205,7 +205,7 @@ def _conductor(score: Score) -> list[_Event]:
 def _unwritable(score: Score, change: TempoChange) -> AppError:
     return AppError(
         "midi.tempo_unwritable",
-        bar=score.metre_map.bar_of_tick(change.tick),
+        place=score.metre_map.label(change.tick),
         bpm=round(60e6 / change.microseconds_per_quarter, 3),
         low=round(60e6 / MOST_TEMPO, 3),
         high=round(60e6 / LEAST_TEMPO),

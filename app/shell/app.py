@@ -34,7 +34,7 @@ from app.project.edit.piece import new_piece
 from app.project.presence import Presence, recovery_folder
 from app.rig.character_library import begin_characters
 from app.shell.actions import ActionTable
-from app.shell.commands import characters
+from app.shell.commands import characters, record
 from app.shell.crash_handler import CrashHandler, log_path
 from app.shell.editor import Editor
 from app.shell.garbage import Garbage
@@ -147,6 +147,7 @@ class Program(QObject):
         )
         table.begin(self.editor)
         self.window.character_dropped.connect(partial(characters.bring, self.editor))
+        self.recorder.device_missing.connect(partial(record.devices, self.editor))
         KeyboardButtons(application, self)
 
     def _warn(self, message: Message) -> None:

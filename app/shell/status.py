@@ -10,17 +10,17 @@ from functools import partial
 
 from PySide6.QtCore import QSize, Qt, QTimer
 from PySide6.QtGui import QFontMetrics
-from PySide6.QtWidgets import QApplication, QFrame, QProgressBar, QPushButton, QStatusBar, QWidget
+from PySide6.QtWidgets import QProgressBar, QPushButton, QStatusBar, QWidget
 
 from app.editor.files import Files
 from app.editor.session import Session, Severity
 from app.editor.tasks import Task, ThreadTasks
-from app.editor.tokens import Tokens
 from app.errors import Message
+from app.shell.notices import NoticeList, severity_colour
 from instrument_maps.library import library
-from widgets.common.controls import Button, IconButton, Retranslated, named, small, wrapped
-from widgets.common.icons import icon, pixmap
-from widgets.common.layouts import STRETCH, in_column, in_row, panel
+from widgets.common.controls import IconButton, Retranslated, named, small
+from widgets.common.icons import icon
+from widgets.common.layouts import STRETCH, in_row, panel
 from widgets.common.plain import Label, verbatim
 from widgets.common.text import message_text, sentence
 
@@ -84,7 +84,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._about_piece = (self._saved, self._problems, self._rate, self._motion, self._motion_bar)
         for widget in (self._risk, self._instruments, self._device, self._stream, *self._about_piece):
             self.addPermanentWidget(widget)
-        self._details = _Details(session, self)
+        self._details = NoticeList(session, self)
         self._fade, self._poll, self._age = QTimer(self), QTimer(self), QTimer(self)
         self._fade.setSingleShot(True)
         self._fade.timeout.connect(self.dismiss)
@@ -333,13 +333,6 @@ def problem_count(session: Session) -> int:
     return sum(len(session.problems(one.id)) for one in session.performance.project.performers)
 
 
-def severity_colour(severity: Severity, tokens: Tokens) -> str:
-    """The colour of a notice's mark."""
-    return {Severity.INFORMATION: tokens.accent, Severity.WARNING: tokens.warning, Severity.ERROR: tokens.error}[
-        severity
-    ]
-
-
 def _show_value(bar: QProgressBar, value: int) -> None:
     """Show a value with the next picture: a bar left to itself paints it at once, and a window that holds GL puts all
     of its picture together for that."""
@@ -377,45 +370,6 @@ class _TaskRow(Retranslated, QWidget):
         if self._bar.maximum() != most:
             self._bar.setRange(0, most)
         _show_value(self._bar, round(1000 * share))
-
-
-class _Details(QFrame):
-    """What was said, in full, the newest on top."""
-
-    def __init__(self, session: Session, parent: QWidget) -> None:
-        super().__init__(parent, Qt.WindowType.Popup)
-        self.setObjectName("notices")
-        self.setFrameShape(QFrame.Shape.StyledPanel)
-        self._session = session
-        self._rows = in_column(spacing=8)
-        copy = Button("details.copy", self._copy_all, "copy_notices")
-        in_column(self._rows, (copy, 0, Qt.AlignmentFlag.AlignRight), of=self, margins=10, spacing=8)
-        self._text = ""
-
-    def open_over(self, anchor: QWidget, log: tuple[tuple[Message, Severity], ...]) -> None:
-        """Show the newest notices above a widget."""
-        while (item := self._rows.takeAt(0)) is not None:
-            widget = item.widget()
-            if widget is not None:
-                widget.hide()
-                widget.deleteLater()
-        newest = tuple(reversed(log))[:12]
-        self._text = "\n".join(sentence(message, self._session) for message, _ in newest)
-        tokens = self._session.tokens
-        for message, severity in newest:
-            mark, text = Label(), wrapped(Label(sentence(message, self._session)))
-            mark.setPixmap(pixmap(severity.value, 16, severity_colour(severity, tokens), self.devicePixelRatioF()))
-            text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-            text.setFixedWidth(520)
-            self._rows.addWidget(panel(in_row((mark, 0, Qt.AlignmentFlag.AlignTop), (text, 1), margins=0)))
-        self.adjustSize()
-        corner = anchor.mapToGlobal(anchor.rect().topLeft())
-        self.move(corner.x(), corner.y() - self.height() - 4)
-        self.show()
-
-    def _copy_all(self) -> None:
-        QApplication.clipboard().setText(self._text)
-        self.hide()
 
 
 def _flat(name: str, run: Callable[[], object]) -> QPushButton:

@@ -435,9 +435,12 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "task_row.stop": ("Stop", "停止"),
     "window.discard": ("Discard", "破棄"),
     "window.find": ("Locate {name}", "{name} の場所を指定"),
+    "window.assign_tracks": ("Assign Tracks...", "トラックを割り当て..."),
     "window.find_it": ("Locate...", "場所を指定..."),
+    "window.has_no_players": ("{name} has no players.", "{name} には奏者がいません。"),
     "window.inspector": ("Inspector", "インスペクター"),
     "window.nothing_yet": ("No recent files", "最近使ったファイルはありません"),
+    "window.open_another_file": ("Open Another File...", "ほかのファイルを開く..."),
     "window.players": ("Players", "奏者"),
     "window.recording": ("Recording", "録音"),
     "window.recording_is_not_where_it": (

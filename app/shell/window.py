@@ -40,6 +40,7 @@ from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row, panel
 from widgets.common.paths import dropped_paths
 from widgets.common.plain import verbatim, verbatim_title
+from widgets.common.text import message_text, sentence
 from widgets.inspector.panel import InspectorPanel
 from widgets.players.panel import PlayersPanel
 from widgets.recording.panel import RecordingPanel
@@ -53,6 +54,8 @@ NARROW_PX: Final = 1060
 """In a window narrower than this the field for commands does not show its keys beside menus and workspaces."""
 DOCKED: Final = ("players", "inspector", "timeline", "recording")
 """Panels beside the viewport."""
+_REASONS: Final = 4
+"""Where no one plays, so many reasons are shown."""
 
 
 class Window(Retranslated, QMainWindow):
@@ -168,6 +171,7 @@ class Window(Retranslated, QMainWindow):
         self._files.opened.connect(self._show_page)
         self._files.found.connect(self._offer_recovery)
         self._files.missing.connect(self._ask_for_media)
+        self._files.silent.connect(self._say_why_no_one_plays)
         self._files.overtaken.connect(self._ask_to_save_over)
         self.session.theme_changed.connect(self._apply_theme)
         picture = self.viewport.findChild(QOpenGLWidget)
@@ -314,6 +318,23 @@ class Window(Retranslated, QMainWindow):
             ),
             (partial(self._find_media, path), self._remove_media),
         )
+
+    def _say_why_no_one_plays(self, path: Path) -> None:
+        score = self.session.project.score
+
+        def why() -> str:
+            lines = [self.tr("window.has_no_players").format(name=shown(path.name))]
+            lines += [sentence(message) for message in score.warnings[:_REASONS] if not score.unplayed]
+            line = self.tr("import_dialog.is_not_played")
+            lines += [
+                line.format(name=part.name, reason=message_text(part.reason)) for part in score.unplayed[:_REASONS]
+            ]
+            return "\n".join([*lines, *["…"] * (len(score.unplayed) > _REASONS)])
+
+        another = (self.tr("window.open_another_file"), self._table.actions["file.open"].trigger)
+        again = (self.tr("window.assign_tracks"), partial(self._files.open, path))
+        answers = (again, another) if score.unplayed else (another,)
+        self.banner.ask(lambda: (why(), tuple(text for text, _ in answers)), tuple(run for _, run in answers))
 
     def _ask_to_save_over(self, path: Path, then: Callable[[], None] | None) -> None:
         self.banner.ask(

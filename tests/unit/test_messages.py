@@ -129,6 +129,11 @@ def test_the_arguments_fill_the_templates() -> None:
     assert missing == []
 
 
+def test_no_template_counts_bars_and_beats_by_itself() -> None:
+    """A position is written by the metre map of the score, 12.1.096, and comes whole."""
+    assert [id for id, wording in WORDINGS.items() if fields(wording[0]) & {"bar", "beat", "tick_in_bar"}] == []
+
+
 @pytest.mark.parametrize(
     ("count", "reported"), [(0, "Move 0 Notes"), (1, "Move 1 Note"), (2, "Move 2 Notes"), (21, "Move 21 Notes")]
 )

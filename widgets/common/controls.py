@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
-from PySide6.QtCore import QEvent
+from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QCheckBox, QDialogButtonBox, QHeaderView, QPushButton, QToolButton, QTreeWidget, QWidget
 
@@ -32,6 +32,12 @@ def named(widget: AnyWidget, name: str) -> AnyWidget:
 def wrapped(label: AnyLabel) -> AnyLabel:
     """The label, of as many lines as its text needs."""
     label.setWordWrap(True)
+    return label
+
+
+def selectable(label: AnyLabel) -> AnyLabel:
+    """The label, whose text can be selected and copied: it has paths or names."""
+    label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
     return label
 
 

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import TypeAlias
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtGui import QHelpEvent
+from PySide6.QtGui import QHelpEvent, QShowEvent
 from PySide6.QtWidgets import QComboBox, QLabel, QMessageBox, QToolTip, QWidget
 
 Role: TypeAlias = QMessageBox.ButtonRole
@@ -27,11 +27,17 @@ class Label(QLabel):
 
 
 class MessageBox(QMessageBox):
-    """A message box whose texts are plain."""
+    """A message box whose texts are plain, and can be copied."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setTextFormat(Qt.TextFormat.PlainText)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Qt makes the label of the explanation when there is one."""
+        for label in self.findChildren(QLabel):
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        super().showEvent(event)
 
 
 def ask(

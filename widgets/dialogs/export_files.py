@@ -27,7 +27,7 @@ from app.performance.span import bars_span, whole_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
 from app.project.performers import Player
 from metadata.load import load_bone_names
-from widgets.common.controls import Button, Caption, named, wrapped
+from widgets.common.controls import Button, Caption, named, selectable, wrapped
 from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
@@ -116,7 +116,7 @@ class ExportDialog(WorkingDialog):
             self._rate.addItem(frame_rate_text(rate), str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(self._project.fps)))
         self._skeleton = SkeletonChooser(session, self._chosen_players)
-        self._files = wrapped(named(Label(), "export_outcome"))
+        self._files = selectable(wrapped(named(Label(), "export_outcome")))
         self._files.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         # The excluded players of an orchestra may take more lines than there is room for.
         self._outcome = QScrollArea()

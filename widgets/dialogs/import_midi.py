@@ -41,7 +41,7 @@ from widgets.common.controls import Button, Check, OkCancel, Retranslated, named
 from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.layouts import STRETCH, in_column, in_row, panel
 from widgets.common.plain import ComboBox, Label
-from widgets.common.text import message_text
+from widgets.common.text import message_text, sentence
 
 _USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _PITCHES, _CHARACTER = range(8)
 _ROW_PX = 40
@@ -387,9 +387,11 @@ class ImportDialog(Retranslated, QDialog):
                 self._summary.setText(self.tr("import_dialog.choose_instrument_for").format(name=self._name(asking[0])))
             elif outcome.players:
                 self._summary.setText(self.tr("import_dialog.players").format(count=outcome.players))
-            else:
+            elif self._rows:
                 self._summary.setText(self.tr("import_dialog.no_tracks_selected"))
-            self._warnings.addItems([message_text(message) for message in outcome.warnings])
+            else:
+                self._summary.setText(self.tr("import_dialog.no_notes_to_import"))
+            self._warnings.addItems([sentence(message) for message in outcome.warnings])
             self._warnings.addItems([self._unplayed(part) for part in outcome.unplayed])
         self._warning_title.setText(self.tr("import_dialog.what_reader_noticed"))
         self._warning_title.setVisible(self._warnings.count() > 0)

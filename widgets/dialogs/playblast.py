@@ -22,7 +22,7 @@ from app.errors import AppError, Cancelled, Message
 from app.export.video import SOUND_RATE_HZ, video_into
 from app.performance.span import FrameSpan, cut_span, whole_span
 from app.project.frame_rate import USUAL_FILM_RATE, USUAL_RATES, frame_rate_text
-from widgets.common.controls import Button, Check, named, wrapped
+from widgets.common.controls import Button, Check, named, selectable, wrapped
 from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import PathEdit, ask_where_to_save, show_folder
 from widgets.common.plain import ComboBox, Label
@@ -82,7 +82,7 @@ class PlayblastDialog(WorkingDialog):
         self._with_sound.setChecked(True)
         self._file = named(PathEdit(path), "playblast_file")
         self._choose = Button("playblast_dialog.choose", self._choose_file)
-        self._state = wrapped(named(Label(), "playblast_state"))
+        self._state = selectable(wrapped(named(Label(), "playblast_state")))
         self._state.setMinimumHeight(40)
         self._file.textChanged.connect(self._show_state)
 

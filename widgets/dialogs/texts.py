@@ -299,6 +299,10 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     ),
     "import_dialog.merge_into_one_part": ("Merge into One Part", "1 つのパートにまとめる"),
     "import_dialog.name": ("Name", "名前"),
+    "import_dialog.no_notes_to_import": (
+        "No notes to import. You get an empty stage.",
+        "読み込む音符がありません。空のステージになります。",
+    ),
     "import_dialog.no_tracks_selected": (
         "No tracks selected. Select a track, or import an empty stage.",
         "トラックが選択されていません。トラックを選ぶか、空のステージとして読み込んでください。",

@@ -13,7 +13,7 @@ from app.editor.session import Session, Severity
 from app.editor.tasks import Progress, StopRequested
 from app.editor.translated import tr
 from app.encoding import shown
-from app.errors import AppError, Message
+from app.errors import AppError, Argument, Message
 from app.project.midi_out import export_midi as write_piece
 from app.project.model import Project, map_choices
 from app.project.performers import Player
@@ -105,12 +105,14 @@ def export_midi(editor: Editor) -> None:
         return write_piece(project, target, all_maps())
 
     def done(warnings: tuple[Message, ...]) -> None:
+        # The path is for the list of notices, which can show it in its folder.
+        written: dict[str, Argument] = {"file": target.name, "path": str(target)}
         if warnings:
             first = message_text(warnings[0], session)
-            reported = Message("midi.written_but", {"file": target.name, "first": first, "count": len(warnings)})
+            reported = Message("midi.written_but", {**written, "first": first, "count": len(warnings)})
             session.notice(reported, Severity.WARNING)
         else:
-            session.notice(Message("midi.written", {"file": target.name, "count": len(project.score.parts)}))
+            session.notice(Message("midi.written", {**written, "count": len(project.score.parts)}))
 
     def failed(error: AppError) -> None:
         session.notice(error.message, Severity.ERROR)

@@ -142,6 +142,14 @@ def test_every_rest_serves_by_the_thesis_and_no_breath_cuts_a_note(name: str) ->
 
 
 @pytest.mark.parametrize("name", FILES)
+def test_a_catch_breath_is_taken_where_more_air_is_needed_than_there_is(name: str) -> None:
+    for _, plan in played(name):
+        for event in plan.breaths:
+            if event.reason.id in CATCHES:
+                assert event.reason.arguments["air_s"] > event.reason.arguments["lung_s"], event.reason
+
+
+@pytest.mark.parametrize("name", FILES)
 def test_no_breath_stands_before_a_downbeat_in_running_notes(name: str) -> None:
     """Nor between the upbeat after a rest and the beat that it leads to."""
     made = performance(name)

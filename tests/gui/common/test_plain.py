@@ -145,3 +145,16 @@ def test_a_name_does_not_mark_a_window_as_changed(qt_app: QApplication, qtbot: Q
     assert window.windowHandle().title().startswith("a[*]b")
     window.setWindowModified(True)
     assert window.windowHandle().title().startswith("a[*]b*")
+
+
+def test_what_a_message_box_says_can_be_copied(qt_app: QApplication, qtbot: QtBot) -> None:
+    box = MessageBox()
+    qtbot.addWidget(box)
+    box.setText("film.mp4")
+    box.setInformativeText("/home/films/film.mp4")
+    box.show()
+    texts = {label.text(): label for label in box.findChildren(QLabel) if label.text()}
+    assert texts.keys() >= {"film.mp4", "/home/films/film.mp4"}
+    for label in texts.values():
+        assert label.textInteractionFlags() & Qt.TextInteractionFlag.TextSelectableByMouse
+    box.hide()

@@ -70,7 +70,7 @@ def test_a_note_of_another_player_is_found(session: Session) -> None:
 
 
 def test_both_notes_that_are_left_out_for_a_breath_are_reported_by_place(session: Session, note: Note) -> None:
-    left_out = {"first_note": note.id, "after_note": note.id, "phrase_s": 20.0, "lung_s": 9.0}
+    left_out = {"first_note": note.id, "after_note": note.id, "phrase_s": 20.0, "air_s": 18.0, "lung_s": 9.0}
     reported = message_text(Message("breath.catch_dropped_two", left_out), session)
     assert reported.count("(2.2.000)") == 2
     assert note.id not in reported

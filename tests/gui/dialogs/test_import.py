@@ -327,3 +327,21 @@ def test_without_percussion_no_dancer_is_offered(dialog: ImportDialog) -> None:
     instruments = [box.itemText(0) for box in dialog.findChildren(QComboBox) if "instrument_" in box.objectName()]
     assert instruments
     assert not any("dancers" in text for text in instruments)
+
+
+def test_a_file_without_notes_offers_an_empty_stage_and_says_why(
+    qt_app: QApplication, qtbot: QtBot, tmp_path: Path
+) -> None:
+    path = tmp_path / "empty.mid"
+    mido.MidiFile(tracks=[mido.MidiTrack([mido.MetaMessage("track_name", name="Horn")])]).save(path)
+    dialog = ImportDialog(read_contents(path), MAPS, DARK, ImmediateTasks())
+    qtbot.addWidget(dialog)
+    summary, reported = dialog.findChild(QLabel, "import_summary"), dialog.findChild(QListWidget, "import_warnings")
+    assert summary is not None
+    assert reported is not None
+    assert summary.text() == "No notes to import. You get an empty stage."
+    assert [reported.item(row).text() for row in range(reported.count())] == [
+        "The file has 1 track and no notes",
+        "Track 1 (Horn) has no notes and 0 other events",
+    ]
+    assert imported(dialog).players == ()

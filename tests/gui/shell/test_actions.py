@@ -10,7 +10,9 @@ from pytestqt.qtbot import QtBot
 
 from app.editor.settings import Settings
 from app.errors import Message
+from app.messages import LANGUAGES
 from app.project.edit.piece import set_title
+from app.shell.action import without_dots, without_key
 from app.shell.actions import CONTEXTS, ActionTable, sequences
 from app.shell.app import Program
 from app.shell.menus import menu_with_keys
@@ -32,6 +34,15 @@ def test_the_table_is_sound() -> None:
         assert TEXTS[f"action.{row.id}"][0]
         for sequence in sequences(row.shortcut):
             assert sequence.toString(), f"{row.id}: {row.shortcut!r} is no shortcut"
+
+
+@pytest.mark.parametrize("language", [0, 1], ids=list(LANGUAGES))
+def test_no_two_actions_have_the_same_name(language: int) -> None:
+    """The palette and the list of shortcuts show all of them together, whatever menu they are in."""
+    ids: dict[str, list[str]] = {}
+    for row in rows():
+        ids.setdefault(without_dots(without_key(TEXTS[f"action.{row.id}"][language])).casefold(), []).append(row.id)
+    assert {name: found for name, found in ids.items() if len(found) > 1} == {}
 
 
 def test_no_two_actions_have_the_same_shortcut_in_one_place(program: Program) -> None:

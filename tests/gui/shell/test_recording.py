@@ -9,11 +9,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QLabel
 
 from app.capture.journal import Header, JournalWriter
-from app.capture.protocol import Back, Lost, Ports, Refused, Written
+from app.capture.protocol import Back, Lost, Opened, Ports, Refused, Written
 from app.editor.live_player import REST_S
 from app.errors import Message
 from tests.support.recorder import EWI
 from tests.support.studio import Studio
+from widgets.dialogs.midi_devices import MidiDevicesDialog
 
 
 def take_text(studio: Studio) -> QLabel:
@@ -236,7 +237,7 @@ def test_a_take_stays_with_its_project_when_another_is_opened_meanwhile(studio: 
     assert [take.played.pitches.tolist() for take in takes] == [[60]]
 
 
-def test_without_a_device_it_is_said(studio: Studio) -> None:
+def test_without_a_device_it_is_said_and_the_devices_are_shown(studio: Studio) -> None:
     recorder = studio.program.recorder
     recorder.choose("")
     said: list[str] = []
@@ -244,6 +245,16 @@ def test_without_a_device_it_is_said(studio: Studio) -> None:
     studio.press(Qt.Key.Key_R)
     assert said == ["record.no_device"]
     assert not studio.session.recording.running
+    dialog = studio.program.window.findChild(MidiDevicesDialog)
+    assert dialog is not None
+    assert dialog.isVisible()
+    # One that is chosen there is recorded from.
+    dialog.chosen.emit(EWI)
+    studio.link.say(Opened(EWI, 0))
+    studio.wait(lambda: studio.session.recording.connection == "open")
+    dialog.close()
+    recorder.record()
+    assert studio.session.recording.running
 
 
 def test_events_on_the_disk_are_counted(studio: Studio) -> None:

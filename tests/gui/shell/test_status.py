@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import pytest
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QFrame, QLabel, QProgressBar, QPushButton
+from PySide6.QtWidgets import QFrame, QLabel, QProgressBar, QPushButton, QToolButton
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Severity
@@ -56,4 +59,34 @@ def test_what_is_said_again_and_again_is_listed_once(program: Program) -> None:
     reported = [label.text() for label in listed.findChildren(QLabel) if label.text()]
     again, said = sentence(Message("tempo.first_stays")), sentence(Message("problems.none"))
     assert [text for text in reported if text in (again, said)] == [again, said, again]
+    listed.hide()
+
+
+def test_a_path_in_a_notice_can_be_copied_and_its_folder_shown(
+    program: Program, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown: list[Path] = []
+    monkeypatch.setattr("app.shell.notices.show_folder", shown.append)
+    file = tmp_path / "film.mp4"
+    file.touch()
+    status, session = program.window.status, program.session
+    session.notice(Message("problems.none"))
+    session.notice(Message("export.done", {"count": 3, "folder": str(tmp_path)}))
+    session.notice(Message("video.done", {"file": str(file)}))
+    session.notice(Message("video.done", {"file": "/nowhere/film.mp4"}))
+    listed = program.window.findChild(QFrame, "notices")
+    assert listed is not None
+    notice = status.findChild(QPushButton, "notice")
+    assert notice is not None
+    for number in range(2):
+        QTest.mouseClick(notice, Qt.MouseButton.LeftButton)
+        buttons = [button for button in listed.findChildren(QToolButton, "folder") if button.isVisible()]
+        assert [button.toolTip() for button in buttons] == ["Show in Folder"] * 2
+        QTest.mouseClick(buttons[number], Qt.MouseButton.LeftButton)
+        assert not listed.isVisible()
+    assert shown == [tmp_path, tmp_path]
+    QTest.mouseClick(notice, Qt.MouseButton.LeftButton)
+    (text,) = (label for label in listed.findChildren(QLabel) if label.isVisible() and str(file) in label.text())
+    QTest.mouseDClick(text, Qt.MouseButton.LeftButton)
+    assert text.hasSelectedText()
     listed.hide()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import tomllib
 from pathlib import Path
 
@@ -184,6 +185,18 @@ def test_the_layout_is_remembered(start: Start) -> None:
     assert second.window.docks["inspector"].isHidden()
     assert not second.window.docks["timeline"].isHidden()
     assert second.window.dockWidgetArea(second.window.docks["players"]) == Qt.DockWidgetArea.RightDockWidgetArea
+
+
+def test_nothing_is_written_beside_the_example(empty: Program, tmp_path: Path) -> None:
+    """It lies within the program: files of the user go where the last ones did."""
+    files = empty.editor.files
+    trigger(empty, "file.open_example")
+    assert files.folder == str(Path.home())
+    own = Path(shutil.copy(QUARTET, tmp_path))
+    files.open(own, ask=False)
+    assert files.folder == str(tmp_path)
+    trigger(empty, "file.open_example")
+    assert files.folder == str(tmp_path)
 
 
 def test_the_layout_survives_the_start_page(start: Start) -> None:

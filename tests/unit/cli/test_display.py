@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import shlex
 import socket
 import tempfile
 from pathlib import Path
 
+import pytest
+
+from app.__main__ import run
+from app.cli import parser
 from app.cli.display import why_no_display
+from app.cli.status import NO_DISPLAY
 
 
 def test_no_variable_no_display() -> None:
@@ -37,3 +43,19 @@ def test_a_display_that_answers() -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
         number = server.getsockname()[1] - 6000
         assert why_no_display({"DISPLAY": f"127.0.0.1:{number}.0"}, "linux") is None
+
+
+def test_without_a_file_and_a_display_the_example_is_offered(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("app.cli.display.why_no_display", lambda: "no display here")
+    assert run([]) == NO_DISPLAY
+    reason, hint = capsys.readouterr().err.splitlines()
+    assert reason == "suisou: no display here"
+    program, *arguments = shlex.split(hint.partition("quartet: ")[2])
+    # What is offered can be typed as it stands.
+    assert program == "suisou"
+    parsed = parser().parse_args(arguments)
+    assert parsed.file.is_file()
+    assert run(["edit", "mine.mid"]) == NO_DISPLAY
+    assert capsys.readouterr().err == "suisou: no display here\n"

@@ -3,16 +3,34 @@
 from __future__ import annotations
 
 import io
+import json
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import mido
+import msgspec
 import pytest
 
 from app.cli import main
 from app.cli.status import STOPPED
 from app.performance import bodies, ensemble
+from app.performance.body_problems import body_problems
+from app.plan.memo import Memo
+from app.plan.parameters import PlayerParameters
+from app.project.casting import StagePosition
+from app.project.performers import Player
+from app.rig.character_library import character_named
+from app.rig.hold import GripPose
+from app.rig.hold_file import hold_for
+from app.rig.instrument import load_instrument
+from instrument_maps.library import model_path
+from instrument_maps.load import bundled_maps
+from instrument_maps.model import InstrumentMap
+from metadata.load import load_body
+from tests.support.bodies import playing
 from tests.unit.cli.test_main import QUARTET
 
 
@@ -56,3 +74,58 @@ def test_the_search_shows_progress_and_ends_at_ctrl_c(
     assert searched == [first]
     assert "0 %  how the instruments are held" in terminal.getvalue()
     assert list(tmp_path.iterdir()) == []
+
+
+def off_by_20_mm(character: Any, model: Any, instrument: Any, body: Any, progress: Any) -> GripPose:
+    """A stored hold of the instrument, with a first firm touch that misses."""
+    ours = bundled_maps()[instrument.id]
+    hold = hold_for(character_named("man_adult"), load_instrument(model_path(ours), ours), ours, load_body())
+    hand = hold.hands[0]
+    firm = next(number for number, one in enumerate(hand.contacts) if one.firm)
+    touches = tuple(
+        replace(one, distance_m=0.02) if number == firm else one for number, one in enumerate(hand.contacts)
+    )
+    return replace(hold, hands=(replace(hand, contacts=touches), *hold.hands[1:]))
+
+
+@pytest.fixture
+def _missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No hold is known yet, and all that are found out miss a touch."""
+    monkeypatch.setattr(bodies, "hold_for", off_by_20_mm)
+    monkeypatch.setattr(bodies, "_HOLDS", bodies.IdentityCache(8))
+    monkeypatch.setattr(bodies, "_HELD", set())
+
+
+@pytest.mark.usefixtures("_missing")
+def test_what_the_hold_of_a_users_own_character_misses_is_reported(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """By every command that does not write files: it is found out first."""
+    track = mido.MidiTrack([mido.MetaMessage("track_name", name="x")])
+    track += [mido.Message("note_on", note=64, velocity=80), mido.Message("note_off", note=64, time=240)]
+    path = tmp_path / "x.mid"
+    mido.MidiFile(tracks=[track]).save(path)
+    settings = ["--assign", "x=trumpet_Bb", "--set", "x.character=child", "--preroll", "1"]
+    with playing():
+        assert main(["inspect", str(path), "--json", "--fps", "12", *settings]) == 0
+        inspected = json.loads(capsys.readouterr().out)["warnings"]
+        assert main(["stream", str(path), "--fps", "10", "--from", "0.1", *settings]) == 0
+        streamed = capsys.readouterr().err
+    (line,) = [line for line in inspected if "not reach this instrument" in line]
+    assert "misses by 20.0 mm" in line
+    assert line in streamed
+
+
+@pytest.mark.usefixtures("_missing")
+def test_what_our_own_body_misses_on_a_users_own_instrument_is_reported() -> None:
+    ours = bundled_maps()["trumpet_Bb"]
+    own = msgspec.structs.replace(ours)
+    player = Player("p", "P", "1", own.id, "man_adult", PlayerParameters(), StagePosition(0.0, 0.0, 0.0))
+
+    def lacking(instrument: InstrumentMap) -> list[str]:
+        bodies.hold_now(player, instrument)
+        return [message.id for message in body_problems(player, instrument, (), Memo(), waiting=False).lacking]
+
+    assert lacking(own) == ["character.touches_missed"]
+    # Holds of ours on ours are known to meet all.
+    assert lacking(ours) == []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import socket
 import subprocess
 import sys
 from collections.abc import Callable
@@ -367,3 +368,29 @@ def test_a_scale_has_every_note_of_the_range_with_its_first_choice(run: Run) -> 
     status, out, err = run("instruments", "scale", "serpent")
     assert (status, out) == (1, "")
     assert "serpent" in err
+
+
+@pytest.mark.parametrize(
+    ("bars", "reported"),
+    [
+        (["--from-bar", "99"], "bar 99 does not exist; the piece has bars 1 to 44"),
+        (["--to-bar", "0"], "bar 0 does not exist; the piece has bars 1 to 44"),
+        (["--from-bar", "9", "--to-bar", "3"], "the first bar (9) is after the last bar (3)"),
+    ],
+)
+def test_bars_that_cannot_be_are_named(bars: list[str], reported: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["export", str(QUARTET), "--to", "x", "--player", "Trumpet 1", *bars]) == 2
+    assert capsys.readouterr().err == f"suisou: {reported}\n"
+
+
+def test_what_is_wrong_elsewhere_is_not_blamed_on_the_file(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def unknown(*arguments: object, **options: object) -> None:
+        raise socket.gaierror(socket.EAI_NONAME, "no such name")
+
+    monkeypatch.setattr("socket.getaddrinfo", unknown)
+    assert main(["stream", str(QUARTET), "--host", "nowhere.invalid"]) != 0
+    assert capsys.readouterr().err.startswith("suisou: computer 'nowhere.invalid'")
+    assert main(["export", str(tmp_path), "--to", str(tmp_path / "out")]) != 0
+    assert capsys.readouterr().err.startswith("suisou: there is no piece in ")

@@ -47,6 +47,12 @@ def test_keys_are_written_with_the_sign_of_a_flat() -> None:
     assert all("♭" in ja for _, ja in keyed)
 
 
+def test_names_begin_with_a_capital_and_go_on_without() -> None:
+    """As in sentences and other lists; keys, valves and abbreviations are written as they are."""
+    words = [word for one in bundled_maps().values() for word in one.name.en.split()[1:]]
+    assert [word for word in words if word.istitle() and len(word.strip("()♭")) > 1] == []
+
+
 def test_every_family_has_its_place_in_both_orders() -> None:
     assert sorted(vocabulary().score_order) == sorted(family for row in vocabulary().seating for family in row)
     with pytest.raises(MapError):

@@ -8,6 +8,7 @@ import itertools
 import msgspec
 import pytest
 
+from app.messages import LANGUAGES, text
 from app.plan.catch_lengths import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_SOUNDING_S
 from app.plan.corrections import RemoveEvent, SetBreath
 from app.plan.generate import MonophonicPart, make_plans, time_frame
@@ -199,6 +200,28 @@ def test_a_quarter_is_cut_rather_than_an_eighth() -> None:
     catches = [event for event in plan(line_of(*notes)).breaths if event.reason.id == "breath.catch"]
     assert catches
     assert {event.end_tick % (4 * Q) for event in catches} == {0}
+
+
+@pytest.mark.parametrize(("velocities", "air_s"), [((64,), 20.0), ((127, 95), 28.0)])
+def test_a_catch_breath_says_how_much_air_is_needed_and_how_much_there_is(
+    velocities: tuple[int, ...], air_s: float
+) -> None:
+    # 20 s without a rest at 120, on the lungs that a first breath fills; ff takes 1.4 of what mezzoforte does.
+    catch, *others = [
+        event
+        for event in plan(with_velocities(even([65] * 40, Q), *velocities), lung_s=9.0).breaths
+        if event.reason.id == "breath.catch"
+    ]
+    arguments = catch.reason.arguments
+    assert (arguments["phrase_s"], arguments["lung_s"]) == (20.0, 9.0)
+    assert arguments["air_s"] == pytest.approx(air_s, rel=0.02)
+    # All are about the same stretch.
+    assert {(event.reason.arguments["air_s"], event.reason.arguments["lung_s"]) for event in others} <= {
+        (arguments["air_s"], arguments["lung_s"])
+    }
+    said = {language: text(catch.reason, language) for language in LANGUAGES}
+    assert f"need {arguments['air_s']:g} s of air, but 9 s are available" in said["en"]
+    assert f"{arguments['air_s']:g} 秒分の息が必要ですが、9 秒分しかありません" in said["ja"]
 
 
 def test_loud_playing_needs_more_breaths_and_big_lungs_fewer() -> None:

@@ -348,6 +348,15 @@ def test_remarks_of_another_version_are_kept_in_words_we_have() -> None:
     assert "midi.of_tomorrow" in text(warnings[0])
 
 
+@pytest.mark.parametrize("beat", [2, 2.5])
+def test_remarks_that_counted_bars_and_beats_have_their_position(beat: float) -> None:
+    arguments = {"part": "Horn", "voices": 2, "count": 3, "bar": 12, "beat": beat, "pitch": 60}
+    content = changed(full_project(), score__warnings=[{"id": "score.voices", "arguments": arguments}])
+    (warning,) = decode(content, Path("/music/a.suisou")).score.warnings
+    assert (warning.id, warning.arguments["place"]) == ("score.voices", "12.2")
+    assert "the first at 12.2 (C4)" in text(warning)
+
+
 def test_the_version_before_stays_beside(tmp_path: Path) -> None:
     path = tmp_path / "piece.suisou"
     first, second, third = (replace(small_project(), seed=seed) for seed in (1, 2, 3))

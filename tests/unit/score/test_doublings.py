@@ -67,7 +67,7 @@ def test_a_flutist_changes_to_the_piccolo_and_back(tmp_path: Path, name: str, th
     (warning,) = score.warnings
     assert (warning.id, warning.arguments["count"], warning.arguments["pitch"]) == ("score.doubling", 3, 86)
     assert text(warning).startswith(
-        f"Piccolo ({name}): the player changes to Piccolo for 3 notes, the first at bar 1, beat 2 (D6)"
+        f"Piccolo ({name}): the player changes to Piccolo for 3 notes, the first at 1.2.000 (D6)"
     )
 
 

@@ -103,8 +103,7 @@ def test_a_range_that_fits_mostly_is_said_so_and_one_that_does_not_is_refused() 
         "outside": 1,
         "total": 4,
         "count": 1,
-        "bar": 1,
-        "beat": 2,
+        "place": "1.2.048",
         "pitch": 83,
     }
     refused = one_part(82, 83, 84, 85)
@@ -144,8 +143,7 @@ def test_a_part_beyond_its_range_that_fits_as_written_is_said_so() -> None:
         "outside": 1,
         "total": 3,
         "count": 1,
-        "bar": 1,
-        "beat": 2.0,
+        "place": "1.2.000",
         "pitch": 72,
     }
     # Nothing is changed before someone says so.

@@ -90,7 +90,7 @@ def test_what_two_players_on_a_staff_have_alone_is_played_by_both() -> None:
     assert len({one.id for part in score.parts for one in part.notes}) == 10
     (warning,) = score.warnings
     assert warning.id == "score.voices"
-    assert warning.arguments == {"part": "Trumpet 1.2", "voices": 2, "count": 2, "bar": 1, "beat": 3.0, "pitch": 67}
+    assert warning.arguments == {"part": "Trumpet 1.2", "voices": 2, "count": 2, "place": "1.3.000", "pitch": 67}
 
 
 def switch(pitch: int) -> bytes:
@@ -106,8 +106,8 @@ def test_key_switches_are_left_out_and_reported() -> None:
     (silent,) = score.unplayed
     warning = silent.reason
     assert (score.warnings, warning.id, silent.note_count) == ((), "score.key_switches", 4)
-    assert warning.arguments == {"part": "Trumpet", "count": 4, "bar": 1, "beat": 1.0, "pitch": 24}
-    assert "bar 1, beat 1 (C1)" in text(warning)
+    assert warning.arguments == {"part": "Trumpet", "count": 4, "place": "1.1.000", "pitch": 24}
+    assert "at 1.1.000 (C1)" in text(warning)
 
 
 def test_a_key_switch_that_is_held_below_the_music_is_no_player() -> None:

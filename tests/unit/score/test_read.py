@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.errors import FileError
+from app.messages import text
 from app.score.limits import LAST_TICK, MOST_NAME, MOST_PARTS, MOST_STREAMS
 from app.score.metre_map import Metre
 from app.score.model import MOST_VOICES, Marker, PercussionHit
@@ -469,8 +470,7 @@ def test_more_notes_at_once_than_any_section_plays_are_left_out() -> None:
         "part": score.parts[0].name,
         "most": MOST_VOICES,
         "count": 4,
-        "bar": 1,
-        "beat": 1.0,
+        "place": "1.1.000",
         "pitch": 50,
     }
 
@@ -498,3 +498,22 @@ def test_every_note_of_the_percussion_is_a_hit_and_no_part(tmp_path: Path) -> No
     uncast = uncast_score(read_contents(tmp_path / "piece.mid"))
     assert notes_of(uncast) == SCALE_NOTES
     assert uncast.percussion == score.percussion
+
+
+def test_a_file_without_notes_says_so_track_by_track() -> None:
+    volume = bytes([0, 0xB0, 7, 100, 0, 0xB0, 7, 90])
+    data = header(1, 3) + chunk(b"MTrk", END) + chunk(b"MTrk", meta(3, b"Horn") + volume + END)
+    score = score_of(data + chunk(b"MTrk", meta(3, b"Tuba") + END))
+    assert (score.parts, score.unplayed) == ((), ())
+    assert [(warning.id, warning.arguments) for warning in score.warnings] == [
+        ("midi.no_notes", {"tracks": 3}),
+        ("midi.unnamed_track_without_notes", {"track": 1, "count": 0}),
+        ("midi.track_without_notes", {"track": 2, "name": "Horn", "count": 2}),
+        ("midi.track_without_notes", {"track": 3, "name": "Tuba", "count": 0}),
+    ]
+    assert text(score.warnings[2]) == "track 2 (Horn) has no notes and 2 other events"
+
+
+def test_a_file_with_notes_in_one_track_is_no_file_without_notes() -> None:
+    score = score_of(header(1, 2) + chunk(b"MTrk", END) + chunk(b"MTrk", note(60) + END))
+    assert not [warning for warning in score.warnings if "no_notes" in warning.id or "without" in warning.id]

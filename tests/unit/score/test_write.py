@@ -40,7 +40,7 @@ def test_a_tempo_beyond_the_files_bits_is_refused_with_its_place(tempo: float, t
     slow = Score(piece.title, 96, TempoMap(96, changes), parts=piece.parts)
     with pytest.raises(AppError, match=r"midi\.tempo_unwritable") as refused:
         write_midi(slow, tmp_path / "slow.mid")
-    assert error_text(refused.value).startswith("bar 3: ")
+    assert error_text(refused.value).startswith("3.1.000: ")
     assert list(tmp_path.iterdir()) == []
 
 

@@ -1,0 +1,62 @@
+"""What guides and messages name as a path of the menus is there, in both languages."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from app.messages import LANGUAGES, WORDINGS
+from app.shell.action import without_dots, without_key
+from app.shell.language import ROOMS
+from app.shell.menus import BAR
+from app.shell.rows import rows
+from app.shell.texts import TEXTS
+
+ROOT = Path(__file__).parents[3]
+SHOWN = 40
+"""So much of a path that is wrong is shown."""
+GUIDES = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
+
+
+def paths(place: int) -> list[str]:
+    """Every menu within another one and every command, with the menus above, in one of the languages, as patterns.
+    Pages of a command's dialog may follow."""
+    menus_alone = {(without_key(TEXTS["menu.file"][place]), without_key(TEXTS["menu.open_recent"][place]))}
+    commands = set[tuple[str, ...]]()
+    for row in rows():
+        menus = tuple(without_key(TEXTS[f"menu.{part}"][place]) for part in row.menu.split("/") if part)
+        menus_alone.add(menus)
+        commands.add((*menus, without_dots(without_key(TEXTS[f"action.{row.id}"][place]))))
+    return [
+        re.escape(" > ".join(names)) + r"(?![A-Za-z])" + ("" if names in commands else "(?! >)")
+        for names in menus_alone | commands
+        if len(names) > 1
+    ]
+
+
+def wrong(text: str, place: int) -> list[str]:
+    """What begins with a menu of the bar and ``>`` and goes on with none of its menus and commands."""
+    known, flowing = paths(place), " ".join(text.split())
+    bar = "|".join(re.escape(without_key(TEXTS[f"menu.{name}"][place])) for name in BAR)
+    starts = [found.start() for found in re.finditer(rf"(?<!> )(?<![A-Za-z])(?:{bar}) > ", flowing)]
+    return [flowing[at : at + SHOWN] for at in starts if not any(re.match(one, flowing[at:]) for one in known)]
+
+
+def test_a_path_that_is_not_there_is_found() -> None:
+    assert wrong("Choose File > Save As, or File >\nMelt.", 0) == ["File > Melt."]
+    assert wrong("*Record > Devices...*", 0) == ["Record > Devices...*"]
+    assert wrong("Record > Recorder", 0) == ["Record > Recorder"]
+    assert wrong("「録音 > MIDI デバイス」で選んでください。録音 > 装置", 1) == ["録音 > 装置"]
+
+
+@pytest.mark.parametrize("guide", GUIDES, ids=lambda path: path.name)
+def test_guides_name_menus_as_they_are(guide: Path) -> None:
+    assert wrong(guide.read_text(encoding="utf-8"), 0) == []
+
+
+@pytest.mark.parametrize("place", [0, 1], ids=list(LANGUAGES))
+def test_messages_and_texts_name_menus_as_they_are(place: int) -> None:
+    texts = {id: wording[place] for room in (WORDINGS, *ROOMS) for id, wording in room.items()}
+    assert {id: found for id, text in texts.items() if (found := wrong(text, place))} == {}
