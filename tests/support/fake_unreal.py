@@ -578,6 +578,16 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
         def get_all_channels(self) -> list[Any]:
             return self._channels
 
+    class MovieSceneObjectBindingID(StructBase):
+        _id = 0
+
+    class MovieScene3DAttachSection(MovieSceneSection):
+        attach_socket_name = "None"
+        _holder: Any = None
+
+        def set_constraint_binding_id(self, constraint_binding_id: MovieSceneObjectBindingID) -> None:
+            self._holder = constraint_binding_id._id
+
     class MovieSceneSkeletalAnimationParams(StructBase):
         animation: Any = None
 
@@ -631,6 +641,9 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
     class MovieScene3DTransformTrack(MovieSceneTrack):
         _section = MovieScene3DTransformSection
 
+    class MovieScene3DAttachTrack(MovieSceneTrack):
+        _section = MovieScene3DAttachSection
+
     class MovieSceneSkeletalAnimationTrack(MovieSceneTrack):
         _section = MovieSceneSkeletalAnimationSection
 
@@ -662,6 +675,9 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
 
         def set_display_name(self, display_name: str) -> None:
             self._display_name = display_name
+
+        def remove_track(self, track_to_remove: Any) -> None:
+            self._tracks.remove(track_to_remove)
 
         def remove(self) -> None:
             self._sequence._bindings.remove(self)
@@ -712,6 +728,12 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
 
         def get_bindings(self) -> list[Any]:
             return list(self._bindings)
+
+        def get_binding_id(self, binding: Any) -> MovieSceneObjectBindingID:
+            assert binding in self._bindings
+            id = MovieSceneObjectBindingID()
+            id._id = binding._id._value
+            return id
 
         def get_marked_frames_from_sequence(self) -> list[Any]:
             return list(self._marks)

@@ -23,9 +23,10 @@ from app.project.performers import Dancer, Player
 from app.score.model import Score
 from app.score.tempo import TempoMap
 
-SCHEMA: Final = 3
+SCHEMA: Final = 4
 """Rises when a script that knows the schema before would misread the file: one that knows 1 would take dancers, one
-that knows 2 the instruments that a player changes to for figures that are not needed any more."""
+that knows 2 the instruments that a player changes to for figures that are not needed any more; one that knows 3 would
+leave an instrument that hangs on a socket at the origin."""
 
 
 class Rate(msgspec.Struct, frozen=True):
@@ -47,13 +48,14 @@ class Place(msgspec.Struct, frozen=True):
 
 class Figure(msgspec.Struct, frozen=True):
     """A skeletal mesh and what it does: its file, beside this one, and its assets. ``bones`` are all of the file's, the
-    root first."""
+    root first; ``socket`` is the bone of the player's character that an instrument hangs on, empty for none."""
 
     file: str
     mesh: str
     skeleton: str
     animation: str
     bones: tuple[str, ...]
+    socket: str = ""
 
 
 class Double(msgspec.Struct, frozen=True):
@@ -196,6 +198,8 @@ def describe(
     creator: str,
     title: str,
     bones: Mapping[str, tuple[str, ...]],
+    sockets: Mapping[str, str],
+    rooted: bool,
     sound: Sound,
     files: Mapping[str, OwnFile],
 ) -> Description:
@@ -209,14 +213,21 @@ def describe(
         Why players and dancers could not be exported, by their ids.
     bones : mapping of str to tuple of str
         By the file that has them.
+    sockets : mapping of str to str
+        Of the instruments that hang on one, by the player's id.
+    rooted : bool
+        Whether root bones stand at the places, so that the actors do not.
     """
     project = performance.project
     score, rate = project.score, span.fps
     time = _Time(performance.piece.clock, span)
 
-    def figure(place: FigurePlace) -> Figure:
+    def figure(place: FigurePlace, socket: str = "") -> Figure:
         file = place.file.as_posix()
-        return Figure(file, place.mesh, place.skeleton, place.animation, bones[file])
+        return Figure(file, place.mesh, place.skeleton, place.animation, bones[file], socket)
+
+    def placed(stage: StagePosition) -> Place:
+        return Place(0.0, 0.0, 0.0, 0.0) if rooted else place_of(stage)
 
     def cast(player: Player) -> Cast:
         return Cast(
@@ -225,15 +236,16 @@ def describe(
             instrument_id=player.instrument_id,
             character_id=player.character_id,
             stage=stage_place(player.stage),
-            place=place_of(player.stage),
+            place=placed(player.stage),
             character=figure(layout.characters[player.id]),
-            instrument=figure(layout.instruments[player.id]),
+            instrument=figure(layout.instruments[player.id], sockets.get(player.id, "")),
             doubles=tuple(double(project.player(id)) for id in layout.doubles.get(player.id, ()) if id not in left_out),
         )
 
     def double(player: Player) -> Double:
         place = layout.instruments[player.id]
-        return Double(player.name, project.part(player).name, player.instrument_id, figure(place))
+        held = figure(place, sockets.get(player.id, ""))
+        return Double(player.name, project.part(player).name, player.instrument_id, held)
 
     def cast_dancer(dancer: Dancer, choreography: str) -> CastDancer:
         return CastDancer(
@@ -241,7 +253,7 @@ def describe(
             choreography=choreography,
             character_id=dancer.character_id,
             stage=stage_place(dancer.stage),
-            place=place_of(dancer.stage),
+            place=placed(dancer.stage),
             character=figure(layout.characters[dancer.id]),
         )
 

@@ -39,15 +39,25 @@ def build(performance: Performance, anew: set[str]) -> list[str]:
     reported: list[str] = []
     known: dict[str, Any] = state["figures"]
     figures: dict[str, Any] = {}
+    there: dict[str, unreal.MovieSceneBindingProxy] = {}
     for figure in performance.figures:
         before = None if figure.mesh in anew else known.get(figure.mesh)
         binding = None if before is None else _binding(sequence, before["id"])
         if binding is None:
             _remove(sequence, known.get(figure.mesh))
             binding, before = _new_binding(sequence, figure), None
-        reported += _put(binding, figure, None if before is None else Place(*before["place"]))
+        there[figure.animation] = binding
+        hung = "" if before is None else str(before.get("socket", ""))
+        _hang(sequence, binding, there.get(figure.holder), figure.socket, hung)
+        # On another socket the place is another one, wherever it was put before.
+        stayed = before is not None and hung == figure.socket
+        reported += _put(binding, figure, Place(*before["place"]) if before is not None and stayed else None)
         _play(binding, figure, performance)
-        figures[figure.mesh] = {"id": binding.get_id().to_string(), "place": list(figure.place)}
+        figures[figure.mesh] = {
+            "id": binding.get_id().to_string(),
+            "place": list(figure.place),
+            "socket": figure.socket,
+        }
     for mesh, before in known.items():
         if mesh in performance.staying:
             figures.setdefault(mesh, before)
@@ -136,6 +146,33 @@ def _new_binding(sequence: unreal.LevelSequence, figure: Figure) -> unreal.Movie
     return binding
 
 
+def _hang(
+    sequence: unreal.LevelSequence,
+    binding: unreal.MovieSceneBindingProxy,
+    holder: unreal.MovieSceneBindingProxy | None,
+    socket: str,
+    before: str,
+) -> None:
+    """Have an actor hang on a bone of another, or on none; ``before`` is the bone that it was hung on."""
+    tracks = binding.find_tracks_by_exact_type(unreal.MovieScene3DAttachTrack)
+    ours = [track for track in tracks if before and before in map(_socket, track.get_sections())]
+    if holder is None:
+        for track in ours:
+            binding.remove_track(track)
+        return
+    track = ours[0] if ours else binding.add_track(unreal.MovieScene3DAttachTrack)
+    section = track.get_sections()[0] if ours else track.add_section()
+    assert isinstance(section, unreal.MovieScene3DAttachSection)
+    section.set_constraint_binding_id(sequence.get_binding_id(holder))
+    section.attach_socket_name = socket
+    section.set_start_frame_bounded(False)
+    section.set_end_frame_bounded(False)
+
+
+def _socket(section: unreal.MovieSceneSection) -> str:
+    return str(section.attach_socket_name) if isinstance(section, unreal.MovieScene3DAttachSection) else ""
+
+
 def _put(binding: unreal.MovieSceneBindingProxy, figure: Figure, before: Place | None) -> list[str]:
     """Put an actor at its place; where the artist has moved it, it stays. What is reported to the user."""
     tracks = binding.find_tracks_by_exact_type(unreal.MovieScene3DTransformTrack)
@@ -174,7 +211,7 @@ def _channel_values(place: Place) -> dict[str, float]:
         "Location.X": place.x_cm,
         "Location.Y": place.y_cm,
         "Location.Z": place.z_cm,
-        "Rotation.X": 0.0,
+        "Rotation.X": place.roll_deg,
         "Rotation.Y": 0.0,
         "Rotation.Z": place.yaw_deg,
         "Scale.X": 1.0,
