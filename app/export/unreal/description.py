@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import msgspec
@@ -25,8 +25,8 @@ from app.score.tempo import TempoMap
 
 SCHEMA: Final = 4
 """Rises when a script that knows the schema before would misread the file: one that knows 1 would take dancers, one
-that knows 2 the instruments that a player changes to for figures that are not needed any more; one that knows 3 would
-leave an instrument that hangs on a socket at the origin."""
+that knows 2 the instruments that a player changes to for figures that are not needed any more; one that knows 3 does
+not know that players share a mesh, and would leave an instrument that hangs on a socket at the origin."""
 
 
 class Rate(msgspec.Struct, frozen=True):
@@ -198,6 +198,7 @@ def describe(
     creator: str,
     title: str,
     bones: Mapping[str, tuple[str, ...]],
+    bodies: Mapping[str, tuple[str, str]],
     sockets: Mapping[str, str],
     rooted: bool,
     sound: Sound,
@@ -213,6 +214,8 @@ def describe(
         Why players and dancers could not be exported, by their ids.
     bones : mapping of str to tuple of str
         By the file that has them.
+    bodies : mapping of str to (str, str)
+        Paths of the meshes and skeletons of characters, by the ids of players and dancers.
     sockets : mapping of str to str
         Of the instruments that hang on one, by the player's id.
     rooted : bool
@@ -226,6 +229,10 @@ def describe(
         file = place.file.as_posix()
         return Figure(file, place.mesh, place.skeleton, place.animation, bones[file], socket)
 
+    def character(id: str) -> Figure:
+        mesh, skeleton = bodies[id]
+        return figure(replace(layout.characters[id], mesh=mesh, skeleton=skeleton))
+
     def placed(stage: StagePosition) -> Place:
         return Place(0.0, 0.0, 0.0, 0.0) if rooted else place_of(stage)
 
@@ -237,7 +244,7 @@ def describe(
             character_id=player.character_id,
             stage=stage_place(player.stage),
             place=placed(player.stage),
-            character=figure(layout.characters[player.id]),
+            character=character(player.id),
             instrument=figure(layout.instruments[player.id], sockets.get(player.id, "")),
             doubles=tuple(double(project.player(id)) for id in layout.doubles.get(player.id, ()) if id not in left_out),
         )
@@ -254,7 +261,7 @@ def describe(
             character_id=dancer.character_id,
             stage=stage_place(dancer.stage),
             place=placed(dancer.stage),
-            character=figure(layout.characters[dancer.id]),
+            character=character(dancer.id),
         )
 
     return Description(
@@ -293,7 +300,7 @@ def describe(
 
 
 def _assets(places: Iterable[FigurePlace]) -> tuple[str, ...]:
-    return tuple(path for place in places for path in (place.mesh, place.skeleton, place.animation))
+    return tuple(path for place in places for path in (place.mesh, place.skeleton, place.animation) if path)
 
 
 @dataclass(frozen=True)

@@ -193,6 +193,7 @@ def export_into(
             request.creator,
             request.performance.project.score.title,
             bones,
+            _bodies(request, cast, plan.layout),
             _sockets(cast),
             request.rig.root_bone == "place",
             sound,
@@ -279,6 +280,14 @@ def _dancers(request: Request, cast: ExportCast) -> tuple[tuple[Dancer, str], ..
     """The dancers who are exported, as the project has them, with the names of their choreographies."""
     dancers = {dancer.id: dancer for dancer in request.dancers}
     return tuple((dancers[dancing.dancer.id], dancing.choreographer.model.name) for dancing in cast.dances)
+
+
+def _bodies(request: Request, cast: ExportCast, layout: Layout) -> dict[str, tuple[str, str]]:
+    """Mesh and skeleton of each character, by the id of the player or dancer: of those alike the same."""
+    performers = [performer.player for performer in cast.performers]
+    dancers = [dancer for dancer, _ in _dancers(request, cast)]
+    targets = {one.id: cast.targets[one.id].target for one in (*performers, *dancers)}
+    return {one.id: layout.body(one.character_id, socket_names(targets[one.id])) for one in (*performers, *dancers)}
 
 
 def _sockets(cast: ExportCast) -> dict[str, str]:

@@ -51,7 +51,8 @@ def test_a_dancer_is_written_as_a_player_is(unreal: UnrealProject, export: Expor
     assert (dancer["place"]["x_cm"], dancer["place"]["y_cm"]) == (-50.0, 200.0)
     assert dancer["place"]["yaw_deg"] == pytest.approx(-np.degrees(0.5), abs=1e-3)
     figure = dancer["character"]
-    assert figure["mesh"] == "/Game/Suisou/quartet/Characters/Ana/SK_Ana"
+    assert figure["mesh"] == "/Game/Suisou/quartet/Bodies/woman_adult/SK_woman_adult"
+    assert figure["animation"] == "/Game/Suisou/quartet/Characters/Ana/A_Ana"
     assert figure["file"] == "Characters/SK_Ana.fbx"
     assert figure["file"] in reported["files"]
     report = read(unreal, "report.json")

@@ -43,7 +43,7 @@ def without(name: str) -> Callable[[Editor], None]:
 
 
 def somebody_elses(editor: Editor) -> None:
-    editor.studio.add(f"{ROOT}/Characters/Trumpet_1/SK_Trumpet_1", editor.unreal.SkeletalMesh())
+    editor.studio.add(f"{ROOT}/Characters/Trumpet_1/A_Trumpet_1", editor.unreal.AnimSequence())
 
 
 def player(field: str, value: object) -> Callable[[dict[str, Any]], None]:
@@ -89,7 +89,7 @@ def test_import_and_update_know_what_is_there(editor: Editor) -> None:
 
 
 def test_what_unreal_does_not_import_is_reported(editor: Editor) -> None:
-    refused = f"{ROOT}/Characters/Trombone_1/SK_Trombone_1"
+    refused = f"{ROOT}/Instruments/Trumpet_1_trumpet_Bb/SK_Trumpet_1_trumpet_Bb"
     editor.studio.refuse_import.add(refused)
     reported = editor.import_performance()
     assert refused in reported

@@ -25,7 +25,7 @@ MIRRORED = np.diag([1.0, -1.0, 1.0, 1.0])
 """Unreal's left-handed space of a right-handed one."""
 
 
-def hung(binding: Any) -> list[tuple[str, int]]:
+def hung(binding: Any) -> list[tuple[str, int | None]]:
     """The bones that an actor hangs on, with the number of the actor whose they are."""
     tracks = [track for track in binding._tracks if type(track).__name__ == "MovieScene3DAttachTrack"]
     assert all(section._bounded == (False, False) for track in tracks for section in track._sections)

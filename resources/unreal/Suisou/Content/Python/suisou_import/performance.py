@@ -92,9 +92,14 @@ class Performance(NamedTuple):
 
     @property
     def assets(self) -> list[str]:
-        """Paths of all its assets."""
+        """Paths of all its assets, each once: figures of the same body share its mesh and skeleton."""
         own = [path for figure in self.figures for path in (figure.mesh, figure.skeleton, figure.animation)]
-        return [*own, self.sound.asset, self.sequence]
+        return list(dict.fromkeys([*own, self.sound.asset, self.sequence]))
+
+    @property
+    def bodies(self) -> list[Figure]:
+        """The first figure of each mesh, from whose file it is made."""
+        return list({figure.mesh: figure for figure in reversed(self.figures)}.values())[::-1]
 
     def path(self, file: str) -> Path:
         """Where a file is."""
@@ -197,7 +202,9 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
         raise ValueError("its assets are not in its own folder")
     inside = read_performance.content + "/"
     assets = read_performance.assets
-    apart = len({path.lower() for path in assets}) == len(assets)
+    alike = {(figure.mesh, figure.skeleton, figure.bones) for figure in figures}
+    count = 2 * len(alike) + len(figures) + 2
+    apart = len({path.lower() for path in assets}) == len(assets) == count
     if not apart or not all(path.startswith(inside) for path in [*assets, *read_performance.staying]):
         raise ValueError("its assets are not apart, or not in its own folder")
     if not {figure.file for figure in figures} | {read_performance.sound.file} <= set(read_performance.files):

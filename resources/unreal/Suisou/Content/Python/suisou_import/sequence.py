@@ -41,10 +41,12 @@ def build(performance: Performance, anew: set[str]) -> list[str]:
     figures: dict[str, Any] = {}
     there: dict[str, unreal.MovieSceneBindingProxy] = {}
     for figure in performance.figures:
-        before = None if figure.mesh in anew else known.get(figure.mesh)
+        before = None if figure.mesh in anew else known.get(figure.animation)
         binding = None if before is None else _binding(sequence, before["id"])
+        if binding is not None and before is not None and before["mesh"] != figure.mesh:
+            binding = binding if _show(binding, figure.mesh) else None
         if binding is None:
-            _remove(sequence, known.get(figure.mesh))
+            _remove(sequence, known.get(figure.animation))
             binding, before = _new_binding(sequence, figure), None
         there[figure.animation] = binding
         hung = "" if before is None else str(before.get("socket", ""))
@@ -53,21 +55,30 @@ def build(performance: Performance, anew: set[str]) -> list[str]:
         stayed = before is not None and hung == figure.socket
         reported += _put(binding, figure, Place(*before["place"]) if before is not None and stayed else None)
         _play(binding, figure, performance)
-        figures[figure.mesh] = {
+        figures[figure.animation] = {
             "id": binding.get_id().to_string(),
+            "mesh": figure.mesh,
+            "skeleton": figure.skeleton,
             "place": list(figure.place),
             "socket": figure.socket,
         }
-    for mesh, before in known.items():
-        if mesh in performance.staying:
-            figures.setdefault(mesh, before)
-        elif mesh not in figures:
+    for animation, before in known.items():
+        if animation in performance.staying:
+            figures.setdefault(animation, before)
+        elif animation not in figures:
             _remove(sequence, before)
     _sound(sequence, performance)
     marks = _mark(sequence, performance, set(state["marks"]))
     _remember(sequence, {"figures": figures, "marks": marks})
     assets.tag(sequence, performance)
     return reported
+
+
+def shown_with(performance: Performance) -> set[str]:
+    """Paths of the meshes and skeletons that excluded performers are shown with."""
+    known = _state(_sequence(performance))["figures"]
+    staying = [known[animation] for animation in performance.staying if animation in known]
+    return {str(one[what]) for one in staying for what in ("mesh", "skeleton")}
 
 
 def last_frame(performance: Performance) -> int:
@@ -144,6 +155,18 @@ def _new_binding(sequence: unreal.LevelSequence, figure: Figure) -> unreal.Movie
         actors.destroy_actor(actor)
     binding.set_display_name(figure.name)
     return binding
+
+
+def _show(binding: unreal.MovieSceneBindingProxy, mesh: str) -> bool:
+    """Have an actor show another mesh; whether that can be done."""
+    template, asset = binding.get_object_template(), assets.existing(mesh)
+    if not isinstance(template, unreal.Actor) or not isinstance(asset, unreal.SkeletalMesh):
+        return False
+    component = template.get_component_by_class(unreal.SkeletalMeshComponent)
+    if not isinstance(component, unreal.SkeletalMeshComponent):
+        return False
+    component.set_skinned_asset_and_update(asset)
+    return True
 
 
 def _hang(
@@ -314,9 +337,18 @@ def _state(sequence: unreal.LevelSequence) -> dict[str, Any]:
     """What was put into a sequence the last time; nothing if that cannot be reported."""
     try:
         state = json.loads(unreal.EditorAssetLibrary.get_metadata_tag(sequence, STATE_TAG))
-        return {"figures": dict(state["figures"]), "marks": list(state["marks"])}
+        figures = dict(_known(*item) for item in state["figures"].items())
+        return {"figures": figures, "marks": list(state["marks"])}
     except (ValueError, KeyError, TypeError):
         return {"figures": {}, "marks": []}
+
+
+def _known(key: str, figure: dict[str, Any]) -> tuple[str, dict[str, Any]]:
+    """What was put for a figure, by its animation; an earlier Suisou kept it by the mesh, of which each had its own."""
+    if "mesh" in figure:
+        return key, figure
+    folder, _, name = key.rpartition("/SK_")
+    return f"{folder}/A_{name}", {**figure, "mesh": key, "skeleton": f"{folder}/SKEL_{name}"}
 
 
 def _remember(sequence: unreal.LevelSequence, state: dict[str, Any]) -> None:
