@@ -152,7 +152,7 @@ class Cue(msgspec.Struct, frozen=True):
 
 class LeftOutFigures(msgspec.Struct, frozen=True):
     """A player or dancer who was to be exported but could not be, and why. ``assets`` are those that an earlier export
-    may have made: they stay."""
+    may have made: they stay, and so does the body that is shown."""
 
     name: str
     reason: str

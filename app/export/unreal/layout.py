@@ -126,7 +126,7 @@ def layout_of(project: Project, piece: str) -> Layout:
     # Dancers come last, so that a new player does not rename theirs.
     names = numbered([*own, *held, *(asset_name(dancer.name, "Dancer") for dancer in dancers)])
     content = f"{CONTENT}/{piece}"
-    characters = sorted({one.character_id for one in (*players, *dancers)})
+    characters = sorted({player.character_id for player in players} | {dancer.character_id for dancer in dancers})
     doubling = {player.id for player in players} - {musician.id for musician in project.bodies}
 
     def places(
@@ -134,9 +134,10 @@ def layout_of(project: Project, piece: str) -> Layout:
     ) -> dict[str, FigurePlace]:
         return {
             performer.id: FigurePlace(
-                PurePosixPath(kind, f"SK_{name}.fbx"),
-                *(f"{content}/{kind}/{name}/{prefix}_{name}" if own else "" for prefix in ("SK", "SKEL")),
-                f"{content}/{kind}/{name}/A_{name}",
+                file=PurePosixPath(kind, f"SK_{name}.fbx"),
+                mesh=f"{content}/{kind}/{name}/SK_{name}" if own else "",
+                skeleton=f"{content}/{kind}/{name}/SKEL_{name}" if own else "",
+                animation=f"{content}/{kind}/{name}/A_{name}",
             )
             for performer, name in zip(performers, names, strict=True)
         }

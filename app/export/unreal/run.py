@@ -284,10 +284,9 @@ def _dancers(request: Request, cast: ExportCast) -> tuple[tuple[Dancer, str], ..
 
 def _bodies(request: Request, cast: ExportCast, layout: Layout) -> dict[str, tuple[str, str]]:
     """Mesh and skeleton of each character, by the id of the player or dancer: of those alike the same."""
-    performers = [performer.player for performer in cast.performers]
-    dancers = [dancer for dancer, _ in _dancers(request, cast)]
-    targets = {one.id: cast.targets[one.id].target for one in (*performers, *dancers)}
-    return {one.id: layout.body(one.character_id, socket_names(targets[one.id])) for one in (*performers, *dancers)}
+    characters = {performer.player.id: performer.player.character_id for performer in cast.performers}
+    characters |= {dancer.id: dancer.character_id for dancer, _ in _dancers(request, cast)}
+    return {id: layout.body(character, socket_names(cast.targets[id].target)) for id, character in characters.items()}
 
 
 def _sockets(cast: ExportCast) -> dict[str, str]:

@@ -146,8 +146,7 @@ def rest_m(scene: Scene) -> dict[str, np.ndarray]:
 def angles_rad(before: np.ndarray, after: np.ndarray) -> np.ndarray:
     """Between rotation matrices (..., 3, 3)."""
     turns = np.swapaxes(before, -1, -2) @ after
-    result: np.ndarray = Rotation.from_matrix(turns.reshape(-1, 3, 3)).magnitude()
-    return result
+    return np.asarray(Rotation.from_matrix(turns.reshape(-1, 3, 3)).magnitude())
 
 
 def check_body(plain: Files, found: Files) -> None:
