@@ -16,6 +16,7 @@ from app.export.player import held_paths
 from app.export.report import StageFigure, StageReport, stage_place
 from app.export.request import ExportCast, Request
 from app.export.rig import ORIGIN, floor_place
+from app.export.target import TargetSkeleton
 from app.formats.scene import Scene
 from app.performance.motion import player_motion
 from app.project.casting import StagePosition
@@ -66,10 +67,10 @@ def _figures(
     def figure(one: Player | Dancer, stage: StagePosition, node: str, socket: str | None = None) -> StageFigure:
         return StageFigure(node, one.name, stage_place(stage), socket)
 
-    def placed(stage: StagePosition, scene: Scene) -> Scene:
+    def placed(target: TargetSkeleton, stage: StagePosition, scene: Scene) -> Scene:
         assert scene.clip is not None
         # A root bone that stands at the place has a node at the origin.
-        place = ORIGIN if request.rig.root_bone == "place" else floor_place(stage)
+        place = floor_place(stage) if target.place is None else ORIGIN
         return replace(scene, place=place, clip=replace(scene.clip, name=take))
 
     for number, performer in enumerate(cast.performers):
@@ -81,7 +82,7 @@ def _figures(
         character = character_scene(performer.character, motion, name, creator, target, paths)
         figures, sockets = [figure(musician, musician.stage, name)], socket_names(target)
         if not sockets:
-            yield tuple(figures), placed(musician.stage, character)
+            yield tuple(figures), placed(target, musician.stage, character)
             del character
         hanging = []
         for index, one in enumerate((performer, *doubles)):
@@ -92,9 +93,9 @@ def _figures(
                 hanging.append(held)
                 figures.append(figure(one.player, musician.stage, name, sockets[index]))
             else:
-                yield (figure(one.player, musician.stage, name),), placed(musician.stage, held)
+                yield (figure(one.player, musician.stage, name),), placed(target, musician.stage, held)
         if sockets:
-            yield tuple(figures), placed(musician.stage, attached(character, hanging, target))
+            yield tuple(figures), placed(target, musician.stage, attached(character, hanging, target))
     here = {dancer.id: dancer for dancer in request.dancers}
     for number, dancing in enumerate(cast.dances, len(cast.performers)):
         reported(number / everyone)
@@ -102,4 +103,4 @@ def _figures(
         motion = dancing.motion(span.fps, span.first, span.count)
         name = stems[dancer.id]["character"]
         character = character_scene(dancing.character, motion, name, creator, target)
-        yield (figure(dancer, dancer.stage, name),), placed(dancer.stage, character)
+        yield (figure(dancer, dancer.stage, name),), placed(target, dancer.stage, character)

@@ -7,7 +7,7 @@ Times are seconds of the animation, whose frame 0 is at 0, and frames of it wher
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -200,7 +200,7 @@ def describe(
     bones: Mapping[str, tuple[str, ...]],
     bodies: Mapping[str, tuple[str, str]],
     sockets: Mapping[str, str],
-    rooted: bool,
+    rooted: Set[str],
     sound: Sound,
     files: Mapping[str, OwnFile],
 ) -> Description:
@@ -218,8 +218,8 @@ def describe(
         Paths of the meshes and skeletons of characters, by the ids of players and dancers.
     sockets : mapping of str to str
         Of the instruments that hang on one, by the player's id.
-    rooted : bool
-        Whether root bones stand at the places, so that the actors do not.
+    rooted : set of str
+        Ids of those whose root bones stand at their places, so that the actors do not.
     """
     project = performance.project
     score, rate = project.score, span.fps
@@ -233,8 +233,8 @@ def describe(
         mesh, skeleton = bodies[id]
         return figure(replace(layout.characters[id], mesh=mesh, skeleton=skeleton))
 
-    def placed(stage: StagePosition) -> Place:
-        return Place(0.0, 0.0, 0.0, 0.0) if rooted else place_of(stage)
+    def placed(one: Player | Dancer) -> Place:
+        return Place(0.0, 0.0, 0.0, 0.0) if one.id in rooted else place_of(one.stage)
 
     def cast(player: Player) -> Cast:
         return Cast(
@@ -243,7 +243,7 @@ def describe(
             instrument_id=player.instrument_id,
             character_id=player.character_id,
             stage=stage_place(player.stage),
-            place=placed(player.stage),
+            place=placed(player),
             character=character(player.id),
             instrument=figure(layout.instruments[player.id], sockets.get(player.id, "")),
             doubles=tuple(double(project.player(id)) for id in layout.doubles.get(player.id, ()) if id not in left_out),
@@ -260,7 +260,7 @@ def describe(
             choreography=choreography,
             character_id=dancer.character_id,
             stage=stage_place(dancer.stage),
-            place=placed(dancer.stage),
+            place=placed(dancer),
             character=character(dancer.id),
         )
 

@@ -195,7 +195,7 @@ def export_into(
             bones,
             _bodies(request, cast, plan.layout),
             _sockets(cast),
-            request.rig.root_bone == "place",
+            {id for id, checked in cast.targets.items() if checked.target.place is not None},
             sound,
             with_files,
         )
