@@ -26,6 +26,7 @@ from app.cli.terminal import interrupted_by, say
 from app.encoding import shown
 from app.errors import UsageError
 from app.export.formats import FILE_FORMATS, KEY_CHOICES, USUAL_FORMATS, Format
+from app.export.rig_options import ATTACHMENTS, DEFAULT_RIG, REST_POSES, ROOT_BONES, RigOptions
 from app.messages import text
 from app.project.parameters import select_players
 from app.version import program_version
@@ -70,11 +71,11 @@ def add_command(commands: Commands) -> None:
     command.add_argument(
         "--skeleton",
         choices=SKELETONS,
-        default="own",
         help="what the characters are written on: the skeleton of the character's own file, untouched, so that the "
         "animation drops on the asset made from it; Unreal's mannequin with the character's proportions; or ours "
-        "(default: own)",
+        "(default: own; with --unreal ue5)",
     )
+    add_rig_options(command)
     command.add_argument(
         "--check-skeleton",
         type=Path,
@@ -123,6 +124,37 @@ def add_command(commands: Commands) -> None:
     command.add_argument("--piece", type=Path, help=argparse.SUPPRESS)
     add_bar_options(command)
     command.set_defaults(run=export)
+
+
+def add_rig_options(command: argparse.ArgumentParser) -> None:
+    """How instruments hang, and what the skeletons have beside their bones."""
+    command.add_argument(
+        "--instrument",
+        choices=ATTACHMENTS,
+        default=DEFAULT_RIG.instrument,
+        help="free: the instrument's file has its motion in the world; socket: its root hangs on a socket bone of the "
+        "hand that bears it; ik: on a socket bone of that hand's IK target, with IK targets of hands and feet as bones "
+        "(default: %(default)s)",
+    )
+    command.add_argument(
+        "--root-bone",
+        choices=ROOT_BONES,
+        default=DEFAULT_RIG.root_bone,
+        help="where the root bone is: at the origin, at the player's place on the stage, or in motion over the floor "
+        "below the hips (default: %(default)s)",
+    )
+    command.add_argument(
+        "--rest-pose",
+        choices=REST_POSES,
+        default=DEFAULT_RIG.rest_pose,
+        help="the arms in the pose that meshes are bound in: as modelled, level, or 45 degrees down; the motion is the "
+        "same (default: %(default)s)",
+    )
+    command.add_argument(
+        "--twist-bones",
+        action="store_true",
+        help="twist bones along upper and lower arms carry skin; our own skeleton gets one for each",
+    )
 
 
 jobs = within(1, 256, "a number of processes", int)
@@ -186,6 +218,7 @@ def export(arguments: argparse.Namespace) -> int:
     musicians = dict.fromkeys(project.musician(player) for player in players)
     find_holds(performance, [player for musician in musicians for player in project.played_by(musician)])
     progress = Progress(sys.stderr)
+    skeleton: SkeletonChoice = arguments.skeleton or ("own" if unreal is None else "ue5")
     request = Request(
         performance=performance,
         players=players,
@@ -195,7 +228,8 @@ def export(arguments: argparse.Namespace) -> int:
         bars=requested_bars(performance, arguments),
         source=shown(arguments.file.name),
         creator=f"Suisou {program_version()}",
-        skeleton=arguments.skeleton,
+        skeleton=skeleton,
+        rig=RigOptions(arguments.instrument, arguments.root_bone, arguments.rest_pose, arguments.twist_bones),
         asset=arguments.check_skeleton,
         sound=arguments.sound,
         stage=arguments.stage,
@@ -211,7 +245,8 @@ def export(arguments: argparse.Namespace) -> int:
                 reported = summary(report, arguments.to)
             else:
                 written = export_into(request, unreal, text, progress=progress)
-                report, reported = written.report, project_summary(written, unreal)
+                report = written.report
+                reported = project_summary(written, unreal, skeleton, chosen=arguments.skeleton is not None)
     finally:
         progress.clear()
     say(*reported)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path, PurePosixPath
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from app.contacts.bounds import GRIP_MM, TOUCH_MM, Spread
 from app.encoding import shown
@@ -21,6 +21,7 @@ from app.export.report import (
 from app.messages import filled, text
 
 if TYPE_CHECKING:
+    from app.export.target import SkeletonChoice
     from app.export.unreal.project import UnrealProject
     from app.export.unreal.run import Written
 
@@ -48,8 +49,21 @@ def share_of_keys(report: Report) -> float:
     return sum(count.written for count in known) / max(sum(count.every for count in known), 1)
 
 
-def project_summary(written: Written, project: UnrealProject) -> list[str]:
-    """The tree of what is in an Unreal project now, and what `summary` says of it."""
+_SKELETONS: Final[dict[SkeletonChoice, str]] = {
+    "own": "the characters' own",
+    "ue5": "Unreal Engine 5's mannequin",
+    "suisou": "ours",
+}
+
+
+def project_summary(written: Written, project: UnrealProject, skeleton: SkeletonChoice, chosen: bool) -> list[str]:
+    """The tree of what is in an Unreal project now, on which skeleton, and what `summary` says of it.
+
+    Parameters
+    ----------
+    chosen : bool
+        Whether the skeleton was; otherwise it is said how another is.
+    """
     plan, report = written.plan, written.report
     engine = f"Unreal Engine {project.engine}" if project.version is not None else "unknown engine version"
     lines = [
@@ -57,6 +71,8 @@ def project_summary(written: Written, project: UnrealProject) -> list[str]:
         "the sound starts with the first one",
         *tree(plan.written, lambda path: " (replaced)" if path in plan.replaced else ""),
     ]
+    other = "" if chosen else " (--skeleton own: the characters' own)"
+    lines += [f"skeleton: {_SKELETONS[skeleton]}{other}"]
     lines += [f"removed: {path}" for path in plan.removed]
     lines += [text(message) for message in plan.kept]
     lines += [

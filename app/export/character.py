@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
+from app.export.bind_pose import CENTIMETRES, bound_meshes, rest_transforms
 from app.export.own_skeleton import own_weights
-from app.export.target import BoneMotion, TargetSkeleton, bone_motion, matrices, normalised_target
+from app.export.target import BoneMotion, TargetSkeleton, Trajectory, bone_motion, matrices, normalised_target
 from app.formats.join import join_meshes
 from app.formats.names import numbered
 from app.formats.scene import Bone, Clip, MorphTarget, Scene, SkinnedMesh
@@ -19,11 +20,14 @@ from app.rig.mesh import Mesh
 from app.rig.model import Character
 from app.rig.placements import local_placements, world_placements
 
-CENTIMETRES = 100.0
-
 
 def character_scene(
-    character: Character, motion: Motion, name: str, creator: str, target: TargetSkeleton | None = None
+    character: Character,
+    motion: Motion,
+    name: str,
+    creator: str,
+    target: TargetSkeleton | None = None,
+    held: Sequence[Trajectory] = (),
 ) -> Scene:
     """The scene of one player.
 
@@ -38,6 +42,8 @@ def character_scene(
         Program and version.
     target : TargetSkeleton, optional
         The skeleton to write on; ours if absent.
+    held : sequence of Trajectory
+        Of the musician's instruments, where the target has sockets for several; none: the motion's.
 
     Returns
     -------
@@ -53,10 +59,15 @@ def character_scene(
         meshes, weights = (_joined_mesh(character, target, name),), motion.morphs
     there = {morph.name for mesh in meshes for morph in mesh.morphs}
     return Scene(
-        bones=_bound_bones(target, meshes[0]) if target.choice == "ue5" else skeleton_bones(target),
+        bones=_bound_bones(target, meshes[0]) if _rests_as_bound(target) else skeleton_bones(target),
         meshes=meshes,
         clip=character_clip(
-            character, motion, name, target, {morph: weight for morph, weight in weights.items() if morph in there}
+            character,
+            motion,
+            name,
+            target,
+            {morph: weight for morph, weight in weights.items() if morph in there},
+            held,
         ),
         creator=creator,
         name=name,
@@ -73,13 +84,16 @@ def skeleton_bones(target: TargetSkeleton) -> tuple[Bone, ...]:
     )
 
 
+def _rests_as_bound(target: TargetSkeleton) -> bool:
+    return target.choice == "ue5" or target.rest_pose != "model"
+
+
 def _bound_bones(target: TargetSkeleton, mesh: SkinnedMesh) -> tuple[Bone, ...]:
     """The bones where the mesh was bound: Unreal takes that pose for the rest pose, and three.js mixes the two."""
     binds = np.asarray(mesh.world_from_bone_bind, np.float64)
     turned = quaternion.from_matrix(binds[:, :3, :3])
     places_cm, rotations = local_placements(target.parents, binds[:, :3, 3], turned)
-    # Only the hips and what is tied to another bone have another place in another pose.
-    placed = [target.hips, *target.tied]
+    placed = sorted(target.loose)
     offsets_cm = target.offsets_m * CENTIMETRES
     offsets_cm[placed] = places_cm[placed]
     return tuple(
@@ -94,12 +108,13 @@ def character_clip(
     name: str,
     target: TargetSkeleton,
     morph_weights: Mapping[str, npt.NDArray[np.float32]],
+    held: Sequence[Trajectory] = (),
 ) -> Clip:
-    """What the bones and the face do. Our own root stays at the origin; only the hips are moved."""
-    if target.choice == "suisou":  # every bone is its joint: there is nothing to work out
+    """What the bones and the face do."""
+    if target.normalised:  # there is nothing to work out
         bones = BoneMotion(motion.rotations, {target.hips: motion.hips_m.astype(np.float64)})
     else:
-        bones = bone_motion(target, character.skeleton, motion)
+        bones = bone_motion(target, character.skeleton, motion, held)
     return Clip(
         name=name,
         fps=motion.fps,
@@ -113,7 +128,7 @@ def character_clip(
 def _own_meshes(figure: Figure, target: TargetSkeleton, name: str) -> tuple[SkinnedMesh, ...]:
     """The meshes of a figure, bound where its bones are at rest."""
     binds = matrices(*world_placements(target.parents, target.offsets_m * CENTIMETRES, target.rest))
-    added = len(target.names) - len(figure.bone_names)
+    added = len(target.names) - len(target.added) - len(figure.bone_names)
     names = mesh_names([f"{name}_{mesh.name or 'mesh'}" for mesh in figure.meshes], target.names)
     return tuple(
         # What has no weight may name any bone.
@@ -124,34 +139,11 @@ def _own_meshes(figure: Figure, target: TargetSkeleton, name: str) -> tuple[Skin
 
 def _joined_mesh(character: Character, target: TargetSkeleton, name: str) -> SkinnedMesh:
     """All meshes of a character as one, on the bones of a target; a joint without a bone goes with the one above."""
-    bone_of_joint = np.zeros(len(character.skeleton.names), np.int32)
-    for joint, parent in enumerate(character.skeleton.parents):
-        above = int(bone_of_joint[parent]) if parent >= 0 else 0
-        bone_of_joint[joint] = target.bone_of_joint.get(joint, above)
-    binds = _binds(character, target)
+    binds = rest_transforms(character, target)
     meshes = [
-        skinned_mesh(mesh, mesh.name, bone_of_joint[mesh.joints], mesh.weights, binds) for mesh in character.meshes
+        skinned_mesh(mesh, mesh.name, mesh.joints, mesh.weights, binds) for mesh in bound_meshes(character, target)
     ]
     return join_meshes(meshes, *mesh_names([f"{name}_mesh"], target.names))
-
-
-def _binds(character: Character, target: TargetSkeleton) -> npt.NDArray[np.floating]:
-    """Where the bones were when the meshes were bound, centimetres: with their joints, the others on their parents."""
-    world_from_joint = np.linalg.inv(character.joint_from_mesh)
-    world_from_joint[:, :3, 3] *= CENTIMETRES
-    if target.choice == "suisou":
-        return world_from_joint
-    steady = matrices(target.offsets_m * CENTIMETRES, target.t_pose)
-    turned = matrices(np.zeros((len(target.names), 3)), target.joint_from_bone)
-    binds = np.empty((len(target.names), 4, 4))
-    for bone, (parent, joint) in enumerate(zip(target.parents, target.joint_of_bone, strict=True)):
-        if joint >= 0:
-            binds[bone] = world_from_joint[joint] @ turned[bone]
-        elif bone in target.tied:
-            binds[bone] = binds[target.tied[bone]]
-        else:
-            binds[bone] = binds[parent] @ steady[bone] if parent >= 0 else steady[bone]
-    return binds
 
 
 def skinned_mesh(

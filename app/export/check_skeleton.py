@@ -22,14 +22,20 @@ from app.rig import quaternion
 from app.rig.figure import Figure
 
 FloatArray = npt.NDArray[np.float64]
-DifferenceKind: TypeAlias = Literal["root", "unit", "parent", "additional", "missing", "rotation", "position"]
+DifferenceKind: TypeAlias = Literal[
+    "root", "unit", "parent", "additional", "requested", "missing", "rotation", "position"
+]
 
 MOST_LISTED: Final = 8
 """Bones that are named where many differ alike; the report names them all."""
 POSITION_MM: Final = 0.5
 ROTATION_DEG: Final = 0.1
 _MEASURED: Final[dict[str, str]] = {"position": "skeleton.position", "rotation": "skeleton.rotation"}
-_COUNTED: Final[dict[str, str]] = {"additional": "skeleton.additional", "missing": "skeleton.missing"}
+_COUNTED: Final[dict[str, str]] = {
+    "additional": "skeleton.additional",
+    "requested": "skeleton.requested",
+    "missing": "skeleton.missing",
+}
 UNIT: Final = (0.2, 5.0)
 """Lengths that differ by more than these factors are of another unit, not of another body."""
 
@@ -72,7 +78,14 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[Difference, .
     theirs = {name: bone for bone, name in enumerate(asset.bone_names)}
     moved = {target.names[bone] for bone in target.moved}
     found = [*_roots(target, asset), *_unit(target, asset)]
-    found += [Difference("additional", name, name in moved) for name in target.names if name not in theirs]
+    requested = {target.names[bone] for bone in target.added}
+    found += [
+        Difference("requested", name, severe=False)
+        if name in requested
+        else Difference("additional", name, name in moved)
+        for name in target.names
+        if name not in theirs
+    ]
     found += [Difference("missing", name, severe=False) for name in asset.bone_names if name not in ours]
     for name in (name for name in target.names if name in theirs):
         bone, other = ours[name], theirs[name]
@@ -85,8 +98,8 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[Difference, .
                 found.append(Difference("parent", name, severe=True, ours=our_parent, theirs=their_parent))
             continue
         off_mm = 1000.0 * float(np.linalg.norm(target.offsets_m[bone] - asset.translations_m[other]))
-        # The hips are where the motion has them, wherever they rest.
-        if off_mm > POSITION_MM and bone != target.hips and bone not in target.tied:
+        # The hips are where the motion has them, wherever they rest; so is what follows something else.
+        if off_mm > POSITION_MM and bone not in target.loose:
             found.append(Difference("position", name, severe=False, amount=round(off_mm, 2)))
         turn = quaternion.multiply(quaternion.conjugate(asset.rotations[other]), target.rest[bone])
         off_deg = float(np.degrees(np.linalg.norm(quaternion.to_rotation_vector(turn))))

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from app.choreography.contacts import BoolArray
 from app.choreography.feet import SIDES
 from app.choreography.retarget import foot_tip_m
+from app.export.attachment import without_place
 from app.export.character import character_scene
 from app.export.file_names import figure_stems, file_names
 from app.export.formats import FILE_FORMATS
@@ -90,7 +91,8 @@ def export_dancer(
     measures = None
     if "fbx" in request.formats:
         read = read_scene(folder / files["character_fbx"])
-        measures = measure_dancer(read, character, target, standing_frames(dancing, span))
+        standing = standing_frames(dancing, span)
+        measures = measure_dancer(without_place(read, target.place), character, target, standing)
     reported(1.0)
     starts_s = [step.start_s for step in dancing.dance(span.fps).steps]
     return DancerReport(

@@ -9,7 +9,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from app.export.character import CENTIMETRES, mesh_names, skinned_mesh
+from app.export.bind_pose import CENTIMETRES
+from app.export.character import mesh_names, skinned_mesh
+from app.export.target import Trajectory, instrument_path
 from app.formats.join import join_meshes
 from app.formats.scene import Bone, Clip, Scene
 from app.motion.model import Motion
@@ -22,7 +24,12 @@ FloatArray = npt.NDArray[np.float64]
 
 
 def instrument_scene(
-    instrument: InstrumentMap, model: InstrumentModel, motion: Motion, name: str, creator: str
+    instrument: InstrumentMap,
+    model: InstrumentModel,
+    motion: Motion,
+    name: str,
+    creator: str,
+    path: Trajectory | None = None,
 ) -> Scene:
     """The scene of a player's instrument.
 
@@ -35,6 +42,8 @@ def instrument_scene(
         Of the player who holds it.
     name, creator : str
         Of the armature and the animation, with which the mesh's name begins; program and version.
+    path : Trajectory, optional
+        Where the root bone is; absent: where the instrument is.
     """
     bones = instrument_bones(instrument, model)
     binds = np.tile(np.eye(4), (len(bones), 1, 1))
@@ -44,7 +53,7 @@ def instrument_scene(
     return Scene(
         bones=bones,
         meshes=(join_meshes(meshes, mesh_name),),
-        clip=instrument_clip(instrument, model, motion, name),
+        clip=instrument_clip(instrument, model, motion, name, path),
         creator=creator,
         name=name,
     )
@@ -66,12 +75,15 @@ def instrument_bones(instrument: InstrumentMap, model: InstrumentModel) -> tuple
     )
 
 
-def instrument_clip(instrument: InstrumentMap, model: InstrumentModel, motion: Motion, name: str) -> Clip:
+def instrument_clip(
+    instrument: InstrumentMap, model: InstrumentModel, motion: Motion, name: str, path: Trajectory | None = None
+) -> Clip:
     """Where the instrument is and what its parts do."""
     rotations = np.zeros((motion.frames, len(model.node_names), 4))
     rotations[..., 3] = 1.0
-    rotations[:, 0] = motion.instrument_rotation
-    translations_cm = {0: motion.instrument_position_m.astype(np.float64) * CENTIMETRES}
+    path = instrument_path(motion) if path is None else path
+    rotations[:, 0] = path.rotations
+    translations_cm = {0: path.positions_m.astype(np.float64) * CENTIMETRES}
     for part in instrument.moving_parts:
         node = model.node_names.index(part.node)
         rest_m = model.node_positions_m[node] - model.node_positions_m[0]

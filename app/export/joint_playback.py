@@ -45,7 +45,7 @@ class JointPlayback:
         if absent:
             raise ValueError(f"the file lacks bones of the skeleton that it was written on: {', '.join(absent)}")
         self._bones = {joint: place[target.names[bone]] for joint, bone in target.bone_of_joint.items()}
-        self._moved = {place[target.names[bone]] for bone in (target.hips, *target.tied)}
+        self._moved = {place[target.names[bone]] for bone in target.loose}
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -61,7 +61,7 @@ class JointPlayback:
 
     @cached_property
     def rigid(self) -> npt.NDArray[np.bool_]:
-        """Bones (B,) whose length must stay: all but the hips, their roots and what is tied to another bone."""
+        """Bones (B,) whose length must stay: all but roots, the hips and what follows something else."""
         parents = self.playback.parents
         return np.array([parent >= 0 and bone not in self._moved for bone, parent in enumerate(parents)])
 

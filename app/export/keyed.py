@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import msgspec
 
 from app.export.formats import Format, KeyChoice
@@ -11,7 +13,7 @@ from app.export.playback import Playback
 from app.export.reduced_keys import INSTRUMENT_MM, PLACE_MM, reduced
 from app.export.target import TargetSkeleton
 from app.formats.scene import Scene
-from app.rig.model import Character
+from app.rig.model import Character, InstrumentModel
 
 
 class KeyCount(msgspec.Struct, frozen=True):
@@ -23,7 +25,12 @@ class KeyCount(msgspec.Struct, frozen=True):
 
 
 def keyed_character(
-    scene: Scene, keys: KeyChoice, formats: frozenset[Format], character: Character, target: TargetSkeleton
+    scene: Scene,
+    keys: KeyChoice,
+    formats: frozenset[Format],
+    character: Character,
+    target: TargetSkeleton,
+    models: Sequence[InstrumentModel] = (),
 ) -> Scene:
     """A character's scene with its keys.
 
@@ -37,11 +44,14 @@ def keyed_character(
     character : Character
     target : TargetSkeleton
         What the scene is on.
+    models : sequence of InstrumentModel
+        The musician's instruments: those that hang on sockets stay where they are too.
     """
     if keys == "every" or scene.clip is None:
         return scene
     joints = JointPlayback(Playback(scene, scene.clip), target, character)
-    return reduced(scene, character_marks(joints, character), PLACE_MM, "usd" in formats)
+    hanging = {bone: models[number].meshes for bone, number in target.sockets.items()}
+    return reduced(scene, character_marks(joints, character, hanging), PLACE_MM, "usd" in formats)
 
 
 def keyed_instrument(scene: Scene, keys: KeyChoice, formats: frozenset[Format]) -> Scene:

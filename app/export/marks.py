@@ -11,6 +11,7 @@ import numpy.typing as npt
 from app.export.joint_playback import JointPlayback
 from app.export.playback import METRES, Playback, Surface
 from app.formats.scene import SkinnedMesh
+from app.rig.mesh import Mesh
 from app.rig.model import Character
 from app.rig.skinning import Skin
 
@@ -80,6 +81,13 @@ class _Gathered:
     def add(self, bone: int, point_m: FloatArray, share: float = 1.0, **shapes_m: FloatArray) -> None:
         self.rows.setdefault(bone, []).append((self.count, point_m, share, shapes_m))
 
+    def add_box(self, bone: int, points_m: FloatArray) -> None:
+        """Add the corners of the box around some points of a bone's frame."""
+        low, high = points_m.min(axis=0), points_m.max(axis=0)
+        for corner in np.ndindex(2, 2, 2):
+            self.add(bone, np.where(corner, high, low))
+            self.count += 1
+
     def marks(self) -> Marks:
         morphs = tuple(sorted({name for rows in self.rows.values() for *_, shapes in rows for name in shapes}))
         zero = np.zeros(3)
@@ -95,8 +103,18 @@ class _Gathered:
         return Marks(self.count, carried, morphs)
 
 
-def character_marks(joints: JointPlayback, character: Character) -> Marks:
-    """The landmarks of a character in a file, and all joints."""
+def character_marks(
+    joints: JointPlayback, character: Character, hanging: Mapping[int, Sequence[Mesh]] | None = None
+) -> Marks:
+    """The landmarks of a character in a file, all joints, and corners of boxes around what hangs on bones.
+
+    Parameters
+    ----------
+    joints : JointPlayback
+    character : Character
+    hanging : mapping of int to sequence of Mesh, optional
+        By bone, in its frame: an instrument, as it is at rest.
+    """
     gathered = _Gathered(len(joints.playback.bone_names))
     meshes: dict[int, tuple[SkinnedMesh, list[npt.NDArray[np.int64]]]] = {}
     for name in sorted(character.landmarks):
@@ -107,6 +125,8 @@ def character_marks(joints: JointPlayback, character: Character) -> Marks:
         for vertices in places:
             _add_mean(gathered, skin.part(np.arange(first, first + len(vertices))))
             first += len(vertices)
+    for bone, held in (hanging or {}).items():
+        gathered.add_box(bone, np.concatenate([mesh.positions_m for mesh in held]))
     return gathered.marks()
 
 
@@ -123,10 +143,7 @@ def part_marks(playback: Playback) -> Marks:
             bind = np.array(mesh.world_from_bone_bind[bone], np.float64)
             bind[:3, 3] *= METRES
             placed = points_m[own] @ np.linalg.inv(bind).T[:, :3]
-            low, high = placed.min(axis=0), placed.max(axis=0)
-            for corner in np.ndindex(2, 2, 2):
-                gathered.add(bone, np.where(corner, high, low))
-                gathered.count += 1
+            gathered.add_box(bone, placed)
     return gathered.marks()
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -13,8 +13,10 @@ import msgspec
 from app.contacts.hold import missed_mm
 from app.contacts.reach import unreached
 from app.encoding import shown
+from app.export.attachment import in_world, own_path, without_place
 from app.export.bone_names import profile_names
 from app.export.character import character_scene
+from app.export.equip import socket_names
 from app.export.file_names import figure_stems, file_names, sound_name
 from app.export.formats import FILE_FORMATS, FileContent, WriteOptions
 from app.export.instrument import instrument_scene
@@ -22,7 +24,7 @@ from app.export.keyed import KeyCount, key_count, keyed_character, keyed_instrum
 from app.export.measure import Measured, measure_player
 from app.export.report import DoubleReport, PlayerReport, SkeletonReport, stage_place
 from app.export.request import ExportCast, Request
-from app.export.target import TargetSkeleton
+from app.export.target import TargetSkeleton, Trajectory, instrument_path
 from app.export.targets import CheckedTarget
 from app.export.threads import in_threads
 from app.formats.fbx.read import read_scene
@@ -83,7 +85,8 @@ def export_player(
         performance, performer, request.span, progress=lambda share: reported(_MOTION_WORK / work * share)
     )
     held_by = {held for kind in requested.values() for held in kind.holds}
-    scenes = _scenes(request, performer, target, motion, stems[performer.player.id], held_by)
+    paths = held_paths(request, target, motion, doubles)
+    scenes = _scenes(request, performer, doubles, target, motion, paths, stems[performer.player.id], held_by)
     keys = key_count(*scenes.values())
     beside = write_options(request, performer.character, target)
     problems: dict[str, tuple[Problem, ...]] = {}
@@ -104,7 +107,10 @@ def export_player(
     _, found = changes_of(performance, [one.player for one in (performer, *doubles)])
     changing = tuple((change.start_s, change.end_s) for change in found)
     judging = _Judging(request, target, folder, files.get("character_fbx"), changing)
-    measured = judging.measured(performer, files, lambda share: reported((sum(done) + _MEASURES_WORK * share) / work))
+    sockets = socket_names(target) or ("",) * (1 + len(doubles))
+    measured = judging.measured(
+        performer, files, sockets[0], lambda share: reported((sum(done) + _MEASURES_WORK * share) / work)
+    )
     reports = []
     for index, double in enumerate(doubles, 1):
 
@@ -115,7 +121,9 @@ def export_player(
         own_files = names[double.player.id]
         motion = player_motion(performance, double, request.span)
         held_stem = stems[double.player.id]["instrument"]
-        scene = instrument_scene(double.instrument, double.model, motion, held_stem, request.creator)
+        scene = instrument_scene(
+            double.instrument, double.model, motion, held_stem, request.creator, own_path(target, motion)
+        )
         scene = keyed_instrument(scene, request.keys, request.formats)
         own_keys = key_count(scene)
         for name, kind in requested.items():
@@ -123,12 +131,12 @@ def export_player(
                 kind.write(folder / own_files[f"instrument_{name}"], scene, beside)
         _judge(problems, performance, double, motion)
         del motion, scene
-        own = judging.measured(double, own_files, measuring)
-        reports.append(DoubleReport(**_reported(request, double, own_files, own, own_keys)))
+        own = judging.measured(double, own_files, sockets[index], measuring)
+        reports.append(DoubleReport(**_reported(request, double, own_files, sockets[index], own, own_keys)))
     reported(1.0)
     player = performer.player
     report = PlayerReport(
-        **_reported(request, performer, files, measured, keys),
+        **_reported(request, performer, files, sockets[0], measured, keys),
         character=player.character_id,
         posture=performance.instrument(player).hold.possible(player.parameters.posture),
         stage=stage_place(player.stage),
@@ -159,14 +167,20 @@ class _Judging:
     changing: tuple[tuple[float, float], ...]
 
     def measured(
-        self, performer: Performer, held: dict[str, str], reported: Callable[[float], None]
+        self, performer: Performer, held: dict[str, str], socket: str, reported: Callable[[float], None]
     ) -> Measured | None:
-        """What the files hold of a player: the musician's character and the instrument."""
+        """What the files hold of a player: the musician's character and the instrument, which may hang on a socket."""
         if self.character is None:
             return None
-        return measure_player(
+        character, instrument = (
             read_scene(self.folder / self.character),
             read_scene(self.folder / held["instrument_fbx"]),
+        )
+        if socket:
+            instrument = in_world(instrument, character, socket)
+        return measure_player(
+            without_place(character, self.target.place),
+            without_place(instrument, self.target.place),
             performer.character,
             performer.instrument,
             self.request.performance.plan(performer.player),
@@ -181,7 +195,12 @@ class _Judging:
 
 
 def _reported(
-    request: Request, performer: Performer, files: dict[str, str], measured: Measured | None, keys: KeyCount
+    request: Request,
+    performer: Performer,
+    files: dict[str, str],
+    socket: str,
+    measured: Measured | None,
+    keys: KeyCount,
 ) -> dict[str, Any]:
     """What is reported of a player, whether the musician's first one or one who doubles."""
     player, span = performer.player, request.span
@@ -192,6 +211,7 @@ def _reported(
         "size": performer.instrument.size,
         "missed": missed_mm(performer.hold),
         "files": files,
+        "socket": socket or None,
         "notes": sum(span.shows_onset(note.start_s) for note in request.performance.plan(player).fingerings),
         "measures": None if measured is None else measured.measures,
         "keys": keys,
@@ -200,7 +220,7 @@ def _reported(
 
 def skeleton_report(request: Request, checked: CheckedTarget) -> SkeletonReport:
     asset = None if request.asset is None else shown(request.asset.name)
-    return SkeletonReport(checked.target.choice, asset, checked.differences)
+    return SkeletonReport(checked.target.choice, asset, checked.differences, request.rig)
 
 
 def write_options(request: Request, character: Character, target: TargetSkeleton) -> WriteOptions:
@@ -210,20 +230,44 @@ def write_options(request: Request, character: Character, target: TargetSkeleton
     )
 
 
+def held_paths(
+    request: Request, target: TargetSkeleton, motion: Motion, doubles: Sequence[Performer]
+) -> tuple[Trajectory, ...]:
+    """Where a musician's instruments are; nothing where they hang on no sockets.
+
+    Parameters
+    ----------
+    motion : Motion
+        Of the first instrument's player.
+    doubles : sequence of Performer
+        Of the other instruments.
+    """
+    if not target.sockets:
+        return ()
+    others = (player_motion(request.performance, double, request.span) for double in doubles)
+    return (instrument_path(motion), *map(instrument_path, others))
+
+
 def _scenes(
     request: Request,
     performer: Performer,
+    doubles: Sequence[Performer],
     target: TargetSkeleton,
     motion: Motion,
+    paths: Sequence[Trajectory],
     stems: dict[FileContent, str],
     held: set[FileContent],
 ) -> dict[FileContent, Scene]:
     """The scenes that some format asked for can hold."""
     scenes: dict[FileContent, Scene] = {}
     if "character" in held:
-        scene = character_scene(performer.character, motion, stems["character"], request.creator, target)
-        scenes["character"] = keyed_character(scene, request.keys, request.formats, performer.character, target)
+        scene = character_scene(performer.character, motion, stems["character"], request.creator, target, paths)
+        models = [one.model for one in (performer, *doubles)]
+        scenes["character"] = keyed_character(scene, request.keys, request.formats, performer.character, target, models)
     if "instrument" in held:
-        scene = instrument_scene(performer.instrument, performer.model, motion, stems["instrument"], request.creator)
+        path = own_path(target, motion)
+        scene = instrument_scene(
+            performer.instrument, performer.model, motion, stems["instrument"], request.creator, path
+        )
         scenes["instrument"] = keyed_instrument(scene, request.keys, request.formats)
     return scenes

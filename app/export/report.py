@@ -11,6 +11,7 @@ from app.export.check_skeleton import Difference
 from app.export.formats import Format, KeyChoice
 from app.export.keyed import KeyCount
 from app.export.measure import PlayerMeasures
+from app.export.rig_options import DEFAULT_RIG, RigOptions
 from app.export.target import SkeletonChoice
 from app.project.casting import StagePosition
 
@@ -75,6 +76,8 @@ class SkeletonReport(msgspec.Struct, frozen=True):
     asset: str | None = None
     """Name of the asset's file."""
     differences: tuple[Difference, ...] = ()
+    rig: RigOptions = DEFAULT_RIG
+    """What was asked for beside the bones; what a character's own skeleton does not take is among the warnings."""
 
 
 class DoubleReport(msgspec.Struct, frozen=True):
@@ -91,6 +94,8 @@ class DoubleReport(msgspec.Struct, frozen=True):
     measures: PlayerMeasures | None
     keys: KeyCount | None = None
     """Of the instrument's files."""
+    socket: str | None = None
+    """As of the player."""
 
 
 class PlayerReport(msgspec.Struct, frozen=True):
@@ -119,6 +124,8 @@ class PlayerReport(msgspec.Struct, frozen=True):
     """The other instruments that the player changes to."""
     keys: KeyCount | None = None
     """Of the character's and the instrument's files, FBX and GLB."""
+    socket: str | None = None
+    """The character's bone that the instrument's root bone hangs on; None: its file has its motion in the world."""
 
 
 class DancerReport(msgspec.Struct, frozen=True):
@@ -139,11 +146,13 @@ class DancerReport(msgspec.Struct, frozen=True):
 
 class StageFigure(msgspec.Struct, frozen=True):
     """A character or an instrument in the file of the whole stage: the name of its node, whose it is, and where the
-    node is."""
+    node is. An instrument that hangs on a socket has no node of its own: ``node`` is its root bone, ``socket`` the
+    character's bone that this is on."""
 
     node: str
     performer: str
     place: StagePlace
+    socket: str | None = None
 
 
 class StageReport(msgspec.Struct, frozen=True):

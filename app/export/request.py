@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 from app.errors import FileError, Message
 from app.export.formats import FILE_FORMATS, Format, KeyChoice
+from app.export.rig import rig_of
+from app.export.rig_options import DEFAULT_RIG, RigOptions
 from app.export.target import SkeletonChoice
 from app.export.targets import CheckedTarget, checked_targets, spoilt
 from app.performance.cast import LeftOut, Performer, dancings_of, performers_of, require_players
@@ -48,6 +50,8 @@ class Request:
         Name of the piece's file; program and version.
     skeleton : SkeletonChoice
         What the characters are written on; instruments have one skeleton only.
+    rig : RigOptions
+        What that skeleton is equipped with, and how instruments hang on it.
     sound : bool
         Whether the sound is written as a WAV file, from the first frame to the last.
     bvh_names : str
@@ -73,6 +77,7 @@ class Request:
     source: str
     creator: str
     skeleton: SkeletonChoice = "own"
+    rig: RigOptions = DEFAULT_RIG
     asset: Path | None = None
     sound: bool = False
     bvh_names: str = ""
@@ -145,7 +150,12 @@ def cast_of(
     beside = performers_of(request.performance, further, stop_requested)
     characters = {id: performer.character for id, performer in found.made.items()}
     characters |= {id: dance.character for id, dance in dances.made.items()}
-    targets = checked_targets(characters, request.skeleton, asset)
+    doubles: dict[str, list[Performer]] = {}
+    for made in beside.made.values():
+        doubles.setdefault(made.player.doubles, []).append(made)
+    rigs = {id: rig_of(request.rig, made.player.stage, (made, *doubles.get(id, ()))) for id, made in found.made.items()}
+    rigs |= {one.id: rig_of(request.rig, one.stage) for one in request.dancers}
+    targets = checked_targets(characters, request.skeleton, asset, rigs)
     left_out = found.left_out + dances.left_out
     if asset is not None:
         seen: tuple[Player | Dancer, ...] = (
@@ -156,9 +166,6 @@ def cast_of(
     absent = {one.player.id for one in left_out}
     if absent.issuperset([*(player.id for player in musicians), *(dancer.id for dancer in request.dancers)]):
         require_players(left_out, request.source, wording)
-    doubles: dict[str, list[Performer]] = {}
-    for made in beside.made.values():
-        doubles.setdefault(made.player.doubles, []).append(made)
     return ExportCast(
         tuple(made for id, made in found.made.items() if id not in absent),
         targets,

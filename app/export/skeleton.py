@@ -24,7 +24,8 @@ _SHORTEST_CM = 1.0
 def scene_bvh(scene: Scene, names: Mapping[int, str] = MappingProxyType({})) -> BvhClip:
     """The skeleton from the bone that is moved (the hips) on, with the motion of all bones above it in its own.
 
-    BVH moves its root only, so that what another bone is moved by is left out.
+    BVH moves its root only, so that what another bone is moved by is left out, and a bone that is but moved, such as a
+    socket, altogether.
 
     Parameters
     ----------
@@ -37,7 +38,7 @@ def scene_bvh(scene: Scene, names: Mapping[int, str] = MappingProxyType({})) -> 
     if clip is None:
         raise ValueError("a scene without a clip has no motion")
     first = _first(scene, clip)
-    chosen = _below(scene, first)
+    chosen = _without_props(scene, clip, _below(scene, first), first)
     place = {bone: index for index, bone in enumerate(chosen)}
     translation_cm, rotation = _world(scene, clip, first)
     rotations = np.asarray(clip.rotations_xyzw)[:, chosen].copy()
@@ -70,6 +71,12 @@ def _below(scene: Scene, first: int) -> list[int]:
         if bone.parent in chosen:
             chosen.add(index)
     return sorted(chosen)
+
+
+def _without_props(scene: Scene, clip: Clip, bones: list[int], first: int) -> list[int]:
+    """Bones without those that nothing hangs on and that leave their place."""
+    parents = {bone.parent for bone in scene.bones}
+    return [bone for bone in bones if bone == first or bone in parents or bone not in clip.translations_cm]
 
 
 def _world(scene: Scene, clip: Clip, bone: int) -> tuple[FloatArray, FloatArray]:

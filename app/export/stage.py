@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
-from app.export.character import CENTIMETRES, character_scene
+from app.export.attachment import attached, own_path
+from app.export.character import character_scene
+from app.export.equip import socket_names
 from app.export.file_names import figure_stems, sound_name, stage_names
 from app.export.formats import FILE_FORMATS, Format, WriteOptions
 from app.export.instrument import instrument_scene
 from app.export.keyed import keyed_character, keyed_instrument
+from app.export.player import held_paths
 from app.export.report import StageFigure, StageReport, stage_place
 from app.export.request import ExportCast, Request
-from app.formats.scene import Place, Scene
+from app.export.rig import ORIGIN, floor_place
+from app.export.target import TargetSkeleton
+from app.formats.scene import Scene
 from app.performance.motion import player_motion
 from app.project.casting import StagePosition
 from app.project.names import file_stem
@@ -44,8 +46,8 @@ def write_stage(
     for number, (name, file) in enumerate(files.items()):
 
         def scenes(begun: int = number, name: Format = name) -> Iterator[Scene]:
-            for figure, scene in _figures(request, cast, name, lambda share: reported((begun + share) / len(files))):
-                figures[figure.node] = figure
+            for here, scene in _figures(request, cast, name, lambda share: reported((begun + share) / len(files))):
+                figures.update({figure.node: figure for figure in here})
                 yield scene
 
         write = FILE_FORMATS[name].write_stage
@@ -56,44 +58,56 @@ def write_stage(
 
 
 def _figures(
-    request: Request, cast: ExportCast, name: Format, reported: Callable[[float], None]
-) -> Iterator[tuple[StageFigure, Scene]]:
-    """Everyone's character and instruments, each with its place, for a file of a format."""
+    request: Request, cast: ExportCast, format: Format, reported: Callable[[float], None]
+) -> Iterator[tuple[tuple[StageFigure, ...], Scene]]:
+    """Everyone's character and instruments, each with its place, for a file of a format; on one skeleton where
+    instruments hang on sockets."""
     performance, span, creator = request.performance, request.span, request.creator
     stems, take = figure_stems(performance), file_stem(Path(request.source).stem)
     everyone = len(cast.performers) + len(cast.dances)
-    keys, formats = request.keys, frozenset((name,))
+    keys, formats = request.keys, frozenset((format,))
 
-    def placed(one: Player | Dancer, stage: StagePosition, scene: Scene) -> tuple[StageFigure, Scene]:
+    def figure(one: Player | Dancer, stage: StagePosition, node: str, socket: str | None = None) -> StageFigure:
+        return StageFigure(node, one.name, stage_place(stage), socket)
+
+    def placed(target: TargetSkeleton, stage: StagePosition, scene: Scene) -> Scene:
         assert scene.clip is not None
-        scene = replace(scene, place=_place(stage), clip=replace(scene.clip, name=take))
-        return StageFigure(scene.name, one.name, stage_place(stage)), scene
+        # A root bone that stands at the place has a node at the origin.
+        place = floor_place(stage) if target.place is None else ORIGIN
+        return replace(scene, place=place, clip=replace(scene.clip, name=take))
 
     for number, performer in enumerate(cast.performers):
         reported(number / everyone)
         musician, target = performer.player, cast.targets[performer.player.id].target
-        for one in (performer, *cast.doubles.get(musician.id, ())):
-            names, motion = stems[one.player.id], player_motion(performance, one, span)
-            if one is performer:
-                character = character_scene(one.character, motion, names["character"], creator, target)
-                character = keyed_character(character, keys, formats, one.character, target)
-                yield placed(musician, musician.stage, character)
-                del character
-            held = instrument_scene(one.instrument, one.model, motion, names["instrument"], creator)
-            yield placed(one.player, musician.stage, keyed_instrument(held, keys, formats))
+        doubles = cast.doubles.get(musician.id, ())
+        motion = player_motion(performance, performer, span)
+        paths, name = held_paths(request, target, motion, doubles), stems[musician.id]["character"]
+        character = character_scene(performer.character, motion, name, creator, target, paths)
+        models = [one.model for one in (performer, *doubles)]
+        character = keyed_character(character, keys, formats, performer.character, target, models)
+        figures, sockets = [figure(musician, musician.stage, name)], socket_names(target)
+        if not sockets:
+            yield tuple(figures), placed(target, musician.stage, character)
+            del character
+        hanging = []
+        for index, one in enumerate((performer, *doubles)):
+            motion = motion if one is performer else player_motion(performance, one, span)
+            name = stems[one.player.id]["instrument"]
+            held = instrument_scene(one.instrument, one.model, motion, name, creator, own_path(target, motion))
+            held = keyed_instrument(held, keys, formats)
+            if sockets:
+                hanging.append(held)
+                figures.append(figure(one.player, musician.stage, name, sockets[index]))
+            else:
+                yield (figure(one.player, musician.stage, name),), placed(target, musician.stage, held)
+        if sockets:
+            yield tuple(figures), placed(target, musician.stage, attached(character, hanging, target))
     here = {dancer.id: dancer for dancer in request.dancers}
     for number, dancing in enumerate(cast.dances, len(cast.performers)):
         reported(number / everyone)
         dancer, target = here[dancing.dancer.id], cast.targets[dancing.dancer.id].target
         motion = dancing.motion(span.fps, span.first, span.count)
-        character = character_scene(dancing.character, motion, stems[dancer.id]["character"], creator, target)
+        name = stems[dancer.id]["character"]
+        character = character_scene(dancing.character, motion, name, creator, target)
         character = keyed_character(character, keys, formats, dancing.character, target)
-        yield placed(dancer, dancer.stage, character)
-
-
-def _place(stage: StagePosition) -> Place:
-    """On the floor, turned from +Z towards +X."""
-    half = stage.turn_rad / 2.0
-    return Place(
-        np.array([stage.x_m, 0.0, stage.z_m]) * CENTIMETRES, np.array([0.0, math.sin(half), 0.0, math.cos(half)])
-    )
+        yield (figure(dancer, dancer.stage, name),), placed(target, dancer.stage, character)

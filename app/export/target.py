@@ -7,7 +7,7 @@ limb's twist, a bone that is tied to another is where that one is, the rest keep
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal, TypeAlias
@@ -16,6 +16,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import Message
+from app.export.rig_options import RestPose, RootBone
+from app.formats.scene import Place
 from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.model import Skeleton
@@ -25,6 +27,7 @@ FloatArray = npt.NDArray[np.float64]
 SkeletonChoice: TypeAlias = Literal["suisou", "own", "ue5"]
 """Our normalised skeleton, the one of the character's own file, the mannequin of Unreal Engine 5."""
 
+METRES = 0.01
 STEADY_M = 5e-6
 """A bone that leaves its place on its parent by no more than this is not moved: that much is rounding."""
 _CHUNK = 4096
@@ -82,6 +85,17 @@ class TargetSkeleton:
         The bone that a motion moves.
     messages : tuple of Message
         What had to be changed.
+    sockets : mapping of int to int
+        Bones that are where an instrument is: which of the musician's.
+    added : frozenset of int
+        Bones that an asset made from the skeleton lacks, because they were asked for beside it.
+    root_bone : RootBone
+        What the root does; where it does something, it is no joint.
+    place : Place or None
+        Where a root that stands at the place on the stage stands.
+    rest_pose : RestPose
+    twisted_skin : bool
+        Whether twist bones carry skin.
     """
 
     choice: SkeletonChoice
@@ -96,6 +110,12 @@ class TargetSkeleton:
     tied: Mapping[int, int] = field(default_factory=dict)
     hips: int = 0
     messages: tuple[Message, ...] = ()
+    sockets: Mapping[int, int] = field(default_factory=dict)
+    added: frozenset[int] = frozenset()
+    root_bone: RootBone = "origin"
+    place: Place | None = None
+    rest_pose: RestPose = "model"
+    twisted_skin: bool = False
 
     @cached_property
     def bone_of_joint(self) -> Mapping[int, int]:
@@ -105,7 +125,17 @@ class TargetSkeleton:
     @cached_property
     def moved(self) -> frozenset[int]:
         """Bones that a motion turns or moves."""
-        return frozenset({*self.bone_of_joint.values(), *self.twists, *self.tied})
+        return frozenset({*self.bone_of_joint.values(), *self.twists, *self.tied, *self.sockets})
+
+    @property
+    def normalised(self) -> bool:
+        """Whether every bone is the joint of its number, and does what that does."""
+        return self.choice == "suisou" and not self.added and self.root_bone == "origin"
+
+    @property
+    def loose(self) -> frozenset[int]:
+        """Bones that have no place of their own on their parents: the hips, and what follows something else."""
+        return frozenset({self.hips, *self.tied, *self.sockets})
 
 
 def matrices(positions: FloatArray, turned: FloatArray) -> FloatArray:
@@ -115,6 +145,32 @@ def matrices(positions: FloatArray, turned: FloatArray) -> FloatArray:
     result[:, :3, 3] = positions
     result[:, 3, 3] = 1.0
     return result
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Where something is in the player's space: positions (F, 3), metres, and rotations (F, 4)."""
+
+    positions_m: npt.NDArray[np.floating]
+    rotations: npt.NDArray[np.floating]
+
+
+def instrument_path(motion: Motion) -> Trajectory:
+    """Where the instrument of a motion is."""
+    return Trajectory(motion.instrument_position_m, motion.instrument_rotation)
+
+
+def still(frames: int) -> Trajectory:
+    """What stays at the origin."""
+    return Trajectory(np.zeros((frames, 3)), np.tile(quaternion.IDENTITY, (frames, 1)))
+
+
+def placed(path: Trajectory, place: Place | None) -> Trajectory:
+    """A trajectory in a space that stands at a place; None: at the origin."""
+    if place is None:
+        return path
+    positions_m = quaternion.rotate(place.rotation_xyzw, path.positions_m) + METRES * place.translation_cm
+    return Trajectory(positions_m, quaternion.multiply(place.rotation_xyzw, path.rotations))
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,15 +189,28 @@ class BoneMotion:
     translations_m: Mapping[int, FloatArray]
 
 
-def bone_motion(target: TargetSkeleton, skeleton: Skeleton, motion: Motion) -> BoneMotion:
-    """What the bones of a target do where the joints of a skeleton do what a motion says."""
+def bone_motion(
+    target: TargetSkeleton, skeleton: Skeleton, motion: Motion, held: Sequence[Trajectory] = ()
+) -> BoneMotion:
+    """What the bones of a target do where the joints of a skeleton do what a motion says.
+
+    Parameters
+    ----------
+    target : TargetSkeleton
+    skeleton : Skeleton
+    motion : Motion
+    held : sequence of Trajectory
+        Of the musician's instruments, as many as there are sockets for; none: the motion's.
+    """
+    held = held or (instrument_path(motion),)
     frames, bones = motion.frames, len(target.names)
     rotations = np.empty((frames, bones, 4), np.float32)
-    translations = {bone: np.empty((frames, 3)) for bone in sorted(target.moved)}
+    movable = target.moved if target.root_bone == "origin" else target.moved | {0}
+    translations = {bone: np.empty((frames, 3)) for bone in sorted(movable)}
     wanders = dict.fromkeys(translations, False)
     for first in range(0, frames, _CHUNK):
         span = slice(first, min(first + _CHUNK, frames))
-        for bone, rotation, translation_m in _bones(target, skeleton, motion, span):
+        for bone, rotation, translation_m in _bones(target, skeleton, motion, held, span):
             rotations[span, bone] = rotation
             if bone in translations:
                 translations[bone][span] = translation_m
@@ -151,23 +220,35 @@ def bone_motion(target: TargetSkeleton, skeleton: Skeleton, motion: Motion) -> B
     )
 
 
+_Placed: TypeAlias = tuple[FloatArray, FloatArray]
+"""Positions (n, 3) and rotations (n, 4)."""
+
+
 def _bones(
-    target: TargetSkeleton, skeleton: Skeleton, motion: Motion, span: slice
+    target: TargetSkeleton, skeleton: Skeleton, motion: Motion, held: Sequence[Trajectory], span: slice
 ) -> list[tuple[int, FloatArray, FloatArray]]:
     """Every bone's rotation (n, 4) and translation (n, 3) on its parent, at the frames of a span."""
     turns = quaternion.normalize(motion.rotations[span])
     joints = forward(skeleton, turns, motion.hips_m[span].astype(np.float64))
     frames = len(turns)
-    placed: list[tuple[FloatArray, FloatArray]] = []
+
+    def of_joint(bone: int) -> _Placed:
+        joint = target.joint_of_bone[bone]
+        turned = quaternion.multiply(joints.rotations[:, joint], target.joint_from_bone[bone])
+        return joints.positions_m[:, joint], turned
+
+    places: list[_Placed] = []
     result = []
     for bone, (parent, joint) in enumerate(zip(target.parents, target.joint_of_bone, strict=True)):
-        above = placed[parent] if parent >= 0 else (np.zeros((frames, 3)), np.tile(quaternion.IDENTITY, (frames, 1)))
+        above = places[parent] if parent >= 0 else (np.zeros((frames, 3)), np.tile(quaternion.IDENTITY, (frames, 1)))
         steady_m = above[0] + quaternion.rotate(above[1], target.offsets_m[bone])
         if joint >= 0:
-            turned = quaternion.multiply(joints.rotations[:, joint], target.joint_from_bone[bone])
-            place = joints.positions_m[:, joint], turned
+            place = of_joint(bone)
         elif bone in target.tied:
-            place = placed[target.tied[bone]]
+            place = of_joint(target.tied[bone])
+        elif bone in target.sockets:
+            path = held[target.sockets[bone]]
+            place = np.asarray(path.positions_m[span], np.float64), quaternion.normalize(path.rotations[span])
         elif bone in target.twists:
             twist = target.twists[bone]
             _, turn = quaternion.swing_twist(turns[:, twist.joint], twist.axis)
@@ -176,10 +257,23 @@ def _bones(
             place = steady_m, quaternion.multiply(base, target.joint_from_bone[bone])
         else:
             place = steady_m, quaternion.multiply(above[1], target.t_pose[bone])
-        placed.append(place)
+        if bone == 0 and target.root_bone == "motion":
+            place = _over_floor(place, joints.of(skeleton.index(HIPS)))
+        places.append(place)
         back = quaternion.conjugate(above[1])
-        result.append((bone, quaternion.multiply(back, place[1]), quaternion.rotate(back, place[0] - above[0])))
+        local = quaternion.multiply(back, place[1]), quaternion.rotate(back, place[0] - above[0])
+        if bone == 0 and target.place is not None:
+            there = placed(Trajectory(local[1], local[0]), target.place)
+            local = np.asarray(there.rotations, np.float64), np.asarray(there.positions_m, np.float64)
+        result.append((bone, *local))
     return result
+
+
+def _over_floor(rest: _Placed, hips: _Placed) -> _Placed:
+    """A root that stands below the hips and is turned as they are about the vertical."""
+    _, heading = quaternion.swing_twist(hips[1], np.array([0.0, 1.0, 0.0]))
+    below = hips[0] * np.array([1.0, 0.0, 1.0])
+    return below + quaternion.rotate(heading, rest[0]), quaternion.multiply(heading, rest[1])
 
 
 def normalised_target(skeleton: Skeleton) -> TargetSkeleton:

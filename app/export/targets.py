@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 
 from app.errors import Argument, Message
+from app.export.bind_pose import CENTIMETRES, bound_meshes, rest_transforms
 from app.export.check_skeleton import Difference, check_skeleton, reported
+from app.export.equip import equipped
 from app.export.mannequin import mannequin_axes, mannequin_target
 from app.export.own_skeleton import own_target
+from app.export.rig import Rig
 from app.export.target import SkeletonChoice, TargetSkeleton, normalised_target
 from app.performance.cast import LeftOut
 from app.project.performers import Dancer, Player
@@ -58,16 +62,21 @@ def target_skeleton(character: Character, choice: SkeletonChoice, asset: Figure 
 def written_meshes(character: Character, target: TargetSkeleton) -> tuple[Mesh, ...]:
     """The meshes that a file on a target holds: those of the character's own file, or the character's."""
     own = character.own if target.choice == "own" else None
-    return character.meshes if own is None else own.figure.meshes
+    return bound_meshes(character, target) if own is None else own.figure.meshes
 
 
 def checked_targets(
-    characters: Mapping[str, Character], choice: SkeletonChoice, asset: Figure | None = None
+    characters: Mapping[str, Character],
+    choice: SkeletonChoice,
+    asset: Figure | None = None,
+    rigs: Mapping[str, Rig] = MappingProxyType({}),
 ) -> dict[str, CheckedTarget]:
-    """The skeleton of every player, compared with an asset's; all by the player's id."""
+    """The skeleton of every player, equipped, and compared with an asset's; all by the player's id."""
     result = {}
     for player_id, character in characters.items():
         target = target_skeleton(character, choice, asset)
+        if player_id in rigs:
+            target = equipped(target, character, rigs[player_id])
         compared = () if asset is None else check_skeleton(_as_bound(character, target), asset)
         result[player_id] = CheckedTarget(target, compared)
     return result
@@ -80,9 +89,9 @@ def _as_bound(character: Character, target: TargetSkeleton) -> TargetSkeleton:
     """
     if target.choice != "suisou":
         return target
-    world_from_joint = np.linalg.inv(character.joint_from_mesh).astype(np.float64)
-    turned = quaternion.from_matrix(world_from_joint[:, :3, :3])
-    offsets, rest = local_placements(target.parents, world_from_joint[:, :3, 3], turned)
+    binds = rest_transforms(character, target).astype(np.float64)
+    turned = quaternion.from_matrix(binds[:, :3, :3])
+    offsets, rest = local_placements(target.parents, binds[:, :3, 3] / CENTIMETRES, turned)
     return replace(target, offsets_m=offsets, rest=rest)
 
 

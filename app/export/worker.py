@@ -18,6 +18,7 @@ from app.errors import AppError
 from app.export.formats import Format, KeyChoice
 from app.export.player import ExportedPlayer, export_player
 from app.export.request import Request, cast_of
+from app.export.rig_options import RigOptions
 from app.export.target import SkeletonChoice
 from app.messages import text
 from app.own_process import receive, send
@@ -39,6 +40,7 @@ class Job(msgspec.Struct, frozen=True):
     source: str
     creator: str
     skeleton: SkeletonChoice
+    rig: RigOptions
     asset: str | None
     sound: bool
     bvh_names: str
@@ -74,6 +76,7 @@ def job_of(request: Request, folder: Path) -> Job:
         source=request.source,
         creator=request.creator,
         skeleton=request.skeleton,
+        rig=request.rig,
         asset=None if request.asset is None else str(request.asset.absolute()),
         sound=request.sound,
         bvh_names=request.bvh_names,
@@ -93,6 +96,7 @@ def _request(job: Job) -> Request:
         source=job.source,
         creator=job.creator,
         skeleton=job.skeleton,
+        rig=job.rig,
         asset=None if job.asset is None else Path(job.asset),
         sound=job.sound,
         bvh_names=job.bvh_names,

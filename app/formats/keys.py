@@ -8,7 +8,7 @@ any other frame can be worked out here.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -42,6 +42,11 @@ class Keys:
     morphs: Mapping[str, IntArray] = field(default_factory=dict)
     face: IntArray = field(default_factory=lambda: np.zeros(1, np.intp))
     pose: IntArray | None = None
+
+    def beside(self, other: Keys) -> Keys:
+        """These keys, and behind those of the bones those of other bones, which move no morphs."""
+        pose = None if self.pose is None or other.pose is None else np.union1d(self.pose, other.pose)
+        return replace(self, bones=self.bones + other.bones, pose=pose)
 
     def check(self, bones: int, frames: int, morphs: Mapping[str, object]) -> None:
         """Raise ValueError where these are no keys of a clip."""

@@ -22,6 +22,18 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "ルートボーンは {root} です"
         ),
     ),
+    "skeleton.kept_root": (
+        "the root bone of {character}'s own skeleton is the hips, so no root bone carries the place or the motion",
+        "{character} 自身のスケルトンはルートが腰のため、位置や移動をルートボーンに持たせません",
+    ),
+    "skeleton.kept_rest_pose": (
+        "{character}'s own skeleton keeps its rest pose",
+        "{character} 自身のスケルトンはレストポーズを変えません",
+    ),
+    "skeleton.kept_twist_bones": (
+        "{character}'s own skeleton keeps its twist bones and skin weights",
+        "{character} 自身のスケルトンはツイストボーンとスキンウェイトを変えません",
+    ),
     "skeleton.other_root": (
         "the root bone is {ours}, but the asset's is {theirs}; Unreal will not accept the animation",
         "ルートボーンは {ours} ですが、アセットでは {theirs} です。Unreal はこのアニメーションを受け付けません",
@@ -44,6 +56,13 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "skeleton.additional": (
         "{count} {count:static bone|static bones} {count:is|are} not in the asset: {bones}",
         "動かないボーン {count} 個がアセットにありません: {bones}",
+    ),
+    "skeleton.requested": (
+        (
+            "{count} {count:bone|bones} for instruments and IK {count:is|are} not in the asset and must be added "
+            "there: {bones}"
+        ),
+        "楽器と IK のボーン {count} 個がアセットにないため、アセットに追加する必要があります: {bones}",
     ),
     "skeleton.missing": (
         (

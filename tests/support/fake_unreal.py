@@ -503,6 +503,18 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
 
     # The level
 
+    class ActorComponent(Object):
+        pass
+
+    class SkeletalMeshComponent(ActorComponent):
+        def __init__(self, owner: Any) -> None:
+            super().__init__()
+            self._owner = owner
+
+        def set_skinned_asset_and_update(self, new_mesh: Any, reinit_pose: bool = True) -> None:
+            assert isinstance(new_mesh, SkeletalMesh)
+            self._owner._mesh = new_mesh
+
     class Actor(Object):
         def __init__(self, mesh: Any, location: Vector, rotation: Rotator) -> None:
             super().__init__()
@@ -510,6 +522,10 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
 
         def set_actor_label(self, new_actor_label: str, mark_dirty: bool = True) -> None:
             self._label = new_actor_label
+
+        def get_component_by_class(self, component_class: type) -> Any:
+            assert component_class is SkeletalMeshComponent
+            return SkeletalMeshComponent(self)
 
     class EditorActorSubsystem(EditorSubsystem):
         def spawn_actor_from_object(
@@ -578,6 +594,16 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
         def get_all_channels(self) -> list[Any]:
             return self._channels
 
+    class MovieSceneObjectBindingID(StructBase):
+        _id = 0
+
+    class MovieScene3DAttachSection(MovieSceneSection):
+        attach_socket_name = "None"
+        _holder: Any = None
+
+        def set_constraint_binding_id(self, constraint_binding_id: MovieSceneObjectBindingID) -> None:
+            self._holder = constraint_binding_id._id
+
     class MovieSceneSkeletalAnimationParams(StructBase):
         animation: Any = None
 
@@ -631,6 +657,9 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
     class MovieScene3DTransformTrack(MovieSceneTrack):
         _section = MovieScene3DTransformSection
 
+    class MovieScene3DAttachTrack(MovieSceneTrack):
+        _section = MovieScene3DAttachSection
+
     class MovieSceneSkeletalAnimationTrack(MovieSceneTrack):
         _section = MovieSceneSkeletalAnimationSection
 
@@ -653,15 +682,26 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
     class MovieSceneBindingProxy(Tracks, StructBase):
         def __init__(self, sequence: Any, mesh: Any) -> None:
             super().__init__()
-            self._sequence, self._mesh, self._display_name = sequence, mesh, ""
+            self._sequence, self._display_name = sequence, ""
+            self._template = Actor(mesh, Vector(), Rotator())
             self._id = Guid()
             self._id._value = next(studio.ids)
+
+        @property
+        def _mesh(self) -> Any:
+            return self._template._mesh
+
+        def get_object_template(self) -> Any:
+            return self._template
 
         def get_id(self) -> Guid:
             return self._id
 
         def set_display_name(self, display_name: str) -> None:
             self._display_name = display_name
+
+        def remove_track(self, track_to_remove: Any) -> None:
+            self._tracks.remove(track_to_remove)
 
         def remove(self) -> None:
             self._sequence._bindings.remove(self)
@@ -713,6 +753,12 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
         def get_bindings(self) -> list[Any]:
             return list(self._bindings)
 
+        def get_binding_id(self, binding: Any) -> MovieSceneObjectBindingID:
+            assert binding in self._bindings
+            id = MovieSceneObjectBindingID()
+            id._id = binding._id._value
+            return id
+
         def get_marked_frames_from_sequence(self) -> list[Any]:
             return list(self._marks)
 
@@ -737,7 +783,7 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
 
         def _forget(self, asset: Any) -> None:
             for binding in self._bindings:
-                binding._mesh = None if binding._mesh is asset else binding._mesh
+                binding._template._mesh = None if binding._mesh is asset else binding._mesh
             for track in [*self._tracks, *(track for binding in self._bindings for track in binding._tracks)]:
                 for section in track._sections:
                     for name, value in vars(section).items():

@@ -36,6 +36,7 @@ from widgets.dialogs.export_destination import Destination, Done, foresee, write
 from widgets.dialogs.export_formats import FormatChooser
 from widgets.dialogs.export_place import PlaceChooser
 from widgets.dialogs.export_range import TEXT_MARGIN_PX, RangeChooser
+from widgets.dialogs.export_rig import RigChooser
 from widgets.dialogs.export_skeleton import SkeletonChooser
 from widgets.dialogs.working import WorkingDialog
 
@@ -116,6 +117,8 @@ class ExportDialog(WorkingDialog):
             self._rate.addItem(frame_rate_text(rate), str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(self._project.fps)))
         self._skeleton = SkeletonChooser(session, self._chosen_players)
+        self._skeleton.set_destination(destination)
+        self._rig = RigChooser()
         self._files = selectable(wrapped(named(Label(), "export_outcome")))
         self._files.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         # The excluded players of an orchestra may take more lines than there is room for.
@@ -129,6 +132,7 @@ class ExportDialog(WorkingDialog):
         self._timer = QTimer(self, interval=SHOW_MS)
         self._timer.timeout.connect(lambda: self._show_share(self._share[0]))
         self._lay_out()
+        self._place.changed.connect(lambda: self._skeleton.set_destination(self._place.destination))
         for chooser in (self._skeleton, self._place, self._range, self._formats):
             chooser.changed.connect(self._show_outcome)
         self._players.itemChanged.connect(self._show_players)
@@ -156,6 +160,7 @@ class ExportDialog(WorkingDialog):
                 "export_dialog.bone_names_in_bvh": self._bvh_names,
                 "export_dialog.keys": self._keys,
                 "export_dialog.skeleton": self._skeleton,
+                "export_dialog.rig": self._rig,
                 "export_dialog.range": self._range,
                 "export_dialog.pre_roll": self._preroll,
                 "export_dialog.frames_per_second": self._rate,
@@ -163,7 +168,7 @@ class ExportDialog(WorkingDialog):
         )
         self._form.addRow(Label(), self._outcome)
         self.fields = (self._players, self._everyone, self._place, self._formats, self._bvh_names, self._keys)
-        self.fields += (self._skeleton, self._range, self._preroll, self._rate)
+        self.fields += (self._skeleton, self._rig, self._range, self._preroll, self._rate)
         columns = in_row((left, 1), (self._form, 2), spacing=18)
         buttons = self._box("export_dialog.export", self.start, self._show_folder)
         in_column((columns, 1), self._progress, buttons, of=self)
@@ -206,6 +211,7 @@ class ExportDialog(WorkingDialog):
             bvh_names=self._bvh_names.currentData(),
             keys=self.keys if self._place.destination == "folder" else "every",
             skeleton=self._skeleton.choice,
+            rig=self._rig.options,
             asset=self._skeleton.asset,
             dancers=tuple(dancer for dancer in project.dancers if dancer.id in self.player_ids),
         )

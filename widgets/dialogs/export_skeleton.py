@@ -28,6 +28,7 @@ from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import sentence
+from widgets.dialogs.export_destination import Destination
 
 Requested: TypeAlias = tuple[SkeletonChoice, Path | None, tuple[str, ...]]
 """Choice, asset, and the characters of the players."""
@@ -60,6 +61,9 @@ class SkeletonChooser(Retranslated, QWidget):
         self._checked: dict[str, CheckedTarget] = {}
         self._error: AppError | None = None
         self._comparing = False
+        self._destination: Destination = "folder"
+        self._chosen = False
+        """Whether the skeleton was chosen by hand: it stays, wherever files go."""
         self._box = named(ComboBox(), "export_skeleton")
         for choice in CHOICES:
             self._box.addItem("", choice)
@@ -70,6 +74,7 @@ class SkeletonChooser(Retranslated, QWidget):
         asset = in_row((self._asset, 1), self._choose)
         in_column(self._box, asset, self._reported, of=self, margins=0)
         self._box.currentIndexChanged.connect(self.compare)
+        self._box.activated.connect(self._keep_choice)
         self._asset.textChanged.connect(self.compare)
         self.retranslate()
 
@@ -77,6 +82,15 @@ class SkeletonChooser(Retranslated, QWidget):
     def choice(self) -> SkeletonChoice:
         """The skeleton chosen."""
         return CHOICES[self._box.currentIndex()]
+
+    def set_destination(self, destination: Destination) -> None:
+        """Choose the usual skeleton of a destination, the mannequin for Unreal, unless another was chosen."""
+        if destination != self._destination and not self._chosen:
+            self._box.setCurrentIndex(CHOICES.index("ue5" if destination == "unreal" else "own"))
+        self._destination = destination
+
+    def _keep_choice(self) -> None:
+        self._chosen = True
 
     @property
     def asset(self) -> Path | None:

@@ -7,8 +7,8 @@ Times are seconds of the animation, whose frame 0 is at 0, and frames of it wher
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Set
+from dataclasses import dataclass, replace
 from typing import Final
 
 import msgspec
@@ -23,9 +23,10 @@ from app.project.performers import Dancer, Player
 from app.score.model import Score
 from app.score.tempo import TempoMap
 
-SCHEMA: Final = 3
+SCHEMA: Final = 4
 """Rises when a script that knows the schema before would misread the file: one that knows 1 would take dancers, one
-that knows 2 the instruments that a player changes to for figures that are not needed any more."""
+that knows 2 the instruments that a player changes to for figures that are not needed any more; one that knows 3 does
+not know that players share a mesh, and would leave an instrument that hangs on a socket at the origin."""
 
 
 class Rate(msgspec.Struct, frozen=True):
@@ -47,13 +48,14 @@ class Place(msgspec.Struct, frozen=True):
 
 class Figure(msgspec.Struct, frozen=True):
     """A skeletal mesh and what it does: its file, beside this one, and its assets. ``bones`` are all of the file's, the
-    root first."""
+    root first; ``socket`` is the bone of the player's character that an instrument hangs on, empty for none."""
 
     file: str
     mesh: str
     skeleton: str
     animation: str
     bones: tuple[str, ...]
+    socket: str = ""
 
 
 class Double(msgspec.Struct, frozen=True):
@@ -150,7 +152,7 @@ class Cue(msgspec.Struct, frozen=True):
 
 class LeftOutFigures(msgspec.Struct, frozen=True):
     """A player or dancer who was to be exported but could not be, and why. ``assets`` are those that an earlier export
-    may have made: they stay."""
+    may have made: they stay, and so does the body that is shown."""
 
     name: str
     reason: str
@@ -196,6 +198,9 @@ def describe(
     creator: str,
     title: str,
     bones: Mapping[str, tuple[str, ...]],
+    bodies: Mapping[str, tuple[str, str]],
+    sockets: Mapping[str, str],
+    rooted: Set[str],
     sound: Sound,
     files: Mapping[str, OwnFile],
 ) -> Description:
@@ -209,14 +214,27 @@ def describe(
         Why players and dancers could not be exported, by their ids.
     bones : mapping of str to tuple of str
         By the file that has them.
+    bodies : mapping of str to (str, str)
+        Paths of the meshes and skeletons of characters, by the ids of players and dancers.
+    sockets : mapping of str to str
+        Of the instruments that hang on one, by the player's id.
+    rooted : set of str
+        Ids of those whose root bones stand at their places, so that the actors do not.
     """
     project = performance.project
     score, rate = project.score, span.fps
     time = _Time(performance.piece.clock, span)
 
-    def figure(place: FigurePlace) -> Figure:
+    def figure(place: FigurePlace, socket: str = "") -> Figure:
         file = place.file.as_posix()
-        return Figure(file, place.mesh, place.skeleton, place.animation, bones[file])
+        return Figure(file, place.mesh, place.skeleton, place.animation, bones[file], socket)
+
+    def character(id: str) -> Figure:
+        mesh, skeleton = bodies[id]
+        return figure(replace(layout.characters[id], mesh=mesh, skeleton=skeleton))
+
+    def placed(one: Player | Dancer) -> Place:
+        return Place(0.0, 0.0, 0.0, 0.0) if one.id in rooted else place_of(one.stage)
 
     def cast(player: Player) -> Cast:
         return Cast(
@@ -225,15 +243,16 @@ def describe(
             instrument_id=player.instrument_id,
             character_id=player.character_id,
             stage=stage_place(player.stage),
-            place=place_of(player.stage),
-            character=figure(layout.characters[player.id]),
-            instrument=figure(layout.instruments[player.id]),
+            place=placed(player),
+            character=character(player.id),
+            instrument=figure(layout.instruments[player.id], sockets.get(player.id, "")),
             doubles=tuple(double(project.player(id)) for id in layout.doubles.get(player.id, ()) if id not in left_out),
         )
 
     def double(player: Player) -> Double:
         place = layout.instruments[player.id]
-        return Double(player.name, project.part(player).name, player.instrument_id, figure(place))
+        held = figure(place, sockets.get(player.id, ""))
+        return Double(player.name, project.part(player).name, player.instrument_id, held)
 
     def cast_dancer(dancer: Dancer, choreography: str) -> CastDancer:
         return CastDancer(
@@ -241,8 +260,8 @@ def describe(
             choreography=choreography,
             character_id=dancer.character_id,
             stage=stage_place(dancer.stage),
-            place=place_of(dancer.stage),
-            character=figure(layout.characters[dancer.id]),
+            place=placed(dancer),
+            character=character(dancer.id),
         )
 
     return Description(
@@ -281,7 +300,7 @@ def describe(
 
 
 def _assets(places: Iterable[FigurePlace]) -> tuple[str, ...]:
-    return tuple(path for place in places for path in (place.mesh, place.skeleton, place.animation))
+    return tuple(path for place in places for path in (place.mesh, place.skeleton, place.animation) if path)
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,8 @@ class FigurePlace:
     file : path
         Relative to the piece's sources.
     mesh, skeleton, animation : str
-        Paths of the assets, without an extension.
+        Paths of the assets, without an extension; of a character's mesh and skeleton, which all share who have the
+        body, `Layout.body` knows.
     """
 
     file: PurePosixPath
@@ -56,6 +57,8 @@ class Layout:
         Paths of the assets.
     doubles : mapping of str to tuple of str
         Ids of a musician's other players, by the id of the musician.
+    bodies : mapping of str to str
+        Names of the bodies, by the character's id.
     """
 
     piece: str
@@ -65,6 +68,12 @@ class Layout:
     sound: str
     sequence: str
     doubles: dict[str, tuple[str, ...]]
+    bodies: dict[str, str]
+
+    def body(self, character_id: str, added: Sequence[str]) -> tuple[str, str]:
+        """Paths of the mesh and the skeleton of all who share a body and the bones that were added to it."""
+        name = "_".join((self.bodies[character_id], *(asset_name(bone, "Bone") for bone in added)))
+        return f"{self.content}/Bodies/{name}/SK_{name}", f"{self.content}/Bodies/{name}/SKEL_{name}"
 
     @property
     def sources(self) -> PurePosixPath:
@@ -117,13 +126,18 @@ def layout_of(project: Project, piece: str) -> Layout:
     # Dancers come last, so that a new player does not rename theirs.
     names = numbered([*own, *held, *(asset_name(dancer.name, "Dancer") for dancer in dancers)])
     content = f"{CONTENT}/{piece}"
+    characters = sorted({player.character_id for player in players} | {dancer.character_id for dancer in dancers})
     doubling = {player.id for player in players} - {musician.id for musician in project.bodies}
 
-    def places(kind: str, performers: Sequence[Player | Dancer], names: tuple[str, ...]) -> dict[str, FigurePlace]:
+    def places(
+        kind: str, performers: Sequence[Player | Dancer], names: tuple[str, ...], own: bool = True
+    ) -> dict[str, FigurePlace]:
         return {
             performer.id: FigurePlace(
-                PurePosixPath(kind, f"SK_{name}.fbx"),
-                *(f"{content}/{kind}/{name}/{prefix}_{name}" for prefix in ("SK", "SKEL", "A")),
+                file=PurePosixPath(kind, f"SK_{name}.fbx"),
+                mesh=f"{content}/{kind}/{name}/SK_{name}" if own else "",
+                skeleton=f"{content}/{kind}/{name}/SKEL_{name}" if own else "",
+                animation=f"{content}/{kind}/{name}/A_{name}",
             )
             for performer, name in zip(performers, names, strict=True)
         }
@@ -132,7 +146,9 @@ def layout_of(project: Project, piece: str) -> Layout:
         piece=piece,
         characters={
             id: place
-            for id, place in places("Characters", [*players, *dancers], names[:count] + names[2 * count :]).items()
+            for id, place in places(
+                "Characters", [*players, *dancers], names[:count] + names[2 * count :], own=False
+            ).items()
             if id not in doubling
         },
         instruments=places("Instruments", players, names[count : 2 * count]),
@@ -144,4 +160,5 @@ def layout_of(project: Project, piece: str) -> Layout:
             for musician in project.bodies
             if len(played := project.played_by(musician)) > 1
         },
+        bodies=dict(zip(characters, numbered(asset_name(one, "Body") for one in characters), strict=True)),
     )

@@ -20,7 +20,8 @@ import numpy as np
 
 from app.audio.track import RATE_HZ
 from app.errors import Cancelled, Message
-from app.export.character import CENTIMETRES
+from app.export.bind_pose import CENTIMETRES
+from app.export.equip import socket_names
 from app.export.file_names import REPORT as EXPORTED_REPORT
 from app.export.instrument import instrument_bones
 from app.export.report import Report, encode_report
@@ -192,6 +193,9 @@ def export_into(
             request.creator,
             request.performance.project.score.title,
             bones,
+            _bodies(request, cast, plan.layout),
+            _sockets(cast),
+            {id for id, checked in cast.targets.items() if checked.target.place is not None},
             sound,
             with_files,
         )
@@ -276,6 +280,26 @@ def _dancers(request: Request, cast: ExportCast) -> tuple[tuple[Dancer, str], ..
     """The dancers who are exported, as the project has them, with the names of their choreographies."""
     dancers = {dancer.id: dancer for dancer in request.dancers}
     return tuple((dancers[dancing.dancer.id], dancing.choreographer.model.name) for dancing in cast.dances)
+
+
+def _bodies(request: Request, cast: ExportCast, layout: Layout) -> dict[str, tuple[str, str]]:
+    """Mesh and skeleton of each character, by the id of the player or dancer: of those alike the same."""
+    characters = {performer.player.id: performer.player.character_id for performer in cast.performers}
+    characters |= {dancer.id: dancer.character_id for dancer, _ in _dancers(request, cast)}
+    return {id: layout.body(character, socket_names(cast.targets[id].target)) for id, character in characters.items()}
+
+
+def _sockets(cast: ExportCast) -> dict[str, str]:
+    """The bone that each instrument hangs on, by the player's id."""
+    return {
+        one.player.id: socket
+        for performer in cast.performers
+        for one, socket in zip(
+            (performer, *cast.doubles.get(performer.player.id, ())),
+            socket_names(cast.targets[performer.player.id].target),
+            strict=False,  # none where instruments are free
+        )
+    }
 
 
 def _sound(

@@ -7,11 +7,12 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox, QLabel, QLineEdit, QPushButton
+from PySide6.QtWidgets import QApplication, QCheckBox, QComboBox, QLabel, QLineEdit, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
 from app.export.character import character_scene
+from app.export.rig_options import RigOptions
 from app.export.targets import target_skeleton
 from app.formats.fbx.write import write_scene
 from app.performance.bodies import character_of
@@ -161,3 +162,30 @@ def test_our_own_file_is_an_asset_that_fits_ours(
     write_scene(tmp_path / "ours.fbx", character_scene(character_of(player), motion, "x", "test"))
     name(dialog, tmp_path / "ours.fbx")
     qtbot.waitUntil(lambda: "✓" in reported(dialog))
+
+
+def test_a_request_has_the_rig_that_is_chosen(dialog: ExportDialog) -> None:
+    assert dialog._request().rig == RigOptions()
+    for name, keys in (("export_instrument", 1), ("export_root_bone", 2), ("export_rest_pose", 2)):
+        box = dialog.findChild(QComboBox, name)
+        assert box is not None
+        for _ in range(keys):
+            QTest.keyClick(box, Qt.Key.Key_Down)
+    twists = dialog.findChild(QCheckBox, "export_twist_bones")
+    assert twists is not None
+    QTest.mouseClick(twists, Qt.MouseButton.LeftButton)
+    assert dialog._request().rig == RigOptions("socket", "motion", "a", True)
+
+
+def test_the_mannequin_is_for_unreal_unless_another_skeleton_was_chosen(dialog: ExportDialog) -> None:
+    skeleton, destination = (dialog.findChild(QComboBox, f"export_{name}") for name in ("skeleton", "destination"))
+    assert skeleton is not None
+    assert destination is not None
+    assert dialog._request().skeleton == "own"
+    QTest.keyClick(destination, Qt.Key.Key_Down)
+    assert dialog._request().skeleton == "ue5"
+    QTest.keyClick(destination, Qt.Key.Key_Up)
+    assert dialog._request().skeleton == "own"
+    QTest.keyClick(skeleton, Qt.Key.Key_End)
+    QTest.keyClick(destination, Qt.Key.Key_Down)
+    assert dialog._request().skeleton == "suisou"

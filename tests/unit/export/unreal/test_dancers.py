@@ -51,7 +51,8 @@ def test_a_dancer_is_written_as_a_player_is(unreal: UnrealProject, export: Expor
     assert (dancer["place"]["x_cm"], dancer["place"]["y_cm"]) == (-50.0, 200.0)
     assert dancer["place"]["yaw_deg"] == pytest.approx(-np.degrees(0.5), abs=1e-3)
     figure = dancer["character"]
-    assert figure["mesh"] == "/Game/Suisou/quartet/Characters/Ana/SK_Ana"
+    assert figure["mesh"] == "/Game/Suisou/quartet/Bodies/woman_adult/SK_woman_adult"
+    assert figure["animation"] == "/Game/Suisou/quartet/Characters/Ana/A_Ana"
     assert figure["file"] == "Characters/SK_Ana.fbx"
     assert figure["file"] in reported["files"]
     report = read(unreal, "report.json")
@@ -90,8 +91,12 @@ def test_dancers_rename_no_player(tmp_path: Path) -> None:
     after = layout_of(with_dancers(renamed(quartet(), ["A", "A_trumpet_Bb", "B", "C"]), tmp_path, "a", "é!"), "x")
     assert {id: after.characters[id] for id in before.characters} == before.characters
     assert after.instruments == before.instruments
-    meshes = [place.mesh.casefold() for places in (after.characters, after.instruments) for place in places.values()]
-    assert len(set(meshes)) == len(meshes) == 10
+    places = [*after.characters.values(), *after.instruments.values()]
+    assert len({place.animation.casefold() for place in places}) == len(places) == 10
+    # Body and bones alike, or they are another's.
+    assert after.bodies == {"man_adult": "man_adult", "woman_adult": "woman_adult"}
+    meshes = {after.body(id, added) for id in after.bodies for added in ((), ("hand_l_socket",))}
+    assert len(meshes) == 4
 
 
 def test_a_dancer_who_is_not_needed_any_more_goes(unreal: UnrealProject, export: Export, danced: Project) -> None:
@@ -115,7 +120,7 @@ def test_who_cannot_dance_is_named_and_stays_as_exported(
     (left_out,) = reported["left_out"]
     assert left_out["name"] == "Ana"
     assert "gone.choreography" in left_out["reason"]
-    assert left_out["assets"] == [f"/Game/Suisou/quartet/Characters/Ana/{prefix}_Ana" for prefix in ("SK", "SKEL", "A")]
+    assert left_out["assets"] == ["/Game/Suisou/quartet/Characters/Ana/A_Ana"]
     assert (unreal.folder / SOURCES / "Characters/SK_Ana.fbx").read_bytes() == kept
     # It is still ours: the next export takes its place.
     export(request_of(danced, ("Ana",), last_bar=2))

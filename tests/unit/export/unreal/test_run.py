@@ -79,12 +79,14 @@ def test_what_is_there_and_what_it_says(unreal: UnrealProject, export: Export) -
     assert {path.as_posix() for path in written.plan.written} == set(tree) - THEIRS
     reported = description(unreal)
     assert (reported["schema"], reported["frames"], reported["rate"]) == (
-        3,
+        4,
         request.span.count,
         {"numerator": 12, "denominator": 1},
     )
     (player,) = reported["players"]
-    assert player["character"]["mesh"] == "/Game/Suisou/quartet/Characters/Trumpet_1/SK_Trumpet_1"
+    body = player["character_id"]
+    assert player["character"]["mesh"] == f"/Game/Suisou/quartet/Bodies/{body}/SK_{body}"
+    assert player["character"]["animation"] == "/Game/Suisou/quartet/Characters/Trumpet_1/A_Trumpet_1"
     assert player["instrument"]["animation"] == (
         "/Game/Suisou/quartet/Instruments/Trumpet_1_trumpet_Bb/A_Trumpet_1_trumpet_Bb"
     )
@@ -249,7 +251,7 @@ def test_a_hostile_name_is_harmless(unreal: UnrealProject, export: Export, sourc
     (piece,) = {name.split("/")[1] for name in new if name.startswith("SuisouSource/")} - {"notes.txt"}
     reported = description(unreal, piece)
     assert reported["players"][0]["name"] == HOSTILE[0]
-    assert reported["players"][0]["character"]["mesh"].startswith(f"/Game/Suisou/{piece}/Characters/")
+    assert reported["players"][0]["character"]["mesh"].startswith(f"/Game/Suisou/{piece}/Bodies/")
 
 
 def test_names_do_not_depend_on_who_is_exported() -> None:
@@ -403,6 +405,8 @@ def test_the_command_line(unreal: UnrealProject, capsys: pytest.CaptureFixture[s
     for name in OURS:
         assert name.rsplit("/", 1)[-1] in reported
     assert "Unreal Engine 5.6" in reported
+    assert "skeleton: Unreal Engine 5's mannequin (--skeleton own" in reported
+    assert description(unreal)["players"][0]["character"]["bones"][:2] == ["root", "pelvis"]
     assert main([*arguments, *bars]) == 0
     assert "S_quartet.wav (replaced)" in capsys.readouterr().out
     assert main([*arguments, "--format", "fbx"]) == 2

@@ -76,8 +76,9 @@ def exported(
     last_bar: int = 1,
     fps: Fraction = Fraction(12),
     source: str = "quartet.mid",
+    **options: Any,
 ) -> UnrealProject:
-    """Export into the Unreal project of a folder, which is made."""
+    """Export into the Unreal project of a folder, which is made; ``options`` are further ones of the request."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "Game.uproject").write_text('{"FileVersion": 3, "EngineAssociation": "5.6"}')
     unreal = find_project(folder)
@@ -92,6 +93,7 @@ def exported(
         source=source,
         creator="Suisou test",
         dancers=tuple(dancer for dancer in project.dancers if dancer.name in players),
+        **options,
     )
     export_into(request, unreal, text)
     return unreal

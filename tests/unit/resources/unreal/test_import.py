@@ -41,7 +41,13 @@ def own_assets(editor: Editor) -> set[str]:
 
 
 def figure_assets(kind: str, name: str) -> set[str]:
-    return {f"{ROOT}/{kind}/{name}/{prefix}_{name}" for prefix in ("SK", "SKEL", "A")}
+    """Of a character the animation alone: its body may be another's too."""
+    prefixes = ("SK", "SKEL", "A") if kind == "Instruments" else ("A",)
+    return {f"{ROOT}/{kind}/{name}/{prefix}_{name}" for prefix in prefixes}
+
+
+def body_assets(*character_ids: str) -> set[str]:
+    return {f"{ROOT}/Bodies/{id}/{prefix}_{id}" for id in character_ids for prefix in ("SK", "SKEL")}
 
 
 def bindings(editor: Editor) -> dict[str, Any]:
@@ -92,6 +98,9 @@ def test_the_quartet_is_imported(editor: Editor) -> None:
     expected = {f"{ROOT}/LS_quartet", f"{ROOT}/Audio/S_quartet"}
     for player, held in zip(QUARTET, HELD, strict=True):
         expected |= figure_assets("Characters", player) | figure_assets("Instruments", f"{player}_{held}")
+    bodies = {player["character_id"] for player in description(editor)["players"]}
+    assert len(bodies) < len(QUARTET)
+    expected |= body_assets(*bodies)
     assert own_assets(editor) == expected
     assert all(editor.studio.metadata[path]["SuisouPiece"] == "quartet" for path in editor.studio.assets)
     assert editor.studio.saved == [ROOT]
@@ -102,12 +111,13 @@ def test_the_quartet_is_imported(editor: Editor) -> None:
 def test_meshes_have_their_morph_targets_and_animations_their_curves(editor: Editor) -> None:
     editor.import_performance()
     frames = description(editor)["frames"]
-    for player in QUARTET:
-        mesh = editor.studio.assets[f"{ROOT}/Characters/{player}/SK_{player}"]
+    for player, reported in zip(QUARTET, description(editor)["players"], strict=True):
+        body = reported["character_id"]
+        mesh = editor.studio.assets[f"{ROOT}/Bodies/{body}/SK_{body}"]
         played = editor.studio.assets[f"{ROOT}/Characters/{player}/A_{player}"]
         assert "jawOpen" in mesh._morphs
         assert mesh._skeleton is played._skeleton
-        assert mesh._skeleton is editor.studio.assets[f"{ROOT}/Characters/{player}/SKEL_{player}"]
+        assert mesh._skeleton is editor.studio.assets[f"{ROOT}/Bodies/{body}/SKEL_{body}"]
         assert played._frames == frames
         assert {"jawOpen", "eyeBlinkLeft"} <= played._curves
 
@@ -116,7 +126,8 @@ def test_what_the_importer_is_asked(editor: Editor) -> None:
     editor.import_performance()
     unreal = editor.unreal
     fbx = [asked for asked in editor.studio.imports if asked["filename"].endswith(".fbx")]
-    assert len(fbx) == 16
+    bodies = len({player["character_id"] for player in description(editor)["players"]})
+    assert len(fbx) == 12 + bodies
     assert all(asked["automated"] and asked["replace_existing"] for asked in editor.studio.imports)
     for asked in fbx:
         assert isinstance(asked["factory"], unreal.FbxFactory)
@@ -165,14 +176,14 @@ def test_all_play_from_the_first_frame_to_the_last(editor: Editor) -> None:
     assert (sequence._start, sequence._end) == (0, last)
     assert (sequence._rate.numerator, sequence._rate.denominator) == (12, 1)
     for player, held in zip(reported["players"], HELD, strict=True):
-        for name, asset in (
-            (player["name"], player["character"]["animation"]),
-            (f"{player['name']} ({held})", player["instrument"]["animation"]),
+        for name, figure in (
+            (player["name"], player["character"]),
+            (f"{player['name']} ({held})", player["instrument"]),
         ):
             section = animation(bindings(editor)[name])
             assert section._range == ("frames", 0, last)
-            assert section._animation is editor.studio.assets[asset]
-            assert bindings(editor)[name]._mesh is editor.studio.assets[asset.replace("/A_", "/SK_")]
+            assert section._animation is editor.studio.assets[figure["animation"]]
+            assert bindings(editor)[name]._mesh is editor.studio.assets[figure["mesh"]]
 
 
 def test_the_sound_is_at_its_offset_and_the_bars_are_marked(editor: Editor) -> None:
@@ -282,7 +293,8 @@ def test_who_plays_no_more_goes_and_who_is_used_stays(two: Editor) -> None:
     gone = figure_assets("Characters", "Trombone_1") | figure_assets(
         "Instruments", "Trombone_1_trombone_tenor_F_attachment"
     )
-    used = f"{ROOT}/Characters/Trombone_1/SK_Trombone_1"
+    held = "Trombone_1_trombone_tenor_F_attachment"
+    used = f"{ROOT}/Instruments/{held}/SK_{held}"
     two.studio.referencers[used] = ["/Game/Maps/Stage", f"{ROOT}/LS_quartet"]
     exported(two.folder, quartet(), ("Trumpet 1",))
     reported = two.update_performance()

@@ -43,7 +43,7 @@ def without(name: str) -> Callable[[Editor], None]:
 
 
 def somebody_elses(editor: Editor) -> None:
-    editor.studio.add(f"{ROOT}/Characters/Trumpet_1/SK_Trumpet_1", editor.unreal.SkeletalMesh())
+    editor.studio.add(f"{ROOT}/Characters/Trumpet_1/A_Trumpet_1", editor.unreal.AnimSequence())
 
 
 def player(field: str, value: object) -> Callable[[dict[str, Any]], None]:
@@ -57,7 +57,7 @@ def player(field: str, value: object) -> Callable[[dict[str, Any]], None]:
         (write("performance.json", b"{"), "cannot be read"),
         (write("performance.json", b"[]"), "cannot be read"),
         (damage_json(lambda content: content.pop("rate")), "'rate'"),
-        (damage_json(lambda content: content.update(schema=4)), "newer Suisou"),
+        (damage_json(lambda content: content.update(schema=5)), "newer Suisou"),
         (damage_json(lambda content: content.update(frames=0)), "cannot be read"),
         (damage_json(lambda content: content.update(content="/Game/Other")), "cannot be read"),
         (damage_json(player("mesh", "/Game/Mine/SK_Trumpet_1")), "cannot be read"),
@@ -89,7 +89,7 @@ def test_import_and_update_know_what_is_there(editor: Editor) -> None:
 
 
 def test_what_unreal_does_not_import_is_reported(editor: Editor) -> None:
-    refused = f"{ROOT}/Characters/Trombone_1/SK_Trombone_1"
+    refused = f"{ROOT}/Instruments/Trumpet_1_trumpet_Bb/SK_Trumpet_1_trumpet_Bb"
     editor.studio.refuse_import.add(refused)
     reported = editor.import_performance()
     assert refused in reported
@@ -116,7 +116,7 @@ def test_a_length_that_is_not_the_files_is_reported(editor: Editor) -> None:
 
 def test_what_cannot_be_removed_is_reported(editor: Editor) -> None:
     editor.import_performance()
-    stuck = f"{ROOT}/Characters/Trumpet_1/A_Trumpet_1"
+    stuck = f"{ROOT}/Instruments/Trumpet_1_trumpet_Bb/A_Trumpet_1_trumpet_Bb"
     editor.studio.metadata[stuck.replace("/A_", "/SKEL_")]["SuisouBones"] = "of before"
     editor.studio.undeletable.add(stuck)
     assert stuck in editor.update_performance()

@@ -38,7 +38,7 @@ def tag(asset: unreal.Object, performance: Performance) -> None:
 
 
 def import_mesh(performance: Performance, figure: Figure) -> bool:
-    """Make the mesh and the skeleton of a figure, or bring them up to date.
+    """Make the mesh and the skeleton of a figure, and of all that share them, or bring them up to date.
 
     Returns
     -------
@@ -49,7 +49,8 @@ def import_mesh(performance: Performance, figure: Figure) -> bool:
     skeleton = existing(figure.skeleton)
     anew = False
     if skeleton is not None and unreal.EditorAssetLibrary.get_metadata_tag(skeleton, BONES_TAG) != bones:
-        for path in (figure.animation, figure.mesh, figure.skeleton):
+        played = [other.animation for other in performance.figures if other.skeleton == figure.skeleton]
+        for path in (*played, figure.mesh, figure.skeleton):
             _delete(path)
         skeleton, anew = None, True
     folder = figure.mesh.rpartition("/")[0]
@@ -78,6 +79,9 @@ def import_animation(performance: Performance, figure: Figure) -> unreal.AnimSeq
     skeleton = existing(figure.skeleton)
     if not isinstance(skeleton, unreal.Skeleton):
         raise problem("not_imported", asset=figure.skeleton, file=figure.file)
+    there = existing(figure.animation)
+    if isinstance(there, unreal.AnimSequence) and there.get_editor_property("skeleton") is not skeleton:
+        _delete(figure.animation)
     _import(performance, figure.file, figure.animation, _animation_options(skeleton, performance.rate))
     return _made(performance, figure.animation, figure.file, unreal.AnimSequence)
 
@@ -88,9 +92,15 @@ def import_sound(performance: Performance) -> unreal.SoundWave:
     return _made(performance, performance.sound.asset, performance.sound.file, unreal.SoundWave)
 
 
-def remove_leftovers(performance: Performance) -> list[str]:
-    """Remove what is ours and belongs to no one any more; what is reported of it."""
-    requested = set(performance.assets) | performance.staying
+def remove_leftovers(performance: Performance, shown: set[str]) -> list[str]:
+    """Remove what is ours and belongs to no one any more; what is reported of it.
+
+    Parameters
+    ----------
+    shown : set of str
+        Paths of what excluded performers are shown with.
+    """
+    requested = set(performance.assets) | performance.staying | shown
     gone: list[str] = []
     for path in _listed(performance.content):
         asset = existing(path)

@@ -15,7 +15,14 @@ PLUGINS = {
 }
 """What each plug-in brings; without it the names are not there."""
 FUNCTIONS = {
-    "LevelSequence": ("add_track", "find_tracks_by_exact_type", "set_tick_resolution", "delete_marked_frame"),
+    "LevelSequence": (
+        "add_track",
+        "find_tracks_by_exact_type",
+        "set_tick_resolution",
+        "delete_marked_frame",
+        "get_binding_id",
+    ),
+    "MovieScene3DAttachSection": ("set_constraint_binding_id",),
     "MovieSceneSection": ("get_all_channels", "set_range_seconds"),
     "EditorAssetLibrary": ("find_package_referencers_for_asset", "set_metadata_tag"),
     "ScopedSlowTask": ("should_cancel",),

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from suisou_import.problem import problem
 
-SCHEMA = 3
+SCHEMA = 4
 DESCRIPTION = "performance.json"
 ROOT = "/Game/Suisou/"
 _ASSET = re.compile(r"/Game/Suisou(/[A-Za-z0-9_]+)+")
@@ -26,10 +26,17 @@ class Place(NamedTuple):
     y_cm: float
     z_cm: float
     yaw_deg: float
+    roll_deg: float = 0.0
+
+
+ON_SOCKET = Place(0.0, 0.0, 0.0, 0.0, -90.0)
+"""Relative to a bone that an instrument hangs on. A bone keeps the axes of its file, with Y up; the importer turns what
+is imported as an asset of its own to Z up."""
 
 
 class Figure(NamedTuple):
-    """A skeletal mesh and what it does. The last three are paths of assets."""
+    """A skeletal mesh and what it does. ``mesh``, ``skeleton`` and ``animation`` are paths of assets; what hangs on a
+    bone, the ``socket``, of another figure has the animation of that as its ``holder``."""
 
     name: str
     file: str
@@ -38,6 +45,8 @@ class Figure(NamedTuple):
     mesh: str
     skeleton: str
     animation: str
+    socket: str = ""
+    holder: str = ""
 
 
 class Sound(NamedTuple):
@@ -83,9 +92,14 @@ class Performance(NamedTuple):
 
     @property
     def assets(self) -> list[str]:
-        """Paths of all its assets."""
+        """Paths of all its assets, each once: figures of the same body share its mesh and skeleton."""
         own = [path for figure in self.figures for path in (figure.mesh, figure.skeleton, figure.animation)]
-        return [*own, self.sound.asset, self.sequence]
+        return list(dict.fromkeys([*own, self.sound.asset, self.sequence]))
+
+    @property
+    def bodies(self) -> list[Figure]:
+        """The first figure of each mesh, from whose file it is made."""
+        return list({figure.mesh: figure for figure in reversed(self.figures)}.values())[::-1]
 
     def path(self, file: str) -> Path:
         """Where a file is."""
@@ -141,7 +155,7 @@ def check_files(performance: Performance) -> None:
 def _performance(folder: Path, content: dict[str, Any]) -> Performance:
     piece = _matching(re.compile(r"[A-Za-z0-9_]+"), content["piece"])
     figures = [
-        _figure(name, content_of, player["place"])
+        _figure(name, content_of, player["place"], player["character"])
         for player in content["players"]
         for name, content_of in (
             (str(player["name"]), player["character"]),
@@ -188,7 +202,9 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
         raise ValueError("its assets are not in its own folder")
     inside = read_performance.content + "/"
     assets = read_performance.assets
-    apart = len({path.lower() for path in assets}) == len(assets)
+    alike = {(figure.mesh, figure.skeleton, figure.bones) for figure in figures}
+    count = 2 * len(alike) + len(figures) + 2
+    apart = len({path.lower() for path in assets}) == len(assets) == count
     if not apart or not all(path.startswith(inside) for path in [*assets, *read_performance.staying]):
         raise ValueError("its assets are not apart, or not in its own folder")
     if not {figure.file for figure in figures} | {read_performance.sound.file} <= set(read_performance.files):
@@ -196,15 +212,20 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
     return read_performance
 
 
-def _figure(name: str, content: dict[str, Any], place: dict[str, Any]) -> Figure:
+def _figure(name: str, content: dict[str, Any], place: dict[str, Any], holder: dict[str, Any] | None = None) -> Figure:
+    # Of an export of an earlier Suisou there is none.
+    socket = str(content.get("socket", ""))
+    stands = Place(*(_finite(place[field]) for field in ("x_cm", "y_cm", "z_cm", "yaw_deg")))
     return Figure(
         name=name,
         file=_matching(_FILE, content["file"]),
-        place=Place(*(_finite(place[field]) for field in Place._fields)),
+        place=ON_SOCKET if socket else stands,
         bones=tuple(str(bone) for bone in content["bones"]),
         mesh=_matching(_ASSET, content["mesh"]),
         skeleton=_matching(_ASSET, content["skeleton"]),
         animation=_matching(_ASSET, content["animation"]),
+        socket=socket,
+        holder=_matching(_ASSET, holder["animation"]) if holder is not None and socket else "",
     )
 
 

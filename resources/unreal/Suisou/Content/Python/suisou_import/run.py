@@ -24,7 +24,7 @@ def bring_in(performance: Performance) -> list[str]:
     Problem, Cancelled
     """
     reported: list[str] = []
-    count = 2 * len(performance.figures) + 4
+    count = len(performance.bodies) + len(performance.figures) + 4
     with unreal.ScopedSlowTask(count, performance.title) as task:
         task.make_dialog(True)
 
@@ -41,11 +41,12 @@ def bring_in(performance: Performance) -> list[str]:
 
 def _assets(performance: Performance, step: Callable[..., None], reported: list[str]) -> None:
     anew: set[str] = set()
-    for figure in performance.figures:
+    for figure in performance.bodies:
         step("step_mesh", name=figure.name)
         if assets.import_mesh(performance, figure):
             anew.add(figure.mesh)
             reported.append(text("new_skeleton", asset=figure.mesh))
+    for figure in performance.figures:
         step("step_animation", name=figure.name)
         animation = assets.import_animation(performance, figure)
         keys = int(animation.get_editor_property("number_of_sampled_keys"))
@@ -55,7 +56,7 @@ def _assets(performance: Performance, step: Callable[..., None], reported: list[
     assets.import_sound(performance)
     step("step_sequence")
     reported += sequence.build(performance, anew)
-    reported += assets.remove_leftovers(performance)
+    reported += assets.remove_leftovers(performance, sequence.shown_with(performance))
     step("step_save")
     if not unreal.EditorAssetLibrary.save_directory(performance.content, only_if_is_dirty=True, recursive=True):
         raise problem("not_saved", folder=performance.content)

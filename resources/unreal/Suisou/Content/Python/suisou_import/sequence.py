@@ -39,25 +39,46 @@ def build(performance: Performance, anew: set[str]) -> list[str]:
     reported: list[str] = []
     known: dict[str, Any] = state["figures"]
     figures: dict[str, Any] = {}
+    there: dict[str, unreal.MovieSceneBindingProxy] = {}
     for figure in performance.figures:
-        before = None if figure.mesh in anew else known.get(figure.mesh)
+        before = None if figure.mesh in anew else known.get(figure.animation)
         binding = None if before is None else _binding(sequence, before["id"])
+        if binding is not None and before is not None and before["mesh"] != figure.mesh:
+            binding = binding if _show(binding, figure.mesh) else None
         if binding is None:
-            _remove(sequence, known.get(figure.mesh))
+            _remove(sequence, known.get(figure.animation))
             binding, before = _new_binding(sequence, figure), None
-        reported += _put(binding, figure, None if before is None else Place(*before["place"]))
+        there[figure.animation] = binding
+        hung = "" if before is None else str(before.get("socket", ""))
+        _hang(sequence, binding, there.get(figure.holder), figure.socket, hung)
+        # On another socket the place is another one, wherever it was put before.
+        stayed = before is not None and hung == figure.socket
+        reported += _put(binding, figure, Place(*before["place"]) if before is not None and stayed else None)
         _play(binding, figure, performance)
-        figures[figure.mesh] = {"id": binding.get_id().to_string(), "place": list(figure.place)}
-    for mesh, before in known.items():
-        if mesh in performance.staying:
-            figures.setdefault(mesh, before)
-        elif mesh not in figures:
+        figures[figure.animation] = {
+            "id": binding.get_id().to_string(),
+            "mesh": figure.mesh,
+            "skeleton": figure.skeleton,
+            "place": list(figure.place),
+            "socket": figure.socket,
+        }
+    for animation, before in known.items():
+        if animation in performance.staying:
+            figures.setdefault(animation, before)
+        elif animation not in figures:
             _remove(sequence, before)
     _sound(sequence, performance)
     marks = _mark(sequence, performance, set(state["marks"]))
     _remember(sequence, {"figures": figures, "marks": marks})
     assets.tag(sequence, performance)
     return reported
+
+
+def shown_with(performance: Performance) -> set[str]:
+    """Paths of the meshes and skeletons that excluded performers are shown with."""
+    known = _state(_sequence(performance))["figures"]
+    staying = [known[animation] for animation in performance.staying if animation in known]
+    return {str(one[what]) for one in staying for what in ("mesh", "skeleton")}
 
 
 def last_frame(performance: Performance) -> int:
@@ -136,6 +157,45 @@ def _new_binding(sequence: unreal.LevelSequence, figure: Figure) -> unreal.Movie
     return binding
 
 
+def _show(binding: unreal.MovieSceneBindingProxy, mesh: str) -> bool:
+    """Have an actor show another mesh; whether that can be done."""
+    template, asset = binding.get_object_template(), assets.existing(mesh)
+    if not isinstance(template, unreal.Actor) or not isinstance(asset, unreal.SkeletalMesh):
+        return False
+    component = template.get_component_by_class(unreal.SkeletalMeshComponent)
+    if not isinstance(component, unreal.SkeletalMeshComponent):
+        return False
+    component.set_skinned_asset_and_update(asset)
+    return True
+
+
+def _hang(
+    sequence: unreal.LevelSequence,
+    binding: unreal.MovieSceneBindingProxy,
+    holder: unreal.MovieSceneBindingProxy | None,
+    socket: str,
+    before: str,
+) -> None:
+    """Have an actor hang on a bone of another, or on none; ``before`` is the bone that it was hung on."""
+    tracks = binding.find_tracks_by_exact_type(unreal.MovieScene3DAttachTrack)
+    ours = [track for track in tracks if before and before in map(_socket, track.get_sections())]
+    if holder is None:
+        for track in ours:
+            binding.remove_track(track)
+        return
+    track = ours[0] if ours else binding.add_track(unreal.MovieScene3DAttachTrack)
+    section = track.get_sections()[0] if ours else track.add_section()
+    assert isinstance(section, unreal.MovieScene3DAttachSection)
+    section.set_constraint_binding_id(sequence.get_binding_id(holder))
+    section.attach_socket_name = socket
+    section.set_start_frame_bounded(False)
+    section.set_end_frame_bounded(False)
+
+
+def _socket(section: unreal.MovieSceneSection) -> str:
+    return str(section.attach_socket_name) if isinstance(section, unreal.MovieScene3DAttachSection) else ""
+
+
 def _put(binding: unreal.MovieSceneBindingProxy, figure: Figure, before: Place | None) -> list[str]:
     """Put an actor at its place; where the artist has moved it, it stays. What is reported to the user."""
     tracks = binding.find_tracks_by_exact_type(unreal.MovieScene3DTransformTrack)
@@ -174,7 +234,7 @@ def _channel_values(place: Place) -> dict[str, float]:
         "Location.X": place.x_cm,
         "Location.Y": place.y_cm,
         "Location.Z": place.z_cm,
-        "Rotation.X": 0.0,
+        "Rotation.X": place.roll_deg,
         "Rotation.Y": 0.0,
         "Rotation.Z": place.yaw_deg,
         "Scale.X": 1.0,
@@ -277,9 +337,18 @@ def _state(sequence: unreal.LevelSequence) -> dict[str, Any]:
     """What was put into a sequence the last time; nothing if that cannot be reported."""
     try:
         state = json.loads(unreal.EditorAssetLibrary.get_metadata_tag(sequence, STATE_TAG))
-        return {"figures": dict(state["figures"]), "marks": list(state["marks"])}
+        figures = dict(_known(*item) for item in state["figures"].items())
+        return {"figures": figures, "marks": list(state["marks"])}
     except (ValueError, KeyError, TypeError):
         return {"figures": {}, "marks": []}
+
+
+def _known(key: str, figure: dict[str, Any]) -> tuple[str, dict[str, Any]]:
+    """What was put for a figure, by its animation; an earlier Suisou kept it by the mesh, of which each had its own."""
+    if "mesh" in figure:
+        return key, figure
+    folder, _, name = key.rpartition("/SK_")
+    return f"{folder}/A_{name}", {**figure, "mesh": key, "skeleton": f"{folder}/SKEL_{name}"}
 
 
 def _remember(sequence: unreal.LevelSequence, state: dict[str, Any]) -> None:

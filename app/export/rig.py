@@ -1,0 +1,78 @@
+"""What one performer's skeleton is equipped with."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.export.rig_options import DEFAULT_RIG, RigOptions
+from app.formats.scene import Place
+from app.performance.cast import Performer
+from app.project.casting import StagePosition
+from app.rig import quaternion
+from app.rig.hold import Side
+
+FloatArray = npt.NDArray[np.float64]
+
+ORIGIN: Final = Place(np.zeros(3), quaternion.IDENTITY)
+
+
+@dataclass(frozen=True, eq=False)
+class Grip:
+    """How an instrument lies in the hand that bears it.
+
+    Attributes
+    ----------
+    side : str
+        ``"left"`` or ``"right"``.
+    position_m : (3,) float64
+        Origin of the instrument in the frame of the hand joint, before anything moves.
+    rotation : (4,) float64
+        ``hand_from_instrument``.
+    """
+
+    side: Side
+    position_m: FloatArray
+    rotation: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Rig:
+    """What a performer's skeleton is equipped with.
+
+    Attributes
+    ----------
+    options : RigOptions
+    grips : tuple of Grip
+        Of the musician's instruments, in their order; none of a dancer.
+    place : Place or None
+        On the stage, where the root bone stands there.
+    """
+
+    options: RigOptions = DEFAULT_RIG
+    grips: tuple[Grip, ...] = ()
+    place: Place | None = None
+
+
+def rig_of(options: RigOptions, stage: StagePosition, performers: Iterable[Performer] = ()) -> Rig:
+    """The rig of a dancer, or of a musician as the player of each instrument."""
+    grips = tuple(map(_grip, performers)) if options.instrument != "free" else ()
+    return Rig(options, grips, floor_place(stage) if options.root_bone == "place" else None)
+
+
+def floor_place(stage: StagePosition) -> Place:
+    """On the floor, turned from +Z towards +X."""
+    half = stage.turn_rad / 2.0
+    return Place(100.0 * np.array([stage.x_m, 0.0, stage.z_m]), np.array([0.0, math.sin(half), 0.0, math.cos(half)]))
+
+
+def _grip(performer: Performer) -> Grip:
+    side = performer.instrument.hold.support_hand
+    hand = next(one for one in performer.hold.hands if one.side == side)
+    rotation = quaternion.conjugate(hand.instrument_from_hand_rotation[0])
+    return Grip(side, -quaternion.rotate(rotation, hand.instrument_from_hand_m[0]), rotation)

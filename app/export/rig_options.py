@@ -1,0 +1,40 @@
+"""What an export makes of skeletons beside their bones: how instruments hang, root bone, rest pose, twist bones."""
+
+from __future__ import annotations
+
+from typing import Final, Literal, TypeAlias, get_args
+
+import msgspec
+
+Attachment: TypeAlias = Literal["free", "socket", "ik"]
+"""An instrument's own motion in the world, on a bone of the hand that bears it, or on one of that hand's IK target."""
+RootBone: TypeAlias = Literal["origin", "place", "motion"]
+"""The root bone stays at the origin, stands at the place on the stage, or goes over the floor below the hips."""
+RestPose: TypeAlias = Literal["model", "t", "a"]
+"""The arms at rest: as the body was modelled, level (T-pose), or 45 degrees down (A-pose)."""
+
+ATTACHMENTS: Final[tuple[Attachment, ...]] = get_args(Attachment)
+ROOT_BONES: Final[tuple[RootBone, ...]] = get_args(RootBone)
+REST_POSES: Final[tuple[RestPose, ...]] = get_args(RestPose)
+
+
+class RigOptions(msgspec.Struct, frozen=True):
+    """What is requested.
+
+    Attributes
+    ----------
+    instrument : Attachment
+    root_bone : RootBone
+    rest_pose : RestPose
+    twist_bones : bool
+        Whether twist bones of the arms carry skin, and are there.
+    """
+
+    instrument: Attachment = "free"
+    root_bone: RootBone = "origin"
+    rest_pose: RestPose = "model"
+    twist_bones: bool = False
+
+
+DEFAULT_RIG: Final = RigOptions()
+"""As the skeleton is, the instrument free."""

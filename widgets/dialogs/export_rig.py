@@ -1,0 +1,73 @@
+"""What an export makes of skeletons beside their bones: how instruments hang, root bone, rest pose, twist bones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtWidgets import QGridLayout, QWidget
+
+from app.export.rig_options import ATTACHMENTS, REST_POSES, ROOT_BONES, RigOptions
+from widgets.common.controls import Check, Retranslated, named
+from widgets.common.plain import ComboBox
+
+
+class RigChooser(Retranslated, QWidget):
+    """A box for each choice; as they are, the files are as they always were."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._instrument = _box("export_instrument", ATTACHMENTS)
+        self._root_bone = _box("export_root_bone", ROOT_BONES)
+        self._rest_pose = _box("export_rest_pose", REST_POSES)
+        self._twist_bones = named(Check("rig_chooser.twist_bones"), "export_twist_bones")
+        layout = QGridLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        for index, field in enumerate((self._instrument, self._root_bone, self._rest_pose, self._twist_bones)):
+            layout.addWidget(field, *divmod(index, 2))
+        self.retranslate()
+
+    @property
+    def options(self) -> RigOptions:
+        """What is chosen."""
+        return RigOptions(
+            ATTACHMENTS[self._instrument.currentIndex()],
+            ROOT_BONES[self._root_bone.currentIndex()],
+            REST_POSES[self._rest_pose.currentIndex()],
+            self._twist_bones.isChecked(),
+        )
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        for index, text in enumerate(
+            (
+                self.tr("rig_chooser.instrument_free"),
+                self.tr("rig_chooser.instrument_on_socket"),
+                self.tr("rig_chooser.instrument_on_ik_target"),
+            )
+        ):
+            self._instrument.setItemText(index, text)
+        for index, text in enumerate(
+            (
+                self.tr("rig_chooser.root_at_origin"),
+                self.tr("rig_chooser.root_at_place"),
+                self.tr("rig_chooser.root_in_motion"),
+            )
+        ):
+            self._root_bone.setItemText(index, text)
+        for index, text in enumerate(
+            (
+                self.tr("rig_chooser.rest_as_modelled"),
+                self.tr("rig_chooser.rest_t_pose"),
+                self.tr("rig_chooser.rest_a_pose"),
+            )
+        ):
+            self._rest_pose.setItemText(index, text)
+
+
+def _box(name: str, choices: Sequence[str]) -> ComboBox:
+    box = named(ComboBox(), name)
+    # As wide as there is room.
+    box.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+    for choice in choices:
+        box.addItem("", choice)
+    return box
