@@ -51,8 +51,9 @@ class DistanceField:
         hulls = self._bodies.hulls
         low_m = np.minimum(hulls[:, :3], hulls[:, 3:6]) - hulls[:, 6:]
         high_m = np.maximum(hulls[:, :3], hulls[:, 3:6]) + hulls[:, 6:]
-        self._corner_m = low_m.min(axis=0) - FAR_M
-        self._shape = tuple(np.ceil((high_m.max(axis=0) + FAR_M - self._corner_m) / _BRICK_M).astype(int).tolist())
+        self._low_m, self._high_m = low_m.min(axis=0), high_m.max(axis=0)
+        self._corner_m = self._low_m - FAR_M
+        self._shape = tuple(np.ceil((self._high_m + FAR_M - self._corner_m) / _BRICK_M).astype(int).tolist())
         self._brick_at = np.full(self._shape, -1, dtype=np.int32)
         """Number of the brick at each place; -1 where nothing has been computed."""
         self._about_m = np.full((1, BRICK_CELLS**3), FAR_M, dtype=np.float32)
@@ -69,6 +70,16 @@ class DistanceField:
         flat = (inside[:, 0] * BRICK_CELLS + inside[:, 1]) * BRICK_CELLS + inside[:, 2]
         found: SingleArray = self._about_m.reshape(-1)[brick * BRICK_CELLS**3 + flat]
         return found
+
+    def beyond_m(self, points_m: SingleArray) -> SingleArray:
+        """How far points (N, 3) are outside the box around the bodies: (N,), the distance or less.
+
+        Inside the box it is minus infinity.
+        """
+        low_m, high_m = self._low_m.astype(np.float32), self._high_m.astype(np.float32)
+        outside_m = np.maximum(np.maximum(low_m - points_m, points_m - high_m), np.float32(0.0))
+        found: SingleArray = np.sqrt(np.einsum("ni,ni->n", outside_m, outside_m))
+        return np.where(found > 0.0, found, np.float32(-np.inf))
 
     def distances_m(self, points_m: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
         """Distance (N,) of points (N, 3), at most `NEAR_M`."""

@@ -25,6 +25,7 @@ from app.contacts.bounds import (
     Spread,
     bound_mm,
     contact_name,
+    reported_least_m,
 )
 from app.contacts.controls import ControlMeasure, NoteFrames, notes_of
 from app.contacts.depths import HandDepths
@@ -49,6 +50,7 @@ TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
 
 _CHUNK = 2048
+_SAMPLED = 16
 _TORSO = ("hips", "neck")
 _SOLES = ("left.foot.sole", "right.foot.sole")
 _HANDS = ("left.hand", "right.hand")
@@ -111,6 +113,7 @@ class _Read:
     torso: FloatArray
     bone_deviation_m: FloatArray
     depth_m: FloatArray
+    """Of the sounding frames; where it is not among the deepest, which are reported, it may be less than it is."""
 
 
 def measure_player(
@@ -187,7 +190,7 @@ def measure_player(
             if name in traces.marks_m
         },
         bones=Spread.of(found.bone_deviation_m, BONES_MM),
-        penetration=Spread.of(found.depth_m[sounding], PENETRATION_MM),
+        penetration=Spread.of(found.depth_m, PENETRATION_MM),
         controls={
             control.name: notes.measure(control, values[control.name], fps, out_of_reach)
             for control in instrument.controls
@@ -233,7 +236,9 @@ def _read(
     node_bones = {node: held.bone_names.index(bone) for node, bone in bone_of_node.items()}
     landmarks = {name: np.empty((frames, 3)) for name in surfaces}
     nodes = {node: np.empty((frames, 4, 4)) for node in node_bones}
-    torso, depth_m, deviation_m = np.empty((frames, 2)), np.zeros(frames), np.empty(frames)
+    torso, deviation_m = np.empty((frames, 2)), np.empty(frames)
+    played = np.flatnonzero(sounding)
+    depth_m = np.zeros(len(played))
     low = joints.bone(_TORSO[0])
     high = joints.bone(_TORSO[1], "head")  # VRM leaves the neck optional; the head is next above it.
     lengths_m = np.linalg.norm(player.rest_m, axis=1)
@@ -252,9 +257,22 @@ def _read(
         torso[span] = np.arctan2(upright[:, [0, 2]], upright[:, 1:2])
         found_m = np.linalg.norm(bones_m - bones_m[:, parents], axis=-1)
         deviation_m[span] = np.abs(found_m - lengths_m)[:, joints.rigid].max(axis=1)
-        if sounding[span].any():
-            here, morphs = {name: nodes[name][span] for name in nodes}, player.morphs(first, last)
-            depth_m[span] = np.max([part.depths_m(world, morphs, here) for part in hands], axis=0, initial=0.0)
+        morphs = player.morphs(first, last)
+
+        def judge(some: slice) -> None:
+            at = played[some] - first
+            here = {name: matrices[span][at] for name, matrices in nodes.items()}
+            faces = {name: weights[at] for name, weights in morphs.items()}
+            least_m = np.maximum(depth_m[some], reported_least_m(depth_m))
+            for hand in hands:
+                least_m = hand.depths_m(world[at], faces, here, least_m)
+            depth_m[some] = least_m
+
+        begin, end = np.searchsorted(played, [first, last]).tolist()
+        if begin < end:
+            # A few frames first: with what is found there, most of the others are known not to be reported.
+            judge(slice(begin, end, _SAMPLED))
+            judge(slice(begin, end))
 
     spans = [slice(first, min(first + _CHUNK, frames)) for first in range(0, frames, _CHUNK)]
     done = itertools.count(1)
