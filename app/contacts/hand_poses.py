@@ -1,6 +1,6 @@
-"""Where vertices of a hand are in the frames of an instrument's nodes, and how far they move: for `app.contacts.depths`.
+"""Where vertices of a hand are in the frames of an instrument's nodes, and how far they move.
 
-All in single precision and over whole arrays of vertices and frames.
+For `app.contacts.depths`: all in single precision, and over whole arrays of vertices and frames.
 """
 
 from __future__ import annotations
