@@ -57,7 +57,7 @@ class HandDepths:
     def __init__(self, hand: Skin, bodies: Sequence[Proxy]) -> None:
         self._hand = carried(hand)
         self._groups = _groups(hand)
-        self._fields = _fields(tuple(bodies))
+        self._nodes, self._field = _field(tuple(bodies))
 
     def depths_m(
         self,
@@ -85,7 +85,7 @@ class HandDepths:
             Metres, ``least_m`` where nothing is deeper.
         """
         frames = len(world_from_joint)
-        if not frames or not self._fields:
+        if not frames or not self._nodes:
             return np.zeros(frames) if least_m is None else least_m
         # Whole blocks: the last frame is repeated.
         padded = np.minimum(np.arange(-(-frames // BLOCKS[0]) * BLOCKS[0]), frames - 1)
@@ -94,8 +94,8 @@ class HandDepths:
             depths_m[:] = least_m[padded]
         weights = {name: np.asarray(morphs[name], np.float32)[padded] for name in self._hand.morphs if name in morphs}
         joints = world_from_joint[:, self._hand.joints, :3].transpose(0, 2, 1, 3).astype(np.float32, order="C")[padded]
-        nodes = [world_from_node[node][padded] for node in self._fields]
-        search = _Search(self._hand, self._groups, list(self._fields.values()), joints, weights, nodes)
+        nodes = [world_from_node[node][padded] for node in self._nodes]
+        search = _Search(self._hand, self._groups, self._field, joints, weights, nodes)
         search.begin(depths_m.reshape(-1, BLOCKS[0]))
         for size in BLOCKS:
             search.judge_roughly(size, depths_m.reshape(-1, size))
@@ -140,8 +140,7 @@ class _Search:
     ----------
     hand : Carried
     groups : _Groups
-    fields : list of DistanceField
-        By node.
+    field : DistanceField
     world_from_joint : (F, 3, J, 4) float32
     morphs : dict of str to (F,) float32
         Weights.
@@ -153,12 +152,12 @@ class _Search:
         self,
         hand: Carried,
         groups: _Groups,
-        fields: list[DistanceField],
+        field: DistanceField,
         world_from_joint: SingleArray,
         morphs: Mapping[str, SingleArray],
         world_from_node: list[FloatArray],
     ) -> None:
-        self._hand, self._groups, self._fields = hand, groups, fields
+        self._hand, self._groups, self._field = hand, groups, field
         self._world_from_joint, self._morphs, self._world_from_node = world_from_joint, morphs, world_from_node
         self._poses = Poses(hand, joints_in_node(world_from_node[0], world_from_joint), morphs)
         self._parts = Parts(world_from_node)
@@ -182,10 +181,10 @@ class _Search:
         reach_m = moves.most_m(blocks, vertices) + self._groups.radii_m[groups] + _ROUNDING_M
         least_m = depths_m.min(axis=1)[blocks]
         found = [_NONE]
-        for node, field in enumerate(self._fields):
+        for node in range(len(self._world_from_node)):
             nodes = np.full(len(blocks), node)
             there_m = self._parts.places_m(frames, nodes, places_m)
-            near = reach_m + parts.most_m(blocks, nodes, there_m) - field.beyond_m(there_m) > least_m
+            near = reach_m + parts.most_m(blocks, nodes, there_m) - self._field.beyond_m(there_m, node) > least_m
             found.append(_Pairs(blocks[near], nodes[near], groups[near]))
         self._grouped = _Pairs(
             np.concatenate([some.blocks for some in found]),
@@ -221,10 +220,7 @@ class _Search:
         pairs, moves_m, places_m = self._single[near], self._moves_m[near], self._places_m[near]
         if self._size == 1:
             places_m, moves_m = self._placed_m(pairs), np.zeros(len(pairs), dtype=np.float32)
-        distances_m = np.empty(len(pairs), dtype=np.float32)
-        for node, field in enumerate(self._fields):
-            rows = np.flatnonzero(pairs.nodes == node)
-            distances_m[rows] = field.distances_m(places_m[rows].astype(np.float64))
+        distances_m = self._field.distances_m(places_m.astype(np.float64), pairs.nodes).astype(np.float32)
         _raise(depths_m, pairs.blocks, -distances_m - moves_m)
         self._single = pairs[moves_m - distances_m > depths_m.min(axis=1)[pairs.blocks]]
 
@@ -243,17 +239,15 @@ class _Search:
         self, pairs: _Pairs, parts: PartMoves, depths_m: SingleArray
     ) -> tuple[SingleArray, SingleArray, SingleArray]:
         """Places of vertices in the middle frames, their least distances there, and how far they move."""
-        blocks, used = np.unique(pairs.blocks), np.zeros(len(depths_m), dtype=np.intp)
-        used[blocks] = np.arange(len(blocks))
+        there = np.zeros(len(depths_m), dtype=bool)
+        there[pairs.blocks] = True
         frames = pairs.blocks * self._size + self._size // 2
         places_m = self._parts.places_m(frames, pairs.nodes, self._poses.places_m(frames, pairs.items))
         moves_m = parts.most_m(pairs.blocks, pairs.nodes, places_m) + _ROUNDING_M
         if self._size > 1:
-            moves_m += self._poses.moves(self._size, blocks).most_m(used[pairs.blocks], pairs.items)
-        about_m, error_m = np.empty(len(pairs), dtype=np.float32), np.float32(DistanceField.error_m)
-        for node, field in enumerate(self._fields):
-            rows = np.flatnonzero(pairs.nodes == node)
-            about_m[rows] = field.about_m(places_m[rows])
+            moves = self._poses.moves(self._size, np.flatnonzero(there))
+            moves_m += moves.most_m((np.cumsum(there) - 1)[pairs.blocks], pairs.items)
+        about_m, error_m = self._field.about_m(places_m, pairs.nodes), np.float32(self._field.error_m)
         _raise(depths_m, pairs.blocks, -about_m - error_m - moves_m)
         return places_m, about_m - error_m, moves_m
 
@@ -317,9 +311,9 @@ def _split(rows: IntArray, positions_m: FloatArray) -> list[IntArray]:
 
 
 @lru_cache(maxsize=8)
-def _fields(bodies: tuple[Proxy, ...]) -> Mapping[str, DistanceField]:
-    """By node. Cached: two hands, and players of one kind, are near the same bodies."""
+def _field(bodies: tuple[Proxy, ...]) -> tuple[tuple[str, ...], DistanceField]:
+    """Nodes with bodies, and the distances to these. Cached: two hands, and players of one kind, are near the same."""
     by_node: dict[str, list[Proxy]] = {}
     for body in bodies:
         by_node.setdefault(body.node, []).append(body)
-    return {node: DistanceField(some) for node, some in by_node.items()}
+    return tuple(by_node), DistanceField(list(by_node.values()))

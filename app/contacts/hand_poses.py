@@ -142,16 +142,19 @@ class Moves:
     def most_m(self, blocks: IntArray, vertices: IntArray) -> SingleArray:
         """What vertices (N,) move at most in blocks (N,)."""
         hand = self.hand
-        arms_m = hand.arms_m.take(vertices, axis=0)
-        at = blocks[:, None] * len(hand.joints) + hand.carriers.take(vertices, axis=0)
-        result = self.shifts_m.reshape(-1).take(at)
-        for name, greatest in self.greatest.items():
-            lengths_m = np.linalg.norm(hand.morphs[name][vertices], axis=2)
-            arms_m += greatest[blocks, None] * lengths_m
-            result += self.changes[name][blocks, None] * lengths_m
-        result += self.chords.reshape(-1).take(at) * arms_m
-        found: SingleArray = np.einsum("nk,nk->n", hand.weights.take(vertices, axis=0), result)
-        return found
+        result, first = np.zeros(len(blocks), dtype=np.float32), blocks * len(hand.joints)
+        for carrier in range(hand.carriers.shape[1]):
+            rows = np.flatnonzero(hand.weights[:, carrier].take(vertices))
+            block, vertex = blocks[rows], vertices[rows]
+            at = first[rows] + hand.carriers[:, carrier].take(vertex)
+            arms_m, moves_m = hand.arms_m[:, carrier].take(vertex), self.shifts_m.reshape(-1).take(at)
+            for name, greatest in self.greatest.items():
+                lengths_m = _lengths(hand.morphs[name][vertex, carrier])
+                arms_m += greatest[block] * lengths_m
+                moves_m += self.changes[name][block] * lengths_m
+            moves_m += self.chords.reshape(-1).take(at) * arms_m
+            result[rows] += hand.weights[:, carrier].take(vertex) * moves_m
+        return result
 
 
 class Parts:
