@@ -304,6 +304,9 @@ class _Whole:
             self._surface["a_metallic"][own] = metallic[split.materials]
             two_sided = np.array([material.double_sided for material in mesh.materials])
             self._two_sided[own] = two_sided[split.materials]
+        colors = np.ascontiguousarray(self._surface["a_color"]).view(np.int32)
+        self._looks = np.unique(row_keys(self._part, *colors.T), return_inverse=True)[1].reshape(-1)
+        """The same number for vertices of one mesh and colour."""
         self._morphs = self._all_morphs()
 
     def level(self, cell_m: float, thin_share: float, morphs: bool) -> Geometry:
@@ -346,13 +349,12 @@ class _Whole:
         # Surfaces that face away from one another are not merged through a thin wall.
         facing = np.argmax(np.abs(self._shape["a_normal"]), axis=1)
         sign = np.take_along_axis(self._shape["a_normal"], facing[:, None], axis=1)[:, 0] > 0.0
-        color = np.unique(self._surface["a_color"], axis=0, return_inverse=True)[1].reshape(-1)
-        keys = np.column_stack([cells, facing * 2 + sign, self._part, color])
-        _, first, cluster = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+        keys = row_keys(*cells.T, facing * 2 + sign, self._looks)
+        _, first, cluster = np.unique(keys, return_index=True, return_inverse=True)
         triangles = first[cluster.reshape(-1)][self._triangles]
         a, b, c = triangles.T
         triangles = triangles[(a != b) & (b != c) & (c != a)]
-        triangles = triangles[np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1]]
+        triangles = triangles[np.unique(row_keys(*np.sort(triangles, axis=1).T), return_index=True)[1]]
         return np.unique(triangles), triangles
 
     def _all_morphs(self) -> dict[str, tuple[Ints, Floats, Floats]]:
@@ -379,12 +381,29 @@ class _Whole:
         return result
 
 
+def row_keys(*columns: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
+    """One number for every row of whole numbers: the same for the same rows, in the order of the rows.
+
+    Sorting numbers takes a tenth of the time of sorting rows.
+    """
+    keys, count = np.zeros(len(columns[0]), np.int64), 1
+    for column in columns:
+        low = int(column.min(initial=0))
+        span = int(column.max(initial=0)) - low + 1
+        if count * span >= 2**62:
+            keys = np.unique(keys, return_inverse=True)[1].astype(np.int64).reshape(-1)
+            count = int(keys.max(initial=0)) + 1
+        keys, count = keys * span + (column.astype(np.int64) - low), count * span
+    return keys
+
+
 class _Weld:
     """Smooth normals of a mesh across its seams."""
 
     def __init__(self, split: _Split) -> None:
         self._positions = split.mesh.positions_m[split.vertices].astype(np.float64)
-        whole = np.unique(np.round(self._positions, 6), axis=0, return_inverse=True)[1].reshape(-1)
+        places = np.rint(self._positions * 1e6).astype(np.int64)
+        whole = np.unique(row_keys(*places.T), return_inverse=True)[1].reshape(-1)
         self._whole = whole
         self._corners = whole[split.triangles]
         self._triangles = split.triangles
