@@ -74,20 +74,30 @@ class Geometry:
     ----------
     shape : (V,) SHAPE
         At rest, in the space the bones' matrices take from.
-    surface : (V,) SURFACE
+    surfaces : (S,) SURFACE
         Bones as indices into a player's matrices; base colour (linear) with the roughness beside it; metallic.
     triangles : (T, 3) uint32
         Those that are seen from one side only come first.
     one_sided : int
         How many these are.
     face : Face or None
+    surface_of : (V,) uint16 or None
+        Which of the surfaces each vertex has: those of what does not bend are few. None: each its own.
     """
 
     shape: npt.NDArray[np.void]
-    surface: npt.NDArray[np.void]
+    surfaces: npt.NDArray[np.void]
     triangles: npt.NDArray[np.uint32]
     one_sided: int
     face: Face | None = None
+    surface_of: npt.NDArray[np.uint16] | None = None
+
+    @property
+    def surface(self) -> npt.NDArray[np.void]:
+        """The surface of every vertex: (V,) SURFACE."""
+        if self.surface_of is None:
+            return self.surfaces
+        return _numbers(self.surfaces).take(self.surface_of, axis=0).view(SURFACE).reshape(-1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -278,6 +288,7 @@ class _Whole:
         counts = [len(split.vertices) for split in splits]
         self._starts = np.cumsum([0, *counts])
         self._splits = splits
+        self._bends = any(split.mesh.joints.shape[1] > 1 for split in splits)
         self._triangles = np.concatenate(
             [split.triangles + start for split, start in zip(splits, self._starts, strict=False)]
         )
@@ -325,9 +336,20 @@ class _Whole:
         # Vertices of different materials are never one, so that the first corner decides for the triangle.
         last = self._two_sided[triangles[:, 0]]
         sorted_triangles = np.concatenate([triangles[~last], triangles[last]])
-        return Geometry(
-            shape, self._surface[order], place[sorted_triangles].astype(np.uint32), int((~last).sum()), face
-        )
+        surfaces, surface_of = self._surfaces(order)
+        corners = place[sorted_triangles].astype(np.uint32)
+        return Geometry(shape, surfaces, corners, int((~last).sum()), face, surface_of)
+
+    def _surfaces(self, order: Ints) -> tuple[npt.NDArray[np.void], npt.NDArray[np.uint16] | None]:
+        """`Geometry.surfaces` of some vertices, and `Geometry.surface_of`."""
+        if self._bends:
+            return self._surface[order], None
+        numbers = _numbers(self._surface)[order]
+        keys = row_keys(*np.ascontiguousarray(numbers.T[np.ptp(numbers, axis=0) > 0.0]).view(np.int32), size=len(order))
+        _, first, surface_of = np.unique(keys, return_index=True, return_inverse=True)
+        if len(first) > np.iinfo(np.uint16).max:
+            return self._surface[order], None
+        return self._surface[order[first]], surface_of.reshape(-1).astype(np.uint16)
 
     def _face(self, names: tuple[str, ...], shape: npt.NDArray[np.void], place: Ints, count: int) -> Face:
         deltas = np.zeros((len(names), count, 6), np.float32)
@@ -381,12 +403,14 @@ class _Whole:
         return result
 
 
-def row_keys(*columns: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
+def row_keys(*columns: npt.NDArray[np.integer], size: int | None = None) -> npt.NDArray[np.int64]:
     """One number for every row of whole numbers: the same for the same rows, in the order of the rows.
+
+    Without a column the rows, of which there are ``size``, are all the same.
 
     Sorting numbers takes a tenth of the time of sorting rows.
     """
-    keys, count = np.zeros(len(columns[0]), np.int64), 1
+    keys, count = np.zeros(len(columns[0]) if size is None else size, np.int64), 1
     for column in columns:
         low = int(column.min(initial=0))
         span = int(column.max(initial=0)) - low + 1
