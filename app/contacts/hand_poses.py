@@ -219,8 +219,11 @@ class PartMoves:
 def _chords(changes: SingleArray) -> SingleArray:
     """What is 1 from the origin is moved by these changes (..., 3, 3) of a rotation by no more."""
     # A turn by an angle moves it by the chord, 2 sin(angle / 2), at most.
-    return np.sqrt(np.einsum("...ij,...ij->...", changes, changes) / np.float32(2.0))
+    chords: SingleArray = np.sqrt(np.einsum("...ij,...ij->...", changes, changes) / np.float32(2.0))
+    return chords
 
 
 def _lengths(vectors: SingleArray) -> SingleArray:
-    return np.sqrt(np.einsum("...i,...i->...", vectors, vectors))
+    """Lengths of vectors (..., 3)."""
+    lengths_m: SingleArray = np.sqrt(np.einsum("...i,...i->...", vectors, vectors))
+    return lengths_m

@@ -67,7 +67,8 @@ def _excess_deg(rotations: FloatArray, name: str, limits: JointLimits, profile: 
         anatomical_angles(rotations, np.asarray(axes.flexion), np.asarray(axes.sideways), np.asarray(axes.twist))
     )
     low, high = np.array([limits.flexion_deg, limits.sideways_deg, limits.twist_deg]).T
-    return np.maximum(low - angles, angles - high)
+    excess_deg: FloatArray = np.maximum(low - angles, angles - high)
+    return excess_deg
 
 
 def _furthest(

@@ -49,7 +49,7 @@ JAW_OPENS = 0.05
 TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
 
-_CHUNK = 2048
+_CHUNK = 1024
 _SAMPLED = 16
 _TORSO = ("hips", "neck")
 _SOLES = ("left.foot.sole", "right.foot.sole")
@@ -226,7 +226,7 @@ def _read(
     bone_of_node = {part.node: part.name for part in instrument.moving_parts} | {ROOT: held.bone_names[0]}
     node_bones = {node: held.bone_names.index(bone) for node, bone in bone_of_node.items()}
     landmarks = {name: np.empty((frames, 3)) for name in surfaces}
-    nodes = {node: np.empty((frames, 4, 4)) for node in node_bones}
+    nodes = {node: np.empty((frames, 3, 4)) for node in node_bones}
     torso, deviation_m = np.empty((frames, 2)), np.empty(frames)
     played = np.flatnonzero(sounding)
     depth_m = np.zeros(len(played))
@@ -242,7 +242,7 @@ def _read(
             landmarks[name][span] = surface.positions_m(world, first, last).mean(axis=1)
         held_world = held.world(first, last)
         for node, bone in node_bones.items():
-            nodes[node][span] = held_world[:, bone]
+            nodes[node][span] = held_world[:, bone, :3]
         bones_m = world[..., :3, 3]
         upright = bones_m[:, high] - bones_m[:, low]
         torso[span] = np.arctan2(upright[:, [0, 2]], upright[:, 1:2])
