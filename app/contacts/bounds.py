@@ -33,6 +33,16 @@ MOVED_MM = 1.0
 UNREACHED_M = 0.005
 """A hand may stay this far from its grip before the user sees it."""
 
+NEARLY_ALL = 99
+"""Percentile of a distance that is reported beside its maximum."""
+
+
+def reported_least_m(distances_m: FloatArray) -> float:
+    """A least value for what `Spread.of` reports of distances (F,) that may still grow: as many are this large as are
+    at or above the percentile."""
+    rank = (len(distances_m) - 1) * NEARLY_ALL // 100
+    return float(np.partition(distances_m, rank)[rank])
+
 
 class Spread(msgspec.Struct, frozen=True):
     """A distance over frames, against its bound. With no frame there is nothing to measure and nothing is wrong."""
@@ -48,7 +58,7 @@ class Spread(msgspec.Struct, frozen=True):
         if not len(distances_m):
             return cls(0.0, 0.0, bound_mm, 0)
         distances_mm = distances_m * 1000.0
-        most, nearly = float(distances_mm.max()), float(np.percentile(distances_mm, 99))
+        most, nearly = float(distances_mm.max()), float(np.percentile(distances_mm, NEARLY_ALL))
         return cls(round(most, 5), round(nearly, 5), bound_mm, len(distances_mm))
 
     @property

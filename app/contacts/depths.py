@@ -1,9 +1,9 @@
 """How deep hands and fingers go into the closed bodies that stand for an instrument.
 
 The deepest vertex of every frame is found by branch and bound. A block of frames is judged by its middle frame: how far
-a vertex moves from there is bounded by how far its joints move, and a distance changes by no more than a point moves.
-Vertices that cannot be the deepest in any frame of a block are dropped; for the others shorter blocks are judged, down
-to single frames. While a hand moves too far within a block, its vertices are judged in groups.
+a vertex moves from there is bounded by how far its joints and the instrument's parts move, and a distance changes by no
+more than a point moves. Vertices that cannot be the deepest in any frame of a block are dropped; for the others shorter
+blocks are judged, down to single frames. While a hand moves too far within a block, its vertices are judged in groups.
 """
 
 from __future__ import annotations
@@ -15,13 +15,22 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from app.contacts.distance_field import DistanceField, SingleArray
+from app.contacts.distance_field import DistanceField
+from app.contacts.hand_poses import (
+    Carried,
+    IntArray,
+    PartMoves,
+    Parts,
+    Poses,
+    SingleArray,
+    carried,
+    joints_in_node,
+)
 from app.rig.skinning import Skin
 from instrument_maps.model import Proxy
 
 FloatArray = npt.NDArray[np.float64]
 AnyFloatArray = npt.NDArray[np.floating]
-IntArray = npt.NDArray[np.intp]
 
 BLOCKS = (128, 16, 4, 1)
 """Frames of the blocks, each a multiple of the next."""
@@ -31,6 +40,8 @@ STRETCH = 1.3
 """How much further from its middle than in the bind pose a vertex of a group may come when the hand bends."""
 STILL_M = 0.003
 """A group that moves less within a block is judged vertex by vertex."""
+_ROUNDING_M = np.float32(1e-6)
+"""More than two ways of placing a vertex in single precision differ."""
 
 
 class HandDepths:
@@ -44,15 +55,16 @@ class HandDepths:
     """
 
     def __init__(self, hand: Skin, bodies: Sequence[Proxy]) -> None:
-        self._hand = _carried(hand)
+        self._hand = carried(hand)
         self._groups = _groups(hand)
-        self._fields = _fields(tuple(bodies))
+        self._nodes, self._field = _field(tuple(bodies))
 
     def depths_m(
         self,
         world_from_joint: FloatArray,
         morphs: Mapping[str, AnyFloatArray],
         world_from_node: Mapping[str, FloatArray],
+        least_m: FloatArray | None = None,
     ) -> FloatArray:
         """Greatest depth of any vertex in any body, at each of some frames.
 
@@ -64,210 +76,124 @@ class HandDepths:
             Weights by morph name.
         world_from_node : dict of str to (F, 4, 4) float64
             Of the instrument's nodes.
+        least_m : (F,) float64, optional
+            What is no deeper need not be found; 0 if absent.
 
         Returns
         -------
         (F,) float64
-            Metres, 0 where everything is outside.
+            Metres, ``least_m`` where nothing is deeper.
         """
         frames = len(world_from_joint)
+        if not frames or not self._nodes:
+            return np.zeros(frames) if least_m is None else least_m
         # Whole blocks: the last frame is repeated.
         padded = np.minimum(np.arange(-(-frames // BLOCKS[0]) * BLOCKS[0]), frames - 1)
         depths_m = np.zeros(len(padded), dtype=np.float32)
+        if least_m is not None:
+            depths_m[:] = least_m[padded]
         weights = {name: np.asarray(morphs[name], np.float32)[padded] for name in self._hand.morphs if name in morphs}
-        joints = world_from_joint[:, self._hand.joints, :3].transpose(0, 2, 1, 3).astype(np.float32, order="C")
-        searches = []
-        for node, field in self._fields.items():
-            node_from_world = np.linalg.inv(world_from_node[node])[:, :3].astype(np.float32)
-            poses = _Poses(self._hand, _local(node_from_world, joints)[padded], weights)
-            searches.append(_Search(field, poses, self._groups))
+        joints = world_from_joint[:, self._hand.joints, :3].transpose(0, 2, 1, 3).astype(np.float32, order="C")[padded]
+        nodes = [world_from_node[node][padded] for node in self._nodes]
+        search = _Search(self._hand, self._groups, self._field, joints, weights, nodes)
+        search.begin(depths_m.reshape(-1, BLOCKS[0]))
         for size in BLOCKS:
-            blocks_m = depths_m.reshape(-1, size)
-            for search in searches:
-                search.judge_roughly(size, blocks_m)
-            for search in searches:
-                search.judge_exactly(blocks_m)
-            searches = [search for search in searches if search.open]
+            search.judge_roughly(size, depths_m.reshape(-1, size))
+            search.judge_exactly(depths_m.reshape(-1, size))
+            if not search.open:
+                break
         return depths_m[:frames].astype(np.float64)
 
 
 @dataclass(frozen=True, eq=False)
-class _Carried:
-    """Vertices and the joints that carry them.
-
-    Attributes
-    ----------
-    joints : (J,) int
-        Those that carry any.
-    carriers : (V, K) int
-        Rows of ``joints``, the strongest first.
-    weights : (V, K) float32
-    places_m : (V, K, 3) float32
-        In the frame of each carrier.
-    arms_m : (V, K) float32
-        From each carrier to the vertex.
-    morphs : dict of str to (V, K, 3) float32
-        Displacements, in the frame of each carrier.
-    """
-
-    joints: IntArray
-    carriers: IntArray
-    weights: SingleArray
-    places_m: SingleArray
-    arms_m: SingleArray
-    morphs: Mapping[str, SingleArray]
-
-
-def _carried(skin: Skin) -> _Carried:
-    count = int(np.count_nonzero(skin.weights, axis=1).max())
-    carriers = np.argsort(-skin.weights, axis=1, kind="stable")[:, :count]
-    from_mesh = skin.joint_from_mesh[carriers]
-    places_m = np.einsum("vkij,vj->vki", from_mesh[..., :3], skin.positions_m) + from_mesh[..., 3]
-    return _Carried(
-        joints=skin.joints,
-        carriers=carriers,
-        weights=np.take_along_axis(skin.weights, carriers, axis=1).astype(np.float32),
-        places_m=places_m.astype(np.float32),
-        arms_m=np.linalg.norm(places_m, axis=2).astype(np.float32),
-        morphs={
-            name: np.einsum("vkij,vj->vki", from_mesh[..., :3], deltas_m).astype(np.float32)
-            for name, deltas_m in skin.morphs.items()
-        },
-    )
-
-
-class _Poses:
-    """Where vertices are in the frame of a node, and how far they move.
-
-    Parameters
-    ----------
-    hand : _Carried
-    node_from_joint : (F, J, 3, 4) float32
-    morphs : dict of str to (F,) float32
-        Weights.
-    """
-
-    def __init__(self, hand: _Carried, node_from_joint: SingleArray, morphs: Mapping[str, SingleArray]) -> None:
-        self._hand, self._node_from_joint, self._morphs = hand, node_from_joint, morphs
-        self.frames = len(node_from_joint)
-
-    def places_m(self, frames: IntArray, vertices: IntArray) -> SingleArray:
-        """Where vertices (N,) are at frames (N,): (N, 3)."""
-        hand = self._hand
-        result = np.zeros((len(frames), 3), dtype=np.float32)
-        matrices = self._node_from_joint.reshape(-1, 12)
-        first = frames * len(hand.joints)
-        for carrier in range(hand.carriers.shape[1]):
-            rows = np.flatnonzero(hand.weights[:, carrier].take(vertices))
-            at, vertex = first[rows], vertices[rows]
-            places_m = hand.places_m[:, carrier].take(vertex, axis=0)
-            for name, curve in self._morphs.items():
-                places_m += curve[frames[rows], None] * hand.morphs[name][vertex, carrier]
-            matrix = matrices.take(at + hand.carriers[:, carrier].take(vertex), axis=0).reshape(-1, 3, 4)
-            moved_m = np.einsum("nij,nj->ni", matrix[..., :3], places_m) + matrix[..., 3]
-            result[rows] += hand.weights[:, carrier].take(vertex)[:, None] * moved_m
-        return result
-
-    def moves(self, size: int) -> _Moves:
-        """How far joints move from the middle frames of blocks of some size."""
-        blocks = self._node_from_joint.reshape(-1, size, *self._node_from_joint.shape[1:])
-        moved = blocks - blocks[:, size // 2, None]
-        curves = {name: curve.reshape(-1, size) for name, curve in self._morphs.items()}
-        return _Moves(
-            hand=self._hand,
-            # A turn by an angle moves what is 1 from the joint by the chord, 2 sin(angle / 2), at most.
-            chords=np.sqrt(np.einsum("bsjik,bsjik->bsj", moved[..., :3], moved[..., :3]).max(axis=1) / 2.0),
-            shifts_m=np.sqrt(np.einsum("bsji,bsji->bsj", moved[..., 3], moved[..., 3]).max(axis=1)),
-            greatest={name: float(np.abs(curve).max()) for name, curve in curves.items()},
-            changes={name: np.abs(curve - curve[:, size // 2, None]).max(axis=1) for name, curve in curves.items()},
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class _Moves:
-    """How far joints move from the middle frame of each block.
-
-    Attributes
-    ----------
-    hand : _Carried
-    chords : (B, J) float32
-        What is 1 from a joint is moved by its turning by no more.
-    shifts_m : (B, J) float32
-        Of the joints themselves.
-    greatest : dict of str to float
-        Weights of the morphs.
-    changes : dict of str to (B,) float32
-        Of the morphs' weights.
-    """
-
-    hand: _Carried
-    chords: SingleArray
-    shifts_m: SingleArray
-    greatest: Mapping[str, float]
-    changes: Mapping[str, SingleArray]
-
-    def most_m(self, blocks: IntArray, vertices: IntArray) -> SingleArray:
-        """What vertices (N,) move at most in blocks (N,)."""
-        hand = self.hand
-        arms_m = hand.arms_m.take(vertices, axis=0)
-        at = blocks[:, None] * len(hand.joints) + hand.carriers.take(vertices, axis=0)
-        result = self.shifts_m.reshape(-1).take(at)
-        for name, greatest in self.greatest.items():
-            lengths_m = np.linalg.norm(hand.morphs[name][vertices], axis=2)
-            arms_m += greatest * lengths_m
-            result += self.changes[name][blocks, None] * lengths_m
-        result += self.chords.reshape(-1).take(at) * arms_m
-        found: SingleArray = np.einsum("nk,nk->n", hand.weights.take(vertices, axis=0), result)
-        return found
-
-
-@dataclass(frozen=True, eq=False)
 class _Pairs:
-    """Blocks (N,) and what may be deepest in them: vertices (N,), or groups of them (N,)."""
+    """Blocks (N,), the nodes (N,) whose bodies are judged, and what may be deepest in them: vertices (N,), or groups of
+    them (N,)."""
 
     blocks: IntArray
+    nodes: IntArray
     items: IntArray
 
     def __len__(self) -> int:
         return len(self.blocks)
 
     def __getitem__(self, rows: npt.NDArray[np.bool_]) -> _Pairs:
-        return _Pairs(self.blocks[rows], self.items[rows])
+        return _Pairs(self.blocks[rows], self.nodes[rows], self.items[rows])
 
     def __add__(self, other: _Pairs) -> _Pairs:
-        return _Pairs(np.concatenate([self.blocks, other.blocks]), np.concatenate([self.items, other.items]))
+        both = ((self.blocks, other.blocks), (self.nodes, other.nodes), (self.items, other.items))
+        return _Pairs(*map(np.concatenate, both))
 
     def split(self, parts: int) -> _Pairs:
         """The same in each of the parts of the blocks."""
         blocks = self.blocks[:, None] * parts + np.arange(parts)
-        return _Pairs(blocks.ravel(), np.repeat(self.items, parts))
+        return _Pairs(blocks.ravel(), np.repeat(self.nodes, parts), np.repeat(self.items, parts))
+
+
+_NONE = _Pairs(*np.zeros((3, 0), dtype=np.intp))
 
 
 class _Search:
-    """The search for the deepest vertex in the bodies of one node.
+    """The search for the deepest vertex.
 
     Parameters
     ----------
-    field : DistanceField
-    poses : _Poses
-        In the frame of the node.
+    hand : Carried
     groups : _Groups
+    field : DistanceField
+    world_from_joint : (F, 3, J, 4) float32
+    morphs : dict of str to (F,) float32
+        Weights.
+    world_from_node : list of (F, 4, 4) float64
+        By node. Of hand and nodes all that moves is judged in the frame of the first.
     """
 
-    def __init__(self, field: DistanceField, poses: _Poses, groups: _Groups) -> None:
-        self._field, self._poses, self._groups = field, poses, groups
+    def __init__(
+        self,
+        hand: Carried,
+        groups: _Groups,
+        field: DistanceField,
+        world_from_joint: SingleArray,
+        morphs: Mapping[str, SingleArray],
+        world_from_node: list[FloatArray],
+    ) -> None:
+        self._hand, self._groups, self._field = hand, groups, field
+        self._world_from_joint, self._morphs, self._world_from_node = world_from_joint, morphs, world_from_node
+        self._poses = Poses(hand, joints_in_node(world_from_node[0], world_from_joint), morphs)
+        self._parts = Parts(world_from_node)
         self._size = BLOCKS[0]
-        everything = np.mgrid[: poses.frames // BLOCKS[0], : len(groups.middles)]
-        self._grouped, self._single = _Pairs(*everything.reshape(2, -1)), _Pairs(*np.zeros((2, 0), dtype=np.intp))
-        self._places_m = self._moves_m = self._possible_m = np.zeros(0, dtype=np.float32)
+        self._grouped = self._single = _NONE
+        self._distances_m = self._moves_m = np.zeros(0, dtype=np.float32)
+        self._places_m = np.zeros((0, 3), dtype=np.float32)
 
     @property
     def open(self) -> bool:
         """Whether anything may still be deepest."""
         return len(self._grouped) + len(self._single) > 0
 
+    def begin(self, depths_m: SingleArray) -> None:
+        """Find the groups that come near the boxes around the bodies of each node; parameters as of
+        `judge_roughly`, for blocks of the first size."""
+        blocks, groups = np.mgrid[: len(depths_m), : len(self._groups.middles)].reshape(2, -1)
+        moves, parts = self._poses.moves(self._size, np.arange(len(depths_m))), self._parts.moves(self._size)
+        frames, vertices = blocks * self._size + self._size // 2, self._groups.middles[groups]
+        places_m = self._poses.places_m(frames, vertices)
+        reach_m = moves.most_m(blocks, vertices) + self._groups.radii_m[groups] + _ROUNDING_M
+        least_m = depths_m.min(axis=1)[blocks]
+        found = [_NONE]
+        for node in range(len(self._world_from_node)):
+            nodes = np.full(len(blocks), node)
+            there_m = self._parts.places_m(frames, nodes, places_m)
+            near = reach_m + parts.most_m(blocks, nodes, there_m) - self._field.beyond_m(there_m, node) > least_m
+            found.append(_Pairs(blocks[near], nodes[near], groups[near]))
+        self._grouped = _Pairs(
+            np.concatenate([some.blocks for some in found]),
+            np.concatenate([some.nodes for some in found]),
+            np.concatenate([some.items for some in found]),
+        )
+
     def judge_roughly(self, size: int, depths_m: SingleArray) -> None:
-        """Judge by the grid, block by block.
+        """Judge by the grids, block by block.
 
         Parameters
         ----------
@@ -278,33 +204,52 @@ class _Search:
         """
         grouped, single = (pairs.split(self._size // size) for pairs in (self._grouped, self._single))
         self._size = size
-        moves = self._poses.moves(size)
-        middles = _Pairs(grouped.blocks, self._groups.middles[grouped.items])
-        _, about_m, moves_m = self._rough(middles, moves, depths_m)
+        parts = self._parts.moves(size)
+        middles = _Pairs(grouped.blocks, grouped.nodes, self._groups.middles[grouped.items])
+        _, about_m, moves_m = self._rough(middles, parts, depths_m)
         near = moves_m + self._groups.radii_m[grouped.items] - about_m > depths_m.min(axis=1)[grouped.blocks]
         still = moves_m < STILL_M
         self._grouped = grouped[near & ~still]
         single += self._groups.vertices(grouped[near & still])
-        self._places_m, about_m, self._moves_m = self._rough(single, moves, depths_m)
-        self._single, self._possible_m = single, self._moves_m - about_m
+        self._places_m, self._distances_m, self._moves_m = self._rough(single, parts, depths_m)
+        self._single = single
 
     def judge_exactly(self, depths_m: SingleArray) -> None:
         """Judge what may still be deepest after `judge_roughly`; parameters as there."""
-        near = self._possible_m > depths_m.min(axis=1)[self._single.blocks]
-        pairs, moves_m = self._single[near], self._moves_m[near]
-        distances_m = self._field.distances_m(self._places_m[near].astype(np.float64)).astype(np.float32)
+        near = self._moves_m - self._distances_m > depths_m.min(axis=1)[self._single.blocks]
+        pairs, moves_m, places_m = self._single[near], self._moves_m[near], self._places_m[near]
+        if self._size == 1:
+            places_m, moves_m = self._placed_m(pairs), np.zeros(len(pairs), dtype=np.float32)
+        distances_m = self._field.distances_m(places_m.astype(np.float64), pairs.nodes).astype(np.float32)
         _raise(depths_m, pairs.blocks, -distances_m - moves_m)
         self._single = pairs[moves_m - distances_m > depths_m.min(axis=1)[pairs.blocks]]
 
+    def _placed_m(self, pairs: _Pairs) -> SingleArray:
+        """Places (N, 3) of vertices at single frames in the frames of their nodes, without the first one's detour."""
+        places_m = np.empty((len(pairs), 3), dtype=np.float32)
+        for node, world_from_node in enumerate(self._world_from_node):
+            rows = np.flatnonzero(pairs.nodes == node)
+            frames, at = np.unique(pairs.blocks[rows], return_inverse=True)
+            local = joints_in_node(world_from_node[frames], self._world_from_joint[frames])
+            morphs = {name: curve[frames] for name, curve in self._morphs.items()}
+            places_m[rows] = Poses(self._hand, local, morphs).places_m(at, pairs.items[rows])
+        return places_m
+
     def _rough(
-        self, pairs: _Pairs, moves: _Moves, depths_m: SingleArray
+        self, pairs: _Pairs, parts: PartMoves, depths_m: SingleArray
     ) -> tuple[SingleArray, SingleArray, SingleArray]:
         """Places of vertices in the middle frames, their least distances there, and how far they move."""
-        places_m = self._poses.places_m(pairs.blocks * self._size + self._size // 2, pairs.items)
-        moves_m = moves.most_m(pairs.blocks, pairs.items)
-        about_m = self._field.about_m(places_m)
-        _raise(depths_m, pairs.blocks, -about_m - np.float32(self._field.error_m) - moves_m)
-        return places_m, about_m - np.float32(self._field.error_m), moves_m
+        there = np.zeros(len(depths_m), dtype=bool)
+        there[pairs.blocks] = True
+        frames = pairs.blocks * self._size + self._size // 2
+        places_m = self._parts.places_m(frames, pairs.nodes, self._poses.places_m(frames, pairs.items))
+        moves_m = parts.most_m(pairs.blocks, pairs.nodes, places_m) + _ROUNDING_M
+        if self._size > 1:
+            moves = self._poses.moves(self._size, np.flatnonzero(there))
+            moves_m += moves.most_m((np.cumsum(there) - 1)[pairs.blocks], pairs.items)
+        about_m, error_m = self._field.about_m(places_m, pairs.nodes), np.float32(self._field.error_m)
+        _raise(depths_m, pairs.blocks, -about_m - error_m - moves_m)
+        return places_m, about_m - error_m, moves_m
 
 
 def _raise(depths_m: SingleArray, blocks: IntArray, found_m: SingleArray) -> None:
@@ -336,7 +281,7 @@ class _Groups:
         """The vertices of groups, in the same blocks."""
         members = self.members[grouped.items]
         row, _ = there = np.nonzero(members >= 0)
-        return _Pairs(grouped.blocks[row], members[there])
+        return _Pairs(grouped.blocks[row], grouped.nodes[row], members[there])
 
 
 def _groups(skin: Skin) -> _Groups:
@@ -365,18 +310,10 @@ def _split(rows: IntArray, positions_m: FloatArray) -> list[IntArray]:
     return _split(order[:half], positions_m) + _split(order[half:], positions_m)
 
 
-def _local(node_from_world: SingleArray, world_from_joint: SingleArray) -> SingleArray:
-    """``node_from_joint`` (F, J, 3, 4) of ``world_from_joint`` (F, 3, J, 4)."""
-    frames, _, joints, _ = world_from_joint.shape
-    turned = (node_from_world[:, :, :3] @ world_from_joint.reshape(frames, 3, -1)).reshape(frames, 3, joints, 4)
-    turned[..., 3] += node_from_world[:, :, None, 3]
-    return np.ascontiguousarray(turned.transpose(0, 2, 1, 3))
-
-
 @lru_cache(maxsize=8)
-def _fields(bodies: tuple[Proxy, ...]) -> Mapping[str, DistanceField]:
-    """By node. Cached: two hands, and players of one kind, are near the same bodies."""
+def _field(bodies: tuple[Proxy, ...]) -> tuple[tuple[str, ...], DistanceField]:
+    """Nodes with bodies, and the distances to these. Cached: two hands, and players of one kind, are near the same."""
     by_node: dict[str, list[Proxy]] = {}
     for body in bodies:
         by_node.setdefault(body.node, []).append(body)
-    return {node: DistanceField(some) for node, some in by_node.items()}
+    return tuple(by_node), DistanceField(list(by_node.values()))

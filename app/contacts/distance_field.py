@@ -1,6 +1,6 @@
-"""Signed distance to the closed bodies of a node: roughly on a grid, exactly near them.
+"""Signed distance to the closed bodies of some nodes: roughly on a grid for each, exactly near them.
 
-The grid's bricks are computed when something is first there: hands are near a small part of an instrument.
+The grids' bricks are computed when something is first there: hands are near a small part of an instrument.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ _HALF_DIAGONAL = math.sqrt(3.0) / 2.0
 
 
 class DistanceField:
-    """Distance to the union of the bodies of one node, in its frame.
+    """Distances to the union of the bodies of each of some nodes, in its frame.
 
     Parameters
     ----------
-    node_bodies : sequence of Proxy
-        All of one node.
+    bodies_by_node : sequence of sequence of Proxy
+        All of each node; nodes are numbered in this order.
 
     Attributes
     ----------
@@ -46,74 +46,101 @@ class DistanceField:
 
     error_m = _HALF_DIAGONAL * CELL_M
 
-    def __init__(self, node_bodies: Sequence[Proxy]) -> None:
-        self._bodies: Bodies = bodies(node_bodies, [node_bodies[0].node])
+    def __init__(self, bodies_by_node: Sequence[Sequence[Proxy]]) -> None:
+        names = [some[0].node for some in bodies_by_node]
+        self._bodies: Bodies = bodies([body for some in bodies_by_node for body in some], names)
+        self._own = [np.flatnonzero(self._bodies.nodes == node) for node in range(len(names))]
         hulls = self._bodies.hulls
         low_m = np.minimum(hulls[:, :3], hulls[:, 3:6]) - hulls[:, 6:]
         high_m = np.maximum(hulls[:, :3], hulls[:, 3:6]) + hulls[:, 6:]
-        self._corner_m = low_m.min(axis=0) - FAR_M
-        self._shape = tuple(np.ceil((high_m.max(axis=0) + FAR_M - self._corner_m) / _BRICK_M).astype(int).tolist())
-        self._brick_at = np.full(self._shape, -1, dtype=np.int32)
-        """Number of the brick at each place; -1 where nothing has been computed."""
-        self._about_m = np.full((1, BRICK_CELLS**3), FAR_M, dtype=np.float32)
-        """By brick; brick 0 is whatever is beyond the grid."""
-        self._lock = Lock()
-        self._touching: list[IntArray] = [np.zeros(0, dtype=np.intp)]
+        self._low_m = np.array([low_m[own].min(axis=0) for own in self._own])
+        self._high_m = np.array([high_m[own].max(axis=0) for own in self._own])
+        self._corners_m = self._low_m - FAR_M
+        self._shapes = np.ceil((self._high_m + FAR_M - self._corners_m) / _BRICK_M).astype(np.int32)
+        ends = np.cumsum(self._shapes.prod(axis=1, dtype=np.int64)).astype(np.int32)
+        self._starts = np.append(np.int32(0), ends[:-1])
+        self._brick_at = np.full(ends[-1], -1, dtype=np.int32)
+        """Number of the brick at each place of each node's grid; -1 where nothing has been computed."""
+        self._about_m = np.zeros((0, BRICK_CELLS**3), dtype=np.float32)
+        """By brick."""
+        self._touching: list[IntArray] = []
         """By brick: the bodies that a point in it may be near."""
+        self._lock = Lock()
 
-    def about_m(self, points_m: SingleArray) -> SingleArray:
-        """Distance (N,) of points (N, 3), at most `FAR_M`, give or take `error_m`."""
-        cell = np.floor((points_m - self._corner_m.astype(np.float32)) * np.float32(1.0 / CELL_M)).astype(np.int32)
-        brick = self._bricks(cell // BRICK_CELLS)
-        inside = cell % BRICK_CELLS
-        flat = (inside[:, 0] * BRICK_CELLS + inside[:, 1]) * BRICK_CELLS + inside[:, 2]
-        found: SingleArray = self._about_m.reshape(-1)[brick * BRICK_CELLS**3 + flat]
+    def about_m(self, points_m: SingleArray, nodes: IntArray) -> SingleArray:
+        """Distance (N,) of points (N, 3) in the frames of nodes (N,), at most `FAR_M`, give or take `error_m`."""
+        corners_m = self._corners_m.astype(np.float32).T.take(nodes, axis=1)
+        cells = self._inside((points_m.T - corners_m) / np.float32(CELL_M), nodes, BRICK_CELLS)
+        places = cells // BRICK_CELLS
+        x, y, z = cells - places * BRICK_CELLS
+        brick = self._bricks(places, nodes)
+        cell = ((brick * BRICK_CELLS + x) * BRICK_CELLS + y) * BRICK_CELLS + z
+        found: SingleArray = self._about_m.reshape(-1).take(cell)
         return found
 
-    def distances_m(self, points_m: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
-        """Distance (N,) of points (N, 3), at most `NEAR_M`."""
+    def beyond_m(self, points_m: SingleArray, node: int) -> SingleArray:
+        """How far points (N, 3) in the frame of a node are outside the box around its bodies: (N,), the distance or
+        less. Inside the box it is minus infinity."""
+        low_m, high_m = self._low_m[node].astype(np.float32), self._high_m[node].astype(np.float32)
+        outside_m = np.maximum(np.maximum(low_m - points_m, points_m - high_m), np.float32(0.0))
+        found: SingleArray = np.sqrt(np.einsum("ni,ni->n", outside_m, outside_m))
+        return np.where(found > 0.0, found, np.float32(-np.inf))
+
+    def distances_m(self, points_m: npt.NDArray[np.floating], nodes: IntArray) -> npt.NDArray[np.floating]:
+        """Distance (N,) of points (N, 3) in the frames of nodes (N,), at most `NEAR_M`."""
         result = np.full(len(points_m), NEAR_M, dtype=points_m.dtype)
-        brick = self._bricks(np.floor((points_m - self._corner_m) / _BRICK_M).astype(np.int32))
-        bodies_of = [self._touching[index] for index in brick.tolist()]
+        places = self._inside((points_m.T - self._corners_m.T.take(nodes, axis=1)) / _BRICK_M, nodes, 1)
+        bodies_of = [self._touching[index] for index in self._bricks(places, nodes).tolist()]
         counts = np.fromiter(map(len, bodies_of), dtype=np.intp, count=len(bodies_of))
         if counts.any():
             point = np.repeat(np.arange(len(points_m)), counts)
             np.minimum.at(result, point, distances(self._bodies, points_m[point], np.concatenate(bodies_of)))
         return result
 
-    def _bricks(self, places: npt.NDArray[np.int32]) -> npt.NDArray[np.int32]:
-        """Numbers (N,) of the bricks at places (N, 3), computed where they have not been."""
-        beyond = ((places < 0) | (places >= self._shape)).any(axis=1)
-        flat = (places[:, 0] * self._shape[1] + places[:, 1]) * self._shape[2] + places[:, 2]
-        flat[beyond] = 0
-        bricks: npt.NDArray[np.int32] = self._brick_at.reshape(-1)[flat]
-        bricks[beyond] = 0
+    def _inside(self, scaled: npt.NDArray[np.floating], nodes: IntArray, parts: int) -> npt.NDArray[np.int32]:
+        """Whole numbers (3, N) within the nodes' grids, of so many parts of a brick. What is beyond a grid is taken for
+        something at its edge: nothing is near that."""
+        scaled = np.ascontiguousarray(np.maximum(scaled, 0.0))
+        # Compared before they are whole numbers, which hold less.
+        np.minimum(scaled, (self._shapes.T * parts - 1).astype(scaled.dtype).take(nodes, axis=1), out=scaled)
+        return scaled.astype(np.int32)
+
+    def _bricks(self, places: npt.NDArray[np.int32], nodes: IntArray) -> npt.NDArray[np.int32]:
+        """Numbers (N,) of the bricks at places (3, N) of nodes (N,), computed where they have not been."""
+        x, y, z = places
+        flat = (x * self._shapes[:, 1].take(nodes) + y) * self._shapes[:, 2].take(nodes) + z
+        flat += self._starts.take(nodes)
+        bricks: npt.NDArray[np.int32] = self._brick_at.take(flat)
         missing = bricks < 0
         if missing.any():
             with self._lock:
-                places = np.unique(flat[missing])
-                self._compute(places[self._brick_at.reshape(-1)[places] < 0])
-            bricks[missing] = self._brick_at.reshape(-1)[flat[missing]]
+                new = np.unique(flat[missing])
+                new = new[self._brick_at[new] < 0]
+                node = np.searchsorted(self._starts, new, side="right") - 1
+                for one in np.unique(node).tolist():
+                    self._compute(new[node == one], one)
+            bricks[missing] = self._brick_at[flat[missing]]
         return bricks
 
-    def _compute(self, flat: npt.NDArray[np.integer]) -> None:
+    def _compute(self, flat: npt.NDArray[np.integer], node: int) -> None:
+        own = self._own[node]
         steps = (np.arange(BRICK_CELLS) + 0.5) * CELL_M
         cells_m = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
-        corners_m = np.stack(np.unravel_index(flat, self._shape), axis=-1) * _BRICK_M + self._corner_m
+        places = np.unravel_index(flat - self._starts[node], self._shapes[node].tolist())
+        corners_m = np.stack(places, axis=-1) * _BRICK_M + self._corners_m[node]
         radius_m = _HALF_DIAGONAL * _BRICK_M
-        brick, body = (index.ravel() for index in np.mgrid[: len(flat), : len(self._bodies)])
-        middle_m = distances(self._bodies, (corners_m + _BRICK_M / 2.0)[brick], body).reshape(
-            len(flat), len(self._bodies)
-        )
+        brick, body = (index.ravel() for index in np.mgrid[: len(flat), : len(own)])
+        middles_m = (corners_m + _BRICK_M / 2.0)[brick]
+        middle_m = distances(self._bodies, middles_m, own[body]).reshape(len(flat), len(own))
         # What is nearest somewhere in a brick is no further from its middle than the nearest and the brick's diagonal.
         nearest = middle_m < np.minimum(middle_m.min(axis=1, keepdims=True) + 2.0 * radius_m, FAR_M + radius_m)
         brick, body = np.nonzero(nearest)
         points_m = corners_m[brick, None] + cells_m
-        found = distances(self._bodies, points_m.reshape(-1, 3), np.repeat(body, len(cells_m)))
+        found = distances(self._bodies, points_m.reshape(-1, 3), np.repeat(own[body], len(cells_m)))
         about_m = np.full((len(flat), len(cells_m)), FAR_M)
         np.minimum.at(about_m, brick, found.reshape(-1, len(cells_m)))
         count = len(self._touching)
         self._about_m = np.concatenate([self._about_m, about_m.astype(np.float32)])
-        self._touching += [np.flatnonzero(row) for row in middle_m < NEAR_M + radius_m]
+        self._touching += [own[row] for row in middle_m < NEAR_M + radius_m]
         # Last, since other threads look here without a lock.
-        self._brick_at.reshape(-1)[flat] = count + np.arange(len(flat))
+        self._brick_at[flat] = count + np.arange(len(flat), dtype=np.int32)

@@ -29,8 +29,8 @@ class Traces:
     ----------
     marks_m : dict of str to (F, 3)
         The body's landmarks in the world.
-    nodes : dict of str to (F, 4, 4)
-        ``world_from_node`` of the instrument's.
+    nodes : dict of str to (F, 3 or 4, 4)
+        ``world_from_node`` of the instrument's; their last rows are not asked for.
     """
 
     marks_m: Mapping[str, FloatArray]

@@ -22,8 +22,8 @@ _SETTLE_MS = 120
 """Rendering waits until a drag rests for so long."""
 _LOOK_MS = 250
 """How often newly rendered sound is added to the mix."""
-_MOST_BYTES = 256 * 1024 * 1024
-"""Of sound that is requested: four players for ten minutes, fifty for fifty seconds. Of what is longer, the part that
+_MOST_BYTES = 160 * 1024 * 1024
+"""Of sound that is requested: four players for six minutes, fifty for half a minute. Of what is longer, the part that
 sounds next is kept, and the window moves along."""
 _AHEAD_S = 20.0
 """The next window is begun so long before the end of this one is reached."""

@@ -17,7 +17,6 @@ from app.rig.model import Character, Landmark
 
 FloatArray = npt.NDArray[np.float64]
 
-_CHUNK = 4096
 _TRUNK = ("spine", "chest", "upperChest", "neck", "head")
 
 
@@ -65,17 +64,11 @@ class JointPlayback:
         parents = self.playback.parents
         return np.array([parent >= 0 and bone not in self._moved for bone, parent in enumerate(parents)])
 
-    @cached_property
-    def rotations(self) -> FloatArray:
-        """``parent_from_joint`` of all joints at all frames (F, J, 4)."""
-        frames = self.playback.clip.frames
+    def rotations(self, first: int, last: int) -> FloatArray:
+        """``parent_from_joint`` (n, J, 4) of all joints at the frames ``first`` .. ``last - 1``."""
         if self._target.choice == "suisou" and self.playback.bone_names == self.names:
-            return self.playback.rotations(0, frames)
-        result = np.empty((frames, len(self.names), 4))
-        for first in range(0, frames, _CHUNK):
-            span = slice(first, min(first + _CHUNK, frames))
-            result[span] = self._joint_rotations(span)
-        return result
+            return self.playback.rotations(first, last)
+        return self._joint_rotations(slice(first, last))
 
     def curve(self, morph: str) -> FloatArray:
         """Weight (F,) of a morph by its ARKit name; zeros where nothing in the file shows it."""

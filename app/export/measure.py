@@ -25,12 +25,13 @@ from app.contacts.bounds import (
     Spread,
     bound_mm,
     contact_name,
+    reported_least_m,
 )
 from app.contacts.controls import ControlMeasure, NoteFrames, notes_of
 from app.contacts.depths import HandDepths
 from app.contacts.touches import LIPS, UPPER_LIP, TouchJudge, Traces, distance_m, hole_values
+from app.export.joint_measures import JointMeasure, measure_joints
 from app.export.joint_playback import JointPlayback
-from app.export.joints import anatomical_angles, angular_accelerations
 from app.export.playback import Playback, Surface
 from app.export.target import TargetSkeleton, normalised_target
 from app.export.threads import in_threads
@@ -48,20 +49,11 @@ JAW_OPENS = 0.05
 TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
 
-_CHUNK = 2048
+_CHUNK = 1024
+_SAMPLED = 16
 _TORSO = ("hips", "neck")
 _SOLES = ("left.foot.sole", "right.foot.sole")
 _HANDS = ("left.hand", "right.hand")
-
-
-class JointMeasure(msgspec.Struct, frozen=True):
-    """The joint that comes nearest to its bound, or goes beyond it."""
-
-    joint: str
-    value: float
-    bound: float
-    beyond: int
-    """Frames (of any joint) beyond the bound."""
 
 
 class BreathMeasure(msgspec.Struct, frozen=True):
@@ -111,6 +103,7 @@ class _Read:
     torso: FloatArray
     bone_deviation_m: FloatArray
     depth_m: FloatArray
+    """Of the sounding frames; where it is not among the deepest, which are reported, it may be less than it is."""
 
 
 def measure_player(
@@ -172,6 +165,7 @@ def measure_player(
         (contact, Spread.of(judge.gap_m(index)[judge.asked(index)], bound_mm(contact)))
         for index, contact in enumerate(instrument.contacts)
     ]
+    limits, acceleration = measure_joints(joints, body, profile, fps)
     lips_m, upper_lip_m = traces.lips_m(instrument), traces.upper_lip_m(instrument, blowing)
     measures = PlayerMeasures(
         sounding_frames=int(sounding.sum()),
@@ -187,14 +181,14 @@ def measure_player(
             if name in traces.marks_m
         },
         bones=Spread.of(found.bone_deviation_m, BONES_MM),
-        penetration=Spread.of(found.depth_m[sounding], PENETRATION_MM),
+        penetration=Spread.of(found.depth_m, PENETRATION_MM),
         controls={
             control.name: notes.measure(control, values[control.name], fps, out_of_reach)
             for control in instrument.controls
             if control.name in values
         },
-        limits=_limits(joints.rotations, joints.names, body, profile),
-        acceleration=_acceleration(joints.rotations, joints.names, body, profile, fps),
+        limits=limits,
+        acceleration=acceleration,
         breaths=_breaths(plan.breaths, times_s, joints.curve("jawOpen"), found.torso, mouth_opens(character)),
         hovering={finger: Spread.of(gaps_m, HOVER_MM) for finger, gaps_m in judge.hovering_m().items()},
     )
@@ -232,8 +226,10 @@ def _read(
     bone_of_node = {part.node: part.name for part in instrument.moving_parts} | {ROOT: held.bone_names[0]}
     node_bones = {node: held.bone_names.index(bone) for node, bone in bone_of_node.items()}
     landmarks = {name: np.empty((frames, 3)) for name in surfaces}
-    nodes = {node: np.empty((frames, 4, 4)) for node in node_bones}
-    torso, depth_m, deviation_m = np.empty((frames, 2)), np.zeros(frames), np.empty(frames)
+    nodes = {node: np.empty((frames, 3, 4)) for node in node_bones}
+    torso, deviation_m = np.empty((frames, 2)), np.empty(frames)
+    played = np.flatnonzero(sounding)
+    depth_m = np.zeros(len(played))
     low = joints.bone(_TORSO[0])
     high = joints.bone(_TORSO[1], "head")  # VRM leaves the neck optional; the head is next above it.
     lengths_m = np.linalg.norm(player.rest_m, axis=1)
@@ -246,15 +242,27 @@ def _read(
             landmarks[name][span] = surface.positions_m(world, first, last).mean(axis=1)
         held_world = held.world(first, last)
         for node, bone in node_bones.items():
-            nodes[node][span] = held_world[:, bone]
+            nodes[node][span] = held_world[:, bone, :3]
         bones_m = world[..., :3, 3]
         upright = bones_m[:, high] - bones_m[:, low]
         torso[span] = np.arctan2(upright[:, [0, 2]], upright[:, 1:2])
         found_m = np.linalg.norm(bones_m - bones_m[:, parents], axis=-1)
         deviation_m[span] = np.abs(found_m - lengths_m)[:, joints.rigid].max(axis=1)
-        if sounding[span].any():
-            here, morphs = {name: nodes[name][span] for name in nodes}, player.morphs(first, last)
-            depth_m[span] = np.max([part.depths_m(world, morphs, here) for part in hands], axis=0, initial=0.0)
+        begin, end = np.searchsorted(played, [first, last]).tolist()
+        if begin == end:
+            return
+        at = played[begin:end] - first
+        here = {node: held_world[at, bone] for node, bone in node_bones.items()}
+        morphs = {name: weights[at] for name, weights in player.morphs(first, last).items()}
+        world = world[at]
+        # A few frames first: with what is found there, most of the others are known not to be reported.
+        for step in (_SAMPLED, 1):
+            least_m = np.maximum(depth_m[begin:end:step], reported_least_m(depth_m))
+            for hand in hands:
+                faces = {name: weights[::step] for name, weights in morphs.items()}
+                parts = {node: matrices[::step] for node, matrices in here.items()}
+                least_m = hand.depths_m(world[::step], faces, parts, least_m)
+            depth_m[begin:end:step] = least_m
 
     spans = [slice(first, min(first + _CHUNK, frames)) for first in range(0, frames, _CHUNK)]
     done = itertools.count(1)
@@ -264,8 +272,6 @@ def _read(
 
 def _control_values(instrument: InstrumentMap, held: Playback) -> dict[str, FloatArray]:
     """Value of every control that moves (F,), from where its bone is in the file."""
-    frames = held.clip.frames
-    rotations, translations_m = held.rotations(0, frames), held.translations_m(0, frames)
     result = {}
     for control in instrument.controls:
         if control.motion is None:
@@ -273,56 +279,12 @@ def _control_values(instrument: InstrumentMap, held: Playback) -> dict[str, Floa
         bone = held.bone_names.index(control.name)
         axis = np.asarray(control.motion.axis)
         if control.travel_m:
-            moved_m = (translations_m[:, bone] - held.rest_m[bone]) @ axis
+            moved_m = (held.bone_translations_m(bone) - held.rest_m[bone]) @ axis
             result[control.name] = moved_m / control.travel_m
         else:
-            angles = quaternion.twist_angle(rotations[:, bone], axis)
+            angles = quaternion.twist_angle(held.bone_rotations(bone), axis)
             result[control.name] = angles / (control.motion.angle_rad or math.nan)
     return result
-
-
-def _limits(rotations: FloatArray, bones: Sequence[str], body: Body, profile: SkeletonProfile) -> JointMeasure:
-    """The joint angle that goes furthest beyond its range, degrees (negative: inside all ranges by that much)."""
-    known = {joint.name: joint.kind for joint in profile.joints}
-    worst, beyond = ("", -math.inf), 0
-    for index, bone in enumerate(bones):
-        limits = body.limits.get(known.get(bone, ""))
-        if limits is None:
-            continue
-        axes = profile.joint_axes(bone)
-        angles = np.degrees(
-            anatomical_angles(
-                rotations[:, index], np.asarray(axes.flexion), np.asarray(axes.sideways), np.asarray(axes.twist)
-            )
-        )
-        for name, angle, (low, high) in zip(
-            ("flexion", "sideways", "twist"),
-            angles.T,
-            (limits.flexion_deg, limits.sideways_deg, limits.twist_deg),
-            strict=True,
-        ):
-            excess = np.maximum(low - angle, angle - high)
-            beyond += int((excess > 0.01).sum())
-            worst = max(worst, (f"{bone} {name}", round(float(excess.max()), 4)), key=lambda item: item[1])
-    return JointMeasure(worst[0], worst[1], 0.0, beyond)
-
-
-def _acceleration(
-    rotations: FloatArray, bones: Sequence[str], body: Body, profile: SkeletonProfile, fps: float
-) -> JointMeasure:
-    """The angular acceleration that comes nearest to its human bound."""
-    known = {joint.name: joint.kind for joint in profile.joints}
-    indices = [index for index, bone in enumerate(bones) if known.get(bone, "") in body.limits]
-    bounds = np.array([body.limits[known[bones[index]]].acceleration_rad_s2 for index in indices])
-    greatest, beyond = np.zeros(len(indices)), 0
-    for first in range(0, len(rotations) - 2, _CHUNK):
-        accelerations = angular_accelerations(rotations[first : first + _CHUNK + 2, indices], fps)
-        greatest = np.maximum(greatest, accelerations.max(axis=0))
-        beyond += int((accelerations > bounds).sum())
-    if len(rotations) < 3 or not indices:
-        return JointMeasure("", 0.0, 0.0, 0)
-    worst = int(np.argmax(greatest / bounds))
-    return JointMeasure(bones[indices[worst]], round(float(greatest[worst]), 3), float(bounds[worst]), beyond)
 
 
 def _breaths(

@@ -51,6 +51,16 @@ class Playback:
             result[:, bone] = translation_cm[first:last].astype(np.float64) * METRES
         return result
 
+    def bone_rotations(self, bone: int) -> FloatArray:
+        """Local rotations (F, 4) of a bone."""
+        return quaternion.normalize(self.clip.rotations_xyzw[:, bone])
+
+    def bone_translations_m(self, bone: int) -> FloatArray:
+        """Local translations (F, 3) of a bone."""
+        if bone not in self.clip.translations_cm:
+            return np.tile(self.rest_m[bone], (self.clip.frames, 1))
+        return self.clip.translations_cm[bone].astype(np.float64) * METRES
+
     def world(self, first: int, last: int) -> FloatArray:
         """World transforms (n, J, 4, 4) of the frames ``first`` .. ``last - 1``."""
         return world_transforms(self.parents, self.translations_m(first, last), self.rotations(first, last))

@@ -1,4 +1,4 @@
-"""Ten minutes of players fit into 1.5 GB: one player's motion and files are held at a time."""
+"""Ten minutes of players fit into 600 MB: one player's motion and files are held at a time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).parents[3]
 TEN_MINUTES = ROOT / "tests" / "data" / "midi" / "awkward" / "long_14662notes_rossini_overture.mid"
-MOST_BYTES = 1.5e9
+MOST_BYTES = 600 * 2**20
 
 MEASURING = """
 import resource, sys

@@ -125,6 +125,17 @@ def test_the_search_finds_what_the_search_by_groups_finds(instrument_id: str) ->
         assert expected.max() > 0.0
 
 
+@pytest.mark.parametrize("share", [0.0, 0.5, 0.99, 1.0])
+def test_what_is_less_than_asked_for_may_be_left_out(share: float) -> None:
+    scene = played(2, (0.004, -0.003, 0.002), 4.0, "flute")
+    for skin in scene.hands:
+        judge = HandDepths(skin, scene.instrument.proxy)
+        every = judge.depths_m(scene.world, scene.morphs, scene.nodes)
+        least_m = np.full(len(every), np.quantile(every, share))
+        found = judge.depths_m(scene.world, scene.morphs, scene.nodes, least_m)
+        np.testing.assert_allclose(found, np.maximum(every, least_m), atol=SINGLE_PRECISION_M)
+
+
 def test_hands_whose_vertices_morphs_move() -> None:
     """Hands of other characters may change with a morph, at once or little by little."""
     scene = played(2, (0.004, -0.003, 0.002), 4.0)
@@ -145,16 +156,21 @@ def test_the_field_is_the_distance_to_the_nearest_body(instrument_id: str) -> No
     """Around the bodies of every node, and far from them."""
     instrument = bundled_maps()[instrument_id]
     random = np.random.default_rng(5)
-    for node in sorted({body.node for body in instrument.proxy}):
-        bodies = [body for body in instrument.proxy if body.node == node]
-        field = DistanceField(bodies)
+    names = sorted({body.node for body in instrument.proxy})
+    by_node = [[body for body in instrument.proxy if body.node == name] for name in names]
+    field = DistanceField(by_node)
+    for node, bodies in enumerate(by_node):
         spread = random.normal(scale=0.15, size=(400, 3))
         points_m = np.concatenate(
             [spread, np.repeat(spread[:40], 20, axis=0) + random.normal(scale=0.004, size=(800, 3))]
         )
+        nodes = np.full(len(points_m), node)
         exact = np.min([signed_distance(body, points_m) for body in bodies], axis=0)
-        about = field.about_m(points_m.astype(np.float32))
+        about = field.about_m(points_m.astype(np.float32), nodes)
         off = np.abs(about - np.minimum(exact, FAR_M))
         assert off[exact < FAR_M].max(initial=0.0) <= field.error_m + SINGLE_PRECISION_M
         assert about[exact >= FAR_M].min() >= FAR_M - field.error_m - SINGLE_PRECISION_M
-        np.testing.assert_allclose(field.distances_m(points_m), np.minimum(exact, NEAR_M), atol=SINGLE_PRECISION_M)
+        found = field.distances_m(points_m, nodes)
+        np.testing.assert_allclose(found, np.minimum(exact, NEAR_M), atol=SINGLE_PRECISION_M)
+        beyond = field.beyond_m(points_m.astype(np.float32), node)
+        assert (beyond <= exact + SINGLE_PRECISION_M).all()

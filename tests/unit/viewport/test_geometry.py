@@ -18,6 +18,7 @@ from widgets.viewport.geometry import (
     edges,
     instrument_levels,
     joined,
+    row_keys,
     stool,
 )
 
@@ -178,6 +179,18 @@ def test_a_crowd_is_its_parts_end_to_end() -> None:
     whole = Geometry(everyone.shape, everyone.surface, everyone.triangles, everyone.one_sided)
     found = {tuple(edge) for edge in crowd_edges(parts).tolist()}
     assert found == {tuple(edge) for edge in edges(whole).tolist()}
+
+
+@pytest.mark.parametrize("largest", [3, 2**20, 2**31 - 1])
+def test_rows_have_one_number_each_in_their_order(largest: int) -> None:
+    """Also where the product of all columns' ranges is more than a number holds."""
+    random = np.random.default_rng(3)
+    rows = random.integers(-largest, largest, (500, 6))
+    rows[250:] = rows[random.integers(0, 250, 250)]
+    expected = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    found = np.unique(row_keys(*rows.T), return_index=True, return_inverse=True)
+    np.testing.assert_array_equal(found[1], expected[1])
+    np.testing.assert_array_equal(found[2], expected[2].reshape(-1))
 
 
 def test_a_stool_stands_on_the_floor_and_is_seen_from_outside() -> None:
