@@ -25,8 +25,9 @@ from app.cli.summary import project_summary, summary
 from app.cli.terminal import interrupted_by, say
 from app.encoding import shown
 from app.errors import UsageError
-from app.export.formats import FILE_FORMATS, KEY_CHOICES, USUAL_FORMATS, Format
+from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
 from app.export.rig_options import ATTACHMENTS, DEFAULT_RIG, REST_POSES, ROOT_BONES, RigOptions
+from app.formats.keys import KEY_CHOICES
 from app.messages import text
 from app.project.parameters import select_players
 from app.version import program_version

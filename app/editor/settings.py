@@ -24,9 +24,9 @@ from app.editor.listening import Source
 from app.editor.session import Session
 from app.editor.setting_bindings import FOLDED, THEME, TIME, SettingBinding, in_listening, in_pitches
 from app.errors import AppError, FileError, MapError, Message
-from app.export.formats import KeyChoice
 from app.formats.atomic import atomic_write
 from app.formats.files import cannot_write
+from app.formats.keys import KeyChoice
 from app.formats.toml import read_toml, shaped, toml
 from app.messages import LANGUAGES
 from app.stream.sender import LEAST_PORT, MOST_PORT

@@ -12,9 +12,6 @@ from app.formats.usd import Sound, refuse_without_usd
 
 Format = Literal["fbx", "bvh", "glb", "usd"]
 FileContent = Literal["character", "instrument"]
-KeyChoice = Literal["every", "reduced"]
-"""A key on every frame, or as few as keep everything within a bound (`app.export.reduced_keys`)."""
-KEY_CHOICES: Final[tuple[KeyChoice, ...]] = ("every", "reduced")
 
 
 @dataclass(frozen=True)

@@ -6,12 +6,13 @@ from collections.abc import Sequence
 
 import msgspec
 
-from app.export.formats import Format, KeyChoice
+from app.export.formats import Format
 from app.export.joint_playback import JointPlayback
 from app.export.marks import character_marks, part_marks
 from app.export.playback import Playback
 from app.export.reduced_keys import INSTRUMENT_MM, PLACE_MM, reduced
 from app.export.target import TargetSkeleton
+from app.formats.keys import KeyChoice
 from app.formats.scene import Scene
 from app.rig.model import Character, InstrumentModel
 

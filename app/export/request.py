@@ -12,11 +12,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.errors import FileError, Message
-from app.export.formats import FILE_FORMATS, Format, KeyChoice
+from app.export.formats import FILE_FORMATS, Format
 from app.export.rig import rig_of
 from app.export.rig_options import DEFAULT_RIG, RigOptions
 from app.export.target import SkeletonChoice
 from app.export.targets import CheckedTarget, checked_targets, spoilt
+from app.formats.keys import KeyChoice
 from app.performance.cast import LeftOut, Performer, dancings_of, performers_of, require_players
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan

@@ -15,11 +15,12 @@ from pathlib import Path
 import msgspec
 
 from app.errors import AppError
-from app.export.formats import Format, KeyChoice
+from app.export.formats import Format
 from app.export.player import ExportedPlayer, export_player
 from app.export.request import Request, cast_of
 from app.export.rig_options import RigOptions
 from app.export.target import SkeletonChoice
+from app.formats.keys import KeyChoice
 from app.messages import text
 from app.own_process import receive, send
 from app.performance.ensemble import Performance

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Final, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +17,10 @@ import numpy.typing as npt
 FloatArray = npt.NDArray[np.floating]
 IntArray = npt.NDArray[np.integer]
 BoolArray = npt.NDArray[np.bool_]
+
+KeyChoice = Literal["every", "reduced"]
+"""A key on every frame, or as few as keep everything within a bound."""
+KEY_CHOICES: Final[tuple[KeyChoice, ...]] = ("every", "reduced")
 
 _LEAST_CHUNK, _MOST_CHUNK, _AT_ONCE = 64, 512, 8192
 """Frames that are walked through one after another, and how many numbers at once: all chunks of all curves."""

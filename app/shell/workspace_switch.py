@@ -8,11 +8,11 @@ from PySide6.QtWidgets import QToolButton, QWidget
 from app.editor.tokens import LEAST_TARGET_PX
 from app.shell.actions import ActionTable
 from app.shell.workspaces import WORKSPACES
-from widgets.common.controls import named
+from widgets.common.controls import Retranslated, named
 from widgets.common.layouts import in_row
 
 
-class WorkspaceSwitch(QWidget):
+class WorkspaceSwitch(Retranslated, QWidget):
     """A button for each workspace; the one that is shown is down.
 
     Parameters
@@ -24,12 +24,19 @@ class WorkspaceSwitch(QWidget):
     def __init__(self, table: ActionTable) -> None:
         super().__init__()
         self.setObjectName("workspace_switch")
+        self._actions = {one.text_id: table.actions[f"workspace.{one.id}"] for one in WORKSPACES}
         buttons = []
         for workspace in WORKSPACES:
             button = named(QToolButton(), f"workspace_{workspace.id}")
             button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
-            button.setDefaultAction(table.actions[f"workspace.{workspace.id}"])
+            button.setDefaultAction(self._actions[workspace.text_id])
             button.setMinimumHeight(LEAST_TARGET_PX)
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
             buttons.append(button)
         in_row(*buttons, of=self, margins=0, spacing=1)
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        """Name the buttons: a command's own name says what kind of thing it is."""
+        for text_id, action in self._actions.items():
+            action.setIconText(self.tr(text_id))

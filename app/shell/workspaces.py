@@ -38,6 +38,8 @@ class Workspace:
     Attributes
     ----------
     id : str
+    text_id : str
+        Of the name on its button.
     left, right : tuple of str
         Panels at the sides, from the top; those that are in neither, nor the timeline, are closed.
     left_px, right_px : int
@@ -52,6 +54,7 @@ class Workspace:
     """
 
     id: str
+    text_id: str
     left: tuple[str, ...]
     right: tuple[str, ...]
     left_px: int
@@ -66,6 +69,7 @@ class Workspace:
 WORKSPACES: Final = (
     Workspace(
         "animate",
+        "workspace_switch.animate",
         left=("players",),
         right=("inspector",),
         left_px=300,
@@ -80,6 +84,7 @@ WORKSPACES: Final = (
     ),
     Workspace(
         "record",
+        "workspace_switch.record",
         left=("recording", "players"),
         right=(),
         left_px=300,
@@ -96,6 +101,7 @@ WORKSPACES: Final = (
     ),
     Workspace(
         "check",
+        "workspace_switch.check",
         left=(),
         right=("inspector",),
         left_px=300,

@@ -20,8 +20,9 @@ from app.editor.tasks import Progress, StopRequested
 from app.editor.tokens import LEAST_TARGET_PX
 from app.encoding import shown
 from app.errors import AppError, Message
-from app.export.formats import FILE_FORMATS, KEY_CHOICES, KeyChoice
+from app.export.formats import FILE_FORMATS
 from app.export.request import Request
+from app.formats.keys import KEY_CHOICES, KeyChoice
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
