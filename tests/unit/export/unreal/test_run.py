@@ -258,8 +258,9 @@ def test_names_do_not_depend_on_who_is_exported() -> None:
     from app.export.unreal.layout import layout_of
 
     alike = layout_of(renamed(quartet(), ["Solo", "solo", "SOLO!", "So lo"]), "x")
-    names = [place.mesh for places in (alike.characters, alike.instruments) for place in places.values()]
+    names = [place.animation for places in (alike.characters, alike.instruments) for place in places.values()]
     assert len({name.casefold() for name in names}) == 8
+    assert len({place.mesh.casefold() for place in alike.instruments.values()}) == 4
     # A player whose name is another's with the instrument's after it.
     clash = layout_of(renamed(quartet(), ["A", "A_trumpet_Bb", "B", "C"]), "x")
     files = [place.file.name for places in (clash.characters, clash.instruments) for place in places.values()]
