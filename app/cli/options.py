@@ -127,7 +127,7 @@ def text_encoding(text: str) -> str:
 
 
 def add_players_option(command: argparse.ArgumentParser, help: str) -> None:
-    """Declare who is meant."""
+    """Declare the option for players."""
     command.add_argument("--player", dest="players", action="append", default=[], metavar="NAME", help=help)
 
 

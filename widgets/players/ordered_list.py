@@ -228,7 +228,7 @@ class RowDelegate(QStyledItemDelegate):
             painter.drawRoundedRect(QRectF(box).adjusted(1, 1, -1, -1.5), 3, 3)
 
     def tip(self, index: AnyIndex, box: QRect, at: QPoint) -> str:
-        """What is told of a row in this box at this place."""
+        """What stands in a row, in this box at this place."""
         raise NotImplementedError
 
     def helpEvent(
