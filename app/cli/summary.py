@@ -26,7 +26,18 @@ if TYPE_CHECKING:
     from app.export.unreal.run import Written
 
 _DANCE_HEAD = ("dancer", "steps", "standing s", "slide mm/s", "bones mm")
-_HEAD = ("player", "notes", "controls", "fingers mm", "grips mm", "lips mm", "feet mm", "into mm", "breaths", "sway")
+_HEAD = (
+    "player",
+    "notes",
+    "controls",
+    "fingers mm",
+    "grips mm",
+    "lips mm",
+    "feet mm",
+    "penetration mm",
+    "breaths",
+    "sway",
+)
 
 
 def summary(report: Report, folder: Path) -> list[str]:
