@@ -124,7 +124,7 @@ class _Film:
     kind : str
         ``sheet``, ``mp4`` or ``folder``.
     player_ids : tuple of str
-        Whom the view is about; empty: everyone.
+        Those the view is about; empty: everyone.
     columns : int
         Of a sheet.
     """
@@ -156,7 +156,7 @@ class _Film:
 
 
 def film(arguments: argparse.Namespace) -> int:
-    """Draw and write, and name who is excluded; the exit status."""
+    """Draw and write, and name the excluded players; the exit status."""
     from app.export.tree import clean_up
     from app.performance.ensemble import Performance
 

@@ -29,7 +29,7 @@ def figure_stems(performance: Performance) -> Stems:
         for player in project.played_by(musician):
             stem = f"{own[musician.id]}_{player.instrument_id}"
             held[player.id] = f"{stem}_{own[player.id]}" if stem in held.values() else stem
-    # Who is called as another's instrument keeps the name.
+    # A player with the name of another's instrument keeps it.
     held = dict(zip(held, file_stems([*own.values(), *held.values()])[len(own) :], strict=True))
     stems: Stems = {id: {"instrument": stem} for id, stem in held.items()}
     bodies: list[Player | Dancer] = [*project.bodies, *project.dancers]

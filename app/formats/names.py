@@ -15,7 +15,7 @@ def numbered(
     taken : iterable of str
         Names that are not free.
     key : callable
-        What of two names must differ; usually also a system that knows no case tells them apart.
+        What of two names must differ; by default the name, whatever its case.
     """
     used = {key(name) for name in taken}
     last: dict[str, int] = {}

@@ -43,7 +43,7 @@ class Offscreen:
         self._panel = ViewportPanel(self._session, _MadePoses(self._live, stop_requested))
 
     def film(self, size: tuple[int, int], span_s: tuple[float, float], view: View, player_ids: tuple[str, ...]) -> Draw:
-        """What draws a film: see `ViewportPanel.film`. Of the selected players it shows who is one."""
+        """What draws a film: see `ViewportPanel.film`. Dancers among them are not selected in the window."""
         self._session.set_players(tuple(own for own in player_ids if own not in self._session.project.dancer_ids))
         return self._panel.film(*size, span_s, view, player_ids)
 

@@ -29,7 +29,7 @@ class Shot:
     camera : Camera
         Direction, distance and angle of view of the whole film.
     player_ids : tuple of str
-        Who is filmed; a close-up shows the first.
+        Those that are filmed; a close-up shows the first.
     shift_m : (3,) float, optional
         Of what a close-up shows against the middle of the picture.
     """
