@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable
 from threading import Lock
-from typing import Generic, TypeVar
+from typing import Generic, TypeVar, TypeVarTuple
 
 V = TypeVar("V")
+Help = TypeVar("Help")
+Inputs = TypeVarTuple("Inputs")
 
 
 class IdentityCache(Generic[V]):
-    """Maps tuples of objects, compared by identity, to what was made from them.
+    """Results of a pure function, each kept under its very inputs, compared by identity.
 
     Immutable values are equal for ever once they are the same object, and comparing large ones would cost more than
     making the result. The objects are held, so that an identity is never given to another one meanwhile.
@@ -27,22 +29,37 @@ class IdentityCache(Generic[V]):
         self._kept: OrderedDict[tuple[int, ...], tuple[tuple[object, ...], V]] = OrderedDict()
         self._lock = Lock()
 
-    def has(self, keys: tuple[object, ...]) -> bool:
-        """Whether the result for these objects is there."""
+    def has(self, *inputs: object) -> bool:
+        """Whether the result for these inputs is there."""
         with self._lock:
-            return tuple(map(id, keys)) in self._kept
+            return tuple(map(id, inputs)) in self._kept
 
-    def get(self, keys: tuple[object, ...], make: Callable[[], V]) -> V:
-        """The result for these objects, made if it is not there."""
-        identity = tuple(map(id, keys))
+    def step(self, function: Callable[[*Inputs], V], *inputs: *Inputs) -> V:
+        """``function(*inputs)``, made if it is not there.
+
+        Parameters
+        ----------
+        function : callable
+            Of its arguments alone. One that closes over anything else is refused: the key would not know of it.
+        """
+        return self._step(function, (), inputs)
+
+    def helped(self, function: Callable[[Help, *Inputs], V], help: Help, *inputs: *Inputs) -> V:
+        """``function(help, *inputs)``, where ``help`` only saves or shows work: the result is the same with any."""
+        return self._step(function, (help,), inputs)
+
+    def _step(self, function: Callable[..., V], given: tuple[object, ...], inputs: tuple[object, ...]) -> V:
+        if getattr(function, "__closure__", None):
+            raise TypeError(f"{function!r} reads more than its arguments")
+        identity = tuple(map(id, inputs))
         with self._lock:
             if identity in self._kept:
                 self._kept.move_to_end(identity)
                 return self._kept[identity][1]
         # Made outside the lock: two threads may make the same result, none waits for another's.
-        value = make()
+        value = function(*given, *inputs)
         with self._lock:
-            self._kept[identity] = (keys, value)
+            self._kept[identity] = (inputs, value)
             while len(self._kept) > self._size:
                 self._kept.popitem(last=False)
         return value

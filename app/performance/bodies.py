@@ -7,9 +7,8 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Callable
+from collections.abc import Iterator
 from functools import cache, lru_cache
-from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -32,7 +31,6 @@ from instrument_maps.model import InstrumentMap
 from metadata.load import load_body
 from metadata.model import Body
 
-T = TypeVar("T")
 FloatArray = npt.NDArray[np.float64]
 
 _MODELS: IdentityCache[InstrumentModel] = IdentityCache(128)
@@ -60,11 +58,11 @@ def _body(size: float) -> Body:
 
 def model_of(instrument: InstrumentMap) -> InstrumentModel:
     """The model a map names, of the size it says; loaded once. Raises MapError or FileError."""
+    return _MODELS.step(_loaded, instrument)
 
-    def loaded() -> InstrumentModel:
-        return sized_model(load_instrument(model_path(instrument), instrument), instrument.size)
 
-    return _MODELS.get((instrument,), loaded)
+def _loaded(instrument: InstrumentMap) -> InstrumentModel:
+    return sized_model(load_instrument(model_path(instrument), instrument), instrument.size)
 
 
 def suited_to(player: Player, instrument: InstrumentMap) -> FittedInstrument:
@@ -72,12 +70,12 @@ def suited_to(player: Player, instrument: InstrumentMap) -> FittedInstrument:
     if player.character_id in bundled_characters():
         # Ours are adult and complete: plans are made before any character is loaded.
         return FittedInstrument(instrument, ())
-    character, body = character_of(player), body_of(player)
+    return _SUITED.step(_suited, character_of(player), instrument, body_of(player))
 
-    def found() -> FittedInstrument:
+
+def _suited(character: Character, instrument: InstrumentMap, body: Body) -> FittedInstrument:
+    with _worked_out(character, instrument):
         return suited(character, instrument, body, lambda: model_of(instrument))
-
-    return _SUITED.get((character, instrument, body), lambda: _worked_out(player, instrument, found))
 
 
 def hold_of(player: Player, instrument: InstrumentMap, progress: Progress = no_progress) -> GripPose:
@@ -85,12 +83,14 @@ def hold_of(player: Player, instrument: InstrumentMap, progress: Progress = no_p
 
     ``progress`` is called with the share of a fit that is done, and may stop it.
     """
-    character, model, body = character_of(player), model_of(instrument), body_of(player)
+    return _HOLDS.helped(_hold, progress, character_of(player), model_of(instrument), instrument, body_of(player))
 
-    def found() -> GripPose:
+
+def _hold(
+    progress: Progress, character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body
+) -> GripPose:
+    with _worked_out(character, instrument):
         return hold_for(character, model, instrument, body, progress)
-
-    return _HOLDS.get((character, model, instrument, body), lambda: _worked_out(player, instrument, found))
 
 
 def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[FloatArray, FloatArray] | None:
@@ -112,7 +112,8 @@ def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[Flo
     return rest.position_m[0], rest.rotation[0]
 
 
-def _worked_out(player: Player, instrument: InstrumentMap, work_out: Callable[[], T]) -> T:
+@contextlib.contextmanager
+def _worked_out(character: Character, instrument: InstrumentMap) -> Iterator[None]:
     """What is worked out from a character and an instrument. A user's own may be of a shape that nothing can be worked
     out from, which concerns who has it; of our own it would be a fault of the program.
 
@@ -122,12 +123,12 @@ def _worked_out(player: Player, instrument: InstrumentMap, work_out: Callable[[]
         ``character.hold_failed``.
     """
     try:
-        return work_out()
+        yield
     except (ArithmeticError, LookupError, ValueError) as error:
-        if player.character_id in bundled_characters() and instrument.id not in library().own:
+        if character.id in bundled_characters() and instrument.id not in library().own:
             raise
         detail = shortened(f"{type(error).__name__}: {error}")
-        named = {"character": player.character_id, "instrument": instrument.id}
+        named = {"character": character.id, "instrument": instrument.id}
         raise MapError("character.hold_failed", **named, detail=detail) from error
 
 

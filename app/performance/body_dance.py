@@ -25,34 +25,38 @@ from app.plan.model import TimeFrame
 from app.project.casting import StagePosition
 from app.project.performers import Dancer, Player
 from app.rig.model import Character
+from app.score.tempo import TempoMap
 
-_Keys: TypeAlias = tuple[Dancer, Choreographer, Rhythm, Character, TimeFrame]
+_Inputs: TypeAlias = tuple[Dancer, Choreographer, Rhythm, TempoMap, Character, TimeFrame]
 _LAYERS: IdentityCache[BodyLayer] = IdentityCache(64)
 
 
 def layer_of(performance: Performance, player: Player) -> BodyLayer | None:
     """What a player dances; None where nothing was selected, nothing is to be seen of it, or it cannot be read. Made
     once for all players of one body who dance alike; making it may take seconds."""
-    keys = _keys(performance, player)
-    if keys is None:
-        return None
-    dancer, choreographer, rhythm, character, frame = keys
-
-    def made() -> BodyLayer:
-        tempo_map = performance.project.score.tempo_map
-        dancing = Dancing(dancer, choreographer, rhythm, (), tempo_map, character, frame)
-        return body_layer(dancing.motion(FPS, 0, frame_count(frame, FPS)), character)
-
-    return _LAYERS.get(keys, made)
+    inputs = _inputs(performance, player)
+    return None if inputs is None else _LAYERS.step(_layer, *inputs)
 
 
 def layer_is_made(performance: Performance, player: Player) -> bool:
     """Whether asking for a player's layer takes no time."""
-    keys = _keys(performance, player)
-    return keys is None or _LAYERS.has(keys)
+    inputs = _inputs(performance, player)
+    return inputs is None or _LAYERS.has(*inputs)
 
 
-def _keys(performance: Performance, player: Player) -> _Keys | None:
+def _layer(
+    dancer: Dancer,
+    choreographer: Choreographer,
+    rhythm: Rhythm,
+    tempo_map: TempoMap,
+    character: Character,
+    frame: TimeFrame,
+) -> BodyLayer:
+    dancing = Dancing(dancer, choreographer, rhythm, (), tempo_map, character, frame)
+    return body_layer(dancing.motion(FPS, 0, frame_count(frame, FPS)), character)
+
+
+def _inputs(performance: Performance, player: Player) -> _Inputs | None:
     """What a layer is made from, each the same object as long as it is the same."""
     parameters = player.parameters
     if not parameters.choreography or parameters.dance_amount == 0.0 or unfit_choreography(player) is not None:
@@ -63,6 +67,7 @@ def _keys(performance: Performance, player: Player) -> _Keys | None:
         _dancer(parameters.choreography, player.character_id, seed),
         choreographer_of(parameters.choreography),
         rhythm_of(performance),
+        performance.project.score.tempo_map,
         character_of(player),
         dance_frame(performance),
     )

@@ -147,10 +147,11 @@ def dance_of(performance: Performance, dancer: Dancer) -> DanceSteps:
 def figures(choreographer: Choreographer) -> FloatArray:
     """(S, 21, 2) each segment's pose at its accent from the front: X to the right and Y up from the floor below the
     hips, in parts of the body's height."""
-    return _FIGURES.get((choreographer,), lambda: _figures(choreographer.model))
+    return _FIGURES.step(_figures, choreographer)
 
 
-def _figures(model: ChoreographyModel) -> FloatArray:
+def _figures(choreographer: Choreographer) -> FloatArray:
+    model = choreographer.model
     made = np.zeros((len(model.segments), len(SEGMENTS) + len(ENDS), 2))
     for number, clip in enumerate(model.clips):
         own = [at for at, one in enumerate(model.segments) if one.clip == number]

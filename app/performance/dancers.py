@@ -46,6 +46,7 @@ from app.project.performers import Dancer
 from app.project.storage import choreography_missing
 from app.rig.character_library import character_library, character_named
 from app.rig.model import Character
+from app.score.model import Score
 from app.score.tempo import TempoMap
 
 FloatArray = npt.NDArray[np.float64]
@@ -186,18 +187,17 @@ def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
     rhythm = delayed(rhythm_of(performance), dancer.delay_beats) if dancer.delay_beats else rhythm_of(performance)
     rhythm = _same_rhythm(rhythm)
     corrections = project.dance_corrections.get(dancer.id, ())
-    frame = dance_frame(performance)
-
-    def made() -> Dancing:
-        return Dancing(dancer, choreographer, rhythm, corrections, project.score.tempo_map, character, frame)
-
-    return _DANCING.get((_same_dancer(dancer), choreographer, rhythm, corrections, character, frame), made)
+    tempo_map, frame = project.score.tempo_map, dance_frame(performance)
+    return _DANCING.step(Dancing, _same_dancer(dancer), choreographer, rhythm, corrections, tempo_map, character, frame)
 
 
 def rhythm_of(performance: Performance) -> Rhythm:
     """The rhythm of the piece that all dancers follow."""
-    score = performance.project.score
-    return _RHYTHMS.get((score,), lambda: _same_rhythm(audible_rhythm(score)))
+    return _RHYTHMS.step(_audible_rhythm, performance.project.score)
+
+
+def _audible_rhythm(score: Score) -> Rhythm:
+    return _same_rhythm(audible_rhythm(score))
 
 
 def dance_frame(performance: Performance) -> TimeFrame:

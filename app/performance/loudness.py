@@ -97,9 +97,11 @@ def _loudness(part: Part, curve: ControllerCurve) -> Floats:
 
 
 def _steps(curve: ControllerCurve) -> Steps:
-    return _STEPS.get(
-        (curve,), lambda: Steps(np.asarray(curve.ticks, np.float64), np.asarray(curve.values, np.float64))
-    )
+    return _STEPS.step(_arrays, curve)
+
+
+def _arrays(curve: ControllerCurve) -> Steps:
+    return Steps(np.asarray(curve.ticks, np.float64), np.asarray(curve.values, np.float64))
 
 
 def _span(part: Part) -> tuple[float, float] | None:

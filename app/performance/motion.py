@@ -5,18 +5,28 @@ Messages: ``work.stopped`` (of `Cancelled`): "stopped; nothing was written".
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from functools import lru_cache
 
 import numpy as np
 
 from app.errors import Cancelled
 from app.identity_cache import IdentityCache
+from app.motion.danced import BodyLayer
 from app.motion.doubling import Doubling, doubled
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves, prepare
 from app.performance.cast import Performer, performers_of
-from app.performance.ensemble import Performance, changes_of
+from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
+from app.plan.doubling import changes, first_played
+from app.plan.model import PlayerPlan
+from app.plan.parameters import PlayerParameters
+from app.rig.hold import GripPose
+from app.rig.model import Character
+from app.score.metre_map import FeltBeats
+from instrument_maps.model import InstrumentMap
+from metadata.model import Body, Expression
 
 Progress = Callable[[float], None]
 """Called with the share 0..1 that is done."""
@@ -46,20 +56,20 @@ def playing_of(
     all_of = [others.get(one.id, performer) for one in played if one.id in others or one.id == performer.player.id]
     known = {} if old is None else {one.player_id: one for one in old.played}
     alone = [_alone(performance, one, known.get(one.player.id), danced) for one in all_of]
-    keys = (*alone, *(performance.plan(one) for one in played))
-    found = _DOUBLED.get(keys, lambda: doubled(alone, *changes_of(performance, [one.player for one in all_of])))
+    found = _DOUBLED.step(_doubled, *alone)
     return found[[one.player.id for one in all_of].index(performer.player.id)]
+
+
+def _doubled(*alone: PerformanceCurves) -> tuple[Doubling, ...]:
+    plans = {one.player_id: one.plan for one in alone}
+    return doubled(alone, first_played(plans), changes(plans))
 
 
 def _alone(
     performance: Performance, performer: Performer, before: PerformanceCurves | None, danced: bool
 ) -> PerformanceCurves:
     """A player's plan made ready to be seen, as if the musician played nothing else."""
-    player, plan, felt_beats = (
-        performer.player,
-        performance.plan(performer.player),
-        performance.piece.metre_map.felt_beats,
-    )
+    player, plan = performer.player, performance.plan(performer.player)
     instrument, character, hold, body = performer.instrument, performer.character, performer.hold, performer.body
     dance = None
     if danced and player.parameters.choreography:
@@ -67,22 +77,42 @@ def _alone(
         from app.performance.body_dance import layer_of
 
         dance = layer_of(performance, player)
-    keys = (plan, player.parameters, instrument, character, hold, body, performance.expressions, dance)
-    return _PLAYING.get(
-        keys,
-        lambda: prepare(
-            plan,
-            player.parameters,
-            instrument,
-            character,
-            hold,
-            body,
-            felt_beats=felt_beats,
-            expressions=performance.expressions,
-            before=before,
-            dance=dance,
-        ),
+    felt_beats, expressions = _same(performance.piece.metre_map.felt_beats), performance.expressions
+    return _PLAYING.helped(
+        _prepared, before, plan, player.parameters, instrument, character, hold, body, felt_beats, expressions, dance
     )
+
+
+def _prepared(
+    before: PerformanceCurves | None,
+    plan: PlayerPlan,
+    parameters: PlayerParameters,
+    instrument: InstrumentMap,
+    character: Character,
+    hold: GripPose,
+    body: Body,
+    felt_beats: FeltBeats,
+    expressions: Mapping[str, Expression],
+    dance: BodyLayer | None,
+) -> PerformanceCurves:
+    return prepare(
+        plan,
+        parameters,
+        instrument,
+        character,
+        hold,
+        body,
+        felt_beats=felt_beats,
+        expressions=expressions,
+        before=before,
+        dance=dance,
+    )
+
+
+@lru_cache(maxsize=64)
+def _same(felt_beats: FeltBeats) -> FeltBeats:
+    """One object for equal ones."""
+    return felt_beats
 
 
 def player_motion(

@@ -250,10 +250,14 @@ def grips_of(fingerings: tuple[FingeringEvent, ...]) -> tuple[FingeringEvent, ..
     """The fingerings, each that is vented at its attack as two; the very same where none is."""
     if all(event.vent is None for event in fingerings):
         return fingerings
-    return _GRIPS.get((fingerings,), lambda: tuple(grip for event in fingerings for grip in _grips(event)))
+    return _GRIPS.step(_all_grips, fingerings)
 
 
 _GRIPS: Final[IdentityCache[tuple[FingeringEvent, ...]]] = IdentityCache(64)
+
+
+def _all_grips(fingerings: tuple[FingeringEvent, ...]) -> tuple[FingeringEvent, ...]:
+    return tuple(grip for event in fingerings for grip in _grips(event))
 
 
 def _grips(event: FingeringEvent) -> tuple[FingeringEvent, ...]:

@@ -23,7 +23,7 @@ def footprint(instrument: InstrumentMap | None) -> Footprint:
     """The room that a player of an instrument takes; of no one knows which, what a body takes."""
     if instrument is None:
         return Footprint(row=len(vocabulary().seating))
-    return _FOOTPRINTS.get((instrument,), lambda: _footprint(instrument))
+    return _FOOTPRINTS.step(_footprint, instrument)
 
 
 def together(footprints: Iterable[Footprint]) -> Footprint:

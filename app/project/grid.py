@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import msgspec
 
-from app.score.model import Score
+from app.score.metre_map import MetreMap
 
 
 class Grid(msgspec.Struct, frozen=True):
@@ -23,16 +23,16 @@ class Grid(msgspec.Struct, frozen=True):
     quarters: Fraction = Fraction(1, 4)
     enabled: bool = True
 
-    def step_ticks(self, score: Score) -> Fraction:
+    def step_ticks(self, metre_map: MetreMap) -> Fraction:
         """Length of a step in ticks, exact; one tick where the grid is off."""
-        return self.quarters * score.ticks_per_quarter if self.enabled else Fraction(1)
+        return self.quarters * metre_map.ticks_per_quarter if self.enabled else Fraction(1)
 
-    def snap(self, score: Score, tick: float) -> int:
+    def snap(self, metre_map: MetreMap, tick: float) -> int:
         """The nearest line of the grid; bars are lines too, so that no step crosses one."""
         if not self.enabled:
             return round(tick)
-        start, following = score.metre_map.span_of_bar(score.metre_map.bar_of_tick(round(tick)))
-        step = self.step_ticks(score)
+        start, following = metre_map.span_of_bar(metre_map.bar_of_tick(round(tick)))
+        step = self.step_ticks(metre_map)
         below = start + step * ((Fraction(tick) - start) // step)
         lines = (round(below), min(round(below + step), following))
         return min(lines, key=lambda line: (abs(line - tick), line))

@@ -118,7 +118,7 @@ class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True):
     @cached_property
     def played(self) -> Played:
         """What the events mean; a take that is called or cleaned otherwise was played the same."""
-        return _PLAYED.get((self.times_us, self.messages, self.wiring, self.end_us), lambda: played(self))
+        return _PLAYED.step(_played, self.times_us, self.messages, self.wiring, self.end_us)
 
     @property
     def start_tick(self) -> float:
@@ -176,14 +176,14 @@ class Played:
 _PLAYED: Final[IdentityCache[Played]] = IdentityCache(64)
 
 
-def played(take: Take) -> Played:
+def _played(times_us: tuple[int, ...], messages: tuple[str, ...], wiring: ControllerMapping, end_us: int) -> Played:
     """Decode a take; messages that say nothing of notes, breath or lips are passed over."""
     notes: list[tuple[float, float, int, int]] = []
     sounding: dict[int, tuple[float, int]] = {}
     sent: dict[CurveKind, tuple[list[float], list[float]]] = {}
-    for time_us, raw in zip(take.times_us, take.messages, strict=True):
+    for time_us, raw in zip(times_us, messages, strict=True):
         message = decoded(raw)
-        if message is None or not is_wired(message, take.wiring):
+        if message is None or not is_wired(message, wiring):
             continue
         time_s = time_us / 1e6
         kind = message.type
@@ -196,14 +196,14 @@ def played(take: Take) -> Played:
         elif kind == "control_change" and message.control in SILENCING:
             notes += [(onset_s, time_s, pitch, velocity) for pitch, (onset_s, velocity) in sounding.items()]
             sounding.clear()
-        for curve, value in said(message, take.wiring):
+        for curve, value in said(message, wiring):
             times, values = sent.setdefault(curve, ([], []))
             if times and times[-1] == time_s:
                 values[-1] = value
             else:
                 times.append(time_s)
                 values.append(value)
-    end_s = take.end_us / 1e6
+    end_s = end_us / 1e6
     notes += [(onset_s, max(end_s, onset_s), pitch, velocity) for pitch, (onset_s, velocity) in sounding.items()]
     notes.sort()
     columns = np.array(notes, np.float64).reshape(-1, 4)

@@ -133,7 +133,7 @@ class EventSection(Retranslated, QWidget):
         return True
 
     def _show_places(self, first: Placed, made: Placed | None) -> None:
-        grid = float(self._session.grid.step_ticks(self._session.project.score))
+        grid = float(self._session.grid.step_ticks(self._session.project.score.metre_map))
         usual = made if made is not None else first
         for side in ("start", "end"):
             for unit in ("tick", "s"):

@@ -120,7 +120,7 @@ class NoteSection(Retranslated, QWidget):
         title = self.tr("note_section.note") if several == 1 else self.tr("note_section.notes").format(count=several)
         owner = shown.player.name if shown.player is not None else ""
         self._section.header.set_texts(title, owner)
-        grid = self._session.grid.step_ticks(score)
+        grid = self._session.grid.step_ticks(score.metre_map)
         self._numbers["onset"].set_step(float(grid) if grid > 1 else 1.0)
         beat = score.metre_map.beat_length(note.onset_tick)
         values = {

@@ -246,7 +246,9 @@ class Ruler(Retranslated, Strip):
             remove.triggered.connect(lambda: self._remove(mark.kind, mark.tick))
             menu.addSeparator()
         score = self.session.project.score
-        tick = max(self.session.grid.snap(score, score.tempo_map.ticks(self.axis.seconds(place.x() - GUTTER_PX))), 0)
+        tick = max(
+            self.session.grid.snap(score.metre_map, score.tempo_map.ticks(self.axis.seconds(place.x() - GUTTER_PX))), 0
+        )
         bar_tick = max(score.metre_map.tick_of_bar(score.metre_map.bar_of_tick(tick)), 0)
         menu.addAction(self.tr("ruler.add_tempo_here")).triggered.connect(lambda: self.edit_mark("tempo", tick))
         menu.addAction(self.tr("ruler.add_metre_at_this_bar")).triggered.connect(

@@ -209,7 +209,7 @@ def quantise(
     grid, score = Grid(quarters), project.score
 
     def drawn(tick: int) -> int:
-        return round(tick + strength * (grid.snap(score, tick) - tick))
+        return round(tick + strength * (grid.snap(score.metre_map, tick) - tick))
 
     def quantised(note: Note) -> Note:
         onset = drawn(note.onset_tick) if onsets else note.onset_tick

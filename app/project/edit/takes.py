@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any, Final
 
 import msgspec
@@ -32,7 +33,8 @@ from app.project.model import CompSpan, PlayerTakes, Project
 from app.project.names import clean_name
 from app.score.beats import find_beats, tempo_of_beats
 from app.score.clean import Cleaned, cleaned
-from app.score.model import ControllerCurve, Note, Score
+from app.score.metre_map import MetreMap
+from app.score.model import ControllerCurve, Note
 from app.score.take import Cleaning, Take
 
 
@@ -206,7 +208,7 @@ def take_curves(project: Project, player_id: str, take_id: str) -> tuple[Control
     the score or the grid."""
     take = _recorded(project, player_id, take_id).take(take_id)
     placed = _placed(project, player_id, take_id)
-    return _CURVES.get((take, placed), lambda: _curves(take, placed))
+    return _CURVES.step(_curves, take, placed)
 
 
 # A take without a score
@@ -287,12 +289,16 @@ def _source(project: Project, player_id: str, take_id: str) -> tuple[tuple[Note,
 def _placed(project: Project, player_id: str, take_id: str) -> _Placed:
     recorded, score = _recorded(project, player_id, take_id), project.score
     take, before = recorded.take(take_id), recorded.before_notes
-    # The score is another value after every edit; these are what the notes depend on.
-    keys = (take, before, score.metres, score.ticks_per_quarter, score.pickup_ticks)
-    return _PLACED.get(keys, lambda: _place(take, score, before))
+    return _PLACED.step(_place, take, before, _same(score.metre_map))
 
 
-def _place(take: Take, score: Score, before: tuple[Note, ...]) -> _Placed:
+@lru_cache(maxsize=64)
+def _same(metre_map: MetreMap) -> MetreMap:
+    """One object for equal ones: the score has another one after every edit."""
+    return metre_map
+
+
+def _place(take: Take, before: tuple[Note, ...], metre_map: MetreMap) -> _Placed:
     clean = cleaned(take)
     kept = [index for index in clean.kept[:MOST_TAKE_NOTES] if clean.ends_s[index] > 0.0]
     onsets = np.maximum(take.tempo_map.ticks(clean.onsets_s[kept]), 0.0)
@@ -301,9 +307,9 @@ def _place(take: Take, score: Score, before: tuple[Note, ...]) -> _Placed:
     pitches = clean.pitches[kept].tolist()
     played = onsets
     if take.cleaning.align > 0.0:
-        onsets, ends, ids, pitches = _aligned(take.cleaning.align, onsets, ends, ids, pitches, before, score)
+        onsets, ends, ids, pitches = _aligned(take.cleaning.align, onsets, ends, ids, pitches, before, metre_map)
     if take.cleaning.quantise > 0.0:
-        onsets, ends = _quantised(take.cleaning, onsets, ends, score)
+        onsets, ends = _quantised(take.cleaning, onsets, ends, metre_map)
     notes = [
         Note(id, round(onset), max(round(end) - round(onset), 1), pitch, velocity)
         for id, onset, end, pitch, velocity in zip(
@@ -321,11 +327,11 @@ def _aligned(
     ids: list[str],
     pitches: list[int],
     before: tuple[Note, ...],
-    score: Score,
+    metre_map: MetreMap,
 ) -> tuple[Floats, Floats, list[str], list[int]]:
     """Notes drawn to those of the score that they are taken for, which give them pitch and name; others move with
     their neighbours, so that what was played between stays between."""
-    quarter = score.ticks_per_quarter
+    quarter = metre_map.ticks_per_quarter
     order = np.lexsort((np.array(pitches), onsets))
     played = AlignmentPart(
         onsets[order] / quarter, (ends - onsets)[order] / quarter, np.array(pitches, np.int64)[order]
@@ -347,10 +353,10 @@ def _aligned(
     return onsets, onsets + lengths, ids, pitches
 
 
-def _quantised(cleaning: Cleaning, onsets: Floats, ends: Floats, score: Score) -> tuple[Floats, Floats]:
+def _quantised(cleaning: Cleaning, onsets: Floats, ends: Floats, metre_map: MetreMap) -> tuple[Floats, Floats]:
     """Onsets drawn to the grid; where a legato note's successor goes its end goes with it."""
     grid = Grid(Fraction(cleaning.grid_quarters).limit_denominator(960))
-    by = cleaning.quantise * np.array([grid.snap(score, onset) - onset for onset in onsets.tolist()])
+    by = cleaning.quantise * np.array([grid.snap(metre_map, onset) - onset for onset in onsets.tolist()])
     if not len(onsets):
         return onsets, ends
     ends_by = np.interp(ends, onsets, by) if np.all(np.diff(onsets) > 0.0) else by
@@ -454,7 +460,11 @@ def _steps(curve: ControllerCurve | None) -> tuple[npt.NDArray[np.int64], Floats
     """A curve as arrays."""
     if curve is None:
         return np.empty(0, np.int64), np.empty(0)
-    return _STEPS.get((curve,), lambda: (np.array(curve.ticks, np.int64), np.array(curve.values, np.float64)))
+    return _STEPS.step(_arrays, curve)
+
+
+def _arrays(curve: ControllerCurve) -> tuple[npt.NDArray[np.int64], Floats]:
+    return np.array(curve.ticks, np.int64), np.array(curve.values, np.float64)
 
 
 def _held(ticks: npt.NDArray[np.int64], values: Floats, tick: int) -> float:

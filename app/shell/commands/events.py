@@ -57,7 +57,7 @@ def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
     if not found and session.player is not None:
         span = session.selection.span
         if span is None:
-            start = session.grid.snap(session.project.score, _playhead_tick(session))
+            start = session.grid.snap(session.project.score.metre_map, _playhead_tick(session))
             span = (start, start + NEW_BEATS * session.project.metre_map.felt_ticks_at(start))
         found = [(session.player.id, *span)]
     return [(plan, start, end) for player_id, start, end in found if (plan := session.plans.get(player_id)) is not None]

@@ -145,7 +145,7 @@ def duplicate(session: Session) -> None:
     first, end = min(note.onset_tick for note in chosen), max(note.end_tick for note in chosen)
     length = end - first
     if session.grid.enabled:
-        step = session.grid.step_ticks(score)
+        step = session.grid.step_ticks(score.metre_map)
         length = round(-(-length // step) * step)
     _edit_making(
         session, _name("edit.duplicate_notes", ids), lambda project: notes.duplicate(project, ids, length), frozenset()
@@ -273,7 +273,7 @@ def _playhead_tick(session: Session) -> int:
     """The playhead's tick, on the grid's line where it stands on one to the eye."""
     score = session.project.score
     tick = score.tempo_map.ticks(session.playhead_s)
-    snapped = session.grid.snap(score, tick)
+    snapped = session.grid.snap(score.metre_map, tick)
     near_s = abs(score.tempo_map.seconds(float(snapped)) - session.playhead_s)
     return snapped if near_s < 0.5 / float(session.project.fps) else round(tick)
 

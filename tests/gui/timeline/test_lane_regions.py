@@ -150,7 +150,7 @@ def test_an_edge_resizes_and_snaps(panel: TimelinePanel, session: Session) -> No
     after = region_of(lane, breath)
     assert after.end_tick == before.end_tick
     assert after.start_tick < before.start_tick
-    assert after.start_tick == session.grid.snap(session.project.score, after.start_tick)
+    assert after.start_tick == session.grid.snap(session.project.score.metre_map, after.start_tick)
 
 
 def test_a_double_click_adds_a_breath_and_delete_forgets_it(panel: TimelinePanel, session: Session) -> None:

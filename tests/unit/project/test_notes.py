@@ -303,4 +303,4 @@ def test_a_name_that_a_correction_still_waits_for_is_not_given_again() -> None:
 
 
 def test_the_oracles_grid_is_the_documents() -> None:
-    assert Grid(Fraction(1, 3)).snap(project_of().score, 170) == 160
+    assert Grid(Fraction(1, 3)).snap(project_of().score.metre_map, 170) == 160

@@ -56,7 +56,7 @@ class Plane(Protocol):
 
 def snapped(grid: Grid, score: Score, tick: float, free: bool) -> int:
     """The nearest line of the grid; the nearest tick where the hand is free of it."""
-    return round(tick) if free else grid.snap(score, tick)
+    return round(tick) if free else grid.snap(score.metre_map, tick)
 
 
 def moved_edge(start: int, end: int, at_start: bool, tick: int, least: int = 1) -> tuple[int, int]:

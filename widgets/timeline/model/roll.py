@@ -103,9 +103,9 @@ def cell(score: Score, grid: Grid, mouse: LaneMouse) -> tuple[int, int]:
     tick = max(mouse.tick, 0.0)
     if mouse.alt or not grid.enabled:
         return round(tick), length
-    onset = grid.snap(score, tick)
+    onset = grid.snap(score.metre_map, tick)
     if onset > tick:
-        onset = grid.snap(score, max(tick - length / 2, 0.0))
+        onset = grid.snap(score.metre_map, max(tick - length / 2, 0.0))
     return onset, length
 
 

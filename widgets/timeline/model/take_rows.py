@@ -15,7 +15,7 @@ from app.project.edit.takes import BEFORE, recorded_of, take_cleaned, take_notes
 from app.project.model import CompSpan, PlayerTakes, Project
 from app.score.clean import Cleaned, Fault
 from app.score.model import ControllerCurve, Note
-from app.score.take import Take
+from app.score.take import Played, Take
 from app.score.tempo import TempoMap
 from widgets.timeline.model.geometry import Floats, Ints, Spans, Steps
 
@@ -115,7 +115,7 @@ def pitch_range(rows: Sequence[TakeRow]) -> tuple[int, int]:
 def _before(recorded: PlayerTakes, clock: TempoMap) -> TakeRow:
     kept, pitches, ticks = _kept(recorded.before_notes, clock)
     breath = next((curve for curve in recorded.before_curves if curve.kind == "breath"), None)
-    steps = None if breath is None else _BREATH.get((breath, clock), lambda: _drawn_breath(breath, clock))
+    steps = None if breath is None else _BREATH.step(_drawn_breath, breath, clock)
     none = np.empty(0, np.float64)
     return TakeRow(None, kept, pitches, ticks, Spans(none, none), np.empty(0, np.int64), (), steps)
 
@@ -123,15 +123,13 @@ def _before(recorded: PlayerTakes, clock: TempoMap) -> TakeRow:
 def _row(project: Project, player_id: str, take: Take, clock: TempoMap) -> TakeRow:
     kept, pitches, ticks = _kept(take_notes(project, player_id, take.id), clock)
     clean = take_cleaned(project, player_id, take.id)
-    left_out, left_pitches, faults = _LEFT_OUT.get(
-        (clean, take.tempo_map, clock), lambda: _left_out(clean, take.tempo_map, clock)
-    )
-    breath = _BREATH.get((take.played, take.tempo_map, clock), lambda: _played_breath(take, clock))
+    left_out, left_pitches, faults = _LEFT_OUT.step(_left_out, clean, take.tempo_map, clock)
+    breath = _BREATH.step(_played_breath, take.played, take.tempo_map, clock)
     return TakeRow(take, kept, pitches, ticks, left_out, left_pitches, faults, breath)
 
 
 def _kept(notes: tuple[Note, ...], clock: TempoMap) -> tuple[Spans, Ints, Ints]:
-    return _KEPT.get((notes, clock), lambda: _kept_arrays(notes, clock))
+    return _KEPT.step(_kept_arrays, notes, clock)
 
 
 def _kept_arrays(notes: tuple[Note, ...], clock: TempoMap) -> tuple[Spans, Ints, Ints]:
@@ -147,9 +145,9 @@ def _left_out(clean: Cleaned, own: TempoMap, clock: TempoMap) -> tuple[Spans, In
     return spans, clean.pitches[index], tuple(clean.faults[number] for number in index)
 
 
-def _played_breath(take: Take, clock: TempoMap) -> Steps | None:
-    curve = take.played.curves.get("breath")
-    return None if curve is None else Steps(_moved(curve.times_s, take.tempo_map, clock), curve.values)
+def _played_breath(played: Played, own: TempoMap, clock: TempoMap) -> Steps | None:
+    curve = played.curves.get("breath")
+    return None if curve is None else Steps(_moved(curve.times_s, own, clock), curve.values)
 
 
 def _drawn_breath(curve: ControllerCurve, clock: TempoMap) -> Steps:
