@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.motion.body import Layers
-from app.plan.dynamics import grown, vigour_of
+from app.plan.dynamics import grown, mean_around, vigour_of
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.gesture import ARCH, RELEASE
 from app.plan.line import ControllerInput, Steps
@@ -122,3 +122,17 @@ def test_amounts_stay_amounts_and_grow_with_loudness(amount: float, soft: float,
     assert abs(large) <= 1.0 + 1e-9
     assert large * amount >= 0.0
     assert grown(np.array([amount]), np.array([1.0]))[0] == pytest.approx(amount)
+
+
+def test_loudness_around_a_time_is_the_mean_of_what_sounds_there() -> None:
+    rng = np.random.default_rng(1)
+    starts_s = np.cumsum(rng.uniform(0.5, 1.5, 12))
+    lasts_s = np.diff(np.append(starts_s, starts_s[-1] + 1.0)) * rng.uniform(0.3, 1.0, 12)
+    loudness = rng.uniform(0.0, 1.0, 12)
+    around_s = 1.3
+    expected = []
+    for start_s in starts_s:
+        sampled_s = np.arange(start_s - around_s, start_s + around_s, 0.0005)
+        sounding = (sampled_s[:, None] >= starts_s) & (sampled_s[:, None] < starts_s + lasts_s)
+        expected.append((sounding * loudness).sum() / sounding.sum())
+    np.testing.assert_allclose(mean_around(starts_s, lasts_s, loudness, starts_s, around_s), expected, atol=0.002)

@@ -129,3 +129,10 @@ def test_a_breath_in_a_held_note_can_be_removed() -> None:
     first, second = plans(held, held, corrections=(RemoveEvent("within:1:1"),))
     assert within(first) == []
     assert len(within(second)) == 1
+
+
+def test_a_breath_in_a_held_note_is_as_near_its_middle_as_others_allow() -> None:
+    held = [(0, 24 * Q, 62)]
+    first, second = (within(plan) for plan in plans(held, held))
+    assert min(abs(time - 6.0) for time in first + second) <= 0.3
+    assert all(abs(time - 6.0) <= 2.6 for time in first + second)

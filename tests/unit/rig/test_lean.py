@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from app.rig import grip_lean
 from app.rig.character_library import character_named
 from app.rig.grip_beside import leans_beside
-from app.rig.grip_lean import whole_hand
+from app.rig.grip_lean import LEAN_FROM_M, LEAN_WORTH_M, leanings, whole_hand
 from app.rig.hold import HandHold
 from app.rig.hold_file import hold_for
 from app.rig.stations import asked_together
@@ -54,3 +57,25 @@ def test_a_hand_that_no_one_asks_or_that_gives_way_for_no_one_keeps_its_leans(
 ) -> None:
     assert leans_beside(left, np.zeros((0, 3)), ()) == ()
     assert leans_beside(replace(left, leans=()), np.zeros((0, 3)), asked_together(instrument)) == ()
+
+
+@pytest.mark.parametrize(
+    ("missed_m", "leant_m", "leans"),
+    [
+        (LEAN_FROM_M - 1e-6, 0.0, False),
+        (0.004, 0.004 - LEAN_WORTH_M + 1e-6, False),
+        (0.004, 0.004 - LEAN_WORTH_M - 1e-6, True),
+        (0.004, 0.0045, False),
+    ],
+)
+def test_a_hand_gives_way_only_where_that_is_worth_it(
+    monkeypatch: pytest.MonkeyPatch, missed_m: float, leant_m: float, leans: bool
+) -> None:
+    home, there = object(), object()
+    one: Any = SimpleNamespace(number=0, station=there, missed_m=missed_m)
+    problem: Any = SimpleNamespace(stations=[[home, there]])
+    scene: Any = SimpleNamespace(carrier=None)
+    leant = SimpleNamespace(scene=scene, solved=SimpleNamespace(missed_m=leant_m))
+    monkeypatch.setattr(grip_lean, "missed_m", lambda problem, scene, solved: solved.missed_m)
+    monkeypatch.setattr(grip_lean, "_leant", lambda *_: leant)
+    assert leanings(problem, scene, np.zeros(0), [one]) == ((leant,) if leans else ())

@@ -392,6 +392,16 @@ def test_many_computers_are_reached_only_where_that_is_asked_for(host: str) -> N
     assert host in error_text(refused.value)
 
 
+def test_a_name_of_both_kinds_of_address_is_reached_by_the_older(monkeypatch: pytest.MonkeyPatch) -> None:
+    both = [
+        (socket.AF_INET6, socket.SOCK_DGRAM, 17, "", ("::1", 39539, 0, 0)),
+        (socket.AF_INET, socket.SOCK_DGRAM, 17, "", ("127.0.0.1", 39539)),
+    ]
+    monkeypatch.setattr(socket, "getaddrinfo", lambda *_, **__: both)
+    address = find_address("studio", 39539)
+    assert (address.family, address.at) == (socket.AF_INET, ("127.0.0.1", 39539))
+
+
 @pytest.mark.parametrize("host", ["127.0.0.1", "::1", "localhost"])
 def test_one_computer_is_one(host: str) -> None:
     assert not reaches_many(find_address(host, 39539))
