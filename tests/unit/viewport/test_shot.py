@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.editor.viewport_state import VIEWS, View
-from tests.unit.viewport.poses import live, posed_stage, quartet
+from tests.unit.viewport.poses import pose, posed_stage, quartet
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
 from widgets.viewport.shot import Shot, times_looked_at
@@ -19,9 +19,8 @@ ASPECT = 16.0 / 9.0
 
 
 def posed(stage: Stage, times_s: list[float]) -> Iterator[Stage]:
-    ids = [player.id for player in quartet().players]
     for time_s in times_s:
-        stage.pose({player_id: live().pose_now(player_id, time_s) for player_id in ids})
+        stage.pose({player.id: pose(row, time_s) for row, player in enumerate(quartet().players)})
         yield stage
 
 
