@@ -132,7 +132,8 @@ def test_damage_never_escapes(seed: int, tmp_path: Path, capsys: pytest.CaptureF
     chance = random.Random(seed)
     path = tmp_path / "damaged.mid"
     path.write_bytes(damaged(chance.choice(FILES).read_bytes(), chance))
-    status = main(["inspect", str(path)])
+    # Making all motion takes longest; what it is made from is the same.
+    status = main(["inspect", str(path), *(["--no-contacts"] if seed % 4 else [])])
     out, err = capsys.readouterr()
     assert status in (0, 1)
     if status:

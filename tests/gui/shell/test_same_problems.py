@@ -40,6 +40,8 @@ def test_inspect_export_stream_and_editor_report_the_same(
     with playing():
         assert main(["inspect", file, "--json"]) == 0
         inspected = json.loads(capsys.readouterr().out)["warnings"]
+        assert main(["inspect", file, "--json", "--no-contacts"]) == 0
+        without_motion = json.loads(capsys.readouterr().out)["warnings"]
         assert main(["export", file, "--to", str(out), "--format", "bvh"]) == 0
         exported = json.loads((out / "report.json").read_bytes())["warnings"]
         capsys.readouterr()
@@ -61,4 +63,8 @@ def test_inspect_export_stream_and_editor_report_the_same(
         finally:
             generator.close()
     assert exported == inspected
+    only_of_motion = set(inspected) - set(without_motion)
+    assert only_of_motion
+    assert all("hand" in line for line in only_of_motion)
+    assert set(without_motion) < set(inspected)
     assert streamed == ["to look at:", *inspected]

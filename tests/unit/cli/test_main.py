@@ -267,7 +267,9 @@ def test_corrupt_files_end_in_a_sentence(run: Run, path: Path, command: str, tmp
 
 @pytest.mark.parametrize("path", sorted((MIDI / "awkward").glob("*.mid")), ids=lambda path: path.stem)
 def test_awkward_files_open(run: Run, path: Path) -> None:
-    status, out, err = run("inspect", path, "--json")
+    # All motion of ten minutes of an orchestra is not what is asked for here.
+    long = path.stat().st_size > 20_000
+    status, out, err = run("inspect", path, "--json", *(["--no-contacts"] if long else []))
     assert (status, err) == (0, "")
     json.loads(out)
 
