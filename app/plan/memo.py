@@ -3,10 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar, TypeVarTuple
+from itertools import islice
+from typing import Any, NamedTuple, TypeVar, TypeVarTuple
 
 T = TypeVar("T")
 Inputs = TypeVarTuple("Inputs")
+
+
+class _Done(NamedTuple):
+    """A step that was done: its inputs, its result, and the names of the steps within it."""
+
+    inputs: tuple[object, ...]
+    result: Any
+    within: tuple[str, ...]
 
 
 class Memo:
@@ -21,8 +30,8 @@ class Memo:
     """
 
     def __init__(self, before: Memo | None = None) -> None:
-        self._before: dict[str, tuple[tuple[object, ...], Any]] = {} if before is None else before._steps
-        self._steps: dict[str, tuple[tuple[object, ...], Any]] = {}
+        self._before: dict[str, _Done] = {} if before is None else before._steps
+        self._steps: dict[str, _Done] = {}
 
     def step(self, name: str, function: Callable[[*Inputs], T], *inputs: *Inputs) -> T:
         """``function(*inputs)``: the result before where the inputs are equal, or where the new one equals it.
@@ -42,20 +51,23 @@ class Memo:
         """The same of a step that can use its result in the run before, whatever the inputs were: to save work, since
         the result must be the one it makes from None."""
         known = self._before.get(name)
-        return self._step(name, function, inputs, (None if known is None else known[1],))
+        return self._step(name, function, inputs, (None if known is None else known.result,))
 
     def _step(self, name: str, function: Callable[..., T], inputs: tuple[object, ...], given: tuple[object, ...]) -> T:
         if getattr(function, "__closure__", None):
             raise TypeError(f"step {name!r} reads more than its arguments")
         known = self._before.get(name)
-        if known is not None and _equal(known[0], inputs):
+        if known is not None and _equal(known.inputs, inputs):
             # The inputs of the run before: equal ones that are the same objects are distinguished from others at once.
             self._steps[name] = known
-            return known[1]  # type: ignore[no-any-return]
-        result = function(*given, *inputs)
-        if known is not None and known[1] == result:
-            result = known[1]
-        self._steps[name] = (inputs, result)
+            # What was done within it is needed where the next run has other inputs.
+            self._steps.update((inner, self._before[inner]) for inner in known.within)
+            return known.result  # type: ignore[no-any-return]
+        count = len(self._steps)
+        result: T = function(*given, *inputs)
+        if known is not None and known.result == result:
+            result = known.result
+        self._steps[name] = _Done(inputs, result, tuple(islice(self._steps, count, None)))
         return result
 
     def close(self) -> None:

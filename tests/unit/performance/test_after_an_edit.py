@@ -21,9 +21,9 @@ def performance() -> Performance:
     return made
 
 
-def raised(project: Project, semitones: int = 1) -> Project:
-    """One note of the first player a semitone higher, or more."""
-    part = project.part(project.players[0])
+def raised(project: Project, semitones: int = 1, row: int = 0) -> Project:
+    """One note of a player a semitone higher, or more."""
+    part = project.part(project.players[row])
     notes = tuple(
         msgspec.structs.replace(note, pitch=note.pitch + semitones) if index == 200 else note
         for index, note in enumerate(part.notes)
@@ -48,6 +48,16 @@ def test_stretches_that_an_edit_left_alone_are_not_searched_again(performance: P
 def test_a_semitone_changes_no_breath_and_no_cue(performance: Performance) -> None:
     player = performance.project.players[0]
     edited = Performance(raised(performance.project), performance)
+    assert edited.plan(player).breaths is performance.plan(player).breaths
+    assert edited.plan(player).cues is performance.plan(player).cues
+
+
+def test_what_an_edit_of_another_player_left_alone_is_known_at_the_next_edit(performance: Performance) -> None:
+    player = performance.project.players[1]
+    between = Performance(raised(performance.project), performance)
+    assert between.plan(player) is performance.plan(player)
+    edited = Performance(raised(between.project, row=1), between)
+    assert edited.plan(player).fingerings is not performance.plan(player).fingerings
     assert edited.plan(player).breaths is performance.plan(player).breaths
     assert edited.plan(player).cues is performance.plan(player).cues
 

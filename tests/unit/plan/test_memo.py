@@ -73,3 +73,18 @@ def test_runs_do_not_hold_one_another() -> None:
     second.close()
     assert second.step("a", sign, -1) == (False, True)
     assert second._before == {}
+
+
+def outermost(memo: Memo, value: int, name: str) -> tuple[tuple[int, int], str]:
+    return memo.nested("outer", doubled, value), name
+
+
+def test_steps_within_a_step_that_was_taken_over_are_known_in_the_run_after() -> None:
+    first = Memo()
+    made = first.nested("outermost", outermost, 1000, "a")
+    second = Memo(first)
+    assert second.nested("outermost", outermost, 1000, "a") is made
+    third = Memo(second)
+    again, _ = third.nested("outermost", outermost, 1000, "b")
+    assert again is made[0]
+    assert DONE == [(1000, "inner")]
