@@ -53,16 +53,23 @@ def end_at_once(number: int, frame: FrameType | None) -> None:
 
 def run(arguments: Sequence[str]) -> int:
     """Run with these arguments (without the program's own name) and return the exit status."""
+    from pathlib import Path
+
     from app.cli import main as command_line
     from app.cli import parser
     from app.cli.display import example_hint, why_no_display
     from app.cli.status import BAD_USE, NO_DISPLAY
     from app.cli.terminal import warn
+    from app.errors import Message
+    from app.messages import text
 
     requested = list(arguments)
     if not requested or requested[0].lower().endswith(OPENED):
         requested.insert(0, "edit")
     if requested[0] != "edit":
+        if Path(requested[0]).suffix and not requested[0].startswith("-"):
+            warn(text(Message("file.cannot_open", {"file": requested[0], "kinds": ", ".join(OPENED)})))
+            return BAD_USE
         return command_line(requested)
     try:
         parsed = parser().parse_args(requested)

@@ -16,7 +16,7 @@ Argument: TypeAlias = str | int | float | bool
 
 
 class Message(msgspec.Struct, frozen=True, gc=False):
-    """Something to tell the user: a warning, a reason, a problem.
+    """Something to report to the user: a warning, a reason, a problem.
 
     Attributes
     ----------

@@ -87,7 +87,7 @@ class Synthesiser:
         return piece
 
     def forget(self, used: Iterable[Phrase]) -> frozenset[bytes]:
-        """Let go of the oldest sounds that no one uses, until what is to be rendered has room.
+        """Let go of the oldest unused sounds, until what is to be rendered has room.
 
         Returns
         -------

@@ -1,4 +1,4 @@
-"""What the editor and its recorder tell one another: commands one way, news the other, each after its length."""
+"""What the editor and its recorder send one another: commands one way, news the other, each after its length."""
 
 from __future__ import annotations
 

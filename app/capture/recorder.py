@@ -71,7 +71,7 @@ class Recorder:
 
     Parameters
     ----------
-    news : SimpleQueue of News or Heard
+    news : SimpleQueue of News or StampedMessage
         What is put into it is sent.
     journal : SimpleQueue
         What is put into it is written.

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from app.stream.vmc import Sent
 
 _USUAL_RATE: Final = Fraction(60)
-_TELL_S: Final = 1.0
+_REPORT_S: Final = 1.0
 
 
 def add_command(commands: Commands) -> None:
@@ -231,7 +231,7 @@ def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: 
         for streamed, sender in zip(cast, senders, strict=True):
             inaudible = sender.send(streamed.datagrams(frame, now_s - began_s)) is Outcome.NO_RECEIVER or inaudible
         sent += 1
-        if now_s - sounding_s >= _TELL_S:
+        if now_s - sounding_s >= _REPORT_S:
             if inaudible and sys.stderr.isatty():
                 say("no receiver there yet", stream=sys.stderr)
             sounding_s, inaudible = now_s, False

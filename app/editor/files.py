@@ -63,7 +63,7 @@ class Files(QObject):
     missing(Path)
         The recording of the project that was just opened is not where it was.
     silent(Path)
-        A MIDI file was opened in which no one plays or dances.
+        A MIDI file was opened without players and dancers.
     overtaken(Path, Then or None)
         The project was not saved: its file was changed outside since it was opened. `save_over` would replace that.
     """

@@ -18,7 +18,7 @@ QUIET_MS = 250
 
 
 class FolderWatch(QObject):
-    """Tells when something in a folder changes.
+    """Reports when something in a folder changes.
 
     Parameters
     ----------

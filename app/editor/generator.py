@@ -30,13 +30,13 @@ AT_ONCE_NOTES = 2500
 """So many notes are planned within the time of two pictures ..."""
 AT_ONCE_S = 0.1
 """... unless they turn out to cost more of the processor than this: many players, or what no musician writes."""
-TOLD_NOTES = 6000
+REPORTED_NOTES = 6000
 """So many take long enough that the user sees how far it is, and may stop it."""
 SWITCH_S = 0.001
 """The window gets the interpreter back from the worker within this time."""
-TELL_S = 0.04
-"""The window is reported of other poses at the playhead at once, but no more often than this ..."""
-TELL_READY_S = 0.25
+REPORT_S = 0.04
+"""Other poses at the playhead are reported to the window at once, but no more often than this ..."""
+REPORT_READY_S = 0.25
 """... and of how much is made this often."""
 GIVE_WAY = 3.0
 """Where the window or another thread worked too while something was made that no one waits for, the worker rests so
@@ -44,7 +44,7 @@ many times as long as that took: two threads of Python hold each other up far mo
 OTHERS_S = 0.0005
 """Less than this is no work: timers."""
 MOST_REST_S = 0.1
-TELL_BROKEN_S = 0.5
+REPORT_BROKEN_S = 0.5
 """Of contacts that are found broken while much is made, this often: every list of problems shows them anew."""
 REST_WHILE_JUDGING = 3.0
 """Contacts of motion that there is no room to keep are judged while nothing plays, resting this many times as long as
@@ -148,7 +148,7 @@ class Generator(QObject):
             self._hold_reported(performance)
         self._asked += 1
         notes = performance.unplanned_notes
-        if notes > TOLD_NOTES:
+        if notes > REPORTED_NOTES:
             self._worker.drop()
             self._plan_reported(performance)
         elif notes > AT_ONCE_NOTES or self._worker.planning:
@@ -384,10 +384,10 @@ class _Worker:
             self._judging = True
         awaited = not self._live.is_seen
         self._report_broken(now_s, not more)
-        if self._live.seen != self._reported_seen and (now_s - self._reported_seen_s >= TELL_S or not awaited):
+        if self._live.seen != self._reported_seen and (now_s - self._reported_seen_s >= REPORT_S or not awaited):
             self._reported_seen, self._reported_seen_s = self._live.seen, now_s
             self._report(lambda generator: generator.motion_changed.emit())
-        if now_s - self._reported_s >= TELL_READY_S or not more:
+        if now_s - self._reported_s >= REPORT_READY_S or not more:
             self._reported_s = now_s
             self._report(partial(Generator._worked, ready=self._live.ready_share))
         if self._playing:
@@ -421,6 +421,6 @@ class _Worker:
 
     def _report_broken(self, now_s: float, at_once: bool) -> None:
         broken = self._live.broken
-        if broken is not self._reported_broken and (at_once or now_s - self._reported_broken_s >= TELL_BROKEN_S):
+        if broken is not self._reported_broken and (at_once or now_s - self._reported_broken_s >= REPORT_BROKEN_S):
             self._reported_broken, self._reported_broken_s = broken, now_s
             self._report(lambda generator: generator._session.set_broken(broken))

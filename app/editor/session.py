@@ -344,7 +344,7 @@ class Session(QObject):
             self.folded_changed.emit()
 
     def notice(self, message: Message, severity: Severity = Severity.INFORMATION) -> None:
-        """Tell the user something, in the status line."""
+        """Show a message in the status line."""
         self.noticed.emit(message, severity)
 
     def reveal(self, time_s: float) -> None:

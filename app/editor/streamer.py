@@ -41,7 +41,7 @@ SETTLED_S: Final = 0.5
 """So long after the last movement frames are sent at their full rate: receivers smooth what they get."""
 RETRY_S: Final = 2.0
 """After nothing could be sent."""
-TELL_S: Final = 0.5
+REPORT_S: Final = 0.5
 """How often is reported how it goes."""
 ALONE_S: Final = 1.0
 """A window that says nothing of where the sound is for so long hangs: nothing goes on without it."""
@@ -70,7 +70,7 @@ class Streamer(QObject):
         """What the address was, or is, looked up from, and whether it may be that of many computers."""
         self._thread: _Thread | None = None
         self._ending: weakref.finalize[[], Streamer] | None = None
-        """Closes the thread, also where no one says good-bye."""
+        """Closes the thread, also where the owner does not."""
         self._restore()
         self._settled = self._wished()
         self._state.changed.connect(self._changed)
@@ -336,7 +336,7 @@ class _Thread:
         return time.perf_counter() - moved_s > SETTLED_S
 
     def _send(self, request: _Request, time_s: float, now_s: float) -> bool:
-        """Everybody's pose of now; whether no one listens anywhere."""
+        """The present poses of all players; whether no receiver answers."""
         for port in self._senders.keys() - set(request.ports):
             self._senders.pop(port).close()
         everything = [*(one.id for one in request.performers), *(one.id for played in request.beside for one in played)]
@@ -374,7 +374,7 @@ class _Thread:
         return known[1]
 
     def _report(self, now_s: float, no_receiver: bool) -> None:
-        if now_s - self._reported_s < TELL_S:
+        if now_s - self._reported_s < REPORT_S:
             return
         self._reported_s = now_s
         while self._frames and now_s - self._frames[0] > _SECOND_S:

@@ -14,7 +14,7 @@ from app.stream.faces import FaceNames
 from app.stream.sender import LOOPBACK, MOST_PORT, PORT
 
 StreamState = Literal["off", "looking", "sending", "no_receiver", "failed"]
-"""Nothing is sent; the computer is looked up; it is sent; it is sent, but no one listens; nothing can be sent."""
+"""Nothing is sent; the computer is looked up; it is sent; it is sent, but no receiver answers; nothing can be sent."""
 
 RATES_HZ: Final = (24, 30, 60, 90)
 USUAL_RATE_HZ: Final = 60

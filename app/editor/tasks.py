@@ -109,7 +109,7 @@ class ThreadTasks(QObject):
 
     @property
     def running(self) -> tuple[Task, ...]:
-        """Work that no one stopped, oldest first."""
+        """Work that was not stopped, oldest first."""
         return tuple(task for task in self._running if not task.stop.is_set())
 
     @property

@@ -164,7 +164,7 @@ class StageReport(msgspec.Struct, frozen=True):
 
 
 class UnplayedPart(msgspec.Struct, frozen=True):
-    """A part of the file that no one plays, and why."""
+    """A part of the file without a player, and why."""
 
     name: str
     reason: str

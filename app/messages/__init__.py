@@ -34,6 +34,7 @@ from app.messages import (
     work,
 )
 from app.messages.pitches import pitch_name
+from app.messages.touches import touch_name
 
 LANGUAGES: Final = {"en": "English", "ja": "日本語"}
 """By code: the name in the language itself; the wordings are in this order."""
@@ -111,6 +112,8 @@ def text(message: Message, language: str = "en") -> str:
     arguments = dict(message.arguments)
     for name in PITCHES.get(message.id, ()):
         arguments[name] = pitch_name(float(arguments[name]))
+    if "touch" in arguments:
+        arguments["touch"] = touch_name(str(arguments["touch"]), language)
     for name in TEXTS & arguments.keys():
         arguments[name] = WORDINGS.get(str(arguments[name]), (arguments[name],) * len(LANGUAGES))[place]
     return filled(WORDINGS[message.id][place], arguments)

@@ -5,6 +5,11 @@ from __future__ import annotations
 from typing import Final
 
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
+    "file.cannot_open": (
+        "{file} is neither a command nor a project or MIDI file ({kinds}); 'suisou --help' lists the commands",
+        "{file} はコマンドでも、プロジェクトや MIDI のファイル（{kinds}）でもありません。"
+        "コマンドは 'suisou --help' で確認できます",
+    ),
     "file.cannot_read": ("{file} cannot be read: {reason}", "{file} を読み込めません: {reason}"),
     "file.cannot_write": ("{file} cannot be written: {reason}", "{file} に書き込めません: {reason}"),
     "file.not_regular": (

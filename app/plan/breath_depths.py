@@ -30,7 +30,7 @@ def with_depths(
         if not event.corrected:
             index = index_of[event.id.split(":", 1)[1]]
             until = breaths[bisect_right(breaths, index)]
-            # Within a note no one knows what the rest of it needs: there the time says it.
+            # What the rest of a note needs is not known within it: there the time says it.
             need = 1.0 if is_within(event) else (used_s[until] - used_s[index]) / lung_s
             most = 1.0 if event.kind == "preparation" else drawn(event.end_s - event.start_s)
             depth = min(max(LEAST_DEPTH + (1.0 - LEAST_DEPTH) * need, LEAST_DEPTH), max(most, LEAST_DEPTH), 1.0)

@@ -11,7 +11,7 @@ from app.plan.line import IntArray, LineTimes, Piece
 from app.plan.model import FloatArray
 
 WRITTEN_SHARE = 0.9
-"""Where so many notes lie on fractions of a quarter, no one played them into the file ..."""
+"""Where so many notes lie on fractions of a quarter, they were not played into the file ..."""
 PLAYED_LEAST = 4
 """... nor where fewer than this lie elsewhere."""
 DIVISIONS = ((1,), (2,), (3, 4), (6, 8), (12,))

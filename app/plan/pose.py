@@ -42,7 +42,7 @@ ELBOW_DEG = (-25.0, 45.0)
 GENTLE_RAD_S2 = 40.0
 """However short a fade was asked for, nothing is turned with more than this acceleration."""
 LEAST_FADE_S = 0.15
-TOLD_DEG = 1.0
+REPORTED_DEG = 1.0
 """An angle this much beyond what a body does is reported."""
 
 _PEAK = 10.0 / math.sqrt(3.0)
@@ -64,7 +64,7 @@ def plan_poses(
         for angle, (low, high) in pose_limits(item.target, instrument, parameters, body).items():
             asked = float(getattr(item, angle))
             held[angle] = min(max(asked, low), high)
-            if abs(asked - held[angle]) > TOLD_DEG:
+            if abs(asked - held[angle]) > REPORTED_DEG:
                 arguments: dict[str, Argument] = {
                     "target": item.target,
                     "angle": angle.removesuffix("_deg"),

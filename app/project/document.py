@@ -78,7 +78,7 @@ class Document:
         return tuple(self._undone)
 
     def observe(self, observer: Observer) -> Callable[[], None]:
-        """Tell this observer of every change from now on; the result ends that."""
+        """Report every change to this observer from now on; the result ends that."""
         self._observers.append(observer)
         return lambda: self._observers.remove(observer)
 

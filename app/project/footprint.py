@@ -20,7 +20,7 @@ _FOOTPRINTS: IdentityCache[Footprint] = IdentityCache(128)
 
 
 def footprint(instrument: InstrumentMap | None) -> Footprint:
-    """The room that a player of an instrument takes; of no one knows which, what a body takes."""
+    """The room that a player of an instrument takes; of an unknown one, what a body takes."""
     if instrument is None:
         return Footprint(row=len(vocabulary().seating))
     return _FOOTPRINTS.step(_footprint, instrument)

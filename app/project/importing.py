@@ -47,7 +47,7 @@ class ImportWish(msgspec.Struct, frozen=True):
 
 
 def usual_rows(contents: MidiContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
-    """A row for every track, as it would be imported if no one said anything."""
+    """A row for every track, as it is imported by default."""
     played = {assignment.streams[0] for assignment in usual_wishes(contents.streams, map_choices(maps.values()))}
     return tuple(ImportRow(PartAssignment((index,)), index in played) for index in range(len(contents.streams)))
 

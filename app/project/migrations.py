@@ -21,7 +21,7 @@ VERSION_KEY: Final = "schema_version"
 
 
 def _with_transpositions(raw: Raw) -> Raw:
-    """2 to 3: how a part that the file has in written pitches was transposed; no one could say so before."""
+    """2 to 3: how a part that the file has in written pitches was transposed; it could not be set before."""
     parts = [{**part, "transposed_semitones": 0} for part in raw["score"]["parts"]]
     return {**raw, "score": {**raw["score"], "parts": parts}}
 
@@ -51,7 +51,7 @@ def _with_parameters(raw: Raw, version: int) -> Raw:
 
 
 STRUCTURE: Final[Mapping[int, Migration]] = {
-    # What the MIDI file held is kept; of an older file no one knows.
+    # What the MIDI file held is kept; of an older file it is unknown.
     2: lambda raw: {**raw, "edited_notes": {}},
     3: _with_transpositions,
     4: lambda raw: {**raw, "takes": {}},

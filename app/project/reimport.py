@@ -333,7 +333,7 @@ def _kinship(one: Part, other: Part) -> float:
 
 
 def _held_by_file(project: Project, part: Part) -> tuple[Note, ...]:
-    """The notes of a part as the file had them; those that it did not have, or of which no one knows, as they are."""
+    """The notes of a part as the file had them; those that it did not have, or that are unknown, as they are."""
     read = project.read_notes.get(part.id)
     if not read:
         return part.notes

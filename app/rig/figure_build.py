@@ -52,7 +52,7 @@ class Nodes:
     other : collection of int
         Nodes that are no bones even below one: meshes, cameras, lights.
     skipped : collection of int
-        The file's own root, which no one sees.
+        The file's own root, which is not shown.
     """
 
     names: Sequence[str]
@@ -225,7 +225,7 @@ def _at_rest(part: Part, above: Sequence[int]) -> Mesh:
     weights = np.maximum(mesh.weights.astype(np.float64), 0.0)
     total = weights.sum(axis=1)
     bones = np.array([max(above[node], 0) for node in part.nodes], dtype=np.int32)
-    # A vertex that nothing moves goes with the bone all others hang from: no one meant it to be left behind.
+    # A vertex that nothing moves goes with the bone all others hang from, so that it is not left behind.
     weights[total <= 0.0] = np.eye(1, weights.shape[1])
     weights /= weights.sum(axis=1, keepdims=True)
     joints = np.where(total[:, None] > 0.0, mesh.joints, int(np.argmin(bones)))

@@ -165,7 +165,7 @@ def _carried(
 
 
 def _hands(character: Character) -> float:
-    """How large the hands are; of supplied ones, which no one sees, how long the arms are."""
+    """How large the hands are; of supplied ones, which are not shown, how long the arms are."""
     skeleton, own = character.skeleton, character.own
     if own is not None and any(
         own.bone_of_joint[skeleton.index(f"{side}MiddleDistal")] < 0 for side in ("left", "right")

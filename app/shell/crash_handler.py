@@ -34,7 +34,7 @@ def log_path() -> Path:
 
 
 class CrashHandler:
-    """The one place where an exception that no one expected ends.
+    """The one place where an unexpected exception ends.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class CrashHandler:
         self._ask = window_calls().ask
 
     def install(self) -> None:
-        """Receive every exception that no one caught. In the window's thread."""
+        """Receive every uncaught exception. In the window's thread."""
         sys.excepthook = self._uncaught
         threading.excepthook = self._uncaught_in_thread
 
@@ -73,7 +73,7 @@ class CrashHandler:
         text = "".join(traceback.format_exception(error))
         sys.stderr.write(text)
         if self._telling:
-            # A fault of telling: once is enough.
+            # A fault of reporting: once is enough.
             return
         self._telling = True
         try:

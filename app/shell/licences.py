@@ -44,7 +44,7 @@ class Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Package(msgspec.Struct, frozen=True):
-    """An installed package; its licence is empty where no one says it."""
+    """An installed package; its licence is empty where unknown."""
 
     name: str
     version: str

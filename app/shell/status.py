@@ -214,7 +214,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._instruments.setToolTip(reported + "\n\n" + self.tr("status_line.show_instruments"))
 
     def _report_device(self) -> None:
-        """Which device is recorded from, and whether it is there; nothing where no one has one."""
+        """Which device is recorded from, and whether it is there; nothing where there is none."""
         recording, tokens = self._session.recording, self._session.tokens
         reported = (recording.port, recording.connection, bool(recording.ports), tokens.name)
         if reported == self._reported_device:

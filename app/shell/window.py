@@ -55,7 +55,7 @@ NARROW_PX: Final = 1060
 DOCKED: Final = ("players", "inspector", "timeline", "recording")
 """Panels beside the viewport."""
 _REASONS: Final = 4
-"""Where no one plays, so many reasons are shown."""
+"""At most so many reasons are shown why no part is played."""
 
 
 class Window(Retranslated, QMainWindow):

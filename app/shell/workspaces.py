@@ -252,7 +252,7 @@ class Workspaces(QObject):
         self._setting = False
 
     def _size(self, workspace: Workspace) -> None:
-        """As large as panels are in a window of this size where no one said otherwise."""
+        """As large as panels are in a window of this size by default."""
         window, low = self._window, self._window.height() < SHORT_PX
         whole = {"always": True, "never": False, "if_high": not low, "if_low": low}
         left = LEFT if whole[workspace.left_whole] else BOTTOM

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.editor.session import Session
 from app.editor.tokens import DARK
+from app.performance.ensemble import Performance
 from app.project.model import Project, map_choices, project_from_score
 from app.score.read import read_midi
 from app.shell.language import Language
@@ -20,11 +21,14 @@ from app.shell.theme import apply_theme
 from instrument_maps.load import bundled_maps
 from tests.support.tasks import ImmediateTasks
 from widgets.common.font import apply_font
+from widgets.viewport import canvas
 
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
 
 # A worker that triggers the collection would destroy widgets in its own thread: here it happens between tests alone.
 gc.disable()
+# Smooth edges take the processor a third of the time in which it draws.
+canvas.SAMPLES = 0
 # Before the application is made: the viewport's context survives docking and floating.
 QCoreApplication.setAttribute(Qt.ApplicationAttribute.AA_ShareOpenGLContexts)
 
@@ -34,6 +38,19 @@ def quartet_project() -> Project:
     """The bundled quartet, read once; values never change."""
     maps = bundled_maps()
     return project_from_score(read_midi(QUARTET, maps=map_choices(maps.values())), maps)
+
+
+@cache
+def _planned_quartet() -> Performance:
+    performance = Performance(quartet_project())
+    performance.prepare()
+    return performance
+
+
+@pytest.fixture(autouse=True)
+def _plans_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Plans of the bundled quartet are made once for all tests: editors know it as if they had played it before."""
+    monkeypatch.setattr("app.editor.session.Performance", lambda project: Performance(project, _planned_quartet()))
 
 
 @pytest.fixture(scope="session")

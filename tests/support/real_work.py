@@ -17,7 +17,7 @@ import numpy as np
 import soundfile
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLineEdit, QPushButton, QWidget
+from PySide6.QtWidgets import QApplication, QComboBox, QLineEdit, QPushButton, QSpinBox, QWidget
 
 from app.audio.mix import mixdown
 from app.editor.session import Severity
@@ -334,6 +334,11 @@ def recover_and_export(folder: Path) -> None:
     where = dialog.findChild(QLineEdit, "export_folder")
     assert where is not None
     where.setText(str(folder / "out"))
+    bars, last_bar = dialog.findChild(QComboBox, "export_range"), dialog.findChild(QSpinBox, "export_last_bar")
+    assert bars is not None
+    assert last_bar is not None
+    bars.setCurrentIndex(1)
+    last_bar.setValue(16)
     QTest.mouseClick(dialog.findChild(QPushButton, "export_start"), Qt.MouseButton.LeftButton)
     work.until(lambda: (folder / "out" / "report.json").exists(), "the export")
     QTest.qWait(300)

@@ -12,7 +12,9 @@ from pathlib import Path
 import pytest
 
 from app.errors import Message
-from app.messages import WORDINGS, text
+from app.messages import LANGUAGES, WORDINGS, text
+from app.messages.touches import touch_name
+from instrument_maps.model import PARTS
 
 ROOT = Path(__file__).parents[2]
 FOLDERS = ("app", "widgets", "instrument_maps", "metadata")
@@ -147,3 +149,14 @@ def test_no_template_counts_one_of_many() -> None:
         if "count" in fields(template):
             arguments = dict.fromkeys(fields(template), 2) | {"count": 1}
             assert not re.search(r"\b1 (?!ms\b)\w+s\b", text(Message(id, arguments))), id
+
+
+def test_every_part_that_touches_has_a_name_in_both_languages() -> None:
+    for language in LANGUAGES:
+        names = [touch_name(part, language) for part in sorted(PARTS)]
+        assert len(set(names)) == len(PARTS)
+        assert not any("." in name for name in names)
+    message = Message("contact.grip_off", {"touch": "left.index.side_proximal", "gap_mm": 3})
+    assert text(message).startswith("the side of the proximal phalanx of the left index finger")
+    assert "左手の人差し指の基節の側面" in text(message, "ja")
+    assert touch_name("left.paw", "en") == "left.paw"

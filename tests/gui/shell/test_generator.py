@@ -180,7 +180,7 @@ def test_what_is_requested_ends_the_rest(generator: Generator) -> None:
     worker._rest(60.0, requests)
 
 
-@pytest.mark.parametrize("most", ["AT_ONCE_NOTES", "TOLD_NOTES", "AT_ONCE_S"])
+@pytest.mark.parametrize("most", ["AT_ONCE_NOTES", "REPORTED_NOTES", "AT_ONCE_S"])
 def test_plans_that_take_longer_come_from_a_thread(
     session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, most: str
 ) -> None:
@@ -189,8 +189,8 @@ def test_plans_that_take_longer_come_from_a_thread(
         monkeypatch.setattr(module, "AT_ONCE_S", -1.0)
     else:
         monkeypatch.setattr(module, "AT_ONCE_NOTES", 1)
-    if most == "TOLD_NOTES":
-        monkeypatch.setattr(module, "TOLD_NOTES", 2)
+    if most == "REPORTED_NOTES":
+        monkeypatch.setattr(module, "REPORTED_NOTES", 2)
     tasks = ThreadTasks()
     generator = Generator(session, tasks)
     try:

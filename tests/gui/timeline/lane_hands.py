@@ -28,7 +28,7 @@ def planned(session: Session) -> None:
     """Let plans follow the project at once."""
 
     def follow(change: Change) -> None:
-        performance = Performance(change.after)
+        performance = Performance(change.after, session.performance)
         assert performance.plans is not None
         session.set_performance(performance)
 

@@ -39,7 +39,7 @@ def test_plans_after_edits_are_those_of_a_fresh_performance(data: st.DataObject)
 
 
 @given(st.data())
-@settings(CALM, max_examples=25)
+@settings(CALM, max_examples=15)
 def test_the_motion_shown_after_edits_is_that_of_the_newest_performance(data: st.DataObject) -> None:
     project = piece()
     performance = Performance(project)

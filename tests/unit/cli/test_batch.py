@@ -65,7 +65,7 @@ def test_one_bad_file_stops_nothing_and_is_tried_again(
 
 def test_what_stopped_in_the_middle_goes_on(pieces: Path, tmp_path: Path) -> None:
     (pieces / "bad.mid").unlink()
-    for index in range(4):
+    for index in range(2):
         shutil.copy(QUARTET, pieces / f"piece {index}.mid")
     out = tmp_path / "out"
     command = [sys.executable, "-m", "app", "export", str(pieces), "--to", str(out), "--jobs", "1", *SHORT]
@@ -78,14 +78,14 @@ def test_what_stopped_in_the_middle_goes_on(pieces: Path, tmp_path: Path) -> Non
     assert running.returncode == STOPPED
     assert "the same command goes on" in printed
     done = {piece for piece, result in results(printed).items() if result == "exported"}
-    assert 1 <= len(done) < 6
+    assert 1 <= len(done) < 4
     # Nothing half-written stays.
     assert len([path for path in out.rglob("*") if path.is_file()]) == 1 + 3 * len(done)
 
     finished = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     again = results(finished.stdout)
     assert {piece for piece, result in again.items() if result == "up to date"} == done
-    assert len(again) == 6
+    assert len(again) == 4
 
 
 def test_where_all_pieces_are_bad(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -12,7 +12,7 @@ import pytest
 from app.__main__ import run
 from app.cli import parser
 from app.cli.display import why_no_display
-from app.cli.status import NO_DISPLAY
+from app.cli.status import BAD_USE, NO_DISPLAY
 
 
 def test_no_variable_no_display() -> None:
@@ -59,3 +59,8 @@ def test_without_a_file_and_a_display_the_example_is_offered(
     assert parsed.file.is_file()
     assert run(["edit", "mine.mid"]) == NO_DISPLAY
     assert capsys.readouterr().err == "suisou: no display here\n"
+
+
+def test_a_file_that_is_no_piece_is_refused_by_its_name(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["song.wav"]) == BAD_USE
+    assert "song.wav is neither a command nor a project or MIDI file" in capsys.readouterr().err

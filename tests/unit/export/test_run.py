@@ -294,8 +294,10 @@ def test_quick_readers_agree(folder: Path, report: dict[str, Any]) -> None:
 
 
 @pytest.mark.readers
-@pytest.mark.parametrize("reader", readers.SLOW_FBX)
-@pytest.mark.parametrize("name", ["Trumpet 1", "Trombone 2_trombone_tenor_F_attachment"])
+@pytest.mark.parametrize(
+    ("reader", "name"),
+    [("blender", "Trumpet 1"), *((reader, "Trombone 2_trombone_tenor_F_attachment") for reader in readers.SLOW_FBX)],
+)
 def test_slow_readers_agree(folder: Path, report: dict[str, Any], reader: str, name: str) -> None:
     if not readers.installed(reader):
         pytest.skip(f"{reader} is not installed")
