@@ -19,12 +19,13 @@ from app.contacts.distance_field import DistanceField
 from app.contacts.hand_poses import (
     Carried,
     IntArray,
-    PartMoves,
     Parts,
+    Placed,
     Poses,
     SingleArray,
     carried,
     joints_in_node,
+    steadiest,
 )
 from app.rig.skinning import Skin
 from instrument_maps.model import Proxy
@@ -38,7 +39,7 @@ GROUP = 8
 """Vertices per group, about."""
 STRETCH = 1.3
 """How much further from its middle than in the bind pose a vertex of a group may come when the hand bends."""
-STILL_M = 0.003
+STILL_M = 0.006
 """A group that moves less within a block is judged vertex by vertex."""
 _ROUNDING_M = np.float32(1e-6)
 """More than two ways of placing a vertex in single precision differ."""
@@ -87,8 +88,9 @@ class HandDepths:
         frames = len(world_from_joint)
         if not frames or not self._nodes:
             return np.zeros(frames) if least_m is None else least_m
+        sizes = [size for size in BLOCKS if size <= frames]
         # Whole blocks: the last frame is repeated.
-        padded = np.minimum(np.arange(-(-frames // BLOCKS[0]) * BLOCKS[0]), frames - 1)
+        padded = np.minimum(np.arange(-(-frames // sizes[0]) * sizes[0]), frames - 1)
         depths_m = np.zeros(len(padded), dtype=np.float32)
         if least_m is not None:
             depths_m[:] = least_m[padded]
@@ -96,8 +98,8 @@ class HandDepths:
         joints = world_from_joint[:, self._hand.joints, :3].transpose(0, 2, 1, 3).astype(np.float32, order="C")[padded]
         nodes = [world_from_node[node][padded] for node in self._nodes]
         search = _Search(self._hand, self._groups, self._field, joints, weights, nodes)
-        search.begin(depths_m.reshape(-1, BLOCKS[0]))
-        for size in BLOCKS:
+        search.begin(sizes[0], depths_m.reshape(-1, sizes[0]))
+        for size in sizes:
             search.judge_roughly(size, depths_m.reshape(-1, size))
             search.judge_exactly(depths_m.reshape(-1, size))
             if not search.open:
@@ -107,30 +109,47 @@ class HandDepths:
 
 @dataclass(frozen=True, eq=False)
 class _Pairs:
-    """Blocks (N,), the nodes (N,) whose bodies are judged, and what may be deepest in them: vertices (N,), or groups of
-    them (N,)."""
+    """What may be deepest in blocks, and in the bodies of which nodes.
+
+    Attributes
+    ----------
+    blocks, items : (S,) int
+        Vertices, or groups of them, in blocks: each is placed once for all nodes that it is near.
+    spots, nodes : (N,) int
+        Which of these is near which node.
+    """
 
     blocks: IntArray
-    nodes: IntArray
     items: IntArray
+    spots: IntArray
+    nodes: IntArray
 
     def __len__(self) -> int:
-        return len(self.blocks)
+        return len(self.spots)
 
     def __getitem__(self, rows: npt.NDArray[np.bool_]) -> _Pairs:
-        return _Pairs(self.blocks[rows], self.nodes[rows], self.items[rows])
+        spots = self.spots[rows]
+        used = np.zeros(len(self.blocks), dtype=bool)
+        used[spots] = True
+        return _Pairs(self.blocks[used], self.items[used], (np.cumsum(used) - 1)[spots], self.nodes[rows])
 
     def __add__(self, other: _Pairs) -> _Pairs:
-        both = ((self.blocks, other.blocks), (self.nodes, other.nodes), (self.items, other.items))
+        spots = other.spots + len(self.blocks)
+        both = ((self.blocks, other.blocks), (self.items, other.items), (self.spots, spots), (self.nodes, other.nodes))
         return _Pairs(*map(np.concatenate, both))
+
+    def of_blocks(self, values: SingleArray) -> SingleArray:
+        """Values (B,) of blocks as those of the pairs (N,)."""
+        found: SingleArray = values[self.blocks][self.spots]
+        return found
 
     def split(self, parts: int) -> _Pairs:
         """The same in each of the parts of the blocks."""
-        blocks = self.blocks[:, None] * parts + np.arange(parts)
-        return _Pairs(blocks.ravel(), np.repeat(self.nodes, parts), np.repeat(self.items, parts))
+        blocks, spots = ((values[:, None] * parts + np.arange(parts)).ravel() for values in (self.blocks, self.spots))
+        return _Pairs(blocks, np.repeat(self.items, parts), spots, np.repeat(self.nodes, parts))
 
 
-_NONE = _Pairs(*np.zeros((3, 0), dtype=np.intp))
+_NONE = _Pairs(*np.zeros((4, 0), dtype=np.intp))
 
 
 class _Search:
@@ -145,7 +164,7 @@ class _Search:
     morphs : dict of str to (F,) float32
         Weights.
     world_from_node : list of (F, 4, 4) float64
-        By node. Of hand and nodes all that moves is judged in the frame of the first.
+        By node. Of hand and nodes all that moves is judged in the frame of the one on which the hand is steadiest.
     """
 
     def __init__(
@@ -159,38 +178,27 @@ class _Search:
     ) -> None:
         self._hand, self._groups, self._field = hand, groups, field
         self._world_from_joint, self._morphs, self._world_from_node = world_from_joint, morphs, world_from_node
-        self._poses = Poses(hand, joints_in_node(world_from_node[0], world_from_joint), morphs)
-        self._parts = Parts(world_from_node)
-        self._size = BLOCKS[0]
+        base = steadiest(world_from_node, world_from_joint)
+        self._poses = Poses(hand, joints_in_node(world_from_node[base], world_from_joint), morphs)
+        self._parts = Parts(world_from_node, base, field.reaches_m)
+        self._moved = self._parts.moves(1)
         self._grouped = self._single = _NONE
-        self._distances_m = self._moves_m = np.zeros(0, dtype=np.float32)
-        self._places_m = np.zeros((0, 3), dtype=np.float32)
 
     @property
     def open(self) -> bool:
         """Whether anything may still be deepest."""
         return len(self._grouped) + len(self._single) > 0
 
-    def begin(self, depths_m: SingleArray) -> None:
+    def begin(self, size: int, depths_m: SingleArray) -> None:
         """Find the groups that come near the boxes around the bodies of each node; parameters as of
-        `judge_roughly`, for blocks of the first size."""
+        `judge_roughly`."""
+        self._moved = self._parts.moves(size)
         blocks, groups = np.mgrid[: len(depths_m), : len(self._groups.middles)].reshape(2, -1)
-        moves, parts = self._poses.moves(self._size, np.arange(len(depths_m))), self._parts.moves(self._size)
-        frames, vertices = blocks * self._size + self._size // 2, self._groups.middles[groups]
-        places_m = self._poses.places_m(frames, vertices)
-        reach_m = moves.most_m(blocks, vertices) + self._groups.radii_m[groups] + _ROUNDING_M
-        least_m = depths_m.min(axis=1)[blocks]
-        found = [_NONE]
-        for node in range(len(self._world_from_node)):
-            nodes = np.full(len(blocks), node)
-            there_m = self._parts.places_m(frames, nodes, places_m)
-            near = reach_m + parts.most_m(blocks, nodes, there_m) - self._field.beyond_m(there_m, node) > least_m
-            found.append(_Pairs(blocks[near], nodes[near], groups[near]))
-        self._grouped = _Pairs(
-            np.concatenate([some.blocks for some in found]),
-            np.concatenate([some.nodes for some in found]),
-            np.concatenate([some.items for some in found]),
-        )
+        spots, nodes = np.mgrid[: len(blocks), : len(self._world_from_node)].reshape(2, -1)
+        pairs = _Pairs(blocks, groups, spots, nodes)
+        placed = self._placed(pairs, self._groups.middles[groups])
+        least_m = placed.least_m(self._field.beyond_m(placed.places_m, nodes)) - self._groups.radii_m[groups][spots]
+        self._grouped = pairs[-least_m > pairs.of_blocks(depths_m.min(axis=1))]
 
     def judge_roughly(self, size: int, depths_m: SingleArray) -> None:
         """Judge by the grids, block by block.
@@ -202,60 +210,63 @@ class _Search:
         depths_m : (B, size) float32
             How deep something is at least: raised by what is found.
         """
-        grouped, single = (pairs.split(self._size // size) for pairs in (self._grouped, self._single))
-        self._size = size
-        parts = self._parts.moves(size)
-        middles = _Pairs(grouped.blocks, grouped.nodes, self._groups.middles[grouped.items])
-        _, about_m, moves_m = self._rough(middles, parts, depths_m)
-        near = moves_m + self._groups.radii_m[grouped.items] - about_m > depths_m.min(axis=1)[grouped.blocks]
-        still = moves_m < STILL_M
+        grouped, single = (pairs.split(self._moved.size // size) for pairs in (self._grouped, self._single))
+        if size != self._moved.size:
+            self._moved = self._parts.moves(size)
+        least_m, placed = self._rough(grouped, self._groups.middles[grouped.items], depths_m)
+        least_m -= self._groups.radii_m[grouped.items][grouped.spots]
+        near, still = -least_m > grouped.of_blocks(depths_m.min(axis=1)), placed.moves_m < STILL_M
         self._grouped = grouped[near & ~still]
         single += self._groups.vertices(grouped[near & still])
-        self._places_m, self._distances_m, self._moves_m = self._rough(single, parts, depths_m)
-        self._single = single
+        least_m, placed = self._rough(single, single.items, depths_m)
+        near = -least_m > single.of_blocks(depths_m.min(axis=1))
+        self._single, self._singly = single[near], placed[near]
 
     def judge_exactly(self, depths_m: SingleArray) -> None:
         """Judge what may still be deepest after `judge_roughly`; parameters as there."""
-        near = self._moves_m - self._distances_m > depths_m.min(axis=1)[self._single.blocks]
-        pairs, moves_m, places_m = self._single[near], self._moves_m[near], self._places_m[near]
-        if self._size == 1:
-            places_m, moves_m = self._placed_m(pairs), np.zeros(len(pairs), dtype=np.float32)
+        pairs, places_m, moves_m = self._single, self._singly.places_m, self._singly.moves_m
+        if self._moved.size == 1:
+            places_m, moves_m = self._exactly_m(pairs), np.zeros_like(moves_m)
         distances_m = self._field.distances_m(places_m.astype(np.float64), pairs.nodes).astype(np.float32)
-        _raise(depths_m, pairs.blocks, -distances_m - moves_m)
-        self._single = pairs[moves_m - distances_m > depths_m.min(axis=1)[pairs.blocks]]
+        _raise(depths_m, pairs, -distances_m - moves_m)
+        self._single = pairs[moves_m - distances_m > pairs.of_blocks(depths_m.min(axis=1))]
 
-    def _placed_m(self, pairs: _Pairs) -> SingleArray:
-        """Places (N, 3) of vertices at single frames in the frames of their nodes, without the first one's detour."""
+    def _exactly_m(self, pairs: _Pairs) -> SingleArray:
+        """Places (N, 3) of vertices at single frames in the frames of their nodes, without the steadiest one's
+        detour."""
         places_m = np.empty((len(pairs), 3), dtype=np.float32)
-        for node, world_from_node in enumerate(self._world_from_node):
+        blocks, vertices = pairs.blocks[pairs.spots], pairs.items[pairs.spots]
+        for node in np.unique(pairs.nodes).tolist():
             rows = np.flatnonzero(pairs.nodes == node)
-            frames, at = np.unique(pairs.blocks[rows], return_inverse=True)
-            local = joints_in_node(world_from_node[frames], self._world_from_joint[frames])
+            frames, at = np.unique(blocks[rows], return_inverse=True)
+            local = joints_in_node(self._world_from_node[node][frames], self._world_from_joint[frames])
             morphs = {name: curve[frames] for name, curve in self._morphs.items()}
-            places_m[rows] = Poses(self._hand, local, morphs).places_m(at, pairs.items[rows])
+            places_m[rows] = Poses(self._hand, local, morphs).places_m(at, vertices[rows])
         return places_m
 
-    def _rough(
-        self, pairs: _Pairs, parts: PartMoves, depths_m: SingleArray
-    ) -> tuple[SingleArray, SingleArray, SingleArray]:
-        """Places of vertices in the middle frames, their least distances there, and how far they move."""
-        there = np.zeros(len(depths_m), dtype=bool)
-        there[pairs.blocks] = True
-        frames = pairs.blocks * self._size + self._size // 2
-        places_m = self._parts.places_m(frames, pairs.nodes, self._poses.places_m(frames, pairs.items))
-        moves_m = parts.most_m(pairs.blocks, pairs.nodes, places_m) + _ROUNDING_M
-        if self._size > 1:
-            moves = self._poses.moves(self._size, np.flatnonzero(there))
-            moves_m += moves.most_m((np.cumsum(there) - 1)[pairs.blocks], pairs.items)
-        about_m, error_m = self._field.about_m(places_m, pairs.nodes), np.float32(self._field.error_m)
-        _raise(depths_m, pairs.blocks, -about_m - error_m - moves_m)
-        return places_m, about_m - error_m, moves_m
+    def _placed(self, pairs: _Pairs, vertices: IntArray) -> Placed:
+        """Vertices (S,) of what is near nodes, in these nodes' frames in the middle of the blocks."""
+        size, spots = self._moved.size, pairs.spots
+        middles = pairs.blocks * size + size // 2
+        places_m, moves_m = self._poses.places_m(middles, vertices), np.full(len(vertices), _ROUNDING_M)
+        if size > 1:
+            there, at = np.unique(pairs.blocks, return_inverse=True)
+            moves_m += self._poses.moves(size, there).most_m(at, vertices)
+        return self._moved.placed(pairs.blocks[spots], pairs.nodes, places_m[spots], moves_m[spots])
+
+    def _rough(self, pairs: _Pairs, vertices: IntArray, depths_m: SingleArray) -> tuple[SingleArray, Placed]:
+        """Distances (N,) of vertices (S,) in all frames of the blocks, or less, by the grids."""
+        placed = self._placed(pairs, vertices)
+        about_m, error_m = self._field.about_m(placed.places_m, pairs.nodes)
+        _raise(depths_m, pairs, -about_m - error_m - placed.moves_m)
+        return placed.least_m(about_m - error_m), placed
 
 
-def _raise(depths_m: SingleArray, blocks: IntArray, found_m: SingleArray) -> None:
-    """Raise the least depths (B, size) of blocks to what was found (N,) in some of them (N,)."""
+def _raise(depths_m: SingleArray, pairs: _Pairs, found_m: SingleArray) -> None:
+    """Raise the least depths (B, size) of blocks to what was found (N,) in some of them."""
+    rows = np.flatnonzero(found_m > 0.0)
     deepest_m = np.zeros(len(depths_m), dtype=np.float32)
-    np.maximum.at(deepest_m, blocks, found_m)
+    np.maximum.at(deepest_m, pairs.blocks[pairs.spots[rows]], found_m[rows])
     np.maximum(depths_m, deepest_m[:, None], out=depths_m)
 
 
@@ -281,7 +292,11 @@ class _Groups:
         """The vertices of groups, in the same blocks."""
         members = self.members[grouped.items]
         row, _ = there = np.nonzero(members >= 0)
-        return _Pairs(grouped.blocks[row], grouped.nodes[row], members[there])
+        counts = np.bincount(row, minlength=len(members))
+        first, many = (np.cumsum(counts) - counts)[grouped.spots], counts[grouped.spots]
+        pair = np.repeat(np.arange(len(grouped)), many)
+        within = np.arange(len(pair)) - (np.cumsum(many) - many)[pair]
+        return _Pairs(grouped.blocks[row], members[there], first[pair] + within, grouped.nodes[pair])
 
 
 def _groups(skin: Skin) -> _Groups:

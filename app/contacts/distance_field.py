@@ -27,6 +27,8 @@ FAR_M = 0.04
 """More is not distinguished on the grid."""
 
 _BRICK_M = BRICK_CELLS * CELL_M
+_EDGE = 1e-3
+"""Of a cell, at the end of a grid."""
 _HALF_DIAGONAL = math.sqrt(3.0) / 2.0
 
 
@@ -40,11 +42,9 @@ class DistanceField:
 
     Attributes
     ----------
-    error_m : float
-        How much `about_m` may be off: a distance changes by no more than a point moves.
+    reaches_m : (N,) float64
+        How far from its origin each node has anything.
     """
-
-    error_m = _HALF_DIAGONAL * CELL_M
 
     def __init__(self, bodies_by_node: Sequence[Sequence[Proxy]]) -> None:
         names = [some[0].node for some in bodies_by_node]
@@ -55,6 +55,8 @@ class DistanceField:
         high_m = np.maximum(hulls[:, :3], hulls[:, 3:6]) + hulls[:, 6:]
         self._low_m = np.array([low_m[own].min(axis=0) for own in self._own])
         self._high_m = np.array([high_m[own].max(axis=0) for own in self._own])
+        ends_m = np.maximum(*(np.linalg.norm(hulls[:, at : at + 3], axis=1) for at in (0, 3))) + hulls[:, 6]
+        self.reaches_m = np.array([ends_m[own].max() for own in self._own])
         self._corners_m = self._low_m - FAR_M
         self._shapes = np.ceil((self._high_m + FAR_M - self._corners_m) / _BRICK_M).astype(np.int32)
         ends = np.cumsum(self._shapes.prod(axis=1, dtype=np.int64)).astype(np.int32)
@@ -67,21 +69,25 @@ class DistanceField:
         """By brick: the bodies that a point in it may be near."""
         self._lock = Lock()
 
-    def about_m(self, points_m: SingleArray, nodes: IntArray) -> SingleArray:
-        """Distance (N,) of points (N, 3) in the frames of nodes (N,), at most `FAR_M`, give or take `error_m`."""
+    def about_m(self, points_m: SingleArray, nodes: IntArray) -> tuple[SingleArray, SingleArray]:
+        """Distance (N,) of points (N, 3) in the frames of nodes (N,), at most `FAR_M`, and how much each may be off:
+        a distance changes by no more than a point moves."""
         corners_m = self._corners_m.astype(np.float32).T.take(nodes, axis=1)
-        cells = self._inside((points_m.T - corners_m) / np.float32(CELL_M), nodes, BRICK_CELLS)
+        inside = self._inside((points_m.T - corners_m) / np.float32(CELL_M), nodes, BRICK_CELLS)
+        cells = inside.astype(np.int32)
         places = cells // BRICK_CELLS
         x, y, z = cells - places * BRICK_CELLS
         brick = self._bricks(places, nodes)
         cell = ((brick * BRICK_CELLS + x) * BRICK_CELLS + y) * BRICK_CELLS + z
         found: SingleArray = self._about_m.reshape(-1).take(cell)
-        return found
+        inside -= cells
+        inside -= np.float32(0.5)
+        return found, np.sqrt(np.einsum("in,in->n", inside, inside)) * np.float32(CELL_M)
 
-    def beyond_m(self, points_m: SingleArray, node: int) -> SingleArray:
-        """How far points (N, 3) in the frame of a node are outside the box around its bodies: (N,), the distance or
-        less. Inside the box it is minus infinity."""
-        low_m, high_m = self._low_m[node].astype(np.float32), self._high_m[node].astype(np.float32)
+    def beyond_m(self, points_m: SingleArray, nodes: IntArray) -> SingleArray:
+        """How far points (N, 3) in the frames of nodes (N,) are outside the boxes around their bodies: (N,), the
+        distance or less. Inside a box it is minus infinity."""
+        low_m, high_m = self._low_m.astype(np.float32)[nodes], self._high_m.astype(np.float32)[nodes]
         outside_m = np.maximum(np.maximum(low_m - points_m, points_m - high_m), np.float32(0.0))
         found: SingleArray = np.sqrt(np.einsum("ni,ni->n", outside_m, outside_m))
         return np.where(found > 0.0, found, np.float32(-np.inf))
@@ -89,7 +95,9 @@ class DistanceField:
     def distances_m(self, points_m: npt.NDArray[np.floating], nodes: IntArray) -> npt.NDArray[np.floating]:
         """Distance (N,) of points (N, 3) in the frames of nodes (N,), at most `NEAR_M`."""
         result = np.full(len(points_m), NEAR_M, dtype=points_m.dtype)
-        places = self._inside((points_m.T - self._corners_m.T.take(nodes, axis=1)) / _BRICK_M, nodes, 1)
+        places = self._inside((points_m.T - self._corners_m.T.take(nodes, axis=1)) / _BRICK_M, nodes, 1).astype(
+            np.int32
+        )
         bodies_of = [self._touching[index] for index in self._bricks(places, nodes).tolist()]
         counts = np.fromiter(map(len, bodies_of), dtype=np.intp, count=len(bodies_of))
         if counts.any():
@@ -97,13 +105,13 @@ class DistanceField:
             np.minimum.at(result, point, distances(self._bodies, points_m[point], np.concatenate(bodies_of)))
         return result
 
-    def _inside(self, scaled: npt.NDArray[np.floating], nodes: IntArray, parts: int) -> npt.NDArray[np.int32]:
-        """Whole numbers (3, N) within the nodes' grids, of so many parts of a brick. What is beyond a grid is taken for
+    def _inside(self, scaled: npt.NDArray[np.floating], nodes: IntArray, parts: int) -> npt.NDArray[np.floating]:
+        """Numbers (3, N) within the nodes' grids, of so many parts of a brick. What is beyond a grid is taken for
         something at its edge: nothing is near that."""
         scaled = np.ascontiguousarray(np.maximum(scaled, 0.0))
         # Compared before they are whole numbers, which hold less.
-        np.minimum(scaled, (self._shapes.T * parts - 1).astype(scaled.dtype).take(nodes, axis=1), out=scaled)
-        return scaled.astype(np.int32)
+        np.minimum(scaled, (self._shapes.T * parts - _EDGE).astype(scaled.dtype).take(nodes, axis=1), out=scaled)
+        return scaled
 
     def _bricks(self, places: npt.NDArray[np.int32], nodes: IntArray) -> npt.NDArray[np.int32]:
         """Numbers (N,) of the bricks at places (3, N) of nodes (N,), computed where they have not been."""

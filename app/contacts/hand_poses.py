@@ -157,41 +157,51 @@ class Moves:
         return result
 
 
+def steadiest(world_from_node: Sequence[FloatArray], world_from_joint: SingleArray) -> int:
+    """The node (each (F, 4, 4)) in whose frame the middle of some joints (F, 3, J, 4) moves least."""
+    middle_m = world_from_joint[..., 3].mean(axis=2, dtype=np.float64)
+    ways_m = []
+    for here in world_from_node:
+        local_m = np.einsum("fji,fj->fi", here[:, :3, :3], middle_m - here[:, :3, 3])
+        ways_m.append(np.abs(np.diff(local_m, axis=0)).sum())
+    return int(np.argmin(ways_m))
+
+
 class Parts:
-    """Where the nodes of an instrument are in the frame of the first of them.
+    """Where the nodes of an instrument are in the frame of one of them.
 
     Parameters
     ----------
     world_from_node : sequence of (F, 4, 4) float64
         By node.
+    base : int
+        That node.
+    reaches_m : (N,) float64
+        How far from its origin a node has anything.
     """
 
-    def __init__(self, world_from_node: Sequence[FloatArray]) -> None:
-        first = world_from_node[0]
-        node_from_first = np.empty((len(world_from_node), len(first), 3, 4), dtype=np.float32)
+    def __init__(self, world_from_node: Sequence[FloatArray], base: int, reaches_m: FloatArray) -> None:
+        first = world_from_node[base]
+        node_from_base = np.empty((len(world_from_node), len(first), 3, 4), dtype=np.float32)
         for node, here in enumerate(world_from_node):
             back = here[:, :3, :3].transpose(0, 2, 1)
-            node_from_first[node, ..., :3] = back @ first[:, :3, :3]
-            node_from_first[node, ..., 3] = np.einsum("fij,fj->fi", back, first[:, :3, 3] - here[:, :3, 3])
-        self._node_from_first = node_from_first
-
-    def places_m(self, frames: IntArray, nodes: IntArray, first_m: SingleArray) -> SingleArray:
-        """Points (N, 3), placed in the frame of the first node, in the frames of nodes (N,) at frames (N,)."""
-        matrix = self._node_from_first[nodes, frames]
-        placed: SingleArray = np.einsum("nij,nj->ni", matrix[..., :3], first_m) + matrix[..., 3]
-        return placed
+            node_from_base[node, ..., :3] = back @ first[:, :3, :3]
+            node_from_base[node, ..., 3] = np.einsum("fij,fj->fi", back, first[:, :3, 3] - here[:, :3, 3])
+        self._node_from_base = node_from_base
+        self._reaches_m = reaches_m.astype(np.float32)
 
     def moves(self, size: int) -> PartMoves:
         """How far nodes move from the middle frames of blocks of a size."""
-        nodes, frames = self._node_from_first.shape[:2]
-        placed = self._node_from_first.reshape(nodes, frames // size, size, 3, 4)
+        nodes, frames = self._node_from_base.shape[:2]
+        placed = self._node_from_base.reshape(nodes, frames // size, size, 3, 4)
         middle = placed[:, :, size // 2]
+        if size == 1:
+            still = np.zeros(middle.shape[:2], dtype=np.float32)
+            return PartMoves(size, middle, still, still, self._reaches_m)
         origin_m = -np.einsum("nbji,nbj->nbi", middle[..., :3], middle[..., 3])
-        shifts_m = np.einsum("nbsij,nbj->nbsi", placed[..., :3], origin_m) + placed[..., 3]
-        return PartMoves(
-            chords=_chords(placed[..., :3] - middle[:, :, None, :, :3]).max(axis=2),
-            shifts_m=_lengths(shifts_m).max(axis=2),
-        )
+        shifts_m = _lengths(np.einsum("nbsij,nbj->nbsi", placed[..., :3], origin_m) + placed[..., 3])
+        chords = _chords(placed[..., :3] - middle[:, :, None, :, :3])
+        return PartMoves(size, middle, chords.max(axis=2), shifts_m.max(axis=2), self._reaches_m)
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,20 +210,73 @@ class PartMoves:
 
     Attributes
     ----------
+    size : int
+        Frames of a block.
+    node_from_base : (N, B, 3, 4) float32
+        In the middle frames.
     chords : (N, B) float32
         What is 1 from a node's origin is moved by its turning by no more.
     shifts_m : (N, B) float32
         Of the origins themselves.
+    reaches_m : (N,) float32
+        How far from its origin a node has anything.
     """
 
+    size: int
+    node_from_base: SingleArray
     chords: SingleArray
     shifts_m: SingleArray
+    reaches_m: SingleArray
 
-    def most_m(self, blocks: IntArray, nodes: IntArray, places_m: SingleArray) -> SingleArray:
-        """What points (N, 3) in the frames of nodes (N,) in the middle of blocks (N,) move there at most, while they
-        stay where they are in the frame of the first node."""
-        found: SingleArray = self.shifts_m[nodes, blocks] + self.chords[nodes, blocks] * _lengths(places_m)
-        return found
+    def placed(self, blocks: IntArray, nodes: IntArray, base_m: SingleArray, moves_m: SingleArray) -> Placed:
+        """Place points in the frames of nodes (N,) in the middle of blocks (N,).
+
+        Parameters
+        ----------
+        base_m : (N, 3) float32
+            Points in the frame of the base.
+        moves_m : (N,) float32
+            How far they move there within their block.
+        """
+        at = nodes * self.chords.shape[1] + blocks
+        matrix = self.node_from_base.reshape(-1, 3, 4).take(at, axis=0)
+        places_m = np.einsum("nij,nj->ni", matrix[..., :3], base_m) + matrix[..., 3]
+        lengths_m, reaches_m = _lengths(places_m), self.reaches_m.take(nodes)
+        # However far a point is, its distance changes by no more than what the node has moves.
+        turns_m = self.chords.reshape(-1).take(at) * np.minimum(lengths_m, reaches_m)
+        return Placed(places_m, moves_m + self.shifts_m.reshape(-1).take(at), turns_m, lengths_m - reaches_m)
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """Points in the frames of nodes in the middle of blocks, and what their distances change within.
+
+    Attributes
+    ----------
+    places_m : (N, 3) float32
+    shifts_m, turns_m : (N,) float32
+        How much the distance from the node's bodies changes at most: by shifts, and by the node's turning.
+    beyond_m : (N,) float32
+        How far the point is beyond the node's reach, however that turns.
+    """
+
+    places_m: SingleArray
+    shifts_m: SingleArray
+    turns_m: SingleArray
+    beyond_m: SingleArray
+
+    def __getitem__(self, rows: npt.NDArray[np.bool_]) -> Placed:
+        return Placed(self.places_m[rows], self.shifts_m[rows], self.turns_m[rows], self.beyond_m[rows])
+
+    @property
+    def moves_m(self) -> SingleArray:
+        """How much the distance changes within the block at most."""
+        return self.shifts_m + self.turns_m
+
+    def least_m(self, middle_m: SingleArray) -> SingleArray:
+        """Distances (N,) in the whole block, or less, of distances in its middle, or less."""
+        least_m: SingleArray = np.maximum(middle_m - self.turns_m, self.beyond_m) - self.shifts_m
+        return least_m
 
 
 def _chords(changes: SingleArray) -> SingleArray:

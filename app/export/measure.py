@@ -50,7 +50,7 @@ TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
 
 _CHUNK = 1024
-_SAMPLED = 16
+_SAMPLED = 64
 _TORSO = ("hips", "neck")
 _SOLES = ("left.foot.sole", "right.foot.sole")
 _HANDS = ("left.hand", "right.hand")
