@@ -157,7 +157,13 @@ def measure_player(
     blowing = sounding & ~notes.within((event.start_s, event.end_s) for event in plan.breaths)
     inhaling = notes.within((event.start_s, event.end_s) for event in plan.breaths if event.kind == "breath")
     joints = JointPlayback(player, target or normalised_target(character.skeleton), character)
-    found = _read(joints, held, character, instrument, sounding, progress)
+    of_joints: list[tuple[JointMeasure, JointMeasure]] = []
+
+    def judge_joints() -> None:
+        of_joints.append(measure_joints(joints, body, profile, fps))
+
+    found = _read(joints, held, character, instrument, sounding, judge_joints, progress)
+    ((limits, acceleration),) = of_joints
     traces = found.traces
     values = _control_values(instrument, held) | hole_values(instrument, traces)
     judge = TouchJudge(instrument, traces, values, notes)
@@ -165,7 +171,6 @@ def measure_player(
         (contact, Spread.of(judge.gap_m(index)[judge.asked(index)], bound_mm(contact)))
         for index, contact in enumerate(instrument.contacts)
     ]
-    limits, acceleration = measure_joints(joints, body, profile, fps)
     lips_m, upper_lip_m = traces.lips_m(instrument), traces.upper_lip_m(instrument, blowing)
     measures = PlayerMeasures(
         sounding_frames=int(sounding.sum()),
@@ -212,9 +217,10 @@ def _read(
     character: Character,
     instrument: InstrumentMap,
     sounding: BoolArray,
+    beside: Callable[[], None],
     progress: Callable[[float], None],
 ) -> _Read:
-    """One walk over all frames, a chunk at a time."""
+    """One walk over all frames, a chunk at a time, while something else is done beside it."""
     player = joints.playback
     frames = player.clip.frames
     requested = {contact.part for contact in instrument.contacts} | {*_SOLES, LIPS, UPPER_LIP}
@@ -264,9 +270,10 @@ def _read(
                 least_m = hand.depths_m(world[::step], faces, parts, least_m)
             depth_m[begin:end:step] = least_m
 
-    spans = [slice(first, min(first + _CHUNK, frames)) for first in range(0, frames, _CHUNK)]
+    spans = (slice(first, min(first + _CHUNK, frames)) for first in range(0, frames, _CHUNK))
+    tasks: list[Callable[[], None]] = [beside, *(partial(read, span) for span in spans)]
     done = itertools.count(1)
-    in_threads([partial(read, span) for span in spans], lambda index: progress(next(done) / len(spans)))
+    in_threads(tasks, lambda index: progress(next(done) / len(tasks)))
     return _Read(Traces(landmarks, nodes), torso, deviation_m, depth_m)
 
 

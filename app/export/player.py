@@ -18,7 +18,7 @@ from app.export.bone_names import profile_names
 from app.export.character import character_scene
 from app.export.equip import socket_names
 from app.export.file_names import figure_stems, file_names, sound_name
-from app.export.formats import FILE_FORMATS, FileContent, WriteOptions
+from app.export.formats import FILE_FORMATS, FileContent, FileFormat, Format, WriteOptions
 from app.export.instrument import instrument_scene
 from app.export.keyed import KeyCount, key_count, keyed_character, keyed_instrument
 from app.export.measure import Measured, measure_player
@@ -90,10 +90,17 @@ def export_player(
     keys = key_count(*scenes.values())
     beside = write_options(request, performer.character, target)
     problems: dict[str, tuple[Problem, ...]] = {}
+    written: dict[FileContent, Scene] = {}
+
+    def write(name: Format, kind: FileFormat, held: FileContent) -> None:
+        path = folder / files[f"{held}_{name}"]
+        kind.write(path, scenes[held], beside)
+        if name == "fbx":
+            # Read back at once, while other files are written.
+            written[held] = read_scene(path)
+
     writing = [(name, kind, held) for name, kind in requested.items() for held in kind.holds]
-    writers = [
-        partial(kind.write, folder / files[f"{held}_{name}"], scenes[held], beside) for name, kind, held in writing
-    ]
+    writers = [partial(write, *one) for one in writing]
     shares = [kind.work / len(kind.holds) for _, kind, _ in writing] + [0.0]
     done = [_MOTION_WORK]
 
@@ -103,13 +110,14 @@ def export_player(
 
     tasks = [*writers, partial(_judge, problems, performance, performer, motion)]
     in_threads(tasks, finished)
-    del motion, scenes, writers, tasks  # the files are measured, not what they were made from
+    scenes.clear()
+    del motion, writers, tasks  # the files are measured, not what they were made from
     _, found = changes_of(performance, [one.player for one in (performer, *doubles)])
     changing = tuple((change.start_s, change.end_s) for change in found)
-    judging = _Judging(request, target, folder, files.get("character_fbx"), changing)
+    judging = _Judging(request, target, changing)
     sockets = socket_names(target) or ("",) * (1 + len(doubles))
     measured = judging.measured(
-        performer, files, sockets[0], lambda share: reported((sum(done) + _MEASURES_WORK * share) / work)
+        performer, written, sockets[0], lambda share: reported((sum(done) + _MEASURES_WORK * share) / work)
     )
     reports = []
     for index, double in enumerate(doubles, 1):
@@ -131,7 +139,13 @@ def export_player(
                 kind.write(folder / own_files[f"instrument_{name}"], scene, beside)
         _judge(problems, performance, double, motion)
         del motion, scene
-        own = judging.measured(double, own_files, sockets[index], measuring)
+        if "fbx" in requested:
+            own_fbx: dict[FileContent, str] = {
+                "character": files["character_fbx"],
+                "instrument": own_files["instrument_fbx"],
+            }
+            written = {held: read_scene(folder / name) for held, name in own_fbx.items()}
+        own = judging.measured(double, written, sockets[index], measuring)
         reports.append(DoubleReport(**_reported(request, double, own_files, sockets[index], own, own_keys)))
     reported(1.0)
     player = performer.player
@@ -158,24 +172,20 @@ def _judge(
 
 @dataclass(frozen=True)
 class _Judging:
-    """What the files of a musician are measured with; without an FBX file of the character nothing is."""
+    """What the files of a musician are measured with; without FBX files nothing is."""
 
     request: Request
     target: TargetSkeleton
-    folder: Path
-    character: str | None
     changing: tuple[tuple[float, float], ...]
 
     def measured(
-        self, performer: Performer, held: dict[str, str], socket: str, reported: Callable[[float], None]
+        self, performer: Performer, read: dict[FileContent, Scene], socket: str, reported: Callable[[float], None]
     ) -> Measured | None:
-        """What the files hold of a player: the musician's character and the instrument, which may hang on a socket."""
-        if self.character is None:
+        """What the files hold of a player: the musician's character and the instrument, which may hang on a socket.
+        The scenes are taken out of ``read``."""
+        if not read:
             return None
-        character, instrument = (
-            read_scene(self.folder / self.character),
-            read_scene(self.folder / held["instrument_fbx"]),
-        )
+        character, instrument = read.pop("character"), read.pop("instrument")
         if socket:
             instrument = in_world(instrument, character, socket)
         return measure_player(

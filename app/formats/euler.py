@@ -60,30 +60,15 @@ def quaternions(angles_degrees: npt.NDArray[np.floating], order: str) -> npt.NDA
     ndarray, shape (..., 4), float64
         Unit quaternions xyzw.
     """
-    half = np.radians(np.asarray(angles_degrees, dtype=np.float64)) / 2
-    result = np.zeros((*half.shape[:-1], 4))
-    result[..., 3] = 1.0
-    for column, axis in enumerate(order):
-        turn = np.zeros_like(result)
-        turn[..., "XYZ".index(axis)] = np.sin(half[..., column])
-        turn[..., 3] = np.cos(half[..., column])
-        result = multiply(result, turn)
-    return result
-
-
-def multiply(left: npt.NDArray[np.float64], right: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Hamilton product of quaternions xyzw, shapes (..., 4)."""
-    lx, ly, lz, lw = np.moveaxis(left, -1, 0)
-    rx, ry, rz, rw = np.moveaxis(right, -1, 0)
-    return np.stack(
-        [
-            lw * rx + lx * rw + ly * rz - lz * ry,
-            lw * ry - lx * rz + ly * rw + lz * rx,
-            lw * rz + lx * ry - ly * rx + lz * rw,
-            lw * rw - lx * rx - ly * ry - lz * rz,
-        ],
-        axis=-1,
-    )
+    half = np.radians(np.moveaxis(np.asarray(angles_degrees, dtype=np.float64), -1, 0), order="C") / 2
+    *vector, w = (np.float64(component) for component in (0.0, 0.0, 0.0, 1.0))
+    for axis, sine, cosine in zip(order, np.sin(half), np.cos(half), strict=True):
+        # The Hamilton product with a turn about one axis, whose other components are 0.
+        i = "XYZ".index(axis)
+        j, k = (i + 1) % 3, (i + 2) % 3
+        vector[i], w = w * sine + vector[i] * cosine, w * cosine - vector[i] * sine
+        vector[j], vector[k] = vector[j] * cosine + vector[k] * sine, vector[k] * cosine - vector[j] * sine
+    return np.stack([*vector, w], axis=-1)
 
 
 def matrices(rotations_xyzw: npt.NDArray[np.floating]) -> npt.NDArray[np.float64]:

@@ -8,8 +8,14 @@ import numpy.typing as npt
 DECIMALS = 6
 _SCALE = 10**DECIMALS
 
-# The three digits of 0 to 999.
-_TRIPLES = np.array([list(b"%03d" % n) for n in range(1000)], dtype=np.uint8)
+
+def _words(form: str) -> npt.NDArray[np.uint32]:
+    """Words of four bytes for 0 to 999; blanks before the digits are bytes that are left out of the text."""
+    rows = [list((form % n).lstrip().rjust(4, "\0").encode()) for n in range(1000)]
+    return np.array(rows, dtype=np.uint8).view("<u4")[:, 0]
+
+
+_FIRST_DIGITS, _DIGITS, _AFTER_POINT, _LAST_DIGITS = map(_words, ("%4d", " %03d", ".%03d", "%03d "))
 
 # Numbers worked on at once: their digits stay in a core's cache.
 _BLOCK = 16384
@@ -53,20 +59,18 @@ def _block_text(values: npt.NDArray[np.float64]) -> bytes:
     whole, high = np.divmod(thousandths, 1000)
     groups = 1 + max(0, (len(str(int(whole.max(initial=0)))) - 1) // 3)
 
-    width = 1 + 3 * groups + 1 + DECIMALS + 1
-    text = np.empty((*values.shape, width), dtype=np.uint8)
-    text[..., 0] = np.where(negative, ord("-"), 0)
-    rest = whole
-    for group in range(groups, 0, -1):
-        rest, triple = np.divmod(rest, 1000) if group > 1 else (rest, rest)
-        text[..., 3 * group - 2 : 3 * group + 1] = _TRIPLES[triple]
-    for place in range(3 * groups - 1):  # leading zeros but the last
-        leading = text[..., 1 + place]
-        leading[whole < 10 ** (3 * groups - 1 - place)] = 0
-    text[..., 3 * groups + 1] = ord(".")
-    text[..., 3 * groups + 2 : 3 * groups + 5] = _TRIPLES[high]
-    text[..., 3 * groups + 5 : 3 * groups + 8] = _TRIPLES[low]
-    text[..., -1] = ord(" ")
-    text[:, -1, -1] = ord("\n")
-    flat = text.reshape(-1)
-    return bytes(flat[flat != 0])
+    text = np.empty((*values.shape, groups + 2), dtype="<u4")
+    for group in range(groups - 1, -1, -1):
+        higher, triple = np.divmod(whole, 1000) if group else (np.zeros_like(whole), whole)
+        text[..., group] = _FIRST_DIGITS.take(triple)
+        if group:
+            text[..., group] = np.where(higher > 0, _DIGITS.take(triple), text[..., group])
+        if group < groups - 1:
+            text[..., group][whole == 0] = 0
+        whole = higher
+    text[..., 0] |= np.where(negative, np.uint32(ord("-")), np.uint32(0))
+    text[..., -2] = _AFTER_POINT.take(high)
+    text[..., -1] = _LAST_DIGITS.take(low)
+    letters = text.view(np.uint8)
+    letters[:, -1, -1] = ord("\n")
+    return letters.tobytes().translate(None, b"\0")

@@ -73,6 +73,7 @@ class _Reader:
         self._data = data
         self._file = file
         self._left_bytes = _FREE_BYTES + _MOST_TIMES * len(data)
+        self._unpacked: dict[tuple[np.dtype[np.generic], int, bytes], npt.NDArray[np.generic]] = {}
         self._head = struct.Struct("<IIIB" if version < LARGE_VERSION else "<QQQB")
 
     def _error(self, what: str, offset: int) -> FileError:
@@ -140,22 +141,35 @@ class _Reader:
 
     def _array(self, dtype: np.dtype[np.generic], count: int, encoding: int, start: int, end: int) -> Property:
         size = count * dtype.itemsize
-        raw: bytes | memoryview = memoryview(self._data)[start:end]
+        raw = memoryview(self._data)[start:end]
         if encoding == 1:
             if size > _LARGEST_RATIO * (end - start):
                 raise self._error("bad_array", start)
             self._left_bytes -= size
             if self._left_bytes < 0:
                 raise FileError("fbx.too_large", file=self._file)
-            inflate = zlib.decompressobj()
-            try:
-                raw = inflate.decompress(raw, size + 1)
-            except zlib.error as error:
-                raise self._error("bad_array", start) from error
-            if not inflate.eof and len(raw) <= size:
-                raise self._error("bad_array", start)
-        elif encoding != 0:
+            # All curves of a clip have the same times.
+            packed = dtype, count, bytes(raw)
+            if packed not in self._unpacked:
+                self._unpacked[packed] = self._values(dtype, size, self._inflated(raw, size, start), start)
+            return self._unpacked[packed]
+        if encoding != 0:
             raise self._error("bad_array", start)
+        return self._values(dtype, size, raw, start)
+
+    def _inflated(self, raw: memoryview, size: int, start: int) -> bytes:
+        inflate = zlib.decompressobj()
+        try:
+            found = inflate.decompress(raw, size + 1)
+        except zlib.error as error:
+            raise self._error("bad_array", start) from error
+        if not inflate.eof and len(found) <= size:
+            raise self._error("bad_array", start)
+        return found
+
+    def _values(
+        self, dtype: np.dtype[np.generic], size: int, raw: bytes | memoryview, start: int
+    ) -> npt.NDArray[np.generic]:
         if len(raw) != size:
             raise self._error("bad_array", start)
         if dtype.kind == "b":  # any nonzero byte means true
