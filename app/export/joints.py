@@ -56,9 +56,22 @@ def anatomical_angles(
     (F, 3) float64
         Radians, in that order.
     """
-    swing, turn = quaternion.swing_twist(rotations, twist)
-    vector = quaternion.to_rotation_vector(swing)
-    return np.stack([vector @ flexion, vector @ sideways, quaternion.twist_angle(turn, twist)], axis=-1)
+    vector, w = rotations[:, :3].T, rotations[:, 3]
+    axes = np.stack([flexion, sideways])
+    # The twist has the part of the rotation that is about its axis, and the swing what is left.
+    along, square = twist @ vector, twist @ twist
+    length = np.sqrt(along * along * square + w * w)
+    half_turn = length < 1e-12
+    length = np.where(half_turn, 1.0, length)
+    cosine, sine = np.where(half_turn, 1.0, w / length), along / length
+    # What the swing's quaternion has along the two other axes, and its scalar part.
+    swing = cosine * (axes @ vector) - sine * (np.outer(axes @ twist, w) + np.cross(twist, axes) @ vector)
+    swing_w = cosine * w + sine * along
+    across = np.sqrt(np.maximum(1.0 - swing_w * swing_w, 0.0))
+    small = across < 1e-7
+    swing *= np.where(small, 2.0, 2.0 * np.arctan2(across, swing_w) / np.where(small, 1.0, across))
+    turn = 2.0 * np.arctan2(np.where(w < 0.0, -along, along) * square, np.abs(w))
+    return np.stack([*swing, turn], axis=-1)
 
 
 def angular_accelerations(rotations: FloatArray, fps: float) -> FloatArray:
@@ -74,7 +87,22 @@ def angular_accelerations(rotations: FloatArray, fps: float) -> FloatArray:
     (max(F - 2, 0), J) float64
         rad/s2, at the frames 1 .. F - 2.
     """
-    steps = quaternion.multiply(quaternion.conjugate(rotations[:-1]), rotations[1:])
-    velocities = quaternion.to_rotation_vector(steps) * fps
-    result: FloatArray = np.linalg.norm(np.diff(velocities, axis=0), axis=-1) * fps
+    x, y, z, w = np.ascontiguousarray(np.moveaxis(rotations, -1, 0))
+    before, after = ([part[steps] for part in (x, y, z, w)] for steps in (np.s_[:-1], np.s_[1:]))
+    (ax, ay, az, aw), (bx, by, bz, bw) = before, after
+    # From each frame to the next: the first one's inverse, times the second.
+    turns = np.stack(
+        [
+            aw * bx - ax * bw - ay * bz + az * by,
+            aw * by + ax * bz - ay * bw - az * bx,
+            aw * bz - ax * by + ay * bx - az * bw,
+        ]
+    )
+    cosine = aw * bw + ax * bx + ay * by + az * bz
+    sine = np.sqrt(np.einsum("i...,i...->...", turns, turns))
+    small = sine < 1e-9
+    scale = np.where(small, 2.0, 2.0 * np.arctan2(sine, np.abs(cosine)) / np.where(small, 1.0, sine))
+    turns *= np.where(cosine < 0.0, -fps, fps) * scale
+    changes = np.diff(turns, axis=1)
+    result: FloatArray = np.sqrt(np.einsum("i...,i...->...", changes, changes)) * fps
     return result

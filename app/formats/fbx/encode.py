@@ -11,6 +11,7 @@ import struct
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
+from hashlib import blake2b
 from typing import TypeAlias
 
 import numpy as np
@@ -30,6 +31,9 @@ FOOTER_END = bytes.fromhex("f85a8c6adef5d97eece90ce3758f290b")
 _LARGEST_OFFSET = 2**31 - 1
 _RAW_ARRAY_BYTES = 128
 _ZLIB_LEVEL = 1
+_MOST_KEPT, _LARGEST_KEPT_BYTES = 4096, 2**20
+_packed: dict[bytes, bytes] = {}
+"""Compressed arrays by the digest of what they hold."""
 
 _ARRAY_CODES = {"f4": b"f", "f8": b"d", "i4": b"i", "i8": b"l", "b1": b"b"}
 
@@ -85,8 +89,21 @@ def pack_array(values: npt.NDArray[np.generic], *, compress: bool = True) -> Pac
     raw = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<")).tobytes()
     encoding = 0
     if compress and len(raw) > _RAW_ARRAY_BYTES:
-        raw, encoding = zlib.compress(raw, _ZLIB_LEVEL), 1
+        raw, encoding = _compressed(raw), 1
     return PackedArray(code + struct.pack("<III", len(values), encoding, len(raw)) + raw)
+
+
+def _compressed(raw: bytes) -> bytes:
+    """Kept, since all players with the same body have the same meshes, and all files of a piece the same key times."""
+    known = blake2b(raw, digest_size=32).digest()
+    packed = _packed.get(known)
+    if packed is None:
+        packed = zlib.compress(raw, _ZLIB_LEVEL)
+        if len(_packed) >= _MOST_KEPT:
+            _packed.clear()
+        if len(packed) <= _LARGEST_KEPT_BYTES:
+            _packed[known] = packed
+    return packed
 
 
 def element_pieces(elements: Sequence[Element]) -> list[bytes | bytearray]:
