@@ -11,6 +11,7 @@ Messages (with ``file``): ``file.cannot_read``, ``bvh.syntax``, ``bvh.truncated`
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -33,6 +34,8 @@ _ORDER = "ZXY"
 _AXES = "XYZ"
 _POSITIONS = [f"{axis}position" for axis in _AXES]
 _DEEPEST = 512
+_ROWS = 1024
+"""Frames whose text is made at once."""
 _FREE_ROTATIONS = 2**20
 MOST_BYTES = 2**29
 
@@ -90,8 +93,8 @@ def write_bvh(path: str | os.PathLike[str], clip: BvhClip) -> None:
         stream.writelines(pieces)
 
 
-def bvh_pieces(clip: BvhClip) -> list[bytes]:
-    """The file's bytes, one piece after the other."""
+def bvh_pieces(clip: BvhClip) -> Iterator[bytes]:
+    """The file's bytes, one piece after the other, made when they are asked for."""
     _check(clip)
     children: list[list[int]] = [[] for _ in clip.names]
     for joint, parent in enumerate(clip.parents[1:], start=1):
@@ -102,12 +105,18 @@ def bvh_pieces(clip: BvhClip) -> list[bytes]:
     frames = len(clip.rotations_xyzw)
     # A decimal more than a double holds at this size, so that the last frame of an hour is still in its place.
     lines += ["MOTION", f"Frames: {frames}", f"Frame Time: {float(1 / clip.fps):.16f}", ""]
+    return itertools.chain(["\n".join(lines).encode("utf-8")], _table_pieces(clip, order))
 
-    table = np.empty((frames, 3 + 3 * len(order)))
-    table[:, :3] = clip.root_translation_cm
+
+def _table_pieces(clip: BvhClip, order: list[int]) -> Iterator[bytes]:
+    """The channels frame by frame, with joints in this order."""
     angles = euler.euler_degrees(clip.rotations_xyzw, _ORDER)
-    table[:, 3:] = angles[order].reshape(-1, frames).T
-    return ["\n".join(lines).encode("utf-8"), *table_text(table)]
+    frames = angles.shape[-1]
+    for first in range(0, frames, _ROWS):
+        rows = slice(first, first + _ROWS)
+        places = clip.root_translation_cm[rows]
+        turns = angles[order, :, rows].reshape(-1, len(places)).T
+        yield from table_text(np.concatenate([places, turns], axis=1, dtype=np.float64))
 
 
 def _joint_lines(clip: BvhClip, children: list[list[int]], lines: list[str], order: list[int]) -> None:

@@ -76,7 +76,11 @@ class ObjectGraph:
 
     def floats(self, element: Element, name: str, width: int) -> Float64Array:
         """Array of doubles in rows."""
-        values = self._array(element, name, "f").astype(np.float64)
+        return self.stored(element, name, width).astype(np.float64)
+
+    def stored(self, element: Element, name: str, width: int) -> npt.NDArray[np.floating]:
+        """Array of numbers in rows, in the file's precision."""
+        values: npt.NDArray[np.floating] = self._array(element, name, "f")  # type: ignore[assignment]
         if len(values) % width or not np.isfinite(values).all():
             raise FileError("fbx.contradiction", file=self.file, detail=f"{name} is not made of finite {width}s")
         return values.reshape(-1, width)

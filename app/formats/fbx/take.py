@@ -28,16 +28,17 @@ _ANIMATED = {
 
 
 class Curve(NamedTuple):
-    """Frames and values of a curve's keys."""
+    """Frames of a curve's keys, and their values as the file has them."""
 
     frames: npt.NDArray[np.int64]
-    values: Float64Array
+    values: npt.NDArray[np.floating]
 
     def at(self, frames: int) -> Float64Array:
         """Its values at all frames: straight lines between the keys, at rest before and after them."""
         if len(self.frames) == frames:
-            return self.values
-        return np.interp(np.arange(frames), self.frames, self.values)
+            return self.values.astype(np.float64)
+        found: Float64Array = np.interp(np.arange(frames), self.frames, self.values)
+        return found
 
 
 class Take(NamedTuple):
@@ -85,7 +86,7 @@ def _curves(
             channels = []
             for curve in graph.below(node, "AnimationCurve"):
                 key_ticks = graph.integers(curve.element, "KeyTime")
-                values = graph.floats(curve.element, "KeyValueFloat", 1)[:, 0]
+                values = graph.stored(curve.element, "KeyValueFloat", 1)[:, 0]
                 stamp = key_ticks.tobytes()
                 if stamp not in known:
                     known[stamp] = _key_frames(graph, key_ticks, frame_ticks, fps)
