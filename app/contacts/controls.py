@@ -55,6 +55,7 @@ class NoteFrames:
         self._times_s = times_s
         self.notes: Sequence[FingeringEvent] = notes
         self._targets: dict[str, FloatArray] = {}
+        self._spans: dict[tuple[float, float], slice] = {}
 
     @cached_property
     def sounding(self) -> BoolArray:
@@ -155,11 +156,13 @@ class NoteFrames:
         for index in np.flatnonzero(long).tolist():
             span = self._span(self.notes[index].start_s, self._leaves_s(control, targets, index))
             there = in_place(control, values[span], targets[index])
-            short_of = _stops_short(control, values[span], targets[index], unreached[index])
             held += len(there)
-            wrong += int((~there & ~short_of).sum())
-            held_stopped += int(short_of.sum())
-            most_short = max(most_short, float(np.abs(values[span] - targets[index])[short_of].max(initial=0.0)))
+            wrong += len(there) - int(np.count_nonzero(there))
+            if unreached[index]:
+                short_of = _stops_short(control, values[span], targets[index], unreached[index])
+                wrong -= int(np.count_nonzero(short_of))
+                held_stopped += int(np.count_nonzero(short_of))
+                most_short = max(most_short, float(np.abs(values[span] - targets[index])[short_of].max(initial=0.0)))
         return ControlMeasure(
             judged=int(long.sum()),
             right=int(right[long].sum()),
@@ -198,7 +201,11 @@ class NoteFrames:
         return self._span(note.start_s, min(note.end_s, following_s))
 
     def _span(self, start_s: float, end_s: float) -> slice:
-        return slice(*np.searchsorted(self._times_s, [start_s - 1e-9, end_s - 1e-9]))
+        span = self._spans.get((start_s, end_s))
+        if span is None:
+            found = np.searchsorted(self._times_s, [start_s - 1e-9, end_s - 1e-9])
+            span = self._spans[start_s, end_s] = slice(*found.tolist())
+        return span
 
 
 def _stops_short(control: Control, values: FloatArray, targets: FloatArray, unreached: BoolArray) -> BoolArray:

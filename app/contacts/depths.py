@@ -4,6 +4,7 @@ The deepest vertex of every frame is found by branch and bound. A block of frame
 a vertex moves from there is bounded by how far its joints and the instrument's parts move, and a distance changes by no
 more than a point moves. Vertices that cannot be the deepest in any frame of a block are dropped; for the others shorter
 blocks are judged, down to single frames. While a hand moves too far within a block, its vertices are judged in groups.
+Hand and parts are judged in the frame of the part on which the hand is steadiest: a hand goes with the slide it holds.
 """
 
 from __future__ import annotations
