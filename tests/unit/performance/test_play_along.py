@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from app.contacts.breaks import Break, joined
 from app.contacts.judge import ContactJudge
 from app.motion.face import Drivers
+from app.motion.gaze import BLINK_SHUT_S
 from app.performance.bodies import character_of, model_of
 from app.performance.chunks import Pose
 from app.performance.live_breath import LiveBreath, LiveLook
@@ -247,10 +248,12 @@ def test_a_bite_counts_by_how_far_it_is_from_the_usual_one() -> None:
 
 def test_the_lids_close_now_and_then_and_open_again_at_once() -> None:
     look = LiveLook(playing_alone("trumpet_Bb", line("trumpet_Bb", 16)))
-    shut = np.array([look.at(time_s).blinks[0] > 0.5 for time_s in np.arange(0.0, 120.0, 1 / FPS)])
+    lids = np.array([look.at(time_s).blinks[0] for time_s in np.arange(0.0, 120.0, 1 / FPS)])
+    shut = lids > 0.5
     begins = np.flatnonzero(np.diff(shut.astype(int)) == 1)
     assert 10 < len(begins) < 60
-    assert shut.sum() / FPS < 0.3 * len(begins)
+    assert BLINK_SHUT_S * len(begins) < shut.sum() / FPS < 0.3 * len(begins)
+    assert all(lids[begin : begin + FPS // 4].max() > 0.95 for begin in begins)
 
 
 def test_midi_messages_say_the_same() -> None:
