@@ -173,9 +173,9 @@ def plan_ensemble(
     for done, (line, times, problems) in enumerate(playable):
         _go_on(stop_requested)
         this = together[done]
-        others = [*together[:done], *together[done + 1 :]]
-        shared_breaths = shared_with(this, others, breathed)
+        others = (*together[:done], *together[done + 1 :])
         memo = own[line.player_id]
+        shared_breaths = memo.nested("shared", shared_with, this, others, tuple(breathed))
         own_cues = memo.step("cues", _cues_of, cues, line.player_id)
         given = _Given(
             piece, line, times, frame, own_cues, cue_ids, this, shared_breaths, seed, beat, ending, problems, faces

@@ -14,6 +14,7 @@ import numpy as np
 from app.errors import Message
 from app.plan.corrections import WITHIN
 from app.plan.line import LineTimes, Piece
+from app.plan.memo import Memo
 from app.plan.model import BreathEvent, FloatArray
 from app.plan.notation import PLACES, notated
 from app.plan.rest_breaths import breath_at
@@ -102,23 +103,21 @@ def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
     return SharedLine(places, frozenset(places), held_s)
 
 
-def shared_with(line: SharedLine, others: Sequence[SharedLine], breathed: Sequence[Breathed]) -> Shared:
+def shared_with(memo: Memo, line: SharedLine, others: tuple[SharedLine, ...], breathed: tuple[Breathed, ...]) -> Shared:
     """What a player must keep clear of.
 
     Parameters
     ----------
-    others : sequence of SharedLine
+    memo : Memo
+        Of the player.
+    others : tuple of SharedLine
         Of all other players.
-    breathed : sequence of Breathed
+    breathed : tuple of Breathed
         Of those whose breaths are placed already.
     """
     caught: set[int] = set()
-    for other in breathed:
-        met = other.caught & line.known
-        if met:
-            caught.update(
-                index for index, place in enumerate(line.places) if place in met and _in_unison(line, other.line, index)
-            )
+    for number, other in enumerate(breathed):
+        caught |= memo.step(f"unison:{number}", caught_in_unison, line, other.line, other.caught)
     held = []
     for index, length_s in line.held_s:
         place = line.places[index]
@@ -126,6 +125,21 @@ def shared_with(line: SharedLine, others: Sequence[SharedLine], breathed: Sequen
             taken = (at_s for other in breathed for own, at_s in other.within if own == place)
             held.append((index, tuple(sorted(taken))))
     return Shared(frozenset(caught), tuple(held))
+
+
+def caught_in_unison(line: SharedLine, other: SharedLine, caught: frozenset[Place]) -> frozenset[int]:
+    """Notes of a line before which another player takes a catch breath, where both play the same.
+
+    Parameters
+    ----------
+    caught : frozenset of Place
+        Where the other player's catch breaths are.
+    """
+    met = caught & line.known
+    if not met:
+        return frozenset()
+    places = (index for index, place in enumerate(line.places) if place in met)
+    return frozenset(index for index in places if _in_unison(line, other, index))
 
 
 def _in_unison(line: SharedLine, other: SharedLine, index: int) -> bool:

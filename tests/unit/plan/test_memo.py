@@ -22,6 +22,10 @@ def doubled(memo: Memo, value: int) -> tuple[int, int]:
     return memo.step("inner", pair, value, "inner")
 
 
+def outer(memo: Memo, values: tuple[int, int]) -> tuple[int, int]:
+    return memo.step("inner", pair, values[0], "inner")[0], values[1]
+
+
 def counted(before: tuple[int, ...] | None, value: int) -> tuple[int, ...]:
     DONE.append(before)
     return (value,)
@@ -58,6 +62,18 @@ def test_a_step_may_have_steps_of_its_own_and_see_what_it_made_before() -> None:
     assert DONE == [(4, "inner"), None]
     second.revised("counted", counted, 5)
     assert DONE == [(4, "inner"), None, (4,)]
+
+
+def test_steps_of_a_step_that_was_taken_over_are_known_in_the_run_after() -> None:
+    first = Memo()
+    first.nested("outer", outer, (4, 1))
+    second = Memo(first)
+    second.nested("outer", outer, (4, 1))
+    second.close()
+    DONE.clear()
+    third = Memo(second)
+    assert third.nested("outer", outer, (4, 2)) == (4, 2)
+    assert DONE == []
 
 
 def test_a_function_that_reads_more_than_its_inputs_is_refused() -> None:

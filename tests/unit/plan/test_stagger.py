@@ -5,12 +5,15 @@ from __future__ import annotations
 import itertools
 import random
 
+import msgspec
 import pytest
 
-from app.plan.corrections import Correction, RemoveEvent
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan import stagger
+from app.plan.corrections import Correction, PinFingering, RemoveEvent, SetBreath
+from app.plan.generate import MonophonicPart, make_plans, plan_ensemble, time_frame
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
+from app.plan.stagger import Place, SharedLine, caught_in_unison
 from app.score.metre_map import Metre
 from tests.support.plan import PlainClock, line_of, piece_of, valves
 
@@ -85,6 +88,40 @@ def test_a_unison_as_it_was_played_is_staggered_too() -> None:
     assert min(len(caught(first)), len(caught(second))) >= 2
     written = [{round(place) for place in caught(plan)} for plan in (first, second)]
     assert not written[0] & written[1]
+
+
+ASKED: list[SharedLine] = []
+
+
+def counting(line: SharedLine, other: SharedLine, caught: frozenset[Place]) -> frozenset[int]:
+    ASKED.append(line)
+    return caught_in_unison(line, other, caught)
+
+
+def test_what_others_keep_clear_of_is_found_again_only_for_who_breathes_elsewhere(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    clock = PlainClock()
+    parameters = PlayerParameters(lung_s=7.0)
+    parts = [running(0, 64, 60 + number) for number in range(5)]
+    lines = [
+        MonophonicPart(f"p{number}", line_of(*rows, track=number), valves(), parameters)
+        for number, rows in enumerate(parts, 1)
+    ]
+    piece, frame = piece_of(clock, METRES), time_frame(tuple(lines), clock)
+    before = plan_ensemble(piece, tuple(lines), frame)
+    note = lines[0].notes[9]
+    events = before.plans["p1"].fingerings
+    other = next(event.label for event in events if event.label != events[9].label)
+    ASKED.clear()
+    monkeypatch.setattr(stagger, "caught_in_unison", counting)
+    lines[0] = msgspec.structs.replace(lines[0], corrections=(PinFingering(note.id, other),))
+    after = plan_ensemble(piece, tuple(lines), frame, before=before)
+    assert not ASKED
+    lines[2] = msgspec.structs.replace(lines[2], corrections=(SetBreath(lines[2].notes[9].id, -240),))
+    last = plan_ensemble(piece, tuple(lines), frame, before=after)
+    assert len(ASKED) == 2
+    assert last.plans == make_plans(piece, tuple(lines), frame)
 
 
 def test_notes_that_meet_by_chance_are_no_unison() -> None:
