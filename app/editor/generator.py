@@ -135,6 +135,9 @@ class Generator(QObject):
         if self._long:
             # It is finished first: of edits that come faster than plans, some are seen.
             return
+        # Two threads of Python hold each other up: the user waits for this one, until the edit is drawn.
+        self._worker.pause()
+        QTimer.singleShot(0, self, self._worker.go_on)
         try:
             performance = Performance(project, self._session.performance)
             unheld = performance.unheld
@@ -279,6 +282,7 @@ class _Worker:
         """The wishes up to this one are met."""
         self._closed = False
         self._playing = False
+        self._paused = False
         self._reported_s = 0.0
         self._reported_seen = live.seen
         self._reported_seen_s = 0.0
@@ -315,6 +319,16 @@ class _Worker:
             self._wishes += 1
             self._changed.notify()
 
+    def pause(self) -> None:
+        """Make no more motion, once what is being made is, until `go_on`."""
+        self._paused = True
+
+    def go_on(self) -> None:
+        """The window does not need the processor for itself any more."""
+        with self._changed:
+            self._paused = False
+            self._changed.notify()
+
     def set_playing(self, playing: bool) -> None:
         with self._changed:
             self._playing = playing
@@ -333,7 +347,7 @@ class _Worker:
     def _run(self) -> None:
         while not self._closed:
             with self._changed:
-                while self._idle and (self._playing or not self._judging):
+                while self._waits:
                     self._changed.wait()
                 job, self._pending = self._pending, None
                 self._planning = job is not None
@@ -344,6 +358,12 @@ class _Worker:
                 self._make_motion()
             elif not self._closed:
                 self._judge()
+
+    @property
+    def _waits(self) -> bool:
+        if self._closed or self._pending is not None:
+            return False
+        return self._paused or (self._idle and (self._playing or not self._judging))
 
     @property
     def _idle(self) -> bool:

@@ -80,6 +80,8 @@ class _Track:
         The contacts that chunks break; of those that are not judged (again) yet, as they were.
     problems : tuple of Problem
         The same, reported.
+    making : Lock
+        Held while something of this track is made that stays.
     """
 
     player: Player | Dancer
@@ -97,6 +99,7 @@ class _Track:
     judged: set[int] = field(default_factory=set)
     breaks: dict[int, tuple[Break, ...]] = field(default_factory=dict)
     problems: tuple[Problem, ...] = ()
+    making: Lock = field(default_factory=Lock)
 
     @property
     def bytes(self) -> int:
@@ -149,8 +152,6 @@ class LiveMotion:
         self._todo: Iterator[tuple[str, int]] | None = None
         self._unjudged: Iterator[tuple[_Track, int]] | None = None
         self._broken: dict[str, tuple[Problem, ...]] = {}
-        self._working = Lock()
-        """SettingBinding while something is made that stays."""
         self._made: list[tuple[_Track, int, Motion]] = []
         """What was made last, until its contacts are judged."""
         self._chunk_bytes = 0
@@ -280,26 +281,6 @@ class LiveMotion:
         """Make the most requested chunk that is missing; whether there was one. Raises PlayerFault, once for a
         player."""
         self._judge_made()
-        with self._working:
-            return self._work(stop_requested)
-
-    def make_now(self, player_id: str, time_s: float) -> None:
-        """Make a player's frames around a time here and now, in any thread.
-
-        Not of players that were never shown, or whose dance is not generated: that takes long. Nor while the worker
-        thread is busy, since it makes next what is shown. Raises PlayerFault.
-        """
-        if not self._working.acquire(blocking=False):
-            return
-        try:
-            shown = self._shown
-            track = shown.tracks.get(player_id)
-            if track is not None and (track.playing or track.basis) is not None and _soon_made(shown, track):
-                self._make(shown, track, shown.grid.place(time_s)[0] // shown.grid.length)
-        finally:
-            self._working.release()
-
-    def _work(self, stop_requested: StopRequested) -> bool:
         with self._lock:
             shown = self._shown
             if self._todo is None:
@@ -308,10 +289,28 @@ class LiveMotion:
         for player_id, index in todo:
             if stop_requested():
                 return True
-            made = self._make(shown, shown.tracks[player_id], index)
+            track = shown.tracks[player_id]
+            with track.making:
+                made = self._make(shown, track, index)
             if made is not None:
                 return made
         return False
+
+    def make_now(self, player_id: str, time_s: float) -> None:
+        """Make a player's frames around a time here and now, in any thread.
+
+        Not of players that were never shown, or whose dance is not generated: that takes long. Nor while the worker
+        thread makes something of the very player, since it makes next what is shown. Raises PlayerFault.
+        """
+        shown = self._shown
+        track = shown.tracks.get(player_id)
+        if track is None or not track.making.acquire(blocking=False):
+            return
+        try:
+            if (track.playing or track.basis) is not None and _soon_made(shown, track):
+                self._make(shown, track, shown.grid.place(time_s)[0] // shown.grid.length)
+        finally:
+            track.making.release()
 
     def _make(self, shown: _Shown, track: _Track, index: int) -> bool | None:
         """Make a chunk: None where that is not needed or not possible, False where there is no room for it."""
@@ -350,10 +349,6 @@ class LiveMotion:
 
         Of the same thread as `work`. Raises PlayerFault.
         """
-        with self._working:
-            return self._judge_some(stop_requested)
-
-    def _judge_some(self, stop_requested: StopRequested) -> bool:
         with self._lock:
             shown = self._shown
             if self._unjudged is None:
@@ -365,7 +360,7 @@ class LiveMotion:
                 with self._lock:
                     self._unjudged = None
                 return True
-            with self._own_fault(track):
+            with track.making, self._own_fault(track):
                 if track.playing is None or track.basis is not None:
                     self._prove(shown, track)
                 if not isinstance(track.playing, PerformanceCurves) or track.error is not None or index in track.judged:

@@ -80,7 +80,7 @@ class Shared(NamedTuple):
     caught : frozenset of int
         Notes before which others of the unison take catch breaths.
     held : tuple of (int, tuple of float)
-        SettingBinding notes that others hold too, with the times (seconds) at which those breathe in them.
+        Held notes that others hold too, with the times (seconds) at which those breathe in them.
     """
 
     caught: frozenset[int] = frozenset()

@@ -142,7 +142,7 @@ FOLDER_VARIABLE: Final = LIBRARY.variable
 own_folder, begin_characters = LIBRARY.folder, LIBRARY.begin
 character_library, reload_characters = LIBRARY.now, LIBRARY.reload
 _loading = RLock()
-"""SettingBinding while a character is loaded, which may take seconds; never waited for with the library's lock."""
+"""Held while a character is loaded, which may take seconds; never waited for with the library's lock."""
 _good: dict[Path, Character] = {}
 """The last good version of each of the user's own files."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -57,6 +58,33 @@ def test_a_small_edit_is_planned_before_it_returns(session: Session, generator: 
     assert plan.fingerings is before.plan(player).fingerings
     other = session.project.players[1]
     assert session.performance.plan(other) is before.plan(other)
+
+
+def test_no_motion_is_made_while_an_edit_is_planned(
+    session: Session, generator: Generator, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun, meanwhile, prepare = list[float](), list[int](), Performance.prepare_within
+
+    def endless(stop_requested: object) -> bool:
+        begun.append(time.monotonic())
+        time.sleep(0.001)
+        return True
+
+    def watched(performance: Performance, cpu_s: float) -> bool:
+        time.sleep(0.05)
+        before = len(begun)
+        time.sleep(0.1)
+        meanwhile.append(len(begun) - before)
+        return prepare(performance, cpu_s)
+
+    monkeypatch.setattr(generator.live, "work", endless)
+    monkeypatch.setattr(Performance, "prepare_within", watched)
+    session.set_playhead(1.0)
+    qtbot.waitUntil(lambda: len(begun) > 3)
+    _correct(session, 0.9)
+    assert meanwhile == [0]
+    after = len(begun)
+    qtbot.waitUntil(lambda: len(begun) > after)
 
 
 def test_the_picture_of_the_player_in_front_is_right_before_a_small_edit_returns(

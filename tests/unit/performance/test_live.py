@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from dataclasses import replace
 from fractions import Fraction
+
 from typing import Any
 
 import msgspec
@@ -173,6 +174,43 @@ def test_after_an_edit_a_player_who_was_seen_is_made_at_once(performance: Perfor
     np.testing.assert_array_equal(made.rotations, anew.rotations)
     assert made.morphs == {**dict.fromkeys(made.morphs, 0.0), **anew.morphs}
     assert all_made(live) > 0
+    assert live.ready_share == 1.0
+
+
+def test_after_an_edit_the_player_in_front_does_not_wait_for_another_that_is_being_made(
+    performance: Performance, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    live = LiveMotion(performance)
+    first, second = performance.project.players[:2]
+    live.want(8.0, 1.0, (first.id, second.id))
+    live.work()
+    begun, go_on, motion = threading.Event(), threading.Event(), PerformanceCurves.motion
+
+    def slow(playing: PerformanceCurves, *arguments: Any) -> Motion:
+        if playing.player_id == second.id:
+            begun.set()
+            assert go_on.wait(10.0)
+        return motion(playing, *arguments)
+
+    monkeypatch.setattr(PerformanceCurves, "motion", slow)
+    worker = threading.Thread(target=live.work)
+    worker.start()
+    try:
+        assert begun.wait(10.0)
+        shown = AddExpression("x", "strained", 6 * 960, 40 * 960)
+        after = Performance(put(performance.project, first.id, [shown]), performance)
+        live.show(after)
+        live.make_now(first.id, 8.0)
+        made = live.pose(first.id, 8.0)
+    finally:
+        go_on.set()
+        worker.join()
+    anew = LiveMotion(after).pose_now(first.id, 8.0)
+    assert made is not None
+    assert anew is not None
+    assert made.morphs == {**dict.fromkeys(made.morphs, 0.0), **anew.morphs}
+    assert live.pose(second.id, 8.0) is not None
+    all_made(live)
     assert live.ready_share == 1.0
 
 
