@@ -130,9 +130,13 @@ def character_levels(character: Character) -> tuple[Geometry, ...]:
     return _levels(character.meshes, BODY_CELLS_M, 0, PLAIN_FACTOR)
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=128)
 def instrument_levels(model: InstrumentModel, first_bone: int) -> tuple[Geometry, ...]:
-    """All levels of detail of an instrument, whose node n moves with bone ``first_bone + n``."""
+    """All levels of detail of an instrument, whose node n moves with bone ``first_bone + n``.
+
+    More are kept than there are instruments: in an orchestra with one more than these, all would be made again with
+    every player that comes or goes, which takes seconds.
+    """
     return _levels(model.meshes, INSTRUMENT_CELLS_M, first_bone, 1.0)
 
 

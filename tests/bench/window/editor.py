@@ -46,6 +46,8 @@ class Turn:
     wall_s: float = 0.0
     drawing_s: float = 0.0
     """Of the CPU: drawing the players; while GL is still, Python's part of it."""
+    drawing_wall_s: float = 0.0
+    """The same of the wall time."""
 
 
 @dataclass
@@ -67,6 +69,8 @@ class LargeEditor:
 
     folder: Path
     stalls: dict[str, Stall] = field(default_factory=dict)
+    seen: Turn = field(default_factory=Turn)
+    """What the last awaited picture took."""
     phase: str = "open"
 
     def __post_init__(self) -> None:
@@ -76,6 +80,7 @@ class LargeEditor:
         settings = Settings(self.folder / "editor.toml")
         settings.language = "en"
         self._drawing_s = self._drawing_wall_s = 0.0
+        self._awaited: tuple[str, Turn] | None = None
         self._time_drawing()
         self.program = Program(
             settings, questions=Answers(), autosave=Autosave(Presence(self.folder / "recovery")), audible=True
@@ -94,9 +99,32 @@ class LargeEditor:
             draw(canvas, width, height)
             self._drawing_s += time.thread_time() - cpu_s
             self._drawing_wall_s += time.perf_counter() - wall_s
+            self._drawn()
 
         self._timed = patch.object(Canvas, "_draw", timed)
         self._timed.start()
+
+    def _drawn(self) -> None:
+        if self._awaited is not None and self.is_right(self._awaited[0]):
+            began = self._awaited[1]
+            self.seen = Turn(
+                time.thread_time() - began.cpu_s,
+                time.perf_counter() - began.wall_s,
+                self._drawing_s - began.drawing_s,
+                self._drawing_wall_s - began.drawing_wall_s,
+            )
+            self._awaited = None
+
+    def picture(self, player_id: str, act: Callable[[], None]) -> Turn:
+        """Do something; until a picture is drawn with a player's newest pose at the playhead. Nothing is asked
+        meanwhile, so that the measure costs nothing."""
+        self._awaited = (
+            player_id,
+            Turn(time.thread_time(), time.perf_counter(), self._drawing_s, self._drawing_wall_s),
+        )
+        self.turn(act)
+        self.until(lambda: self._awaited is None)
+        return self.seen
 
     def close(self) -> None:
         """End the editor."""
@@ -158,16 +186,25 @@ class LargeEditor:
 
     # The piece
 
-    def open(self) -> Turn:
-        """Open the large piece from a file; until its plans and the poses at the playhead are there."""
-        path = self.folder / "large.suisou"
+    def open(self) -> Iterator[tuple[str, float, float]]:
+        """Open the large piece from a file: how far it is, with the CPU of the whole process and the wall time since
+        it was asked for, seconds."""
+        path, count = self.folder / "large.suisou", len(large_project().players)
         storage.save(large_project(), path)
-        began_s, cpu_s = time.perf_counter(), time.thread_time()
+        began_s, cpu_s = time.perf_counter(), time.process_time()
+
+        def since(what: str, ready: Callable[[], bool]) -> tuple[str, float, float]:
+            self.until(ready)
+            return what, time.process_time() - cpu_s, time.perf_counter() - began_s
+
         self.program.editor.files.open(path, ask=False)
-        self.until(lambda: len(self.session.project.players) == len(large_project().players))
-        self.until(self.is_planned)
-        self.until(lambda: not self.viewport.message() and self.is_right(self.session.players[0]))
-        return Turn(time.thread_time() - cpu_s, time.perf_counter() - began_s)
+        yield since("the window shows the piece and reacts", lambda: len(self.session.project.players) == count)
+        yield since("plans are there", self.is_planned)
+        front = self.session.players[0]
+        yield since(
+            "the player in front plays in the viewport", lambda: not self.viewport.message() and self.is_right(front)
+        )
+        yield since("everyone at the playhead does", lambda: self.program.generator.live.is_seen)
 
     def is_planned(self) -> bool:
         """Whether the plans are those of the project."""
@@ -183,15 +220,15 @@ class LargeEditor:
         scene = self.viewport.scene
         return scene.stage is not None and not scene.is_outdated(at_s)
 
-    def rest(self) -> str:
-        """Wait until nothing is made in the background; says how long that took."""
+    def rest(self, most_s: float = QUIET_S) -> str:
+        """Wait until nothing is made in the background, at most so long; says how long that took."""
         tasks, generator = self.program.tasks, self.program.generator
         assert isinstance(tasks, ThreadTasks)
 
         def is_quiet() -> bool:
             return not tasks.running and generator.ready_share >= 1.0
 
-        waited = self.until(is_quiet, QUIET_S)
+        waited = self.until(is_quiet, most_s)
         return f"{'quiet after' if is_quiet() else 'not quiet after'} {waited.wall_s:.0f} s"
 
     @contextmanager

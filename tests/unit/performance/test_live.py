@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 from dataclasses import replace
 from fractions import Fraction
-
 from typing import Any
 
 import msgspec

@@ -145,12 +145,15 @@ def test_what_is_seen_from_one_side_faces_outwards_and_comes_first(name: str) ->
 
 
 def test_instruments_move_with_bones_after_the_joints() -> None:
+    made = []
     for instrument in bundled_maps().values():
         model = bundled_instrument(instrument)
-        for level in instrument_levels(model, 60):
+        made.append((model, instrument_levels(model, 60)))
+        for level in made[-1][1]:
             bones = level.surface["a_bones"][:, 0]
             assert bones.min() == 60
             assert bones.max() == 60 + len(model.node_names) - 1
+    assert all(instrument_levels(model, 60) is levels for model, levels in made), "an orchestra has one of each"
 
 
 def test_joined_shapes_keep_their_triangles() -> None:
