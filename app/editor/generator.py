@@ -16,6 +16,7 @@ from typing import Protocol
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.editor.calls import Reporter
+from app.editor.memory import give_back
 from app.editor.session import Session, Severity
 from app.editor.tasks import Progress, StopRequested, Tasks
 from app.errors import AppError, Cancelled, Message
@@ -44,6 +45,8 @@ many times as long as that took: two threads of Python hold each other up far mo
 OTHERS_S = 0.0005
 """Less than this is no work: timers."""
 MOST_REST_S = 0.1
+GIVE_BACK_CHUNKS = 64
+"""Memory that was needed on the way is returned once everything is made, but not after a few chunks of an edit."""
 REPORT_BROKEN_S = 0.5
 """Of contacts that are found broken while much is made, this often: every list of problems shows them anew."""
 REST_WHILE_JUDGING = 3.0
@@ -283,6 +286,8 @@ class _Worker:
         self._closed = False
         self._playing = False
         self._paused = False
+        self._given_back = 0
+        """How much was made when memory was returned last."""
         self._reported_s = 0.0
         self._reported_seen = live.seen
         self._reported_seen_s = 0.0
@@ -402,6 +407,9 @@ class _Worker:
         if not more:
             self._met = requests
             self._judging = True
+            if self._live.made - self._given_back >= GIVE_BACK_CHUNKS:
+                self._given_back = self._live.made
+                give_back()
         awaited = not self._live.is_seen
         self._report_broken(now_s, not more)
         if self._live.seen != self._reported_seen and (now_s - self._reported_seen_s >= REPORT_S or not awaited):

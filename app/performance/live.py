@@ -155,6 +155,7 @@ class LiveMotion:
         self._made: list[tuple[_Track, int, Motion]] = []
         """What was made last, until its contacts are judged."""
         self._chunk_bytes = 0
+        self._made_chunks = 0
         self._seen = 0
         self._shown = _Shown(performance, Grid.of(performance.time_frame, performance.project.fps), {})
         self.show(performance)
@@ -329,6 +330,7 @@ class LiveMotion:
             track.chunks[index] = chunk
             track.outdated.pop(index, None)
             self._chunk_bytes = chunk.bytes
+            self._made_chunks += 1
             self._seen += index == self._in_sight(shown.grid)[0]
             if index not in track.judged and isinstance(track.player, Player):
                 self._made.append((track, index, motion))
@@ -373,6 +375,11 @@ class LiveMotion:
     def seen(self) -> int:
         """Another number once poses around the time that is requested were made."""
         return self._seen
+
+    @property
+    def made(self) -> int:
+        """How many chunks were made so far."""
+        return self._made_chunks
 
     @property
     def is_seen(self) -> bool:

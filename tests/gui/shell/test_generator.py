@@ -60,6 +60,27 @@ def test_a_small_edit_is_planned_before_it_returns(session: Session, generator: 
     assert session.performance.plan(other) is before.plan(other)
 
 
+def test_memory_is_returned_once_much_was_made(session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
+    returned, threads = list[float](), list[threading.Thread]()
+
+    def counting() -> None:
+        returned.append(made.ready_share)
+        threads.append(threading.current_thread())
+
+    monkeypatch.setattr(module, "give_back", counting)
+    monkeypatch.setattr(module, "GIVE_BACK_CHUNKS", 5)
+    made = Generator(session, session.tasks)
+    try:
+        qtbot.waitUntil(lambda: bool(returned))
+        assert returned == [1.0]
+        assert threads[0] is not threading.current_thread()
+        _correct(session, 0.9)
+        qtbot.waitUntil(lambda: made.ready_share == 1.0 and made._worker._met == made._worker._wishes)
+        assert returned == [1.0]
+    finally:
+        made.close()
+
+
 def test_no_motion_is_made_while_an_edit_is_planned(
     session: Session, generator: Generator, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
