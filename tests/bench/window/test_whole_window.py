@@ -19,7 +19,7 @@ from app.project.model import Project
 from tests.bench.window.editor import LargeEditor, Turn, calibration_s, memory_mb
 
 FRAMES = 40
-LONG_S = 240.0
+LONG_S = 150.0
 """Everything is made within this time, for the memory at rest."""
 CORRECTIONS = 3
 """How often each is made; the median is reported."""
