@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import msgspec
 import numpy as np
 
-from app.plan.line import IntArray, LineTimes, Piece
+from app.plan.line import IntArray, LineTimes, Piece, Rhythm
 from app.plan.model import FloatArray
 from app.plan.notation import written_onsets
 
@@ -36,10 +36,23 @@ OFF_BEAT_SHARE = 0.8
 """So much of the weight of long notes lies at one place between the given beats only if the beats are there."""
 
 
-def with_felt_bars(piece: Piece, lines: Sequence[LineTimes]) -> Piece:
+def lowest(lines: Sequence[LineTimes]) -> tuple[bool, ...]:
+    """Whether each line is the lowest on average."""
+    heights = [float(times.pitch.mean()) if len(times.pitch) else np.inf for times in lines]
+    return tuple(height == min(heights) for height in heights)
+
+
+def with_felt_bars(piece: Piece, lines: tuple[Rhythm, ...], low: tuple[bool, ...]) -> Piece:
     """The piece with its bars where they are felt to begin: the very same where nothing speaks clearly against them.
 
     Pieces that change their metre, or have a pickup already, keep their bars.
+
+    Parameters
+    ----------
+    lines : tuple of Rhythm
+        All that the bars depend on, but for ``low``: another pitch seldom asks for them again.
+    low : tuple of bool
+        `lowest` of the lines.
     """
     metre_map, quarter = piece.metre_map, piece.clock.ticks_per_quarter
     metre = metre_map.metres[0]
@@ -53,7 +66,7 @@ def with_felt_bars(piece: Piece, lines: Sequence[LineTimes]) -> Piece:
         return piece
     onsets = [written_onsets(times.onset_tick, quarter, bars) - bars[0] for times in lines]
     late = _late_ticks(lines, onsets, unit)
-    beats = _weights(lines, [since - late for since in onsets], unit, bar // unit)
+    beats = _weights(lines, low, [since - late for since in onsets], unit, bar // unit)
     best = int(np.argmax(beats))
     others = np.delete(beats, best)
     if beats[0] >= GIVEN_MOST or beats[best] < BEST_LEAST or beats[best] < CLEAR * others.max():
@@ -64,7 +77,7 @@ def with_felt_bars(piece: Piece, lines: Sequence[LineTimes]) -> Piece:
     return msgspec.structs.replace(piece, metre_map=msgspec.structs.replace(metre_map, metres=(felt,)))
 
 
-def _late_ticks(lines: Sequence[LineTimes], onsets: Sequence[IntArray], unit_ticks: int) -> int:
+def _late_ticks(lines: Sequence[Rhythm], onsets: Sequence[IntArray], unit_ticks: int) -> int:
     """How long after the given beats the felt ones come: quarters of a beat, 0 unless the long notes show another.
 
     Parameters
@@ -85,7 +98,9 @@ def _late_ticks(lines: Sequence[LineTimes], onsets: Sequence[IntArray], unit_tic
     return best * unit_ticks // 4 if shares[best] >= OFF_BEAT_SHARE * float(weights.sum()) else 0
 
 
-def _weights(lines: Sequence[LineTimes], onsets: Sequence[IntArray], unit_ticks: int, count: int) -> FloatArray:
+def _weights(
+    lines: Sequence[Rhythm], lowest: Sequence[bool], onsets: Sequence[IntArray], unit_ticks: int, count: int
+) -> FloatArray:
     """(count,): how strong each beat of the bar is, 1 on average; all alike where there is little to go by.
 
     Parameters
@@ -93,16 +108,15 @@ def _weights(lines: Sequence[LineTimes], onsets: Sequence[IntArray], unit_ticks:
     onsets : sequence of (N,) int64
         Where the notes of each line begin, in ticks after the first bar line.
     """
-    played = [(times, since) for times, since in zip(lines, onsets, strict=True) if len(since)]
-    if sum(len(since) for _, since in played) < LEAST_NOTES:
+    played = [row for row in zip(lines, lowest, onsets, strict=True) if len(row[2])]
+    if sum(len(since) for _, _, since in played) < LEAST_NOTES:
         return np.ones(count)
-    lowest = min(float(times.pitch.mean()) for times, _ in played)
     total = np.zeros(count)
-    for times, since in played:
+    for times, low, since in played:
         place: IntArray = since // unit_ticks % count
         on_beat = since % unit_ticks == 0
         units = np.clip((times.played_end_tick - times.onset_tick) / unit_ticks, 0.0, count)
         accents = np.bincount(place[on_beat], np.log2(1.0 + units[on_beat]), count)
-        total += accents / max(float(accents.sum()), 1e-9) * (BASS_WEIGHT if times.pitch.mean() == lowest else 1.0)
+        total += accents / max(float(accents.sum()), 1e-9) * (BASS_WEIGHT if low else 1.0)
         total[place[-1]] += LAST_WEIGHT * bool(on_beat[-1])
     return np.asarray(total * count / max(float(total.sum()), 1e-9))

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import msgspec
 
 from app.errors import Cancelled
-from app.plan.bar_phase import with_felt_bars
+from app.plan.bar_phase import lowest, with_felt_bars
 from app.plan.breath import plan_breaths
 from app.plan.breath_envelope import blown
 from app.plan.corrections import (
@@ -159,9 +159,10 @@ def plan_ensemble(
         _go_on(stop_requested)
         playable.append(_playable(line, piece.clock, tuple(faces), frame.first_frame_s, own[line.player_id]))
     lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
-    piece = shared.step("felt bars", with_felt_bars, piece, all_times)
+    rhythms = tuple(times.rhythm for times in all_times)
+    piece = shared.step("felt bars", with_felt_bars, piece, rhythms, lowest(all_times))
     musicians = tuple(line.musician or line.player_id for line in lines)
-    found = shared.step("entries", entries, tuple(times.rhythm for times in all_times), piece, musicians)
+    found = shared.step("entries", entries, rhythms, piece, musicians)
     leading = tuple(_leading(line) for line in lines)
     cues, cue_ids = shared.step("cues", plan_cues, found, leading, all_times, piece, frame)
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Sequence
 
 import pytest
 
-from app.plan.bar_phase import with_felt_bars
+from app.plan import bar_phase
 from app.plan.generate import Piece
 from app.plan.line import LineTimes, MonophonicPart, line_times
 from app.score.metre_map import Metre
 from tests.support.engraved_breaths import TICKS, marked_lines
 from tests.support.plan import PlainClock, line_of, piece_of, valves
+
+
+def with_felt_bars(piece: Piece, lines: Sequence[LineTimes]) -> Piece:
+    return bar_phase.with_felt_bars(piece, tuple(times.rhythm for times in lines), bar_phase.lowest(lines))
 
 
 def times_of(*notes: tuple[int, int, int]) -> LineTimes:
@@ -97,3 +102,12 @@ def test_engraved_pieces_are_never_moved_away_from_their_bars() -> None:
         moved += felt is not piece
         assert felt is piece or felt.bars(0, 1)[0] % bar == rows[0]["pickup_quarters"] * TICKS
     assert moved == 1
+
+
+def test_another_pitch_asks_for_no_other_bars_unless_another_line_is_the_lowest() -> None:
+    lines = [times_of(*((beat * TICKS, TICKS, pitch) for beat in range(8))) for pitch in (65, 40, 70)]
+    higher = times_of(*((beat * TICKS, TICKS, 65 + beat) for beat in range(8)))
+    assert higher.rhythm == lines[0].rhythm
+    assert bar_phase.lowest([higher, *lines[1:]]) == bar_phase.lowest(lines) == (False, True, False)
+    assert bar_phase.lowest([*lines[2:], times_of()]) == (True, False)
+    assert bar_phase.lowest([]) == ()
