@@ -44,13 +44,8 @@ class Memo:
         return self._step(name, function, inputs, ())
 
     def nested(self, name: str, function: Callable[[Memo, *Inputs], T], *inputs: *Inputs) -> T:
-        """The same of a step that has steps of its own: it is given this memo too. Where it is taken over, so are they,
-        for the run in which its inputs change."""
-        result = self._step(name, function, inputs, (self,))
-        if self._steps[name] is self._before.get(name):
-            for other, known in self._before.items():
-                self._steps.setdefault(other, known)
-        return result
+        """The same of a step that has steps of its own: it is given this memo too."""
+        return self._step(name, function, inputs, (self,))
 
     def revised(self, name: str, function: Callable[[T | None, *Inputs], T], *inputs: *Inputs) -> T:
         """The same of a step that can use its result in the run before, whatever the inputs were: to save work, since
