@@ -112,7 +112,7 @@ def test_wrists_stay_in_their_range(rest: Case) -> None:
         joint = rest.character.skeleton.index(f"{side}Hand")
         axes, bound = profile.joint_axes(f"{side}Hand"), limits[profile.joint(f"{side}Hand").kind]
         rotations = rest.motion.rotations[rest.frames, joint].astype(np.float64)
-        degrees = np.degrees(anatomical_angles(rotations, axes.flexion, axes.sideways, axes.twist))
+        degrees = np.degrees(anatomical_angles(rotations, *map(np.asarray, (axes.flexion, axes.sideways, axes.twist))))
         for angles, (low, high) in zip(
             degrees.T, (bound.flexion_deg, bound.sideways_deg, bound.twist_deg), strict=True
         ):
