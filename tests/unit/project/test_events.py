@@ -50,14 +50,21 @@ def piece() -> Project:
 
 
 @cache
+def generated() -> Performance:
+    """The piece as generated."""
+    performance = Performance(piece())
+    performance.prepare()
+    return performance
+
+
 def made() -> PlayerPlan:
     """The first player's plan as generated."""
-    return plan_of(piece())
+    return generated().plan(piece().players[0])
 
 
 def plan_of(project: Project) -> PlayerPlan:
-    """The first player's plan."""
-    return Performance(project).plan(project.players[0])
+    """The first player's plan, as an editor makes it after an edit of the piece as generated."""
+    return Performance(project, generated()).plan(project.players[0])
 
 
 def player_id() -> str:
