@@ -130,6 +130,15 @@ def test_a_flight_begins_and_ends_where_it_should_and_turns_the_shorter_way(star
     assert low - 1e-9 <= half.distance_m <= high + 1e-9
 
 
+def test_half_way_of_a_flight_is_between_both_ends() -> None:
+    start = Camera((0.0, 1.0, 2.0), yaw_rad=0.2, pitch_rad=0.3, distance_m=1.0, fov_deg=30.0)
+    end = Camera((1.0, 3.0, 4.0), yaw_rad=0.6, pitch_rad=0.5, distance_m=4.0, fov_deg=50.0)
+    half = between(start, end, 0.5)
+    assert half.target_m == pytest.approx((0.5, 2.0, 3.0))
+    found = (half.yaw_rad, half.pitch_rad, half.distance_m, half.fov_deg)
+    assert found == pytest.approx((0.4, 0.4, 2.0, 40.0))
+
+
 def test_following_is_the_same_in_one_step_and_in_many_and_never_overshoots() -> None:
     camera = replace(Camera(), target_m=(0.0, 0.0, 0.0))
     goal = np.array([1.0, 2.0, -1.0])
