@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import cache
 
 import msgspec
@@ -12,12 +12,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.motion.controls import control_curves
+from app.motion.perform import PerformanceCurves, prepare
 from app.motion.splice import changed_stretch, spliced
 from app.motion.stations import station_curves
 from app.performance.ensemble import Performance
 from app.plan.model import FingeringEvent
+from app.plan.parameters import PlayerParameters
 from instrument_maps.library import find_map
 from tests.bench.performance.large import large_project
+from tests.unit.motion.test_perform import BODY, CHARACTER, HOLD, MAP, piece
 
 BEAT_TICKS = 480
 NOTES = 300
@@ -124,3 +127,21 @@ def test_how_long_a_rest_must_be(seconds: float) -> None:
     notes = tuple(row)
     stretch = changed_stretch(notes, edited(notes, 6, 1, "shorter"), ((0, BEAT_TICKS),))
     assert (stretch is not None) == (seconds - 0.5 >= 3.0)
+
+
+def test_with_another_seed_the_same_plan_is_looked_at_otherwise() -> None:
+    plan = piece()
+
+    def made(seed: int, before: PerformanceCurves | None = None) -> PerformanceCurves:
+        parameters = PlayerParameters(seed=seed)
+        beats = ((0, BEAT_TICKS),)
+        return prepare(plan, parameters, MAP, CHARACTER, HOLD, BODY, felt_beats=beats, before=before)
+
+    times_s = np.arange(0.0, 20.0, 0.05)
+    before = made(1)
+    known, other = made(1, before).gaze, made(2, before).gaze
+    assert known is before.gaze
+    expected, first = made(2).gaze.sample(times_s), before.gaze.sample(times_s)
+    for member in fields(expected):
+        np.testing.assert_array_equal(getattr(other.sample(times_s), member.name), getattr(expected, member.name))
+    assert not np.array_equal(first.yaw_rad, expected.yaw_rad)
