@@ -130,7 +130,7 @@ class Choreographer:
 
         Parameters
         ----------
-        wishes : Constraints, optional
+        constraints : Constraints, optional
         first_s, end_s : float
             The motion's first frame and its end; by default from the first tick to `REST_S` after the last step.
         """

@@ -176,7 +176,7 @@ def choose(
     ----------
     scores : (G, S) float64
         See `symbol_scores`.
-    wishes : Constraints, optional
+    constraints : Constraints, optional
     initial, final : (S,) float64, optional
         Log odds of each segment as the first, and as the last.
 
@@ -223,8 +223,8 @@ class _Search:
         constraints: Constraints,
         initial: FloatArray | None,
     ) -> None:
-        self._grid, self._candidates, self._weights, self._wishes = grid, candidates, weights, constraints
-        self._wished = sorted({*constraints.pinned, *constraints.segments})
+        self._grid, self._candidates, self._weights, self._constraints = grid, candidates, weights, constraints
+        self._constrained = sorted({*constraints.pinned, *constraints.segments})
         self._forbidden: dict[int, list[int]] = {}
         for place, state in constraints.forbidden:
             self._forbidden.setdefault(place, []).append(state)
@@ -297,7 +297,7 @@ class _Search:
 
     def _allowed(self, place: int) -> FloatArray:
         """Nothing for the segments that may be at a place, never for the others."""
-        constraints, states = self._wishes, self._candidates.states
+        constraints, states = self._constraints, self._candidates.states
         cost = np.zeros(len(states))
         if place in constraints.segments:
             cost[np.arange(len(states)) != constraints.segments[place]] = NEVER / 100.0
@@ -309,7 +309,7 @@ class _Search:
 
     def _skips(self, earlier: int, place: int) -> bool:
         """Whether going from one place to the other leaves out one that has to have an accent."""
-        return bisect_right(self._wished, earlier) < bisect_left(self._wished, place)
+        return bisect_right(self._constrained, earlier) < bisect_left(self._constrained, place)
 
     def _possible(self, gap_s: float) -> bool:
         return self._shortest_s <= gap_s <= self._longest_s

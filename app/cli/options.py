@@ -25,7 +25,7 @@ from app.project.storage import is_project_file, load
 from app.rig.character_library import characters
 from app.score.choose import MapChoice, TrackChannel, require_map
 from app.score.model import Score
-from app.score.parts import PartAssignment, stream_name, usual_wishes
+from app.score.parts import PartAssignment, stream_name, usual_assignments
 from app.score.read import assigned_score, read_contents
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
@@ -260,16 +260,16 @@ def _cast_project(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMa
 def _read_score(arguments: argparse.Namespace, maps: Sequence[MapChoice]) -> Score:
     """The score of a MIDI file, with the pitches that are written ones transposed."""
     contents = read_contents(arguments.file, encoding=arguments.encoding)
-    assignments = _assigned(contents.streams, usual_wishes(contents.streams, maps), arguments.assign, maps)
+    assignments = _assigned(contents.streams, usual_assignments(contents.streams, maps), arguments.assign, maps)
     score = assigned_score(contents, assignments, maps)
     if not arguments.written:
         return score
     chosen = select_players(arguments.written, unique_names(part.name for part in score.parts))
     places = {score.parts[index].place for index in chosen}
-    streams = [contents.streams[wish.streams[0]] for wish in assignments]
+    streams = [contents.streams[assignment.streams[0]] for assignment in assignments]
     asked = [
-        msgspec.structs.replace(wish, written=stream.place in places)
-        for wish, stream in zip(assignments, streams, strict=True)
+        msgspec.structs.replace(assignment, written=stream.place in places)
+        for assignment, stream in zip(assignments, streams, strict=True)
     ]
     return assigned_score(contents, asked, maps)
 
@@ -280,7 +280,7 @@ def _assigned(
     texts: Sequence[str],
     maps: Sequence[MapChoice],
 ) -> Sequence[PartAssignment]:
-    """The wishes with the instruments that are assigned to parts as ``PART=INSTRUMENT``.
+    """The assignments with the instruments that are assigned to parts as ``PART=INSTRUMENT``.
 
     Raises
     ------
@@ -290,7 +290,7 @@ def _assigned(
     if not texts:
         return assignments
     names = unique_names(map(stream_name, streams))
-    assigned = {wish.streams[0]: wish for wish in assignments}
+    assigned = {assignment.streams[0]: assignment for assignment in assignments}
     for text in texts:
         part, equals, map_id = (piece.strip() for piece in text.rpartition("="))
         if not (part and equals and map_id):

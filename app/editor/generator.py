@@ -102,10 +102,10 @@ class Generator(QObject):
         session.instruments_changed.connect(self._plan_again)
         session.characters_changed.connect(self._plan_again)
         session.choreographies_changed.connect(self._plan_again)
-        session.playhead_changed.connect(self._want)
-        session.players_changed.connect(self._want)
+        session.playhead_changed.connect(self._request_poses)
+        session.players_changed.connect(self._request_poses)
         session.playing_changed.connect(self._worker.set_playing)
-        self._want()
+        self._request_poses()
         self._worker.start()
 
     @property
@@ -240,13 +240,13 @@ class Generator(QObject):
 
     def _show(self) -> None:
         self.live.show(self._session.performance)
-        self.live.want(self._session.playhead_s, player_ids=self._session.players)
+        self.live.request(self._session.playhead_s, player_ids=self._session.players)
         # Once the panels have shown the plans: two threads of Python hold each other up.
         QTimer.singleShot(0, self, self._worker.wake)
         self.motion_changed.emit()
 
-    def _want(self, *_: object) -> None:
-        self.live.want(self._session.playhead_s, player_ids=self._session.players)
+    def _request_poses(self, *_: object) -> None:
+        self.live.request(self._session.playhead_s, player_ids=self._session.players)
         self._worker.wake()
 
     def _worked(self, ready: float) -> None:
@@ -280,9 +280,9 @@ class _Worker:
         self._pending: tuple[Performance, int] | None = None
         self._planning = False
         self._dropped = threading.Event()
-        self._wishes = 0
+        self._requests = 0
         self._met = -1
-        """The wishes up to this one are met."""
+        """Requests up to this one are served."""
         self._closed = False
         self._playing = False
         self._paused = False
@@ -321,7 +321,7 @@ class _Worker:
     def wake(self) -> None:
         """Something else is requested."""
         with self._changed:
-            self._wishes += 1
+            self._requests += 1
             self._changed.notify()
 
     def pause(self) -> None:
@@ -372,7 +372,7 @@ class _Worker:
 
     @property
     def _idle(self) -> bool:
-        return self._met == self._wishes and self._pending is None and not self._closed
+        return self._met == self._requests and self._pending is None and not self._closed
 
     def _make_plans(self, performance: Performance, number: int) -> None:
         failed: AppError | None = None
@@ -390,7 +390,7 @@ class _Worker:
         self._report(partial(Generator._planned, performance=performance, number=number, error=failed))
 
     def _make_motion(self) -> None:
-        clock, requests = self._clock, self._wishes
+        clock, requests = self._clock, self._requests
         start_s, others_s = clock.monotonic(), clock.process_time() - clock.thread_time()
         try:
             more = self._live.work(lambda: self._closed or self._pending is not None)
@@ -424,10 +424,10 @@ class _Worker:
             self._rest(min(GIVE_WAY * (now_s - start_s), MOST_REST_S), requests)
 
     def _rest(self, rest_s: float, requests: int) -> None:
-        """Until something else is requested than these wishes, at most so long."""
+        """Until something else is requested than these, at most so long."""
         with self._changed:
             self._changed.wait_for(
-                lambda: self._closed or self._pending is not None or self._wishes != requests, timeout=rest_s
+                lambda: self._closed or self._pending is not None or self._requests != requests, timeout=rest_s
             )
 
     def _judge(self) -> None:

@@ -8,7 +8,7 @@ from typing import Literal, Protocol
 
 from app.editor.tasks import Tasks
 from app.editor.tokens import Tokens
-from app.project.importing import ImportWish
+from app.project.importing import ImportRequest
 from app.score.read import MidiContents
 
 Answer = Literal["save", "discard", "cancel"]
@@ -26,7 +26,7 @@ class Questions(Protocol):
     def unsaved(self, name: str) -> Answer:
         """What becomes of the changes that are in no file."""
 
-    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
+    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportRequest | None:
         """Who plays what in a MIDI file, and whether a dancer dances to it; None: it is not imported."""
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:

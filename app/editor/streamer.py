@@ -1,6 +1,6 @@
 """Streams the poses of players and dancers while the editor plays, is scrubbed, rests or records: see `app.stream`.
 
-A thread sends, so that neither waits for the other: the window says what is wished, where the sound is and that
+A thread sends, so that neither waits for the other: the window says what is requested, where the sound is and that
 something moves. A frame that the network does not take at once is dropped. While nothing moves it continues slowly, so
 that the receiver knows that the sender is there.
 """
@@ -72,7 +72,7 @@ class Streamer(QObject):
         self._ending: weakref.finalize[[], Streamer] | None = None
         """Closes the thread, also where the owner does not."""
         self._restore()
-        self._settled = self._wished()
+        self._settled = self._requested()
         self._state.changed.connect(self._changed)
         session.changed.connect(self._request)
         session.players_changed.connect(self._request)
@@ -84,7 +84,7 @@ class Streamer(QObject):
         ):
             signal.connect(self.moved)
 
-    # What is wished
+    # What is requested
 
     def _restore(self) -> None:
         settings = self._settings
@@ -97,7 +97,7 @@ class Streamer(QObject):
             faces=next((name for name in FACE_NAMES if name == faces), self._state.faces),
         )
 
-    def _wished(self) -> tuple[object, ...]:
+    def _requested(self) -> tuple[object, ...]:
         state = self._state
         return state.on, state.host, self._broadcast, state.port, state.everyone, state.faces, state.rate_hz
 
@@ -107,10 +107,10 @@ class Streamer(QObject):
         return self._state.broadcast == self._state.host
 
     def _changed(self) -> None:
-        wished = self._wished()
-        if wished == self._settled:
+        requested = self._requested()
+        if requested == self._settled:
             return
-        self._settled = wished
+        self._settled = requested
         state, settings = self._state, self._settings
         settings.stream_host, settings.stream_port = state.host, state.port
         settings.stream_everyone, settings.stream_faces = state.everyone, state.faces
@@ -308,7 +308,7 @@ class _Thread:
         """Send what is due; when the next one is."""
         with self._changed:
             moved_s = self._moved_s
-            # Woken early where something moves again, or something else is wished.
+            # Woken early where something moves again, or something else is requested.
             while not self._closed and (self._request is None or time.perf_counter() < due_s):
                 if self._request is not None and self._moved_s != moved_s and self._rests(moved_s):
                     break

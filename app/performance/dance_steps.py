@@ -1,7 +1,7 @@
 """What each dancer of a project dances when, as a lane shows it: basic motions in order, and what is corrected of them.
 
-A correction belongs to the place of the beats that is nearest to its tick, as `app.performance.dancers.wishes_of` has
-it.
+A correction belongs to the place of the beats that is nearest to its tick, as `app.performance.dancers.assignments_of`
+has it.
 """
 
 from __future__ import annotations

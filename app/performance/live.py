@@ -216,7 +216,7 @@ class LiveMotion:
             self._todo = self._unjudged = None
             self._report(self._shown)
 
-    def want(self, time_s: float, span_s: float = SEEN_S, player_ids: tuple[str, ...] = ()) -> None:
+    def request(self, time_s: float, span_s: float = SEEN_S, player_ids: tuple[str, ...] = ()) -> None:
         """Say what is looked at: from a time on, for some seconds, these players before the others (empty: all)."""
         grid, (last_s, last_span_s, last_ids) = self._shown.grid, self._requested
         self._requested = (time_s, span_s, player_ids)

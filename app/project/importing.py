@@ -1,4 +1,4 @@
-"""From the tracks of a MIDI file to a project, as the user wishes: who plays what, on what, as whom."""
+"""From the tracks of a MIDI file to a project, as the user assigns them: who plays what, on what, as whom."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from app.errors import Message
 from app.project.doubling import doubled_parts
 from app.project.model import Project, map_choices, project_from_score
 from app.score.model import Score, UnplayedPart
-from app.score.parts import PartAssignment, usual_wishes
+from app.score.parts import PartAssignment, usual_assignments
 from app.score.read import MidiContents, assigned_score
 from instrument_maps.model import InstrumentMap
 
@@ -21,7 +21,7 @@ class ImportRow(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    wish : PartAssignment
+    assignment : PartAssignment
     requested : bool
         False: the tracks are left out.
     character_id : str or None
@@ -33,7 +33,7 @@ class ImportRow(msgspec.Struct, frozen=True):
     character_id: str | None = None
 
 
-class ImportWish(msgspec.Struct, frozen=True):
+class ImportRequest(msgspec.Struct, frozen=True):
     """How a MIDI file is to become a project.
 
     Attributes
@@ -48,7 +48,7 @@ class ImportWish(msgspec.Struct, frozen=True):
 
 def usual_rows(contents: MidiContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
     """A row for every track, as it is imported by default."""
-    played = {assignment.streams[0] for assignment in usual_wishes(contents.streams, map_choices(maps.values()))}
+    played = {assignment.streams[0] for assignment in usual_assignments(contents.streams, map_choices(maps.values()))}
     return tuple(ImportRow(PartAssignment((index,)), index in played) for index in range(len(contents.streams)))
 
 
@@ -124,7 +124,7 @@ def outcome_of(
 
 
 def automatic(assignment: PartAssignment) -> PartAssignment:
-    """The wish without an instrument of its own: names, programs and ranges say which."""
+    """The assignment without an instrument of its own: names, programs and ranges say which."""
     return msgspec.structs.replace(assignment, map_id=None)
 
 
@@ -138,7 +138,7 @@ def _instruments(
     maps: Mapping[str, InstrumentMap],
     stop_requested: Callable[[], bool],
 ) -> tuple[str, ...]:
-    """What plays a wish's tracks."""
+    """What plays the tracks of an assignment."""
     # As if the file had no others.
     own = msgspec.structs.replace(contents, streams=tuple(contents.streams[stream] for stream in assignment.streams))
     alone = msgspec.structs.replace(assignment, streams=tuple(range(len(assignment.streams))))

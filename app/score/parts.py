@@ -95,7 +95,7 @@ def parts_of(
     piece : Score
         Its tempo and metres.
     """
-    return assigned_parts(streams, usual_wishes(streams, maps), maps, piece)
+    return assigned_parts(streams, usual_assignments(streams, maps), maps, piece)
 
 
 Split: TypeAlias = Literal["sustained", "every", "never"]
@@ -125,7 +125,7 @@ class PartAssignment(msgspec.Struct, frozen=True):
     written: bool = False
 
 
-def usual_wishes(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> tuple[PartAssignment, ...]:
+def usual_assignments(streams: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> tuple[PartAssignment, ...]:
     """Suggested assignments by names, programs and ranges, for the user to change: one for every playable stream."""
     return tuple(PartAssignment((index,)) for index, stream in enumerate(streams) if refusal(stream, maps) is None)
 
@@ -141,7 +141,7 @@ def assigned_parts(
 
     Parameters
     ----------
-    wishes : sequence of PartAssignment
+    assignments : sequence of PartAssignment
         A stream is asked for at most once.
     piece : Score
         Its tempo and metres.
@@ -296,7 +296,7 @@ def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence
 
 
 def _found(chosen: Sequence[TrackChannel], map_id: str | None, maps: Sequence[MapChoice]) -> Candidates:
-    """The maps a wish may be given to: the one the user named, else what the tracks say and fit. Raises as
+    """The maps an assignment may be given to: the one the user named, else what the tracks say and fit. Raises as
     `require_map`."""
     found = candidates(chosen, maps)
     if map_id is not None:

@@ -140,7 +140,7 @@ def assigned_score(
     maps: Sequence[MapChoice],
     stop_requested: Callable[[], bool] = lambda: False,
 ) -> Score:
-    """The score in which the parts are those that the user requests. Raises Cancelled as `wished_parts`."""
+    """The score in which the parts are those that the user requests. Raises Cancelled as `assigned_parts`."""
     parts, unplayed, warnings = assigned_parts(contents.streams, assignments, maps, _score(contents), stop_requested)
     return _score(contents, parts, unplayed, (*contents.warnings, *warnings))
 

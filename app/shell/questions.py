@@ -13,7 +13,7 @@ from app.editor.tasks import Tasks
 from app.editor.tokens import Tokens
 from app.editor.translated import tr
 from app.encoding import shown
-from app.project.importing import ImportWish
+from app.project.importing import ImportRequest
 from app.score.read import MidiContents
 from instrument_maps.library import all_maps
 from widgets.common.paths import ask_for_file, ask_where_to_save
@@ -52,7 +52,7 @@ class DialogQuestions:
         )
         return "save" if role == Role.AcceptRole else "discard" if role == Role.DestructiveRole else "cancel"
 
-    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
+    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportRequest | None:
         """See `Questions.import_midi`."""
         from widgets.dialogs.import_midi import ImportDialog
 

@@ -241,7 +241,7 @@ class NumberSlider(QWidget):
         elif self.receivers(SIGNAL("reset(double)")) > 0:
             self.reset.emit(self._default)
         else:
-            self._want(self._default, None)
+            self._request(self._default, None)
 
     def type_value(self, text: str | None = None) -> None:
         """Open the field to type in, with the value selected, or beginning with ``text``."""
@@ -271,10 +271,10 @@ class NumberSlider(QWidget):
     def _take(self, text: str) -> bool:
         value = self._reads(text) if self._reads is not None else number_from(text, self._unit)
         if value is not None:
-            self._want(value, None)
+            self._request(value, None)
         return value is not None
 
-    def _want(self, value: float, token: object | None) -> None:
+    def _request(self, value: float, token: object | None) -> None:
         kept = self._kept(value)
         if kept == self._value and not self._mixed:
             return
@@ -285,7 +285,7 @@ class NumberSlider(QWidget):
     def _step_by(self, count: float, modifiers: Qt.KeyboardModifier) -> None:
         fine = FINE if modifiers & Qt.KeyboardModifier.ShiftModifier else 1.0
         self._token = self._token or object()
-        self._want(self._value + count * max(self._step * fine, 10.0**-self._decimals), self._token)
+        self._request(self._value + count * max(self._step * fine, 10.0**-self._decimals), self._token)
 
     def _kept(self, value: float) -> float:
         """Within the range, and no finer than is shown."""
@@ -322,7 +322,7 @@ class NumberSlider(QWidget):
                 self._value, self._mixed = self._press_value, self._press_mixed
                 self.update()
             else:
-                self._want(self._press_value, self._token)
+                self._request(self._press_value, self._token)
         self._press = None
         self._end()
 
@@ -455,7 +455,7 @@ class NumberSlider(QWidget):
             self.reset_value()
         elif key in (Qt.Key.Key_Home, Qt.Key.Key_End):
             if self._slides:
-                self._want(self._minimum if key == Qt.Key.Key_Home else self._maximum, None)
+                self._request(self._minimum if key == Qt.Key.Key_Home else self._maximum, None)
         else:
             self.type_value(event.text())
 
@@ -493,7 +493,7 @@ class NumberSlider(QWidget):
         moved = self._drag_value + (x - self._drag_x) * per_px
         self._drag_value = min(max(moved, min(low, self._press_value)), max(high, self._press_value))
         self._drag_x = x
-        self._want(self._drag_value, self._token)
+        self._request(self._drag_value, self._token)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         if event.button() != Qt.MouseButton.LeftButton or self._press is None:

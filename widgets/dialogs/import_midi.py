@@ -29,7 +29,16 @@ from app.editor.tasks import Progress, StopRequested, Tasks
 from app.editor.tokens import LEAST_TARGET_PX, Tokens
 from app.errors import Message
 from app.messages.pitches import pitch_name
-from app.project.importing import ImportRow, ImportWish, Outcome, automatic, merged, outcome_of, separated, usual_rows
+from app.project.importing import (
+    ImportRequest,
+    ImportRow,
+    Outcome,
+    automatic,
+    merged,
+    outcome_of,
+    separated,
+    usual_rows,
+)
 from app.rig.character_library import characters
 from app.score.choose import TrackChannel, is_drum_kit
 from app.score.model import UnplayedPart
@@ -133,9 +142,9 @@ class ImportDialog(Retranslated, QDialog):
         return self._rows
 
     @property
-    def assignment(self) -> ImportWish:
+    def assignment(self) -> ImportRequest:
         """Rows, and whether a dancer comes with them."""
-        return ImportWish(self._rows, self._dancer.isChecked())
+        return ImportRequest(self._rows, self._dancer.isChecked())
 
     def merge_selected(self) -> None:
         """Make one part of the selected tracks."""

@@ -136,7 +136,7 @@ class _MadePoses:
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
         """See `app.editor.poses.Poses.pose_now`. Raises Cancelled."""
         live = self._live
-        live.want(time_s, 0.0)
+        live.request(time_s, 0.0)
         while not live.is_seen:
             if self._stop_requested():
                 raise Cancelled("work.stopped")

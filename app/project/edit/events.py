@@ -1,4 +1,4 @@
-"""Edits of a player's events: what the user wishes of an event becomes the correction that makes it so.
+"""Edits of a player's events: what the user requests of an event becomes the correction that makes it so.
 
 All take the plan that the user saw, and event ids of that plan. Those that may give an event another id (a breath
 dragged to another note) return the new ids beside the project.

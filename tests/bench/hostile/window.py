@@ -26,7 +26,7 @@ from app.editor.tasks import Tasks, ThreadTasks
 from app.editor.tokens import Tokens
 from app.errors import AppError, Message
 from app.project.autosave import Autosave
-from app.project.importing import ImportWish
+from app.project.importing import ImportRequest
 from app.project.presence import Presence
 from app.score.read import MidiContents
 from app.shell.app import Program, make_application
@@ -72,7 +72,7 @@ class StallMeter(QObject):
 class ImportAnswers(Answers):
     """Whoever imports a MIDI file looks at the dialog for a moment and agrees."""
 
-    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
+    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportRequest | None:
         """The real dialog."""
         timer = QTimer()
         timer.setInterval(300)

@@ -70,7 +70,7 @@ def test_plans_and_picture_after_one_edit(planned: tuple[Performance, float]) ->
     edits["a note's pitch"] = note_moved(performance.project)
     for name, project in edits.items():
         live = LiveMotion(performance)
-        live.want(at_s, 4.0, (player.id,))
+        live.request(at_s, 4.0, (player.id,))
         for _ in range(3):
             live.work()
         start_s = time.perf_counter()
@@ -78,7 +78,7 @@ def test_plans_and_picture_after_one_edit(planned: tuple[Performance, float]) ->
         after.prepare()
         plans_s = time.perf_counter() - start_s
         live.show(after)
-        live.want(at_s, 4.0, (player.id,))
+        live.request(at_s, 4.0, (player.id,))
         live.work()
         picture_s = time.perf_counter() - start_s
         reported(f"{name}: new plans", plans_s, unit_s)
@@ -98,7 +98,7 @@ def test_a_pose_at_once_and_from_what_is_made(planned: tuple[Performance, float]
         live.pose_now(players[number % 50].id, 3.0 * number)
         times_s.append(time.perf_counter() - start_s)
     reported("a pose made at once, of a part of 2,000 notes (median)", sorted(times_s)[50], unit_s)
-    live.want(60.0, 1.0)
+    live.request(60.0, 1.0)
     for _ in range(120):
         live.work()
     start_s = time.perf_counter()

@@ -116,7 +116,7 @@ def test_tracks_are_merged_and_taken_apart(dialog: ImportDialog) -> None:
     assert [row.assignment.streams for row in dialog.rows] == [(0,), (1,), (2,), (3,)]
 
 
-def test_usual_rows_without_any_wish_are_an_empty_stage() -> None:
+def test_usual_rows_without_assignments_are_an_empty_stage() -> None:
     contents = read_contents(LUTKIN)
     rows = [type(row)(row.assignment, requested=False) for row in usual_rows(contents, MAPS)]
     project = import_project(contents, rows, MAPS)

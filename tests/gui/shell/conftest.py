@@ -19,7 +19,7 @@ from app.editor.sound import Sound
 from app.editor.tasks import Tasks
 from app.editor.tokens import Tokens
 from app.project.autosave import Autosave
-from app.project.importing import ImportWish, usual_rows
+from app.project.importing import ImportRequest, usual_rows
 from app.project.presence import Presence
 from app.score.read import MidiContents
 from app.shell.app import Program
@@ -65,10 +65,10 @@ class Answers:
         self.reported_players = players
         return self.removes
 
-    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportWish | None:
+    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> ImportRequest | None:
         """As if no one touched the dialog."""
         self.asked.append("import")
-        return ImportWish(usual_rows(contents, bundled_maps()), self.dances) if self.imports else None
+        return ImportRequest(usual_rows(contents, bundled_maps()), self.dances) if self.imports else None
 
 
 @pytest.fixture

@@ -75,7 +75,7 @@ def test_memory_is_returned_once_much_was_made(session: Session, qtbot: QtBot, m
         assert returned == [1.0]
         assert threads[0] is not threading.current_thread()
         _correct(session, 0.9)
-        qtbot.waitUntil(lambda: made.ready_share == 1.0 and made._worker._met == made._worker._wishes)
+        qtbot.waitUntil(lambda: made.ready_share == 1.0 and made._worker._met == made._worker._requests)
         assert returned == [1.0]
     finally:
         made.close()
@@ -218,7 +218,7 @@ def test_motion_that_no_one_waits_for_gives_way(
 
 def test_what_is_requested_ends_the_rest(generator: Generator) -> None:
     worker = generator._worker
-    requests = worker._wishes
+    requests = worker._requests
     thread = threading.Thread(target=worker._rest, args=(60.0, requests))
     thread.start()
     thread.join(0.1)

@@ -91,7 +91,7 @@ def test_no_way_through_a_small_grid_is_better(seed: int) -> None:
     assert scored(tuple(found), grid, scores, own, weights) == pytest.approx(best, abs=0.12)
 
 
-def test_wishes_are_met_and_solved_around() -> None:
+def test_constraints_are_met_and_solved_around() -> None:
     own, rhythm = candidates(8, 3, spread=0.3), beaten(32)
     grid = grid_of(rhythm)
     scores = symbol_scores(grid, rhythm, own)
@@ -99,9 +99,9 @@ def test_wishes_are_met_and_solved_around() -> None:
     # A phrase that is not asked for anything begins on the beat.
     place = 16
     there = dict(free).get(place)
-    wished = next(state for state in range(8) if state != there)
-    pinned = choose(grid, scores, own, seed=5, constraints=Constraints(pinned={place: wished}))
-    assert dict(pinned)[place] == wished
+    requested = next(state for state in range(8) if state != there)
+    pinned = choose(grid, scores, own, seed=5, constraints=Constraints(pinned={place: requested}))
+    assert dict(pinned)[place] == requested
     banned = frozenset((at, state) for at in range(len(grid.times_s)) for state in range(4))
     assert all(
         segment >= 4 for _, segment in choose(grid, scores, own, seed=5, constraints=Constraints(forbidden=banned))

@@ -108,15 +108,15 @@ def test_corrections_hold_at_their_ticks(choreography: str) -> None:
     dancing = dancing_of(performance, project.dancers[0])
     step = dancing.dance(FPS).steps[6]
     tick = round(project.score.tempo_map.ticks(step.accent_s) / 240) * 240
-    wished = (step.state + 1) % 4
-    corrected = replace(project, dance_corrections={"dancer:1": (PinState(tick, wished),)})
+    requested = (step.state + 1) % 4
+    corrected = replace(project, dance_corrections={"dancer:1": (PinState(tick, requested),)})
     again = dancing_of(Performance(corrected), corrected.dancers[0]).dance(FPS)
     time_s = project.score.tempo_map.seconds(float(tick))
     nearest = min(again.steps, key=lambda one: abs(one.accent_s - time_s))
-    assert nearest.state == wished
-    forbidden = replace(project, dance_corrections={"dancer:1": (ForbidState(0, 480 * 40, wished),)})
+    assert nearest.state == requested
+    forbidden = replace(project, dance_corrections={"dancer:1": (ForbidState(0, 480 * 40, requested),)})
     without = dancing_of(Performance(forbidden), forbidden.dancers[0]).dance(FPS)
-    assert all(one.state != wished for one in without.steps)
+    assert all(one.state != requested for one in without.steps)
 
 
 @pytest.mark.parametrize(
@@ -166,7 +166,7 @@ def test_dancers_are_seen_beside_the_players(choreography: str) -> None:
     project = with_dancers(choreography)
     live = LiveMotion(Performance(project))
     time_s = 2.0
-    live.want(time_s)
+    live.request(time_s)
     while live.work():
         pass
     pose = live.pose("dancer:1", time_s)

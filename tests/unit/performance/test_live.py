@@ -45,7 +45,7 @@ def test_what_is_looked_at_is_made_first(performance: Performance) -> None:
     live = LiveMotion(performance)
     first, second, third = (player.id for player in performance.project.players)
     assert live.pose(first, 8.0) is None
-    live.want(8.0, 1.0, (second,))
+    live.request(8.0, 1.0, (second,))
     assert live.work()
     assert live.pose(second, 8.5) is not None
     assert live.pose(first, 8.5) is None
@@ -93,7 +93,7 @@ def test_a_setting_of_the_piece_costs_what_it_changes(
 def test_all_players_are_made_at_the_playhead_first(performance: Performance) -> None:
     live = LiveMotion(performance)
     players = [player.id for player in performance.project.players]
-    live.want(8.0, 4.0, (players[2],))
+    live.request(8.0, 4.0, (players[2],))
     here = []
     for _ in players:
         before, seen = {player for player in players if live.pose(player, 8.0) is not None}, live.seen
@@ -115,7 +115,7 @@ def test_all_players_are_made_at_the_playhead_first(performance: Performance) ->
 def test_an_edit_is_awaited_only_until_what_is_looked_at_is_right(performance: Performance) -> None:
     player = performance.project.players[0]
     live = LiveMotion(performance)
-    live.want(6.0, 2.0)
+    live.request(6.0, 2.0)
     all_made(live)
     project = put(performance.project, player.id, [AddExpression("x", "strained", 6 * 960, 40 * 960)])
     live.show(Performance(project, performance))
@@ -159,7 +159,7 @@ def test_after_an_edit_a_player_who_was_seen_is_made_at_once(performance: Perfor
     player = performance.project.players[0]
     live.make_now(player.id, 8.0)
     assert live.pose(player.id, 8.0) is None, "figures are not loaded here"
-    live.want(8.0, 1.0, (player.id,))
+    live.request(8.0, 1.0, (player.id,))
     live.work()
     shown = AddExpression("x", "strained", 6 * 960, 40 * 960)
     after = Performance(put(performance.project, player.id, [shown]), performance)
@@ -181,7 +181,7 @@ def test_after_an_edit_the_player_in_front_does_not_wait_for_another_that_is_bei
 ) -> None:
     live = LiveMotion(performance)
     first, second = performance.project.players[:2]
-    live.want(8.0, 1.0, (first.id, second.id))
+    live.request(8.0, 1.0, (first.id, second.id))
     live.work()
     begun, go_on, motion = threading.Event(), threading.Event(), PerformanceCurves.motion
 
@@ -264,7 +264,7 @@ def test_memory_is_bounded_and_what_is_far_goes_first(performance: Performance) 
     all_made(whole)
     budget = whole.bytes // 3
     live = LiveMotion(performance, budget)
-    live.want(0.0, 2.0)
+    live.request(0.0, 2.0)
     all_made(live)
     player = performance.project.players[0].id
     end_s = performance.time_frame.end_s - 1.0
@@ -272,7 +272,7 @@ def test_memory_is_bounded_and_what_is_far_goes_first(performance: Performance) 
     assert live.ready_share > 0.8
     assert live.pose(player, 0.5) is not None
     assert live.pose(player, end_s) is None
-    live.want(end_s, 2.0)
+    live.request(end_s, 2.0)
     all_made(live)
     assert live.bytes <= budget
     assert live.pose(player, end_s) is not None
@@ -349,7 +349,7 @@ def test_it_is_asked_while_it_works(performance: Performance) -> None:
         project = put(before.project, player.id, [AddExpression("x", "smile", tick, tick + 480)])
         before = Performance(project, before)
         live.show(before)
-        live.want(tick / 960.0)
+        live.request(tick / 960.0)
         for time_s in np.linspace(-2.0, 12.0, 50):
             live.pose(player.id, float(time_s))
     stop.set()
@@ -408,7 +408,7 @@ def test_a_fault_in_one_players_motion_is_reported_once_and_the_others_are_made(
 
     monkeypatch.setattr(PerformanceCurves, "motion", failing)
     live = LiveMotion(performance)
-    live.want(8.0, 1.0, (first.id,))
+    live.request(8.0, 1.0, (first.id,))
     with pytest.raises(PlayerFault, match="ValueError: a bug") as caught:
         live.work()
     assert isinstance(caught.value.__cause__, ValueError)

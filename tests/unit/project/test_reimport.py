@@ -33,7 +33,7 @@ from app.project.performers import Dancer
 from app.project.reimport import orphaned, reattached, reimport
 from app.project.storage import load, save
 from app.score.model import Marker, Note, Part, PercussionHit, Score
-from app.score.parts import usual_wishes
+from app.score.parts import usual_assignments
 from app.score.read import assigned_score, read_contents, read_midi
 from app.score.tempo import TempoChange, TempoMap
 from instrument_maps.load import bundled_maps
@@ -91,7 +91,7 @@ def test_parts_read_as_written_pitches_are_read_so_again() -> None:
     def score(written: bool, *more: Note) -> Score:
         assignments = [
             msgspec.structs.replace(assignment, written=written and assignment.streams == (0,))
-            for assignment in usual_wishes(contents.streams, choices)
+            for assignment in usual_assignments(contents.streams, choices)
         ]
         found = assigned_score(contents, assignments, choices)
         return with_notes(found, 0, [*found.parts[0].notes, *more])

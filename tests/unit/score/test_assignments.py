@@ -8,7 +8,7 @@ import msgspec
 import pytest
 
 from app.project.model import map_choices
-from app.score.parts import PartAssignment, stream_name, usual_wishes
+from app.score.parts import PartAssignment, stream_name, usual_assignments
 from app.score.read import assigned_score, read_contents, read_midi
 from instrument_maps.load import bundled_maps
 
@@ -17,10 +17,10 @@ MAPS = map_choices(bundled_maps().values())
 
 
 @pytest.mark.parametrize("path", sorted(MIDI.glob("*.mid")), ids=lambda path: path.stem)
-def test_usual_wishes_are_what_the_reader_does(path: Path) -> None:
+def test_usual_assignments_are_what_the_reader_does(path: Path) -> None:
     contents = read_contents(path)
-    wished = assigned_score(contents, usual_wishes(contents.streams, MAPS), MAPS)
-    assert wished == read_midi(path, maps=MAPS)
+    requested = assigned_score(contents, usual_assignments(contents.streams, MAPS), MAPS)
+    assert requested == read_midi(path, maps=MAPS)
 
 
 def test_a_track_no_one_would_play_can_be_given_to_a_user() -> None:
@@ -58,7 +58,7 @@ SAXOPHONES = {"alto sax": -9, "tenor sax": -14, "baritone sax": -21}
 
 def test_written_parts_of_a_real_band_are_reported_and_fit_when_read_so() -> None:
     contents = read_contents(BAND)
-    usual = usual_wishes(contents.streams, MAPS)
+    usual = usual_assignments(contents.streams, MAPS)
     score = assigned_score(contents, usual, MAPS)
     reported = {str(warning.arguments["part"]) for warning in score.warnings if warning.id == "score.looks_written"}
     assert reported == set(SAXOPHONES)
