@@ -9,6 +9,7 @@ from typing import NamedTuple
 import msgspec
 
 from app.errors import Cancelled
+from app.plan.acting import acting_of
 from app.plan.bar_phase import lowest, with_felt_bars
 from app.plan.breath import plan_breaths
 from app.plan.breath_envelope import blown
@@ -179,8 +180,9 @@ def plan_ensemble(
         shared_breaths = memo.nested("shared", shared_with, this, others, tuple(breathed))
         own_cues = memo.step("cues", _cues_of, cues, line.player_id)
         given = _Given(
-            piece, line, times, frame, own_cues, cue_ids, this, shared_breaths, seed, beat, ending, problems, faces
-        )
+            piece, line, times, frame, own_cues, cue_ids, this, shared_breaths, seed, beat, ending, problems, faces,
+            alone=musicians.count(musicians[done]) == 1,
+        )  # fmt: skip
         plan, breaths = memo.nested("plan", _plan_line, given)
         plans[line.player_id] = plan
         breathed.append(breaths)
@@ -247,6 +249,7 @@ class _Given(NamedTuple):
     ending: Ending
     reported: tuple[Problem, ...]
     faces: Mapping[str, Expression]
+    alone: bool
 
 
 def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
@@ -282,7 +285,20 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     embouchures = memo.step("embouchures", correct_embouchures, made_lips, by_hand)
     traces = memo.step("traces", plan_traces, notes, times, clock, instrument, lips, line.controller, envelope, by_hand)
     dynamics = memo.step("dynamics", dynamics_of, times, envelope)
-    made_gestures = plan_gestures(notes, times, piece, frame, events, given.cues, seeds, given.pulse, dynamics, memo)
+    made_gestures = plan_gestures(
+        notes,
+        times,
+        piece,
+        frame,
+        events,
+        given.cues,
+        seeds,
+        given.pulse,
+        dynamics,
+        memo,
+        acting_of(parameters),
+        given.alone,
+    )
     moved = _of(corrections, ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
     gestures = memo.step("corrected gestures", correct_gestures, made_gestures, moved, clock)
     # Who corrected the smile after the last note keeps it, whatever the ending is.

@@ -111,11 +111,20 @@ class CueEvent(msgspec.Struct, frozen=True, gc=False):
     amount: float = 1.0
 
 
+GestureKind: TypeAlias = Literal[
+    "sway", "weight_shift", "bell_height", "lower_instrument", "lean", "accent", "step", "tap", "heel"
+]
+"""What a body does beside playing."""
+ACCENT_AT: Final = 0.45
+"""Part of an accent's length after which its note begins."""
+
+
 class GestureEvent(msgspec.Struct, frozen=True, gc=False):
-    """A body motion over a span. ``amount`` is -1..1, signed by direction (left, up and forward are positive)."""
+    """A body motion over a span. ``amount`` is -1..1, signed by direction (left, up and forward are positive; down of
+    an accent); of a foot the sign says which."""
 
     id: str
-    kind: Literal["sway", "weight_shift", "bell_height", "lower_instrument"]
+    kind: GestureKind
     start_tick: int
     end_tick: int
     start_s: float

@@ -16,6 +16,11 @@ _KINDS: Final = {
     "weight_shift": "event.weight_shift",
     "bell_height": "event.bell_height",
     "lower_instrument": "event.instrument_lowered",
+    "lean": "event.lean",
+    "accent": "event.accent",
+    "step": "event.step",
+    "tap": "event.tap",
+    "heel": "event.heel",
     "pose": "event.pose",
     "vary": "event.performed_anew",
 }

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import Literal, NamedTuple, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias, get_args
 
 import msgspec
 
@@ -32,6 +32,7 @@ from app.plan.corrections import (
 )
 from app.plan.cue import LEAD_BEATS
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.plan.model import GestureKind as GestureKind
 from app.project.edit.corrections import put, take_back
 from app.project.edit.found_events import OWN as OWN
 from app.project.edit.found_events import Placed as Placed
@@ -43,9 +44,8 @@ from app.project.edit.found_events import placed_events as placed_events
 from app.project.model import Project
 from app.score.model import Note
 
-GestureKind: TypeAlias = Literal["sway", "weight_shift", "bell_height", "lower_instrument"]
 BreathKind: TypeAlias = Literal["preparation", "breath"]
-GESTURE_KINDS: tuple[GestureKind, ...] = ("sway", "weight_shift", "bell_height", "lower_instrument")
+GESTURE_KINDS: tuple[GestureKind, ...] = get_args(GestureKind)
 CATCH_S = 0.3
 """A breath added where notes touch is this long."""
 

@@ -242,4 +242,9 @@ ACTIONS: tuple[Action, ...] = (
     _kind("weight_shift"),
     _kind("bell_height"),
     _kind("lower_instrument"),
+    _kind("lean"),
+    _kind("accent"),
+    _kind("step"),
+    _kind("tap"),
+    _kind("heel"),
 )
