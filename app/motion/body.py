@@ -11,39 +11,37 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import zip_longest
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
 from app.motion.accents import Accents
 from app.motion.body_sum import TRUNK, Angles, Part, Sizes, Sum
-from app.motion.curve import Curve, FloatArray, bump, moves, rows_changed_s
+from app.motion.curve import Curve, FloatArray, moves
 from app.motion.feet import Feet, feet_moved
+from app.motion.follow import follow, path
 from app.motion.gaze import Look
+from app.motion.lowering import lowering
+from app.motion.nods import Nods
 from app.motion.overlap import Leads, Overlapped
 from app.motion.path import Path
 from app.motion.pose import Offset, Poses, hold_body
 from app.motion.ribs import air
 from app.plan.acting import Acting
 from app.plan.footwork import FOOT_KINDS
-from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerPlan, PoseTarget, same_events
+from app.plan.model import BreathEvent, GestureEvent, PlayerPlan, PoseTarget, same_events
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
 from metadata.model import Body, Posture
 
 EYES_BACK = 0.6
 """Share of the head's turn to the instrument that the eyes turn back, to the music and to the others."""
-QUICK_S = 0.6
-"""Gestures shorter than this are smaller in proportion: no one leans as far in half the time."""
 EXHALE_S = 3.0
 FULLEST = 1.4
 LEAST_DRAWN = 0.4
 """However soon breaths follow each other, each has this much room: no breath goes unseen, also where a bell sinks."""
 BREATH_LEAD_S = 0.03
 """The inhalation is complete this long before the breath's end."""
-LIFT_LAG = 0.6547
-"""Where the side lobe of a bump's acceleration peaks, in half widths: a lift placed there adds to the nod's peak
-without moving it."""
 LIFT_SHARE = 0.6
 STEP_IN_HIPS = 0.4
 """Hips go along with a foot that is put ahead."""
@@ -141,40 +139,6 @@ class BodyMotion:
         return cls(**(rest | {"forward_rad": held, "left_rad": left, "turn_rad": turned} | empty))
 
 
-def follow(
-    events: Sequence[GestureEvent], kind: Literal["sway", "weight_shift", "bell_height", "lean"], transition_s: float
-) -> Curve:
-    """A value that goes to each gesture's amount within ``transition_s`` of its start, and stays."""
-    return moves(_targets(events, kind, transition_s))
-
-
-def path(events: Sequence[GestureEvent], kind: Literal["sway", "weight_shift", "bell_height", "lean"]) -> Path:
-    """A value that goes to each gesture's amount over the whole gesture, and does not stop at what it passes."""
-    return Path.through(_targets(events, kind, None))
-
-
-def _targets(events: Sequence[GestureEvent], kind: str, transition_s: float | None) -> list[tuple[float, float, float]]:
-    """Where gestures go and when, ``(start_s, end_s, value)``.
-
-    It goes back to 0 where the next gesture is more than its own length (at least a second) away.
-    """
-    chosen = [event for event in events if event.kind == kind]
-    segments: list[tuple[float, float, float]] = []
-    for event, following in zip_longest(chosen, chosen[1:]):
-        end_s = event.end_s if following is None else min(event.end_s, following.start_s)
-        length_s = end_s - event.start_s
-        if length_s <= 0.0:
-            continue
-        move_s = length_s if transition_s is None else min(transition_s, length_s)
-        size = min(1.0, move_s / QUICK_S)
-        amount = min(max(event.amount * size, -1.0), 1.0)
-        segments.append((event.start_s, event.start_s + move_s, amount))
-        pause_s = np.inf if following is None else following.start_s - end_s
-        if pause_s > max(1.0, length_s):
-            segments.append((end_s, end_s + min(max(length_s, 1.0), 2.0, pause_s), 0.0))
-    return segments
-
-
 def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
     """How full the lungs are (up over each breath, down over the phrase), and the preparation's lean 0..1."""
     full: list[tuple[float, float, float]] = []
@@ -201,67 +165,6 @@ def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
             free_s = breath.end_s + 0.6 * (breath.end_s - start_s)
             lean += [(start_s, breath.end_s, 1.0), (breath.end_s, free_s, 0.0)]
     return moves(full), moves(lean)
-
-
-def lowering(gestures: Sequence[GestureEvent], lower_s: float, raise_s: float) -> Curve:
-    """0 with the instrument at the lips, 1 with it lowered; it is up again when the gesture ends.
-
-    Gestures that overlap are one: the instrument stays down from the first to the last, as low as the lowest of them.
-    """
-    spans: list[tuple[float, float, float]] = []
-    lowerings = (event for event in gestures if event.kind == "lower_instrument" and event.end_s > event.start_s)
-    for event in sorted(lowerings, key=lambda event: event.start_s):
-        if spans and event.start_s < spans[-1][1]:
-            start_s, end_s, amount = spans[-1]
-            spans[-1] = (start_s, max(end_s, event.end_s), max(amount, event.amount))
-        else:
-            spans.append((event.start_s, event.end_s, event.amount))
-    segments: list[tuple[float, float, float]] = []
-    for start_s, end_s, amount in spans:
-        share = min(1.0, (end_s - start_s) / (lower_s + raise_s))
-        segments.append((start_s, start_s + share * lower_s, amount))
-        segments.append((end_s - share * raise_s, end_s, 0.0))
-    return moves(segments)
-
-
-@dataclass(frozen=True)
-class Nods:
-    """Dips and lifts of all cues: the dip's acceleration peaks on the preparatory beat, its width is the beat.
-
-    Attributes
-    ----------
-    peak_s, half_s, amount : (N,) float64
-    """
-
-    peak_s: FloatArray
-    half_s: FloatArray
-    amount: FloatArray
-
-    @classmethod
-    def of(cls, cues: Sequence[CueEvent]) -> Nods:
-        """From a player's cues."""
-        rows = [(cue.peak_s, min(0.6 * cue.beat_s, cue.peak_s - cue.start_s), cue.amount) for cue in cues]
-        table = np.array([row for row in rows if row[1] > 0.0], dtype=np.float64).reshape(-1, 3)
-        return cls(table[:, 0], table[:, 1], table[:, 2])
-
-    def sample(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Dip and lift, 1 as usual, at ascending times, each (F,) float64."""
-        dip, lift = np.zeros(len(times_s)), np.zeros(len(times_s))
-        first = np.searchsorted(times_s, self.peak_s - self.half_s)
-        last = np.searchsorted(times_s, self.peak_s + 2.0 * self.half_s)
-        for index in np.flatnonzero(last > first):
-            here = slice(first[index], last[index])
-            peak_s, half_s = float(self.peak_s[index]), float(self.half_s[index])
-            amount = float(self.amount[index])
-            np.maximum(dip[here], amount * bump(times_s[here], peak_s, half_s), out=dip[here])
-            np.maximum(lift[here], amount * bump(times_s[here], peak_s + LIFT_LAG * half_s, half_s), out=lift[here])
-        return dip, lift
-
-    def changed_s(self, other: Nods) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
-        mine, others = (np.stack((nods.peak_s, nods.half_s, nods.amount), axis=1) for nods in (self, other))
-        spans = [np.stack((row[:, 0] - row[:, 1], row[:, 0] + 2.0 * row[:, 1]), axis=1) for row in (mine, others)]
-        return rows_changed_s(mine, others, *spans)
 
 
 _KINDS = ("sway", "weight_shift", "bell_height", "lower_instrument", "lean", "accent", "feet")
