@@ -107,7 +107,7 @@ def plan_gestures(
         memo.step("sways", sways, swings, pulse),
         shifts,
         memo.step("leans", leans, found, times, clock, seeds, dynamics),
-        memo.step("accents", accents, times, pulse, at_notes, clock, swings, seeds, dynamics),
+        memo.step("accents", accents, times, pulse, at_notes, cues, clock, swings, seeds, dynamics),
         memo.step("bell heights", bell_heights, notes, times, piece, dynamics),
         memo.step("lowered", lowered_spans, notes, rhythm, piece, frame, breaths, cues),
         feet,
