@@ -15,11 +15,13 @@ from typing import Any, Literal
 
 import numpy as np
 
-from app.motion.curve import Curve, FloatArray, Noise, bump, moves, rows_changed_s, through
+from app.motion.curve import Curve, FloatArray, Noise, moves, rows_changed_s, through
 from app.motion.gaze import Look
+from app.motion.lowering import lowering
+from app.motion.nods import Nods
 from app.motion.pose import Offset, Poses, hold_body
 from app.motion.seed import generator
-from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerPlan, PoseTarget, same_events
+from app.plan.model import BreathEvent, GestureEvent, PlayerPlan, PoseTarget, same_events
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
 from app.score.metre_map import FeltBeats, beat_ticks_at
@@ -44,9 +46,6 @@ RESIDUE_SHARE = 0.6
 """RMS of the wandering that is always there, as a share of the sizes at amplitude 0."""
 NOISE_SHARE = 0.30
 """Wandering beside the planned gestures, as a share of their size."""
-LIFT_LAG = 0.6547
-"""Where the side lobe of a bump's acceleration peaks, in half widths: a lift placed there adds to the nod's peak
-without moving it."""
 LIFT_SHARE = 0.6
 _NONE_AT_REST = ("protraction_rad", "elbow_held_rad", "bell_held_rad", "hips_danced")
 
@@ -283,67 +282,6 @@ def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
             free_s = breath.end_s + 0.6 * (breath.end_s - start_s)
             lean += [(start_s, breath.end_s, 1.0), (breath.end_s, free_s, 0.0)]
     return moves(full), moves(lean)
-
-
-def lowering(gestures: Sequence[GestureEvent], lower_s: float, raise_s: float) -> Curve:
-    """0 with the instrument at the lips, 1 with it lowered; it is up again when the gesture ends.
-
-    Gestures that overlap are one: the instrument stays down from the first to the last, as low as the lowest of them.
-    """
-    spans: list[tuple[float, float, float]] = []
-    lowerings = (event for event in gestures if event.kind == "lower_instrument" and event.end_s > event.start_s)
-    for event in sorted(lowerings, key=lambda event: event.start_s):
-        if spans and event.start_s < spans[-1][1]:
-            start_s, end_s, amount = spans[-1]
-            spans[-1] = (start_s, max(end_s, event.end_s), max(amount, event.amount))
-        else:
-            spans.append((event.start_s, event.end_s, event.amount))
-    segments: list[tuple[float, float, float]] = []
-    for start_s, end_s, amount in spans:
-        share = min(1.0, (end_s - start_s) / (lower_s + raise_s))
-        segments.append((start_s, start_s + share * lower_s, amount))
-        segments.append((end_s - share * raise_s, end_s, 0.0))
-    return moves(segments)
-
-
-@dataclass(frozen=True)
-class Nods:
-    """Dips and lifts of all cues: the dip's acceleration peaks on the preparatory beat, its width is the beat.
-
-    Attributes
-    ----------
-    peak_s, half_s, amount : (N,) float64
-    """
-
-    peak_s: FloatArray
-    half_s: FloatArray
-    amount: FloatArray
-
-    @classmethod
-    def of(cls, cues: Sequence[CueEvent]) -> Nods:
-        """From a player's cues."""
-        rows = [(cue.peak_s, min(0.6 * cue.beat_s, cue.peak_s - cue.start_s), cue.amount) for cue in cues]
-        table = np.array([row for row in rows if row[1] > 0.0], dtype=np.float64).reshape(-1, 3)
-        return cls(table[:, 0], table[:, 1], table[:, 2])
-
-    def sample(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Dip and lift, 1 as usual, at ascending times, each (F,) float64."""
-        dip, lift = np.zeros(len(times_s)), np.zeros(len(times_s))
-        first = np.searchsorted(times_s, self.peak_s - self.half_s)
-        last = np.searchsorted(times_s, self.peak_s + 2.0 * self.half_s)
-        for index in np.flatnonzero(last > first):
-            here = slice(first[index], last[index])
-            peak_s, half_s = float(self.peak_s[index]), float(self.half_s[index])
-            amount = float(self.amount[index])
-            np.maximum(dip[here], amount * bump(times_s[here], peak_s, half_s), out=dip[here])
-            np.maximum(lift[here], amount * bump(times_s[here], peak_s + LIFT_LAG * half_s, half_s), out=lift[here])
-        return dip, lift
-
-    def changed_s(self, other: Nods) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
-        mine, others = (np.stack((nods.peak_s, nods.half_s, nods.amount), axis=1) for nods in (self, other))
-        spans = [np.stack((row[:, 0] - row[:, 1], row[:, 0] + 2.0 * row[:, 1]), axis=1) for row in (mine, others)]
-        return rows_changed_s(mine, others, *spans)
 
 
 @dataclass

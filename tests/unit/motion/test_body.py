@@ -3,7 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.motion.body import Bobbing, follow, lowering, lungs
+from app.motion.body import Bobbing, follow, lungs
+from app.motion.lowering import lowering
 from app.plan.model import GestureEvent
 from tests.unit.motion.events import REASON, TICKS, breath
 
