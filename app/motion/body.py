@@ -15,12 +15,14 @@ from typing import Any, Literal
 
 import numpy as np
 
+from app.motion.concert import CONCERT_KINDS, Concert, ConcertSamples, beside_playing
 from app.motion.curve import Curve, FloatArray, Noise, moves, rows_changed_s, through
 from app.motion.gaze import Look
 from app.motion.lowering import lowering
 from app.motion.nods import Nods
 from app.motion.pose import Offset, Poses, hold_body
 from app.motion.seed import generator
+from app.plan.acting import acting_of
 from app.plan.model import BreathEvent, GestureEvent, PlayerPlan, PoseTarget, same_events
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
@@ -299,7 +301,7 @@ class _Sum:
         return {joint: self.angles.get(joint, np.zeros(self.frames)) for joint in TRUNK}
 
 
-_KINDS = ("sway", "weight_shift", "bell_height", "lower_instrument")
+_KINDS = ("sway", "weight_shift", "bell_height", "lower_instrument", "nod")
 """Gestures that layers are made of."""
 
 
@@ -307,7 +309,8 @@ _KINDS = ("sway", "weight_shift", "bell_height", "lower_instrument")
 class LayerSamples:
     """The layers at some frames, before the player's sizes: members as of `Layers`, each (F,) float64.
 
-    ``dip`` and ``lift`` are of the nods, ``held`` what the animator holds differently.
+    ``dip`` and ``lift`` are of the nods, ``held`` what the animator holds differently, ``concert`` what is done beside
+    playing (None: nothing).
     """
 
     full: FloatArray
@@ -320,6 +323,7 @@ class LayerSamples:
     bobbing: FloatArray
     lowered: FloatArray
     held: dict[PoseTarget, Offset]
+    concert: ConcertSamples | None = None
 
 
 @dataclass(frozen=True)
@@ -343,6 +347,7 @@ class Layers:
     bobbing: Bobbing
     lowered: Curve
     poses: Poses
+    concert: Concert
 
     @classmethod
     def of(
@@ -356,7 +361,8 @@ class Layers:
                     full, leaning = lungs(plan.breaths)
                     layers = replace(layers, full=full, leaning=leaning)
                 if not same_events(plan, other, "cues"):
-                    layers = replace(layers, nods=Nods.of(plan.cues))
+                    answers = [event for event in plan.gestures if event.kind == "nod"]
+                    layers = replace(layers, nods=Nods.of(plan.cues, answers))
                 return layers if same_events(plan, other, "poses") else replace(layers, poses=Poses.of(plan.poses))
         full, leaning = lungs(plan.breaths)
         gestures = {kind: [event for event in plan.gestures if event.kind == kind] for kind in _KINDS}
@@ -367,11 +373,11 @@ class Layers:
             for kind in _KINDS:
                 if gestures[kind] == [event for event in other.gestures if event.kind == kind]:
                     same[kind] = layers
-        swing, shift, bell, low = (same[kind] for kind in _KINDS)
+        swing, shift, bell, low, _ = (same[kind] for kind in _KINDS)
         return cls(
             full=full,
             leaning=leaning,
-            nods=Nods.of(plan.cues),
+            nods=Nods.of(plan.cues, gestures["nod"]),
             sway=swing.sway if swing else follow(gestures["sway"], "sway"),
             weight=shift.weight
             if shift
@@ -382,6 +388,7 @@ class Layers:
             if low
             else lowering(gestures["lower_instrument"], body.bell.lower_s, body.bell.raise_s),
             poses=Poses.of(plan.poses),
+            concert=Concert.of([event for event in plan.gestures if event.kind in CONCERT_KINDS], felt_beats),
         )
 
     def sample(self, times_s: FloatArray) -> LayerSamples:
@@ -403,7 +410,8 @@ def body_motion(
     """Sum of all layers at ascending ``times_s`` (F,), on top of the posture's own angles."""
     sizes = _Sizes(body, parameters, player_id)
     sway, frames = body.sway, len(times_s)
-    inhaled, lean, dip, lift = levels.full, levels.leaning, levels.dip, levels.lift
+    inhaled, lean, acting = levels.full, levels.leaning, acting_of(parameters)
+    dip, lift = acting.cue * levels.dip, acting.cue * levels.lift
 
     aside = parameters.sway * levels.sway
     down = parameters.sway * levels.bobbing * (1.0 - np.clip(inhaled, 0.0, 1.0))
@@ -451,6 +459,15 @@ def body_motion(
     forward.add(NECK_SHARES, 0.5 * look.head_pitch_rad)
 
     forward.add(TRUNK_SHARES, deg(body.bell.lowered_trunk_deg) * lowered)
+    shoulders, elbows = deg(body.breath.shoulder_lift_deg) * inhaled, deg(body.breath.elbow_out_deg) * inhaled
+    if levels.concert is not None:
+        seated = posture.seat_height_shank > 0.0
+        beside = beside_playing(levels.concert, body.concert, parameters.amplitude, acting.gestures, seated)
+        forward.add(TRUNK_SHARES, beside.trunk_rad)
+        forward.add(NECK_SHARES, beside.neck_rad)
+        turn.add(TRUNK_SHARES, body.concert.look_trunk_share * lowered * 0.5 * look.head_yaw_rad)
+        lowered = lowered * (1.0 - beside.up_share)
+        shoulders, elbows = shoulders + beside.shoulders_rad, elbows + beside.elbows_rad
 
     roll = weight * sizes.rad(body.weight_shift.roll_deg)
     left.add(TRUNK_SHARES, -0.8 * roll)
@@ -480,8 +497,8 @@ def body_motion(
         bell_down_rad=np.zeros(frames),
         bell_right_rad=np.zeros(frames),
         bell_held_rad=bell_held,
-        shoulders_rad=deg(body.breath.shoulder_lift_deg) * inhaled,
-        elbows_rad=deg(body.breath.elbow_out_deg) * inhaled,
+        shoulders_rad=shoulders,
+        elbows_rad=elbows,
         eyes_yaw_rad=look.yaw_rad - 0.5 * look.head_yaw_rad - EYES_BACK * aside_rad,
         eyes_pitch_rad=look.pitch_rad - 0.5 * look.head_pitch_rad,
         lowered=lowered,

@@ -16,6 +16,12 @@ _KINDS: Final = {
     "weight_shift": "event.weight_shift",
     "bell_height": "event.bell_height",
     "lower_instrument": "event.instrument_lowered",
+    "nod": "event.nod",
+    "count": "event.count",
+    "look_about": "event.look_about",
+    "settle_grip": "event.settle_grip",
+    "look_up": "event.look_up",
+    "bow": "event.bow",
     "pose": "event.pose",
     "vary": "event.performed_anew",
 }

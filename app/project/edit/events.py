@@ -31,7 +31,9 @@ from app.plan.corrections import (
     Vary,
 )
 from app.plan.cue import LEAD_BEATS
-from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.plan.model import GESTURE_KINDS as GESTURE_KINDS
+from app.plan.model import SIGNED_KINDS, BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.plan.model import GestureKind as GestureKind
 from app.project.edit.corrections import put, take_back
 from app.project.edit.found_events import OWN as OWN
 from app.project.edit.found_events import Placed as Placed
@@ -43,9 +45,7 @@ from app.project.edit.found_events import placed_events as placed_events
 from app.project.model import Project
 from app.score.model import Note
 
-GestureKind: TypeAlias = Literal["sway", "weight_shift", "bell_height", "lower_instrument"]
 BreathKind: TypeAlias = Literal["preparation", "breath"]
-GESTURE_KINDS: tuple[GestureKind, ...] = ("sway", "weight_shift", "bell_height", "lower_instrument")
 CATCH_S = 0.3
 """A breath added where notes touch is this long."""
 
@@ -83,7 +83,8 @@ def set_amounts(project: Project, plan: PlayerPlan, amounts: Mapping[str, float]
             depth = min(max(amount, 0.0), 1.0)
             corrections.append(msgspec.structs.replace(_breath(project, plan.player_id, event), depth=depth))
         elif isinstance(event, GestureEvent):
-            corrections.append(_with(_gesture(project, plan.player_id, event), amount=min(max(amount, -1.0), 1.0)))
+            least = -1.0 if event.kind in SIGNED_KINDS else 0.0
+            corrections.append(_with(_gesture(project, plan.player_id, event), amount=min(max(amount, least), 1.0)))
         elif isinstance(event, ExpressionEvent):
             corrections.append(_with(_expression(project, plan.player_id, event), strength=min(max(amount, 0.0), 1.0)))
     return put(project, plan.player_id, corrections)

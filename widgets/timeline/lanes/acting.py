@@ -26,10 +26,12 @@ from widgets.common.plain import verbatim
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_columns, draw_mark, draw_rects, shade
 from widgets.timeline.lanes.acting_drawing import ActingPainter
+from widgets.timeline.lanes.giver_menu import add_givers
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.model.acting import (
     BASE,
+    CONCERT_KINDS,
     GROUPS,
     STRIPS,
     VARIED,
@@ -91,6 +93,8 @@ class ActingLane(RegionLane):
         """What a group of rows is called, after its first kind."""
         if kind == VARIED:
             return self.tr("acting_lane.anew")
+        if kind == CONCERT_KINDS[0]:
+            return self.tr("acting_lane.beside")
         return self.tr("acting_lane.pose") if kind == "lower_instrument" else kind_name(kind)
 
     # Regions
@@ -315,6 +319,8 @@ class ActingLane(RegionLane):
         if region is not None and region.kind == "expression" and not region.removed:
             other = menu.addMenu(self.tr("acting_lane.another_expression"))
             self._expression_entries(other, self._choose_expression, region)
+        if region is not None and region.kind == "cue" and not region.removed:
+            add_givers(menu, self.session, region, self.tr("acting_lane.given_by"))
         adding = menu.addMenu(self.tr("acting_lane.add_expression_here"))
         self._expression_entries(adding, lambda name: add_expressions(self.session, name, self._spans(mouse)))
         gestures = menu.addMenu(self.tr("acting_lane.add_gesture_here"))
