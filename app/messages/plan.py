@@ -333,6 +333,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{rest_s:g} s of rest: the hands settle on the instrument",
         "{rest_s:g} 秒の休み: 楽器を持ち直します",
     ),
+    "gesture.hold_still": (
+        "the end of the last note: nothing moves until the instrument comes down",
+        "最後の音の終わり: 楽器を下ろすまで動きません",
+    ),
     "gesture.look_up": (
         "{after_s:g} s after the last note of all: up to the audience",
         "全員の最後の音から {after_s:g} 秒後に客席を見ます",

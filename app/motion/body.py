@@ -16,8 +16,9 @@ from typing import Any, Literal
 import numpy as np
 
 from app.motion.concert import CONCERT_KINDS, Concert, ConcertSamples, beside_playing
-from app.motion.curve import Curve, FloatArray, Noise, moves, rows_changed_s, through
+from app.motion.curve import Curve, Envelopes, FloatArray, Noise, moves, rows_changed_s, through
 from app.motion.gaze import Look
+from app.motion.holding import HELD, held_still, holds_of
 from app.motion.lowering import lowering
 from app.motion.nods import Nods
 from app.motion.pose import Offset, Poses, hold_body
@@ -348,6 +349,7 @@ class Layers:
     lowered: Curve
     poses: Poses
     concert: Concert
+    still: Envelopes
 
     @classmethod
     def of(
@@ -389,13 +391,19 @@ class Layers:
             else lowering(gestures["lower_instrument"], body.bell.lower_s, body.bell.raise_s),
             poses=Poses.of(plan.poses),
             concert=Concert.of([event for event in plan.gestures if event.kind in CONCERT_KINDS], felt_beats),
+            still=holds_of(plan.gestures),
         )
 
     def sample(self, times_s: FloatArray) -> LayerSamples:
         """The layers at ascending times."""
         sampled: dict[str, Any] = {layer.name: getattr(self, layer.name).sample(times_s) for layer in fields(self)}
         dip, lift = sampled.pop("nods")
+        sampled.pop("still")
+        sampled |= held_still({name: sampled[name] for name in HELD}, self.still, times_s, self._held_at)
         return LayerSamples(dip=dip, lift=lift, held=sampled.pop("poses"), **sampled)
+
+    def _held_at(self, times_s: FloatArray) -> dict[str, FloatArray]:
+        return {name: getattr(self, name).sample(times_s) for name in HELD}
 
 
 def body_motion(

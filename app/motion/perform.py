@@ -18,6 +18,7 @@ from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_tim
 from app.motion.danced import BodyLayer, giving_way, inhaling, with_dance
 from app.motion.face import Drivers, Face, face_morphs, usual_morphs
 from app.motion.gaze import Gaze, Look, looks_alike, plan_gaze
+from app.motion.holding import with_holds
 from app.motion.model import Motion
 from app.motion.posture import hips_path, stance, trunk
 from app.motion.solve import Curves, Player, padding, solve
@@ -210,7 +211,7 @@ class PerformanceCurves:
                 spans.append(shown.changed_s(others_shown))
             else:
                 spans += [shown.spans_s, others_shown.spans_s]
-        return np.concatenate(spans)
+        return with_holds(np.concatenate(spans), self.layers.still, other.layers.still)
 
     @property
     def _settings(self) -> tuple[object, ...]:

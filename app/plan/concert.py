@@ -3,7 +3,8 @@
 In a rest in which the instrument is lowered long enough the hands settle on it, the player looks about and counts the
 last bars. After the last note of all they look up to the audience and bow, together.
 
-Messages: ``gesture.count``, ``gesture.look_about``, ``gesture.settle_grip``, ``gesture.look_up``, ``gesture.bow``.
+Messages: ``gesture.count``, ``gesture.look_about``, ``gesture.settle_grip``, ``gesture.hold_still``,
+``gesture.look_up``, ``gesture.bow``.
 """
 
 from __future__ import annotations
@@ -30,8 +31,12 @@ MOST_LOOKS: Final = 6
 """... and no one does it more often in one rest."""
 COUNT_BARS: Final = 2
 COUNT_LEAST_BEATS: Final = 3
-COUNT_CHANCE: Final = 0.8
+COUNT_CHANCE: Final = 0.65
 
+HELD_BEFORE_S: Final = 0.2
+"""The body comes to rest with the end of the last note ..."""
+STILL_LOWERING_S: Final = 0.5
+"""... and moves again once the instrument is on its way down."""
 LOOK_UP_S: Final = 1.7
 """After the last note of all the eyes go up to the audience ..."""
 BOW_S: Final = 3.1
@@ -83,7 +88,7 @@ def _rest(
             events.append(_event("settle_grip", note_id, start_s, free_s, 1.0, piece, said))
     until_s = last_s
     if seeds.chance_at("count", place) < COUNT_CHANCE:
-        counted = _counted(free_s, last_s, piece)
+        counted = _counted(free_s, last_s, piece, seeds.chance_at("count from", place))
         if counted is not None:
             until_s, end_s, beats = counted
             amount = round(0.5 + 0.5 * seeds.chance_at("count size", place), 4)
@@ -91,8 +96,11 @@ def _rest(
     return events + _looks(place, (free_s, until_s), piece, seeds, said)
 
 
-def _counted(first_s: float, last_s: float, piece: Piece) -> tuple[float, float, int] | None:
-    """From which beat to which the last bars are counted, seconds, and how many beats; None where there is no time."""
+def _counted(first_s: float, last_s: float, piece: Piece, later: float) -> tuple[float, float, int] | None:
+    """From which beat to which the last bars are counted, seconds, and how many beats; None where there is no time.
+
+    ``later`` 0..1 is how much later than others the player begins: half the time at most.
+    """
     clock = piece.clock
     last = int(clock.ticks(last_s))
     bar = piece.metre_map.bar_ticks_at(last)
@@ -100,6 +108,7 @@ def _counted(first_s: float, last_s: float, piece: Piece) -> tuple[float, float,
     beats = beats[(beats > last - COUNT_BARS * bar) & (beats <= last)]
     beats_s = clock.seconds(beats.astype(np.float64))
     inside = beats_s[beats_s >= first_s]
+    inside = inside[int(later * 0.5 * len(inside)) :]
     if len(inside) <= COUNT_LEAST_BEATS:
         return None
     return float(inside[0]), float(inside[-1]), len(inside) - 1
@@ -122,6 +131,17 @@ def _looks(
         events.append(_event("look_about", name, start_s, start_s + lasts_s, amount, piece, said))
         free_s = start_s + lasts_s + LOOK_EVERY_S * (0.4 + seeds.chance_at(f"look again {number}", place))
     return events
+
+
+def holding_at_end(
+    times: Rhythm, lowered: Sequence[GestureEvent], piece: Piece, frame: TimeFrame
+) -> list[GestureEvent]:
+    """The player keeps still from the end of the last note until the instrument comes down."""
+    lows = [event for event in lowered if event.id == "lower_instrument:end"]
+    if not lows:
+        return []
+    start_s, end_s = float(times.played_end_s.max()) - HELD_BEFORE_S, lows[0].start_s + STILL_LOWERING_S
+    return [_event("hold_still", "end", start_s, min(end_s, frame.end_s), 1.0, piece, {})]
 
 
 def after_the_end(last_s: float, piece: Piece, frame: TimeFrame, seeds: Seeds) -> list[GestureEvent]:

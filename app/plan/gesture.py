@@ -26,7 +26,7 @@ import numpy.typing as npt
 
 from app.errors import Message
 from app.plan.answers import answering_nods
-from app.plan.concert import after_the_end, in_long_rests
+from app.plan.concert import after_the_end, holding_at_end, in_long_rests
 from app.plan.dynamics import Dynamics, grown
 from app.plan.line import IntArray, LineTimes, Piece, Rhythm, Seeds
 from app.plan.lowered import lowered_spans
@@ -100,6 +100,7 @@ def plan_gestures(
         lowered,
         memo.step("answering nods", answering_nods, notes, rhythm, answered, piece, seeds),
         memo.step("in long rests", in_long_rests, notes, rhythm, lowered, piece, frame, seeds),
+        memo.step("holding", holding_at_end, rhythm, lowered, piece, frame),
         memo.step("after the end", after_the_end, last_s, piece, frame, seeds) if notes and last_s is not None else (),
     )
 

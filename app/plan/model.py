@@ -137,6 +137,7 @@ GestureKind: TypeAlias = Literal[
     "count",
     "look_about",
     "settle_grip",
+    "hold_still",
     "look_up",
     "bow",
 ]

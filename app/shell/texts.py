@@ -81,6 +81,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.gesture.bell_height": ("Bell Height", "ベルの高さ"),
     "action.gesture.bow": ("Bow", "お辞儀"),
     "action.gesture.count": ("Count the Bars", "小節を数える"),
+    "action.gesture.hold_still": ("Hold Still", "静止"),
     "action.gesture.look_about": ("Look About", "周りを見る"),
     "action.gesture.look_up": ("Look Up", "客席を見る"),
     "action.gesture.nod": ("Nod", "うなずき"),

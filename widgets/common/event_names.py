@@ -20,6 +20,7 @@ _KINDS: Final = {
     "count": "event.count",
     "look_about": "event.look_about",
     "settle_grip": "event.settle_grip",
+    "hold_still": "event.hold_still",
     "look_up": "event.look_up",
     "bow": "event.bow",
     "pose": "event.pose",

@@ -29,6 +29,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "event.performed_anew": ("Regenerated", "再生成"),
     "event.bow": ("Bow", "お辞儀"),
     "event.count": ("Counts the bars", "小節を数える"),
+    "event.hold_still": ("Holds still", "静止"),
     "event.look_about": ("Looks about", "周りを見る"),
     "event.look_up": ("Looks up", "客席を見る"),
     "event.nod": ("Nod", "うなずき"),

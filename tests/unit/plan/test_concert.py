@@ -141,6 +141,8 @@ def test_after_the_last_note_they_hold_lower_look_up_and_bow_but_not_at_once() -
         (up,), (bow,) = of_kind(plan, "look_up"), of_kind(plan, "bow")
         assert last_s + 0.8 < low.start_s < up.start_s < bow.start_s < bow.end_s < plan.time_frame.end_s
         assert low.start_s + LOWER_S < bow.start_s + 0.2
+        (still,) = of_kind(plan, "hold_still")
+        assert last_s - 0.3 < still.start_s < last_s < low.start_s < still.end_s
         assert plan.time_frame.end_s == pytest.approx(last_s + AFTER_LAST_S)
         (seen,) = [one for one in plan.glances if one.at == AUDIENCE]
         assert seen.yaw_rad == pytest.approx(-PLACES[plan.player_id].turn_rad)

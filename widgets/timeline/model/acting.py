@@ -13,7 +13,7 @@ from app.score.tempo import TempoMap
 from widgets.timeline.model.geometry import Floats, packed_rows
 from widgets.timeline.model.region import Region
 
-CONCERT_KINDS = ("nod", "count", "look_about", "settle_grip", "look_up", "bow")
+CONCERT_KINDS = ("nod", "count", "look_about", "settle_grip", "hold_still", "look_up", "bow")
 """What is done beside playing."""
 GROUPS: tuple[tuple[str, ...], ...] = (
     ("cue",),
