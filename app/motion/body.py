@@ -49,7 +49,7 @@ RESIDUE_SHARE = 0.6
 """RMS of the wandering that is always there, as a share of the sizes at amplitude 0."""
 NOISE_SHARE = 0.30
 """Wandering beside the planned gestures, as a share of their size."""
-LIFT_SHARE = 0.6
+LIFT_SHARE = 0.9
 _NONE_AT_REST = ("protraction_rad", "elbow_held_rad", "bell_held_rad", "hips_danced")
 
 

@@ -14,7 +14,9 @@ from app.motion.curve import FloatArray, bump, rows_changed_s
 from app.plan.model import CueEvent, GestureEvent
 
 DIP_BEATS = 0.5
-"""Half width of the dip around the beat, in beats."""
+"""Half width of the dip around the beat, in beats ..."""
+DIP_S, SLOW_BEATS = 0.15, 0.2
+"""... in slow tempi less: so many seconds and so much of a beat, or the drop would mark no beat."""
 LIFT_BEATS = 0.85
 """Half width of the lift before it, where there is room."""
 NOD_BEATS = 1.5
@@ -48,7 +50,8 @@ class Nods:
         table = np.array(sorted(rows), dtype=np.float64).reshape(-1, 4)
         beat_s, room_s, length_s = table[:, 0], table[:, 0] - table[:, 1], table[:, 2]
         lift_s = np.minimum(LIFT_BEATS * length_s, room_s / (1.0 + LIFT_LAG))
-        return cls(beat_s, np.minimum(DIP_BEATS * length_s, room_s), lift_s, table[:, 3])
+        dip_s = np.minimum(DIP_BEATS * length_s, DIP_S + SLOW_BEATS * length_s)
+        return cls(beat_s, np.minimum(dip_s, room_s), lift_s, table[:, 3])
 
     def sample(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Dip and lift, 1 as usual, at ascending times, each (F,) float64."""

@@ -153,7 +153,7 @@ def after_the_end(last_s: float, piece: Piece, frame: TimeFrame, seeds: Seeds) -
     size = round(0.85 + 0.15 * seeds.chance("bow size"), 4)
     lasts_s = BOW_LASTS_S * (0.92 + 0.16 * (seeds.chance("bow lasts") - 0.5))
     return [
-        _event("look_up", "end", look_s, bow_s + 0.2, 1.0, piece, {"after_s": round(look_s - last_s, 2)}),
+        _event("look_up", "end", look_s, frame.end_s, 1.0, piece, {"after_s": round(look_s - last_s, 2)}),
         _event("bow", "end", bow_s, bow_s + lasts_s, size, piece, {"after_s": round(bow_s - last_s, 2)}),
     ]
 

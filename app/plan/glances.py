@@ -19,7 +19,7 @@ from app.plan.model import ABOUT, AUDIENCE, CueEvent, GestureEvent, GlanceEvent
 EYES_RAD: Final = math.radians(35.0)
 PLAYING_HEAD: Final = 0.3
 """How much of the way the head turns that has an instrument at the lips ..."""
-FREE_HEAD: Final = 0.85
+FREE_HEAD: Final = 0.65
 """... and one that has not."""
 MOST_RAD: Final = 1.1
 """No one looks further aside for it."""

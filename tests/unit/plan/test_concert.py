@@ -52,7 +52,7 @@ def test_players_come_up_from_rest_before_cue_and_breath() -> None:
     for name in ("high", "low"):
         plan = made[name]
         low = of_kind(plan, "lower_instrument")[0]
-        assert low.start_s + LOWER_S <= plan.time_frame.first_frame_s
+        assert low.start_s + LOWER_S <= plan.time_frame.first_frame_s + 1e-9
         assert low.end_s - RAISE_S > plan.time_frame.first_frame_s
         assert low.end_s <= min(breath.start_s for breath in plan.breaths if breath.kind == "breath")
         assert low.end_s <= made["high"].cues[0].start_s
