@@ -87,7 +87,7 @@ class Counting:
             free_s = rows[-1][0] + rows[-1][1] if rows else -np.inf
             if event.kind == "count" and event.end_s > event.start_s >= free_s:
                 ticks = event.start_tick, event.end_tick - event.start_tick
-                rows.append((event.start_s, event.end_s - event.start_s, *ticks, event.amount))
+                rows.append((event.start_s, event.end_s - event.start_s, *ticks, max(event.amount, 0.0)))
         table = np.array(rows, dtype=np.float64).reshape(-1, 5)
         first_tick = table[:, 2].astype(np.int64)
         beats = np.maximum(1.0, np.round(table[:, 3] / beat_ticks_at(felt_beats, first_tick))) if rows else table[:, 3]

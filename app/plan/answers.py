@@ -33,7 +33,7 @@ def answering_nods(
     answered : sequence of CueEvent
         Those that the player takes.
     """
-    found = {}
+    found: dict[str, GestureEvent] = {}
     for cue in answered:
         index = int(np.searchsorted(times.onset_tick, cue.end_tick))
         if index == len(notes) or float(times.onset_s[index]) > cue.end_s + cue.beat_s:

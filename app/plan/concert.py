@@ -25,7 +25,7 @@ LONG_REST_S: Final = 8.0
 SETTLE_S: Final = 1.3
 SETTLE_CHANCE: Final = 0.7
 LOOK_S: Final = (2.2, 3.6)
-LOOK_EVERY_S: Final = 9.0
+LOOK_EVERY_S: Final = 6.0
 """About so much time lies between two looks about ..."""
 MOST_LOOKS: Final = 6
 """... and no one does it more often in one rest."""

@@ -143,7 +143,7 @@ GestureKind: TypeAlias = Literal[
 ]
 GESTURE_KINDS: Final[tuple[GestureKind, ...]] = get_args(GestureKind)
 SIGNED_KINDS: Final[frozenset[GestureKind]] = frozenset({"sway", "weight_shift", "bell_height"})
-"""Gestures that go to one side or the other; the amounts of all others are 0..1."""
+"""Gestures that go to one side or the other; of all others there is no less than nothing."""
 
 
 class GestureEvent(msgspec.Struct, frozen=True, gc=False):

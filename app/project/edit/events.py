@@ -32,7 +32,7 @@ from app.plan.corrections import (
 )
 from app.plan.cue import LEAD_BEATS
 from app.plan.model import GESTURE_KINDS as GESTURE_KINDS
-from app.plan.model import SIGNED_KINDS, BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
 from app.plan.model import GestureKind as GestureKind
 from app.project.edit.corrections import put, take_back
 from app.project.edit.found_events import OWN as OWN
@@ -83,8 +83,7 @@ def set_amounts(project: Project, plan: PlayerPlan, amounts: Mapping[str, float]
             depth = min(max(amount, 0.0), 1.0)
             corrections.append(msgspec.structs.replace(_breath(project, plan.player_id, event), depth=depth))
         elif isinstance(event, GestureEvent):
-            least = -1.0 if event.kind in SIGNED_KINDS else 0.0
-            corrections.append(_with(_gesture(project, plan.player_id, event), amount=min(max(amount, least), 1.0)))
+            corrections.append(_with(_gesture(project, plan.player_id, event), amount=min(max(amount, -1.0), 1.0)))
         elif isinstance(event, ExpressionEvent):
             corrections.append(_with(_expression(project, plan.player_id, event), strength=min(max(amount, 0.0), 1.0)))
     return put(project, plan.player_id, corrections)
