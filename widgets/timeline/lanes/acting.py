@@ -63,7 +63,7 @@ class ActingLane(RegionLane):
     """What body and face do beside playing."""
 
     id = "acting"
-    preferred_height_px = 134
+    preferred_height_px = 154
     least_height_px = 70
     least_row_px = 19.0
 
