@@ -303,6 +303,23 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{rest_s:g} 秒の全休の後に全員を入れる合図（{leader_reason}）。予備拍は {beat_s:g} 秒です",
     ),
     "gesture.sway": ("half a swing in {beats:g} beats of {beat_s:g} s", "{beat_s:g} 秒の拍 {beats:g} つで半往復の揺れ"),
+    "gesture.still": ("the body keeps still", "体は動かしません"),
+    "gesture.lean": (
+        "lean towards the climax of a phrase of {length_s:g} s",
+        "{length_s:g} 秒のフレーズの頂点へ向かう前後の傾き",
+    ),
+    "gesture.lean_back": ("back at the end of the phrase", "フレーズの終わりに元の姿勢へ"),
+    "gesture.accent": ("a strong note", "強拍や長い音などの強い音"),
+    "gesture.accent_loud": ("a note louder than those around it", "前後より大きい音"),
+    "gesture.step": (
+        "a small step with the {side} foot between phrases, and back after a later one",
+        "フレーズの間に{side}足で小さく踏み出し、後のフレーズの終わりに戻します",
+    ),
+    "gesture.tap": ("the {side} foot taps with the beat", "{side}足のつま先で拍を取ります"),
+    "gesture.heel": (
+        "the weight is on the other foot: the {side} heel comes up",
+        "体重が反対の足に乗り、{side}足のかかとが上がります",
+    ),
     "gesture.weight_shift": ("weight shift to the {side} foot", "{side}足への重心移動"),
     "gesture.bell_height": (
         "the melody is around {pitch}; the mean of the part is {mean_pitch}",

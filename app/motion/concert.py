@@ -18,8 +18,8 @@ LOOK_UP_S = 0.7
 """The head goes up so slowly, and comes back so."""
 COUNT_EASE = 1.0
 """Counting begins and ends within so many beats."""
-CONCERT_KINDS: tuple[GestureKind, ...] = ("count", "settle_grip", "look_up", "bow")
-"""Gestures that this is made of."""
+CONCERT_KINDS: tuple[GestureKind, ...] = ("count", "settle_grip", "hold_still", "look_up", "bow")
+"""Gestures of the body beside playing."""
 MOST_BOW_RAD = float(np.deg2rad(36.0))
 """However much of it is asked for, the trunk bends no further."""
 

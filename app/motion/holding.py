@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Final
+from collections.abc import Callable, Sequence
+from dataclasses import fields, replace
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 import numpy as np
 
 from app.motion.curve import Envelopes, FloatArray
+from app.motion.overlap import Overlapped
 from app.plan.model import GestureEvent
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 COMES_S: Final = 0.35
 GOES_S: Final = 0.6
 """A body comes to rest, and goes on, in so much."""
-HELD: Final = ("sway", "weight", "height", "bobbing")
+HELD: Final = ("sway", "lean", "accent", "weight", "giving", "height")
 """The layers that are held; breath, cue and lowering go on."""
 
 
@@ -28,33 +33,30 @@ def holds_of(gestures: Sequence[GestureEvent]) -> Envelopes:
     return Envelopes.of(rows)
 
 
-def held_still(
-    levels: Mapping[str, FloatArray],
-    holds: Envelopes,
-    times_s: FloatArray,
-    at: Callable[[FloatArray], Mapping[str, FloatArray]],
-) -> dict[str, FloatArray]:
+L = TypeVar("L", bound="DataclassInstance")
+
+
+def held_still(levels: L, holds: Envelopes, times_s: FloatArray, at: Callable[[FloatArray], L]) -> L:
     """Layers at ascending times, held where they are when a hold is whole.
 
     Parameters
     ----------
-    levels : dict of str to (F,)
-        By name.
     at : callable
         The same layers at other times.
     """
-    result = dict(levels)
     first, last = (np.searchsorted(times_s, edges_s) for edges_s in (holds.start_s, holds.end_s))
     for index in np.flatnonzero(last > first).tolist():
-        here = slice(first[index], last[index])
-        alone = Envelopes(*(getattr(holds, name)[index : index + 1] for name in Envelopes.__dataclass_fields__))
-        share = alone.sample(times_s[here])
+        alone = Envelopes(*(getattr(holds, member.name)[index : index + 1] for member in fields(holds)))
+        share = alone.sample(times_s)
         stays = at(holds.full_s[index : index + 1])
-        for name in HELD:
-            values = result[name].copy()
-            values[here] += (stays[name][0] - values[here]) * share
-            result[name] = values
-    return result
+        levels = replace(levels, **{name: _held(getattr(levels, name), getattr(stays, name), share) for name in HELD})
+    return levels
+
+
+def _held(values: Any, stays: Any, share: FloatArray) -> Any:
+    if isinstance(values, Overlapped):
+        return Overlapped(*(_held(*part, share) for part in zip(values, stays, strict=True)))
+    return values + (stays[0] - values) * share
 
 
 def with_holds(spans_s: FloatArray, *holds: Envelopes) -> FloatArray:

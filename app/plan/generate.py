@@ -10,6 +10,7 @@ from typing import NamedTuple
 import msgspec
 
 from app.errors import Cancelled
+from app.plan.acting import acting_of
 from app.plan.bar_phase import lowest, with_felt_bars
 from app.plan.breath import plan_breaths
 from app.plan.breath_envelope import blown
@@ -198,7 +199,7 @@ def plan_ensemble(
         seen = memo.step("seen", _seen, line.player_id, own_cues, answered, {} if places is None else places)
         given = _Given(
             piece, line, times, frame, own_cues, cue_ids, this, shared_breaths, seed, beat, ending, problems, faces,
-            answered, last_s, seen,
+            answered, last_s, seen, alone=musicians.count(musicians[done]) == 1,
         )  # fmt: skip
         plan, breaths = memo.nested("plan", _plan_line, given)
         plans[line.player_id] = plan
@@ -282,6 +283,7 @@ class _Given(NamedTuple):
     answered: tuple[CueEvent, ...]
     last_s: float
     seen: Mapping[str, StagePlace]
+    alone: bool
 
 
 def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
@@ -318,9 +320,21 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     traces = memo.step("traces", plan_traces, notes, times, clock, instrument, lips, line.controller, envelope, by_hand)
     dynamics = memo.step("dynamics", dynamics_of, times, envelope)
     made_gestures = plan_gestures(
-        notes, times, piece, frame, events, given.cues, seeds, given.pulse, dynamics, memo,
-        answered=given.answered, last_s=given.last_s,
-    )  # fmt: skip
+        notes,
+        times,
+        piece,
+        frame,
+        events,
+        given.cues,
+        seeds,
+        given.pulse,
+        dynamics,
+        memo,
+        acting_of(parameters),
+        given.alone,
+        answered=given.answered,
+        last_s=given.last_s,
+    )
     moved = _of(corrections, ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
     gestures = memo.step("corrected gestures", correct_gestures, made_gestures, moved, clock)
     looked = memo.step("looked at", _of_kinds, gestures, ("lower_instrument", "look_about", "look_up"))

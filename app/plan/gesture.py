@@ -1,44 +1,46 @@
-"""Body motion as gestures: sway on the beat, weight shifts, the bell's height; and all gestures of a player together.
+"""Body motion as gestures: sway, lean and accents (`app.plan.swing`, `app.plan.phrase`), weight shifts, the bell's
+height, the instrument lowered (`app.plan.lowered`), what feet do (`app.plan.footwork`) and what is done beside playing
+(`app.plan.answers`, `app.plan.concert`).
 
-How to read the events: sway, weight_shift and bell_height each lie end to end, and an event's ``amount`` is where the
-body goes: at the end of a sway (a half swing from beat to beat), and for as long as it lasts for the other two.
+How to read the events: sway, lean, weight_shift and bell_height each lie end to end, and an event's ``amount`` is where
+the body goes: at the end of a sway or lean, and for as long as it lasts for the other two.
 Amounts follow the dynamics (`app.plan.dynamics`); sizes belong to the motion, which scales by the
 player's amplitude.
 
-In a rest longer than twice `STIR_S` the body is still but at its edges: what is made is in proportion to the notes,
-however long the silence between them.
+In a rest longer than twice `app.plan.swing.STIR_S` the body is still but at its edges: what is made is in proportion to
+the notes, however long the silence between them.
 
 Everything random is drawn from player and score position (tick), so the same place repeats in every run, however the
 rest of the piece is edited (Wanderley: players repeat the same bell movement at the same place).
 
-Messages: ``gesture.sway``, ``gesture.weight_shift``, ``gesture.bell_height``, ``gesture.bell_accent``.
+Messages: ``gesture.weight_shift``, ``gesture.bell_height``, ``gesture.bell_accent``.
 """
 
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from app.errors import Message
+from app.plan.acting import Acting
 from app.plan.answers import answering_nods
 from app.plan.concert import after_the_end, holding_at_end, in_long_rests
 from app.plan.dynamics import Dynamics, grown
-from app.plan.line import IntArray, LineTimes, Piece, Rhythm, Seeds
+from app.plan.footwork import footwork
+from app.plan.line import LineTimes, Piece, Rhythm, Seeds
 from app.plan.lowered import lowered_spans
 from app.plan.memo import Memo
 from app.plan.model import BreathEvent, CueEvent, FloatArray, GestureEvent, TimeFrame
+from app.plan.phrase import accents, felt_at, leans, phrases
+from app.plan.swing import Pulse as Pulse
+from app.plan.swing import pulse as pulse
+from app.plan.swing import stirring, sways, swings_of
 from app.score.model import Note
 from app.score.tempo import TempoMap
 
-SWING_S = 1.1
-"""A body's half swing takes about this long, whatever the tempo: 1, 2, 4 ... beats of it."""
-STIR_S = 10.0
-"""So long before and after a note's beginning and its end the body moves with the beat."""
 SHIFT_MEAN_S = 9.0
 SHIFT_LEAST_S = 3.0
 CONTOUR_SEMITONES = 10.0
@@ -53,8 +55,6 @@ ARCH_LOUDNESS, ARCH_DOWNBEAT = 1.0, 0.1
 """What makes a climax beside the height of the bell: loudness above the phrase's mean, and the first beat of a bar."""
 ACCENT_LIFT, MOST_ACCENT_LIFT = 1.5, 0.4
 """The bell rises with an accent by so much for its loudness, and no more."""
-_RESTING = 0.35
-"""Size of the sway while not playing."""
 
 
 def plan_gestures(
@@ -68,6 +68,8 @@ def plan_gestures(
     pulse: Pulse,
     dynamics: Dynamics,
     memo: Memo,
+    acting: Acting,
+    alone: bool,
     *,
     answered: tuple[CueEvent, ...] = (),
     last_s: float | None = None,
@@ -84,6 +86,10 @@ def plan_gestures(
         Of the line.
     memo : Memo
         Each kind is a step of its own: a pitch that changes moves the bell, and no swing.
+    acting : Acting
+        How much the player keeps still, and taps.
+    alone : bool
+        The body plays this line only: its feet may leave their place.
     answered : tuple of CueEvent
         Cues of others that the player comes in with.
     last_s : float, optional
@@ -91,17 +97,25 @@ def plan_gestures(
     """
     rhythm, clock = times.rhythm, piece.clock
     lowered = memo.step("lowered", lowered_spans, notes, rhythm, piece, frame, breaths, cues + answered, seeds)
+    swings = memo.step("swings", swings_of, rhythm, pulse, frame, seeds, dynamics, acting.stillness)
+    found = memo.step("phrases", phrases, rhythm, breaths)
+    shifts = memo.step("weight shifts", weight_shifts, rhythm, pulse, frame, seeds, clock, dynamics)
+    feet = memo.step("feet", footwork, rhythm, found, pulse, clock, shifts, seeds, acting.tap, alone)
+    at_notes = memo.step("felt beats", felt_at, times, piece)
     return memo.step(
         "gestures",
         _in_order,
-        memo.step("sways", sways, rhythm, pulse, frame, seeds, dynamics),
-        memo.step("weight shifts", weight_shifts, rhythm, pulse, frame, seeds, clock, dynamics),
+        memo.step("sways", sways, swings, pulse),
+        shifts,
+        memo.step("leans", leans, found, times, clock, seeds, dynamics),
+        memo.step("accents", accents, times, pulse, at_notes, clock, swings, seeds, dynamics),
         memo.step("bell heights", bell_heights, notes, times, piece, dynamics),
         lowered,
         memo.step("answering nods", answering_nods, notes, rhythm, answered, piece, seeds),
         memo.step("in long rests", in_long_rests, notes, rhythm, lowered, piece, frame, seeds),
         memo.step("holding", holding_at_end, rhythm, lowered, piece, frame),
         memo.step("after the end", after_the_end, last_s, piece, frame, seeds) if notes and last_s is not None else (),
+        feet,
     )
 
 
@@ -109,110 +123,11 @@ def _in_order(*kinds: Sequence[GestureEvent]) -> tuple[GestureEvent, ...]:
     return tuple(sorted(itertools.chain(*kinds), key=lambda event: (event.start_s, event.id)))
 
 
-@dataclass(frozen=True, eq=False)
-class Pulse:
-    """Beats and bars of a performance, which all players share.
-
-    Attributes
-    ----------
-    swing_beats : int
-        Beats of a half swing.
-    beat_s : float
-        Where the piece's tempo was taken.
-    beat_ticks, bar_ticks : (N,) int64
-        Where they begin; some before the performance and after it. The last of the bars is where the performance ends.
-    beats_s, bars_s : (N,) float64
-        The same in seconds.
-    """
-
-    swing_beats: int
-    beat_s: float
-    beat_ticks: IntArray
-    beats_s: FloatArray
-    bar_ticks: IntArray
-    bars_s: FloatArray
-
-
-def pulse(piece: Piece, frame: TimeFrame, swing_at_s: float) -> Pulse:
-    """The pulse of a performance; how many beats a swing has is chosen by the tempo at ``swing_at_s``."""
-    clock = piece.clock
-    at_tick = clock.ticks(swing_at_s)
-    beat = int(piece.beat_ticks_at(np.array([at_tick]))[0])
-    beat_s = clock.seconds(at_tick + beat) - clock.seconds(at_tick)
-    swing_beats = 2 ** max(round(math.log2(SWING_S / beat_s)), 0)
-    first_tick, last_tick = int(clock.ticks(frame.first_frame_s)), int(np.ceil(clock.ticks(frame.end_s)))
-    # Players whose swings are twice as long have whole ones too.
-    margin = 4 * swing_beats * beat
-    beats = piece.metre_map.felt_between(first_tick - margin, last_tick + margin)
-    bars = np.append(piece.bars(first_tick, last_tick), last_tick)
-    in_s = clock.seconds
-    return Pulse(swing_beats, beat_s, beats, in_s(beats.astype(np.float64)), bars, in_s(bars.astype(np.float64)))
-
-
-def sways(times: Rhythm, pulse: Pulse, frame: TimeFrame, seeds: Seeds, dynamics: Dynamics) -> list[GestureEvent]:
-    """Half swings from beat to beat, left and right in turn, each of its own size; small where the player rests."""
-    beats, beat_s = pulse.swing_beats, pulse.beat_s
-    if seeds.chance("swing") < 0.3 and beats * beat_s < 1.5 * SWING_S:
-        # Some players take the tempo in longer swings than others.
-        beats *= 2
-    # Counted from the piece's beginning, so that a longer pre-roll or a note added at the end changes nothing.
-    phase = (int(np.searchsorted(pulse.beat_ticks, 0)) + int(seeds.chance("phase") * beats)) % beats
-    every_tick, every_s = pulse.beat_ticks[phase::beats], pulse.beats_s[phase::beats]
-    origin = int(np.searchsorted(every_tick, 0))
-    places = _stirring(times, frame, every_s)
-    places = places[(every_s[places + 1] > frame.first_frame_s) & (every_s[places] < frame.end_s)]
-    ticks, ends, starts_s, ends_s = every_tick[places], every_tick[places + 1], every_s[places], every_s[places + 1]
-    playing = _sounding_share(times, starts_s, ends_s)
-    flip = 1.0 if seeds.chance("side") < 0.5 else -1.0
-    sides = np.where((places - origin) % 2 == 0, flip, -flip)
-    sizes = 0.3 + 0.7 * seeds.chances_at("sway", ticks)
-    held = seeds.chances_at("sway held", ticks) < 0.12
-    sides, sizes = np.where(held, -sides, sides), np.where(held, 0.5 * sizes, sizes)
-    amounts = sides * sizes * (_RESTING + (1.0 - _RESTING) * playing)
-    amounts = grown(amounts, dynamics.at((starts_s + ends_s) / 2.0))
-    reason = Message("gesture.sway", {"beats": beats, "beat_s": round(beat_s, 3)})
-    rows = zip(ticks.tolist(), ends.tolist(), starts_s.tolist(), ends_s.tolist(), amounts.tolist(), strict=True)
-    return [
-        GestureEvent(f"sway:@{tick}", "sway", tick, end, start_s, end_s, round(amount, 4), reason)
-        for tick, end, start_s, end_s, amount in rows
-    ]
-
-
-def _sounding_share(times: Rhythm, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
-    """Part of each span in which the line sounds."""
-    if len(times.onset_s) == 0:
-        return np.zeros(len(starts_s))
-    sounded = np.concatenate(([0.0], np.cumsum(times.duration_s)))
-    knots = np.stack((times.onset_s, times.played_end_s), axis=1).ravel()
-    values = np.stack((sounded[:-1], sounded[1:]), axis=1).ravel()
-    lasts_s = np.interp(ends_s, knots, values) - np.interp(starts_s, knots, values)
-    share: FloatArray = np.clip(lasts_s / np.maximum(ends_s - starts_s, 1e-6), 0.0, 1.0)
-    return share
-
-
-def _stirring(times: Rhythm, frame: TimeFrame, edges_s: FloatArray) -> IntArray:
-    """Which spans between neighbouring edges lie near the begin or end of a note, or near the frame's ends; ascending.
-
-    What it costs depends on how many these are, not on how many spans there are.
-    """
-    near_s = np.concatenate(([frame.first_frame_s], times.onset_s, times.played_end_s, [frame.end_s]))
-    near_s.sort()
-    last = len(edges_s) - 1
-    lows = np.maximum(np.searchsorted(edges_s, near_s - STIR_S, side="right") - 1, 0)
-    highs = np.clip(np.searchsorted(edges_s, near_s + STIR_S, side="left"), lows, last)
-    # Each begins where the one before has ended.
-    lows = np.minimum(np.maximum(lows, np.concatenate(([0], np.maximum.accumulate(highs)[:-1]))), highs)
-    counts = highs - lows
-    before = np.cumsum(counts) - counts
-    places: IntArray = np.repeat(lows - before, counts) + np.arange(counts.sum())
-    return places
-
-
 def weight_shifts(
     times: Rhythm, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: TempoMap, dynamics: Dynamics
 ) -> list[GestureEvent]:
     """Shifts of weight at arbitrary times (T7), about every `SHIFT_MEAN_S`: bar by bar a player shifts or not."""
-    places = _stirring(times, frame, pulse.bars_s)
+    places = stirring(times, frame, pulse.bars_s)
     ticks, ends = pulse.bar_ticks[places], pulse.bar_ticks[places + 1]
     chances = np.minimum((pulse.bars_s[places + 1] - pulse.bars_s[places]) / SHIFT_MEAN_S, 0.9)
     shifts = seeds.chances_at("shift", ticks) < chances

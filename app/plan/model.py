@@ -133,6 +133,11 @@ GestureKind: TypeAlias = Literal[
     "weight_shift",
     "bell_height",
     "lower_instrument",
+    "lean",
+    "accent",
+    "step",
+    "tap",
+    "heel",
     "nod",
     "count",
     "look_about",
@@ -141,14 +146,17 @@ GestureKind: TypeAlias = Literal[
     "look_up",
     "bow",
 ]
+"""What a body does beside playing."""
 GESTURE_KINDS: Final[tuple[GestureKind, ...]] = get_args(GestureKind)
-SIGNED_KINDS: Final[frozenset[GestureKind]] = frozenset({"sway", "weight_shift", "bell_height"})
-"""Gestures that go to one side or the other; of all others there is no less than nothing."""
+SIGNED_KINDS: Final[frozenset[GestureKind]] = frozenset(GESTURE_KINDS[:3] + GESTURE_KINDS[4:9])
+"""Gestures that go one way or the other; of all others there is no less than nothing."""
+ACCENT_AT: Final = 0.45
+"""Part of an accent's length after which its note begins."""
 
 
 class GestureEvent(msgspec.Struct, frozen=True, gc=False):
-    """A body motion over a span. ``amount`` is -1..1, signed by direction (left, up and forward are positive) where the
-    kind has one. A nod marks the beat at its end."""
+    """A body motion over a span. ``amount`` is -1..1, signed by direction (left, up and forward are positive; down of
+    an accent; of a foot the sign says which) where the kind has one. A nod marks the beat at its end."""
 
     id: str
     kind: GestureKind

@@ -17,6 +17,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     ),
     "acting_lane.beside": ("Beside playing", "演奏以外"),
     "acting_lane.given_by": ("Given by", "合図を出す人"),
+    "acting_lane.feet": ("Feet", "足"),
     "acting_lane.pose": ("Pose", "ポーズ"),
     "acting_lane.these_bars_are_performed_anew": (
         "These bars were regenerated. Press Backspace to restore the first performance.",

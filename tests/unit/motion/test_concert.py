@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 
 from app.motion.concert import Concert, Counting
-from app.motion.holding import HELD, held_still, holds_of, with_holds
+from app.motion.holding import held_still, holds_of, with_holds
+from app.motion.overlap import Overlapped
 from app.plan.model import GestureEvent
 from tests.unit.motion.events import REASON, TICKS
 
@@ -45,21 +48,33 @@ def test_only_the_span_of_what_changed_is_made_anew() -> None:
     assert len(one.changed_s(one)) == 0
 
 
+@dataclass(frozen=True)
+class Levels:
+    sway: Overlapped
+    lean: Overlapped
+    accent: Overlapped
+    weight: Overlapped
+    giving: np.ndarray
+    height: np.ndarray
+
+
+def waving(times_s: np.ndarray) -> Levels:
+    wave = np.sin(3.0 * times_s)
+    return Levels(*(Overlapped(wave, 0.5 * wave, wave, wave) for _ in range(4)), wave, wave)
+
+
 def test_a_hold_keeps_what_is_held_where_it_is() -> None:
     holds = holds_of([event("hold_still", 4.0, 7.0)])
-
-    def waving(times_s: np.ndarray) -> dict[str, np.ndarray]:
-        return dict.fromkeys(HELD, np.sin(3.0 * times_s))
-
-    held = held_still(waving(TIMES_S), holds, TIMES_S, waving)["sway"]
-    inside = (TIMES_S > 4.36) & (TIMES_S < 6.39)
-    assert np.ptp(held[inside]) < 1e-3
-    outside = (TIMES_S <= 4.0) | (TIMES_S >= 7.0)
-    np.testing.assert_array_equal(held[outside], np.sin(3.0 * TIMES_S)[outside])
-    assert np.abs(np.diff(held)).max() < 0.04
+    levels = held_still(waving(TIMES_S), holds, TIMES_S, waving)
+    for held, size in ((levels.height, 1.0), (levels.sway.hips, 1.0), (levels.lean.chest, 0.5)):
+        inside = (TIMES_S > 4.36) & (TIMES_S < 6.39)
+        assert np.ptp(held[inside]) < 1e-3
+        outside = (TIMES_S <= 4.0) | (TIMES_S >= 7.0)
+        np.testing.assert_array_equal(held[outside], size * np.sin(3.0 * TIMES_S)[outside])
+        assert np.abs(np.diff(held)).max() < 0.04
     # The same frames are the same bits in every span.
     part = TIMES_S[1100:1300]
-    np.testing.assert_array_equal(held_still(waving(part), holds, part, waving)["sway"], held[1100:1300])
+    np.testing.assert_array_equal(held_still(waving(part), holds, part, waving).height, levels.height[1100:1300])
     # What changes where it begins changes all that is held.
     assert with_holds(np.array([[4.3, 4.4]]), holds).tolist() == [[4.3, 4.4], [4.0, 7.0]]
     assert with_holds(np.array([[8.0, 9.0]]), holds).tolist() == [[8.0, 9.0]]

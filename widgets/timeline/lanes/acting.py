@@ -32,6 +32,7 @@ from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.model.acting import (
     BASE,
     CONCERT_KINDS,
+    CURVES,
     GROUPS,
     STRIPS,
     VARIED,
@@ -93,9 +94,12 @@ class ActingLane(RegionLane):
         """What a group of rows is called, after its first kind."""
         if kind == VARIED:
             return self.tr("acting_lane.anew")
-        if kind == CONCERT_KINDS[0]:
-            return self.tr("acting_lane.beside")
-        return self.tr("acting_lane.pose") if kind == "lower_instrument" else kind_name(kind)
+        names = {
+            "lower_instrument": "acting_lane.pose",
+            "step": "acting_lane.feet",
+            CONCERT_KINDS[0]: "acting_lane.beside",
+        }
+        return self.tr(names[kind]) if kind in names else kind_name(kind)
 
     # Regions
 
@@ -243,7 +247,7 @@ class ActingLane(RegionLane):
             y = amount[low:high] * half
             painter.setPen(QPen(shade(tokens.line_strong, 120), 1.0))
             painter.drawLine(QPointF(exposed.left(), middle), QPointF(exposed.right(), middle))
-            if kind == "sway":
+            if kind in CURVES:
                 self._painter.paint_sway(painter, x0, x1, middle - y, shade(colour, 170))
             elif len(x0) > exposed.width():
                 draw_columns(painter, exposed, x0, x1, middle - y, middle, shade(colour, 90))
