@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import zip_longest
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from app.motion.body_sum import TRUNK, Angles, Part, Sizes, Sum
 from app.motion.concert import CONCERT_KINDS, Concert, ConcertSamples, beside_playing
 from app.motion.curve import Curve, Envelopes, FloatArray, moves
 from app.motion.feet import Feet, feet_moved
+from app.motion.follow import follow, path
 from app.motion.gaze import Look
 from app.motion.holding import held_still, holds_of
 from app.motion.lowering import lowering
@@ -38,8 +39,6 @@ from metadata.model import Body, Posture
 
 EYES_BACK = 0.6
 """Share of the head's turn to the instrument that the eyes turn back, to the music and to the others."""
-QUICK_S = 0.6
-"""Gestures shorter than this are smaller in proportion: no one leans as far in half the time."""
 EXHALE_S = 3.0
 FULLEST = 1.4
 LEAST_DRAWN = 0.4
@@ -141,40 +140,6 @@ class BodyMotion:
         rest: dict[str, Any] = {member.name: zero for member in fields(cls)}
         empty: dict[str, Any] = {name: {} for name in _NONE_AT_REST}
         return cls(**(rest | {"forward_rad": held, "left_rad": left, "turn_rad": turned} | empty))
-
-
-def follow(
-    events: Sequence[GestureEvent], kind: Literal["sway", "weight_shift", "bell_height", "lean"], transition_s: float
-) -> Curve:
-    """A value that goes to each gesture's amount within ``transition_s`` of its start, and stays."""
-    return moves(_targets(events, kind, transition_s))
-
-
-def path(events: Sequence[GestureEvent], kind: Literal["sway", "weight_shift", "bell_height", "lean"]) -> Path:
-    """A value that goes to each gesture's amount over the whole gesture, and does not stop at what it passes."""
-    return Path.through(_targets(events, kind, None))
-
-
-def _targets(events: Sequence[GestureEvent], kind: str, transition_s: float | None) -> list[tuple[float, float, float]]:
-    """Where gestures go and when, ``(start_s, end_s, value)``.
-
-    It goes back to 0 where the next gesture is more than its own length (at least a second) away.
-    """
-    chosen = [event for event in events if event.kind == kind]
-    segments: list[tuple[float, float, float]] = []
-    for event, following in zip_longest(chosen, chosen[1:]):
-        end_s = event.end_s if following is None else min(event.end_s, following.start_s)
-        length_s = end_s - event.start_s
-        if length_s <= 0.0:
-            continue
-        move_s = length_s if transition_s is None else min(transition_s, length_s)
-        size = min(1.0, move_s / QUICK_S)
-        amount = min(max(event.amount * size, -1.0), 1.0)
-        segments.append((event.start_s, event.start_s + move_s, amount))
-        pause_s = np.inf if following is None else following.start_s - end_s
-        if pause_s > max(1.0, length_s):
-            segments.append((end_s, end_s + min(max(length_s, 1.0), 2.0, pause_s), 0.0))
-    return segments
 
 
 def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:

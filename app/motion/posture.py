@@ -143,10 +143,9 @@ def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[Fl
     turn[:, 0] = motion.hips_forward_rad
     if place.seated:
         turn[:, 2] = -motion.hips_roll_rad
-        above_m = SIT_BONES_M * leg_size(skeleton)
-        hips_m[:, 2] += above_m * np.sin(motion.hips_forward_rad)
-        hips_m[:, 1] -= above_m * (1.0 - np.cos(motion.hips_forward_rad))
-        return hips_m, quaternion.from_rotation_vector(turn)
+        above_m = np.array([0.0, SIT_BONES_M * leg_size(skeleton), 0.0])
+        rotation = quaternion.from_rotation_vector(turn)
+        return hips_m + quaternion.rotate(rotation, above_m) - above_m, rotation
     turn[:, 1] = motion.hips_turn_rad
     turn[:, 2] = -motion.hips_roll_rad
     danced, ease_m = motion.hips_danced, np.full(frames, LEGS_BLEND_M)
