@@ -15,7 +15,17 @@ from typing import Final, Literal, TypeAlias, TypeVar
 import msgspec
 
 from app.errors import Message
-from app.plan.model import BreathEvent, CueEvent, EmbouchureEvent, ExpressionEvent, GestureEvent, PoseTarget, Problem
+from app.plan.model import (
+    GESTURE_KINDS,
+    BreathEvent,
+    CueEvent,
+    EmbouchureEvent,
+    ExpressionEvent,
+    GestureEvent,
+    GestureKind,
+    PoseTarget,
+    Problem,
+)
 from app.score.tempo import TempoMap
 
 BY_HAND = Message("correction.by_hand")
@@ -98,7 +108,7 @@ class AddGesture(_Correction, frozen=True, tag="add_gesture"):
     """A gesture of the animator's own, at a place of the score. ``name`` makes its event id unique."""
 
     name: str
-    kind: Literal["sway", "weight_shift", "bell_height", "lower_instrument"]
+    kind: GestureKind
     start_tick: int
     end_tick: int
     amount: float
@@ -191,9 +201,7 @@ Span = TypeVar("Span", GestureEvent, ExpressionEvent)
 
 WITHIN: Final = "within"
 """The first part of the ids of breaths within a note."""
-REMOVABLE = (
-    *("breath", "preparation", WITHIN, "cue", "sway", "weight_shift", "bell_height", "lower_instrument", "expression"),
-)
+REMOVABLE = ("breath", "preparation", WITHIN, "cue", *GESTURE_KINDS, "expression")
 """Kinds of event a `RemoveEvent` may leave out: the first part of their ids."""
 
 

@@ -238,8 +238,5 @@ ACTIONS: tuple[Action, ...] = (
         has_player,
         icon="expression",
     ),
-    _kind("sway"),
-    _kind("weight_shift"),
-    _kind("bell_height"),
-    _kind("lower_instrument"),
+    *map(_kind, GESTURE_KINDS),
 )
