@@ -222,13 +222,43 @@ class BellMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class CueMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The leader's start: knees bend and the instrument dips, then both rise on the preparatory beat."""
+    """Who gives an entry: head and instrument rise on the preparatory beat and drop onto the entry, the knees give."""
 
     knee_deg: AmplitudeScale
     bell_dip_deg: AmplitudeScale
     bell_lift_deg: AmplitudeScale
     trunk_deg: AmplitudeScale
     head_deg: AmplitudeScale
+
+
+class ConcertMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What is done beside playing: gestures of the plan scale it.
+
+    Attributes
+    ----------
+    bow_trunk_deg, bow_head_deg : AmplitudeScale
+        Forward, standing; ``bow_seated_share`` of it seated.
+    look_up_deg : AmplitudeScale
+        The head up to the audience.
+    look_trunk_share : float
+        How much of the head's turn the trunk adds while the instrument is lowered.
+    count_head_deg : AmplitudeScale
+        The head on each counted beat.
+    settle_share : float
+        How much of the way up the instrument is lifted as the hands settle.
+    settle_shoulders_deg, settle_elbows_deg : AmplitudeScale
+        Shoulders up and elbows out meanwhile.
+    """
+
+    bow_trunk_deg: AmplitudeScale
+    bow_head_deg: AmplitudeScale
+    bow_seated_share: NotNegative
+    look_up_deg: AmplitudeScale
+    look_trunk_share: NotNegative
+    count_head_deg: AmplitudeScale
+    settle_share: NotNegative
+    settle_shoulders_deg: AmplitudeScale
+    settle_elbows_deg: AmplitudeScale
 
 
 class BreathMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -308,6 +338,7 @@ class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     weight_shift: WeightShift
     bell: BellMotion
     cue: CueMotion
+    concert: ConcertMotion
     breath: BreathMotion
     embouchure: dict[EmbouchureKind, Embouchure]
 

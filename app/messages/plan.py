@@ -333,6 +333,35 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{rest_s:g} s of rest: the instrument is lowered and raised again before the entry",
         "{rest_s:g} 秒の休み: 楽器を下ろし、入りの前に構え直します",
     ),
+    "gesture.come_up": (
+        "{rest_s:g} s before the first note: the instrument comes up from rest",
+        "最初の音の {rest_s:g} 秒前: 楽器を下ろした状態から構えます",
+    ),
+    "gesture.nod": (
+        "nods with the cue to this entry, {after_ms:g} ms after it",
+        "この入りの合図より {after_ms:g} ミリ秒後に、一緒にうなずきます",
+    ),
+    "gesture.count": (
+        "{rest_s:g} s of rest: the last {beats:g} beats are counted",
+        "{rest_s:g} 秒の休み: 最後の {beats:g} 拍を数えます",
+    ),
+    "gesture.look_about": ("{rest_s:g} s of rest: time to look about", "{rest_s:g} 秒の休み: 周りを見ます"),
+    "gesture.settle_grip": (
+        "{rest_s:g} s of rest: the hands settle on the instrument",
+        "{rest_s:g} 秒の休み: 楽器を持ち直します",
+    ),
+    "gesture.hold_still": (
+        "the end of the last note: nothing moves until the instrument comes down",
+        "最後の音の終わり: 楽器を下ろすまで動きません",
+    ),
+    "gesture.look_up": (
+        "{after_s:g} s after the last note of all: up to the audience",
+        "全員の最後の音から {after_s:g} 秒後に客席を見ます",
+    ),
+    "gesture.bow": (
+        "{after_s:g} s after the last note of all: the bow",
+        "全員の最後の音から {after_s:g} 秒後にお辞儀をします",
+    ),
     "gesture.lower_at_end": (
         "the instrument is lowered {after_s:g} s after the last note",
         "最後の音から {after_s:g} 秒後に楽器を下ろします",

@@ -17,10 +17,12 @@ import numpy as np
 
 from app.motion.accents import Accents
 from app.motion.body_sum import TRUNK, Angles, Part, Sizes, Sum
-from app.motion.curve import Curve, FloatArray, moves
+from app.motion.concert import CONCERT_KINDS, Concert, ConcertSamples, beside_playing
+from app.motion.curve import Curve, Envelopes, FloatArray, moves
 from app.motion.feet import Feet, feet_moved
 from app.motion.follow import follow, path
 from app.motion.gaze import Look
+from app.motion.holding import held_still, holds_of
 from app.motion.lowering import lowering
 from app.motion.nods import Nods
 from app.motion.overlap import Leads, Overlapped
@@ -32,6 +34,7 @@ from app.plan.footwork import FOOT_KINDS
 from app.plan.model import BreathEvent, GestureEvent, PlayerPlan, PoseTarget, same_events
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
+from app.score.metre_map import FeltBeats
 from metadata.model import Body, Posture
 
 EYES_BACK = 0.6
@@ -42,7 +45,7 @@ LEAST_DRAWN = 0.4
 """However soon breaths follow each other, each has this much room: no breath goes unseen, also where a bell sinks."""
 BREATH_LEAD_S = 0.03
 """The inhalation is complete this long before the breath's end."""
-LIFT_SHARE = 0.6
+LIFT_SHARE = 0.9
 STEP_IN_HIPS = 0.4
 """Hips go along with a foot that is put ahead."""
 _NONE_AT_REST = (*("protraction_rad", "elbow_held_rad", "bell_held_rad", "hips_danced", "elbows_late_rad", "feet"),)
@@ -167,8 +170,8 @@ def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
     return moves(full), moves(lean)
 
 
-_KINDS = ("sway", "weight_shift", "bell_height", "lower_instrument", "lean", "accent", "feet")
-"""Gestures that layers are made of; those of the feet are one layer."""
+_KINDS = ("sway", "weight_shift", "bell_height", "lower_instrument", "lean", "accent", "feet", "nod", "concert")
+"""Gestures that layers are made of; those of the feet are one layer, and those beside playing."""
 
 
 @dataclass(frozen=True)
@@ -176,7 +179,7 @@ class LayerSamples:
     """The layers at some frames, before the player's sizes: members as of `Layers`, each (F,) float64.
 
     ``dip`` and ``lift`` are of the nods, ``giving`` is 1 half way between two places of the weight, ``held`` what the
-    animator holds differently, ``feet`` as of `Feet.sample`.
+    animator holds differently, ``feet`` as of `Feet.sample`, ``concert`` what is done beside playing (None: nothing).
     """
 
     full: FloatArray
@@ -193,6 +196,7 @@ class LayerSamples:
     lowered: FloatArray
     feet: dict[str, FloatArray]
     held: dict[PoseTarget, Offset]
+    concert: ConcertSamples | None = None
 
 
 @dataclass(frozen=True)
@@ -225,10 +229,14 @@ class Layers:
     lowered: Curve
     feet: Feet
     poses: Poses
+    concert: Concert
+    still: Envelopes
     leads: Leads
 
     @classmethod
-    def of(cls, plan: PlayerPlan, body: Body, before: tuple[Layers, PlayerPlan] | None = None) -> Layers:
+    def of(
+        cls, plan: PlayerPlan, body: Body, felt_beats: FeltBeats, before: tuple[Layers, PlayerPlan] | None = None
+    ) -> Layers:
         """From a whole plan, or from what is the same as in the plan ``before``."""
         if before is not None:
             layers, other = before
@@ -237,7 +245,8 @@ class Layers:
                     full, leaning = lungs(plan.breaths)
                     layers = replace(layers, full=full, leaning=leaning, air=air(plan.breaths))
                 if not same_events(plan, other, "cues"):
-                    layers = replace(layers, nods=Nods.of(plan.cues))
+                    answers = [event for event in plan.gestures if event.kind == "nod"]
+                    layers = replace(layers, nods=Nods.of(plan.cues, answers))
                 return layers if same_events(plan, other, "poses") else replace(layers, poses=Poses.of(plan.poses))
         full, leaning = lungs(plan.breaths)
         gestures = _by_layer(plan.gestures)
@@ -249,12 +258,12 @@ class Layers:
             for kind in _KINDS:
                 if gestures[kind] == others[kind]:
                     same[kind] = layers
-        swing, shift, bell, low, leant, accented, stepped = (same[kind] for kind in _KINDS)
+        swing, shift, bell, low, leant, accented, stepped, _, others_too = (same[kind] for kind in _KINDS)
         return cls(
             full=full,
             leaning=leaning,
             air=air(plan.breaths),
-            nods=Nods.of(plan.cues),
+            nods=Nods.of(plan.cues, gestures["nod"]),
             sway=swing.sway if swing else path(gestures["sway"], "sway"),
             lean=leant.lean if leant else path(gestures["lean"], "lean"),
             accents=accented.accents if accented else Accents.of(gestures["accent"]),
@@ -267,11 +276,17 @@ class Layers:
             else lowering(gestures["lower_instrument"], body.bell.lower_s, body.bell.raise_s),
             feet=stepped.feet if stepped else Feet.of(gestures["feet"], body.footwork.step_s),
             poses=Poses.of(plan.poses),
+            concert=others_too.concert if others_too else Concert.of(gestures["concert"], felt_beats),
+            still=others_too.still if others_too else holds_of(gestures["concert"]),
             leads=Leads.of(body.overlap),
         )
 
     def sample(self, times_s: FloatArray) -> LayerSamples:
         """The layers at ascending times."""
+        return held_still(self._moving(times_s), self.still, times_s, self._moving)
+
+    def _moving(self, times_s: FloatArray) -> LayerSamples:
+        """The layers of a body that holds still nowhere."""
         dip, lift = self.nods.sample(times_s)
         before, after, share = self.weight.between(self.leads.at(times_s).hips)
         return LayerSamples(
@@ -289,6 +304,7 @@ class Layers:
             lowered=self.lowered.sample(times_s),
             feet=self.feet.sample(times_s),
             held=self.poses.sample(times_s),
+            concert=self.concert.sample(times_s),
         )
 
     def changed_s(self, other: Layers) -> list[FloatArray]:
@@ -301,7 +317,7 @@ def _by_layer(gestures: Sequence[GestureEvent]) -> dict[str, list[GestureEvent]]
     """Gestures by the layer they are of, each in order."""
     found: dict[str, list[GestureEvent]] = {kind: [] for kind in _KINDS}
     for event in gestures:
-        kind = "feet" if event.kind in FOOT_KINDS else event.kind
+        kind = "feet" if event.kind in FOOT_KINDS else "concert" if event.kind in CONCERT_KINDS else event.kind
         if kind in found:
             found[kind].append(event)
     return found
@@ -322,7 +338,8 @@ def body_motion(
     """Sum of all layers at ascending ``times_s`` (F,), on top of the posture's own angles; without ``steps`` feet only
     tap."""
     sizes, sway, deg = Sizes(body, parameters, player_id), body.sway, np.deg2rad
-    inhaled, lean, dip, lift = levels.full, levels.leaning, levels.dip, levels.lift
+    inhaled, lean = levels.full, levels.leaning
+    dip, lift = acting.cue * levels.dip, acting.cue * levels.lift
     frames, lowered, seated = len(times_s), levels.lowered, posture.seat_height_shank > 0.0
     total = Sum(frames)
     aside_rad = _held(total, posture, lowered)
@@ -353,6 +370,14 @@ def body_motion(
     total.forward(NECK_SHARES, 0.5 * look.head_pitch_rad)
     total.forward(TRUNK_SHARES, deg(body.bell.lowered_trunk_deg) * lowered)
 
+    shoulders, elbows = deg(body.breath.shoulder_lift_deg) * inhaled, deg(body.breath.elbow_out_deg) * inhaled
+    if levels.concert is not None:
+        beside = beside_playing(levels.concert, body.concert, parameters.amplitude, acting.gestures, seated)
+        total.forward(TRUNK_SHARES, beside.trunk_rad)
+        total.forward(NECK_SHARES, beside.neck_rad)
+        total.turn(TRUNK_SHARES, body.concert.look_trunk_share * lowered * 0.5 * look.head_yaw_rad)
+        lowered = lowered * (1.0 - beside.up_share)
+        shoulders, elbows = shoulders + beside.shoulders_rad, elbows + beside.elbows_rad
     feet = feet_moved(levels.feet, body, parameters.amplitude, acting.footwork, steps=steps)
     forward_rad, left_rad, turn_rad = total.all()
     held = levels.held
@@ -384,8 +409,8 @@ def body_motion(
         bell_down_rad=np.zeros(frames),
         bell_right_rad=np.zeros(frames),
         bell_held_rad=bell_held,
-        shoulders_rad=deg(body.breath.shoulder_lift_deg) * inhaled,
-        elbows_rad=deg(body.breath.elbow_out_deg) * inhaled,
+        shoulders_rad=shoulders,
+        elbows_rad=elbows,
         eyes_yaw_rad=look.yaw_rad - 0.5 * look.head_yaw_rad - EYES_BACK * aside_rad,
         eyes_pitch_rad=look.pitch_rad - 0.5 * look.head_pitch_rad,
         lowered=lowered,

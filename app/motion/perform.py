@@ -19,6 +19,7 @@ from app.motion.danced import BodyLayer, giving_way, inhaling, with_dance
 from app.motion.face import Drivers, Face, face_morphs, usual_morphs
 from app.motion.feet import feet_moved
 from app.motion.gaze import Gaze, Look, looks_alike, plan_gaze
+from app.motion.holding import with_holds
 from app.motion.model import Motion
 from app.motion.posture import SIDES, Side, footing, hips_path, stance, trunk
 from app.motion.ribs import widened
@@ -232,7 +233,7 @@ class PerformanceCurves:
                 spans.append(shown.changed_s(others_shown))
             else:
                 spans += [shown.spans_s, others_shown.spans_s]
-        return np.concatenate(spans)
+        return with_holds(np.concatenate(spans), self.layers.still, other.layers.still)
 
     @property
     def _settings(self) -> tuple[object, ...]:
@@ -289,13 +290,13 @@ def prepare(
     tension = parameters.embouchure_tension
     player = _player(parameters, instrument_map, character, hold, body, posture, before)
     if before is None:
-        face, layers = Face.of(plan, tension), Layers.of(plan, body)
+        face, layers = Face.of(plan, tension), Layers.of(plan, body, felt_beats)
         gaze = plan_gaze(plan, parameters.seed)
         fingers = _fingers(plan, instrument_map, felt_beats, player)
     else:
         old = before.plan
         face = Face.of(plan, tension, (before.face, old, before.parameters.embouchure_tension))
-        layers = Layers.of(plan, body, (before.layers, old))
+        layers = Layers.of(plan, body, felt_beats, (before.layers, old))
         looks_same = looks_alike(plan, old)
         seed = before.parameters.seed
         gaze = before.gaze if looks_same and seed == parameters.seed else plan_gaze(plan, parameters.seed)

@@ -10,12 +10,13 @@ Messages: ``correction.orphaned``, ``correction.no_such_fingering``, ``breath.in
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Final, Literal, TypeAlias, TypeVar, get_args
+from typing import Final, Literal, TypeAlias, TypeVar
 
 import msgspec
 
 from app.errors import Message
 from app.plan.model import (
+    GESTURE_KINDS,
     BreathEvent,
     CueEvent,
     EmbouchureEvent,
@@ -200,7 +201,7 @@ Span = TypeVar("Span", GestureEvent, ExpressionEvent)
 
 WITHIN: Final = "within"
 """The first part of the ids of breaths within a note."""
-REMOVABLE = ("breath", "preparation", WITHIN, "cue", *get_args(GestureKind), "expression")
+REMOVABLE = ("breath", "preparation", WITHIN, "cue", *GESTURE_KINDS, "expression")
 """Kinds of event a `RemoveEvent` may leave out: the first part of their ids."""
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -39,6 +40,7 @@ from app.plan.ending import Ending, ending_of
 from app.plan.expression import SMILE_ID, plan_expressions
 from app.plan.fingering import plan_fingerings
 from app.plan.gesture import Pulse, plan_gestures, pulse
+from app.plan.glances import StagePlace, glances_of
 from app.plan.line import LineTimes, MonophonicPart, Piece, Seeds, note_times, without_sound
 from app.plan.memo import Memo
 from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, Problem, TimeFrame
@@ -56,7 +58,11 @@ __all__ = ["EnsemblePlan", "MonophonicPart", "Piece", "make_plans", "plan_ensemb
 
 PREROLL_BEATS = 4.0
 PREROLL_LEAST_S = 2.0
-AFTER_LAST_S = 2.0
+COME_UP_S = 3.0
+"""A new piece begins so long before the first note at least: time to be seen at rest, and to come up from it."""
+MOST_PREROLL_BEATS = 32
+AFTER_LAST_S = 6.0
+"""Time to hold still, lower the instrument, look up and bow."""
 
 
 def time_frame(
@@ -65,8 +71,8 @@ def time_frame(
     preroll_beats: float = PREROLL_BEATS,
     beat_ticks: int | None = None,
 ) -> TimeFrame:
-    """The performance's span: a pre-roll of some beats, at least 2 s, before the first note of all lines, to 2 s
-    after the last. Times before the first tick are negative. Without any note: around tick 0.
+    """The performance's span: a pre-roll of some beats, at least 2 s, before the first note of all lines, to
+    `AFTER_LAST_S` after the last. Times before the first tick are negative. Without any note: around tick 0.
 
     Parameters
     ----------
@@ -90,6 +96,12 @@ def frame_around(
     first_s = clock.seconds(float(first_tick))
     start_s = min(clock.seconds(first_tick - preroll), first_s - PREROLL_LEAST_S)
     return TimeFrame(start_s, clock.seconds(float(last_tick)) + AFTER_LAST_S)
+
+
+def usual_preroll(beat_s: float) -> float:
+    """Felt beats before the first note of a new piece, by the length of a beat: a bar of four, or whole beats enough to
+    come up from rest."""
+    return max(PREROLL_BEATS, float(min(math.ceil(COME_UP_S / beat_s - 1e-6), MOST_PREROLL_BEATS)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,6 +143,7 @@ def plan_ensemble(
     before: EnsemblePlan | None = None,
     stop_requested: Callable[[], bool] = lambda: False,
     progress: Callable[[float], None] = lambda share: None,
+    places: Mapping[str, StagePlace] | None = None,
 ) -> EnsemblePlan:
     """Plan every line of the ensemble, in order.
 
@@ -146,6 +159,8 @@ def plan_ensemble(
         Of the same ensemble before an edit: what has not changed is taken from there, to the object.
     stop_requested, progress : callable
         Asked, and called with the share that is done, between two players.
+    places : mapping of str to StagePlace, optional
+        Where each player stands; who has no place looks at no one.
 
     Raises
     ------
@@ -169,6 +184,7 @@ def plan_ensemble(
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
     beat = shared.step("pulse", pulse, piece, frame, first_s)
     ending = shared.step("ending", ending_of, all_times, piece)
+    last_s = max((float(times.played_end_s.max()) for times in all_times if len(times.onset_s)), default=0.0)
     together = [own[line.player_id].step("shared line", shared_line, times, piece) for line, times, _ in playable]
     breathed: list[Breathed] = []
     plans = {}
@@ -179,9 +195,11 @@ def plan_ensemble(
         memo = own[line.player_id]
         shared_breaths = memo.nested("shared", shared_with, this, others, tuple(breathed))
         own_cues = memo.step("cues", _cues_of, cues, line.player_id)
+        answered = memo.step("answered", _answered, cues, line.player_id)
+        seen = memo.step("seen", _seen, line.player_id, own_cues, answered, {} if places is None else places)
         given = _Given(
             piece, line, times, frame, own_cues, cue_ids, this, shared_breaths, seed, beat, ending, problems, faces,
-            alone=musicians.count(musicians[done]) == 1,
+            answered, last_s, seen, alone=musicians.count(musicians[done]) == 1,
         )  # fmt: skip
         plan, breaths = memo.nested("plan", _plan_line, given)
         plans[line.player_id] = plan
@@ -194,6 +212,19 @@ def plan_ensemble(
 
 def _cues_of(cues: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...]:
     return tuple(cue for cue in cues if cue.player_id == player_id)
+
+
+def _answered(cues: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...]:
+    """The cues that a player comes in with."""
+    return tuple(cue for cue in cues if player_id in cue.takers)
+
+
+def _seen(
+    player_id: str, own: tuple[CueEvent, ...], answered: tuple[CueEvent, ...], places: Mapping[str, StagePlace]
+) -> dict[str, StagePlace]:
+    """The places of the player and of those whom the player looks at."""
+    others = {cue.player_id for cue in answered} | {taker for cue in own for taker in cue.takers}
+    return {one: place for one, place in places.items() if one == player_id or one in others}
 
 
 def _go_on(stop_requested: Callable[[], bool]) -> None:
@@ -249,6 +280,9 @@ class _Given(NamedTuple):
     ending: Ending
     reported: tuple[Problem, ...]
     faces: Mapping[str, Expression]
+    answered: tuple[CueEvent, ...]
+    last_s: float
+    seen: Mapping[str, StagePlace]
     alone: bool
 
 
@@ -298,9 +332,13 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         memo,
         acting_of(parameters),
         given.alone,
+        answered=given.answered,
+        last_s=given.last_s,
     )
     moved = _of(corrections, ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
     gestures = memo.step("corrected gestures", correct_gestures, made_gestures, moved, clock)
+    looked = memo.step("looked at", _of_kinds, gestures, ("lower_instrument", "look_about", "look_up"))
+    glances = memo.step("glances", glances_of, line.player_id, given.cues + given.answered, looked, given.seen, seeds)
     # Who corrected the smile after the last note keeps it, whatever the ending is.
     named = any(item.event_id == SMILE_ID for item in corrections if isinstance(item, ChangeExpression | RemoveEvent))
     ending = msgspec.structs.replace(given.ending, bright=True) if named else given.ending
@@ -348,8 +386,14 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         problems=tuple(sorted(problems, key=lambda problem: problem.start_s)),
         poses=poses,
         traces=traces,
+        glances=glances,
     )
     return plan, breathed_of(given.shared_line, notes, breaths.catches, events)
+
+
+def _of_kinds(gestures: tuple[GestureEvent, ...], kinds: tuple[str, ...]) -> tuple[GestureEvent, ...]:
+    """The gestures of some kinds."""
+    return tuple(event for event in gestures if event.kind in kinds)
 
 
 def _lost(

@@ -1,10 +1,10 @@
 """Body motion as gestures: sway, lean and accents (`app.plan.swing`, `app.plan.phrase`), weight shifts, the bell's
-height, the instrument lowered in long rests, and what feet do (`app.plan.footwork`).
+height, the instrument lowered (`app.plan.lowered`), what feet do (`app.plan.footwork`) and what is done beside playing
+(`app.plan.answers`, `app.plan.concert`).
 
 How to read the events: sway, lean, weight_shift and bell_height each lie end to end, and an event's ``amount`` is where
 the body goes: at the end of a sway or lean, and for as long as it lasts for the other two.
-``lower_instrument`` spans from leaving the lips to being back at them; one that reaches beyond the time frame begins
-(or stays) lowered. Amounts follow the dynamics (`app.plan.dynamics`); sizes belong to the motion, which scales by the
+Amounts follow the dynamics (`app.plan.dynamics`); sizes belong to the motion, which scales by the
 player's amplitude.
 
 In a rest longer than twice `app.plan.swing.STIR_S` the body is still but at its edges: what is made is in proportion to
@@ -13,24 +13,25 @@ the notes, however long the silence between them.
 Everything random is drawn from player and score position (tick), so the same place repeats in every run, however the
 rest of the piece is edited (Wanderley: players repeat the same bell movement at the same place).
 
-Messages: ``gesture.weight_shift``, ``gesture.bell_height``, ``gesture.bell_accent``,
-``gesture.lower_instrument``, ``gesture.lower_at_end``, ``gesture.lower_at_start``.
+Messages: ``gesture.weight_shift``, ``gesture.bell_height``, ``gesture.bell_accent``.
 """
 
 from __future__ import annotations
 
 import itertools
-from bisect import bisect_right
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
 
 from app.errors import Message
 from app.plan.acting import Acting
+from app.plan.answers import answering_nods
+from app.plan.concert import after_the_end, holding_at_end, in_long_rests
 from app.plan.dynamics import Dynamics, grown
 from app.plan.footwork import footwork
 from app.plan.line import LineTimes, Piece, Rhythm, Seeds
+from app.plan.lowered import lowered_spans
 from app.plan.memo import Memo
 from app.plan.model import BreathEvent, CueEvent, FloatArray, GestureEvent, TimeFrame
 from app.plan.phrase import accents, felt_at, leans, phrases
@@ -54,14 +55,6 @@ ARCH_LOUDNESS, ARCH_DOWNBEAT = 1.0, 0.1
 """What makes a climax beside the height of the bell: loudness above the phrase's mean, and the first beat of a bar."""
 ACCENT_LIFT, MOST_ACCENT_LIFT = 1.5, 0.4
 """The bell rises with an accent by so much for its loudness, and no more."""
-LOWER_REST_S = 6.0
-"""A shorter rest does not take the instrument off the lips."""
-LOWER_S = 1.1
-RAISE_S = 1.2
-LOWERED_LEAST_S = 1.0
-"""Coming down is not worth it for less."""
-AFTER_NOTE_S = 0.5
-BEFORE_BREATH_S = 0.2
 
 
 def plan_gestures(
@@ -77,6 +70,9 @@ def plan_gestures(
     memo: Memo,
     acting: Acting,
     alone: bool,
+    *,
+    answered: tuple[CueEvent, ...] = (),
+    last_s: float | None = None,
 ) -> tuple[GestureEvent, ...]:
     """All gestures of one player, ordered by start.
 
@@ -94,8 +90,13 @@ def plan_gestures(
         How much the player keeps still, and taps.
     alone : bool
         The body plays this line only: its feet may leave their place.
+    answered : tuple of CueEvent
+        Cues of others that the player comes in with.
+    last_s : float, optional
+        End of the last note of all players; None: there is no end to look up and bow at.
     """
     rhythm, clock = times.rhythm, piece.clock
+    lowered = memo.step("lowered", lowered_spans, notes, rhythm, piece, frame, breaths, cues + answered, seeds)
     swings = memo.step("swings", swings_of, rhythm, pulse, frame, seeds, dynamics, acting.stillness)
     found = memo.step("phrases", phrases, rhythm, breaths)
     shifts = memo.step("weight shifts", weight_shifts, rhythm, pulse, frame, seeds, clock, dynamics)
@@ -109,7 +110,11 @@ def plan_gestures(
         memo.step("leans", leans, found, times, clock, seeds, dynamics),
         memo.step("accents", accents, times, pulse, at_notes, cues, clock, swings, seeds, dynamics),
         memo.step("bell heights", bell_heights, notes, times, piece, dynamics),
-        memo.step("lowered", lowered_spans, notes, rhythm, piece, frame, breaths, cues),
+        lowered,
+        memo.step("answering nods", answering_nods, notes, rhythm, answered, piece, seeds),
+        memo.step("in long rests", in_long_rests, notes, rhythm, lowered, piece, frame, seeds),
+        memo.step("holding", holding_at_end, rhythm, lowered, piece, frame),
+        memo.step("after the end", after_the_end, last_s, piece, frame, seeds) if notes and last_s is not None else (),
         feet,
     )
 
@@ -242,67 +247,3 @@ def _arches(
         turns[[climax, last]] = True
         arches[here] = ARCH * np.interp(at_s[here], at_s[places], [knots[place] for place in places])
     return arches, turns
-
-
-def lowered_spans(
-    notes: tuple[Note, ...],
-    times: Rhythm,
-    piece: Piece,
-    frame: TimeFrame,
-    breaths: tuple[BreathEvent, ...],
-    cues: tuple[CueEvent, ...],
-) -> list[GestureEvent]:
-    """Where the instrument is off the lips: in rests long enough to lower it, rest it and raise it before anything that
-    belongs to the entry (cue, preparation, breath) begins."""
-    if not notes:
-        return [_lowered("all", frame.first_frame_s - LOWER_S, frame.end_s + RAISE_S, piece, "gesture.lower_at_start",
-                         {"rest_s": round(frame.end_s - frame.first_frame_s, 2)})]  # fmt: skip
-    spans_s = [(event.start_s, event.end_s) for event in breaths] + [(event.start_s, event.end_s) for event in cues]
-    busy = _Busy(sorted(spans_s))
-    events = []
-    first_s = busy.free_until(frame.first_frame_s, float(times.onset_s[0])) - BEFORE_BREATH_S
-    if first_s - RAISE_S - LOWERED_LEAST_S >= frame.first_frame_s:
-        rest_s = {"rest_s": round(float(times.onset_s[0]) - frame.first_frame_s, 2)}
-        start_s = frame.first_frame_s - LOWER_S
-        events.append(_lowered(notes[0].id, start_s, first_s, piece, "gesture.lower_at_start", rest_s))
-    rests_s = times.onset_s[1:] - times.played_end_s[:-1]
-    for index in np.flatnonzero(rests_s >= LOWER_REST_S).tolist():
-        start_s = float(times.played_end_s[index]) + AFTER_NOTE_S
-        end_s = busy.free_until(start_s, float(times.onset_s[index + 1])) - BEFORE_BREATH_S
-        if end_s - start_s >= LOWER_S + LOWERED_LEAST_S + RAISE_S:
-            rest = {"rest_s": round(float(rests_s[index]), 2)}
-            events.append(_lowered(notes[index + 1].id, start_s, end_s, piece, "gesture.lower_instrument", rest))
-    start_s = float(times.played_end_s.max()) + AFTER_NOTE_S
-    if start_s + LOWER_S <= frame.end_s and busy.free_until(start_s, frame.end_s) >= frame.end_s:
-        after = {"after_s": AFTER_NOTE_S}
-        events.append(_lowered("end", start_s, frame.end_s + RAISE_S, piece, "gesture.lower_at_end", after))
-    return events
-
-
-class _Busy:
-    """Spans in which a player does something, (start, end) ordered by start."""
-
-    def __init__(self, spans_s: list[tuple[float, float]]) -> None:
-        self._starts_s = [start_s for start_s, _ in spans_s]
-        # A span that ends later than all before it is the first that ends after a time.
-        self._last_ends_s = list(itertools.accumulate((end_s for _, end_s in spans_s), max))
-
-    def free_until(self, start_s: float, end_s: float) -> float:
-        """Start of the first span that ends after ``start_s`` and begins before ``end_s``, else ``end_s``."""
-        index = bisect_right(self._last_ends_s, start_s)
-        return min(self._starts_s[index], end_s) if index < len(self._starts_s) else end_s
-
-
-def _lowered(
-    name: str, start_s: float, end_s: float, piece: Piece, rule: str, arguments: Mapping[str, float]
-) -> GestureEvent:
-    return GestureEvent(
-        id=f"lower_instrument:{name}",
-        kind="lower_instrument",
-        start_tick=round(piece.clock.ticks(start_s)),
-        end_tick=round(piece.clock.ticks(end_s)),
-        start_s=start_s,
-        end_s=end_s,
-        amount=1.0,
-        reason=Message(rule, dict(arguments)),
-    )

@@ -165,7 +165,7 @@ def asymmetry(read: Read) -> float:
 
 
 def at_the_beat(read: Read) -> float:
-    """Share of the energy of the pitch of the head (0.1 to 8 Hz) within 5 % of the beat. The curve is measured in
+    """Share of the energy of the pitch of the head (0.3 to 8 Hz) within 5 % of the beat. The curve is measured in
     beats, so that a tempo that changes smears nothing."""
     times, beats = read.times_s, read.beats_s
     beats = beats[(beats >= times[0]) & (beats <= times[-1])]
@@ -177,7 +177,7 @@ def at_the_beat(read: Read) -> float:
     values = np.interp(at_s, times, read.forward_rad("head"))
     hz, power = periodogram(values, fs=steps, detrend="linear", window="hann")
     beat_hz = 1.0 / float(np.median(np.diff(beats)))
-    all_of = (hz * beat_hz >= 0.1) & (hz * beat_hz <= 8.0)
+    all_of = (hz * beat_hz >= 0.3) & (hz * beat_hz <= 8.0)
     near = np.abs(hz - 1.0) <= BEAT_SHARE
     return float(power[near].sum() / power[all_of].sum())
 

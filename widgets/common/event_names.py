@@ -21,6 +21,13 @@ _KINDS: Final = {
     "step": "event.step",
     "tap": "event.tap",
     "heel": "event.heel",
+    "nod": "event.nod",
+    "count": "event.count",
+    "look_about": "event.look_about",
+    "settle_grip": "event.settle_grip",
+    "hold_still": "event.hold_still",
+    "look_up": "event.look_up",
+    "bow": "event.bow",
     "pose": "event.pose",
     "vary": "event.performed_anew",
 }

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import Literal, NamedTuple, TypeAlias, get_args
+from typing import Literal, NamedTuple, TypeAlias
 
 import msgspec
 
@@ -31,6 +31,7 @@ from app.plan.corrections import (
     Vary,
 )
 from app.plan.cue import LEAD_BEATS
+from app.plan.model import GESTURE_KINDS as GESTURE_KINDS
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
 from app.plan.model import GestureKind as GestureKind
 from app.project.edit.corrections import put, take_back
@@ -45,7 +46,6 @@ from app.project.model import Project
 from app.score.model import Note
 
 BreathKind: TypeAlias = Literal["preparation", "breath"]
-GESTURE_KINDS: tuple[GestureKind, ...] = get_args(GestureKind)
 CATCH_S = 0.3
 """A breath added where notes touch is this long."""
 

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from app.plan.generate import MonophonicPart, make_plans, time_frame
-from app.plan.gesture import ARCH, LOWER_S, LOWERED_LEAST_S, RAISE_S, RELEASE
+from app.plan.gesture import ARCH, RELEASE
+from app.plan.lowered import LOWER_S, LOWERED_LEAST_S, RAISE_S
 from app.plan.model import GestureEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.plan.swing import STIR_S

@@ -26,10 +26,12 @@ from widgets.common.plain import verbatim
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_columns, draw_mark, draw_rects, shade
 from widgets.timeline.lanes.acting_drawing import ActingPainter
+from widgets.timeline.lanes.giver_menu import add_givers
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.model.acting import (
     BASE,
+    CONCERT_KINDS,
     CURVES,
     GROUPS,
     STRIPS,
@@ -62,7 +64,7 @@ class ActingLane(RegionLane):
     """What body and face do beside playing."""
 
     id = "acting"
-    preferred_height_px = 134
+    preferred_height_px = 154
     least_height_px = 70
     least_row_px = 19.0
 
@@ -92,7 +94,11 @@ class ActingLane(RegionLane):
         """What a group of rows is called, after its first kind."""
         if kind == VARIED:
             return self.tr("acting_lane.anew")
-        names = {"lower_instrument": "acting_lane.pose", "step": "acting_lane.feet"}
+        names = {
+            "lower_instrument": "acting_lane.pose",
+            "step": "acting_lane.feet",
+            CONCERT_KINDS[0]: "acting_lane.beside",
+        }
         return self.tr(names[kind]) if kind in names else kind_name(kind)
 
     # Regions
@@ -317,6 +323,8 @@ class ActingLane(RegionLane):
         if region is not None and region.kind == "expression" and not region.removed:
             other = menu.addMenu(self.tr("acting_lane.another_expression"))
             self._expression_entries(other, self._choose_expression, region)
+        if region is not None and region.kind == "cue" and not region.removed:
+            add_givers(menu, self.session, region, self.tr("acting_lane.given_by"))
         adding = menu.addMenu(self.tr("acting_lane.add_expression_here"))
         self._expression_entries(adding, lambda name: add_expressions(self.session, name, self._spans(mouse)))
         gestures = menu.addMenu(self.tr("acting_lane.add_gesture_here"))

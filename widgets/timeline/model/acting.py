@@ -7,16 +7,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PoseEvent
+from app.plan.model import SIGNED_KINDS, CueEvent, ExpressionEvent, GestureEvent, PoseEvent
 from app.project.edit.events import OWN
 from app.score.tempo import TempoMap
 from widgets.timeline.model.geometry import Floats, packed_rows
 from widgets.timeline.model.region import Region
 
+CONCERT_KINDS = ("nod", "count", "look_about", "settle_grip", "hold_still", "look_up", "bow")
+"""What is done beside playing."""
 GROUPS: tuple[tuple[str, ...], ...] = (
     ("cue",),
     ("expression",),
     ("lower_instrument", "pose"),
+    CONCERT_KINDS,
     ("bell_height",),
     ("weight_shift",),
     ("step", "tap", "heel"),
@@ -102,11 +105,10 @@ def expression_region(player_id: str, event: ExpressionEvent, names: Names) -> R
 
 def gesture_region(player_id: str, event: GestureEvent, names: Names) -> Region:
     """A gesture."""
-    lowered = event.kind == "lower_instrument"
     return Region(
         player_id, event.id, event.kind, event.start_tick, event.end_tick, event.start_s, event.end_s,
         amount=event.amount, label=names.kind(event.kind), reason=event.reason, by_hand=event.corrected,
-        signed=not lowered,
+        signed=event.kind in SIGNED_KINDS,
     )  # fmt: skip
 
 
