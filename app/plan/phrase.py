@@ -53,6 +53,8 @@ STRONG = 0.66
 """With chance (0..1, of this weight) added, a note from here on is accented."""
 CHANCE = 0.62
 LEAST_ACCENT = 0.2
+AFTER_BREATH = 0.6
+"""Right after a breath, which the trunk shows too, an accent is short and so much smaller."""
 CUED_S = 0.35
 """An entry that is cued has its nod."""
 
@@ -69,8 +71,7 @@ def phrases(times: Rhythm, breaths: Sequence[BreathEvent]) -> tuple[Phrase, ...]
     count = len(times.onset_s)
     if not count:
         return ()
-    drawn_s = [breath.end_s for breath in breaths if breath.kind == "breath"]
-    after = np.searchsorted(times.onset_s, np.array(drawn_s) - ON_BEAT_S)
+    after = _after_breaths(times, breaths)
     rests = np.flatnonzero(times.onset_s[1:] - times.played_end_s[:-1] >= REST_S) + 1
     edges = np.unique(np.concatenate(([0], after[after < count], rests, [count])))
     found: list[Phrase] = []
@@ -82,6 +83,12 @@ def phrases(times: Rhythm, breaths: Sequence[BreathEvent]) -> tuple[Phrase, ...]
         bounds = sorted({first, end, *(cut for cut in cuts if first < cut < end)})
         found += [Phrase(*pair) for pair in pairwise(bounds)]
     return tuple(found)
+
+
+def _after_breaths(times: Rhythm, breaths: Sequence[BreathEvent]) -> IntArray:
+    """The note after each breath; their number for none."""
+    drawn_s = [breath.end_s for breath in breaths if breath.kind == "breath"]
+    return np.asarray(np.searchsorted(times.onset_s, np.array(drawn_s) - ON_BEAT_S))
 
 
 def leans(
@@ -133,6 +140,7 @@ def accents(
     pulse: Pulse,
     lengths: IntArray,
     cues: Sequence[CueEvent],
+    breaths: Sequence[BreathEvent],
     clock: TempoMap,
     swings: Swings,
     seeds: Seeds,
@@ -173,9 +181,13 @@ def accents(
     scores = strength + CHANCE * chances - 10.0 * ((still & ~loud[candidates]) | nodded)
     chosen = _apart(at_s, scores, loud[candidates], beat_s[candidates])
     amounts = grown(np.clip(LEAST_ACCENT + 0.4 * strength + 0.6 * sizes * sizes, 0.0, 1.0), dynamics.at(at_s))
+    inhaled = np.isin(candidates, _after_breaths(times, breaths))
+    amounts = np.where(inhaled, AFTER_BREATH * amounts, amounts)
+    lengths_s = np.clip(ACCENT_BEATS * beat_s[candidates], SHORTEST_ACCENT_S, ACCENT_S)
+    lengths_s = np.where(inhaled, SHORTEST_ACCENT_S, lengths_s)
     events = []
     for place in chosen:
-        length_s = max(min(ACCENT_S, ACCENT_BEATS * float(beat_s[candidates[place]])), SHORTEST_ACCENT_S)
+        length_s = float(lengths_s[place])
         start_s = float(at_s[place]) - ACCENT_AT * length_s
         end_s, amount = start_s + length_s, round(float(amounts[place]), 4)
         start, end = round(clock.ticks(start_s)), round(clock.ticks(end_s))
