@@ -239,7 +239,7 @@ def changed(tmp_path: Path, source: str, old: str, new: str, name: str | None = 
         ("bodies/adult.toml", "mouthFunnel = 0.05", "mouthFunny = 0.05", "embouchure.cup.air.mouthFunny", "ARKit"),
         ("bodies/adult.toml", "side_deg = [0.22, 3.4, 9.0]", "side_deg = [0.22, 3.4]", "sway.side_deg", "length"),
         ("bodies/adult.toml", "chest_s = 0.07", "chest_s = 0.5", "overlap.chest_s", "0.12"),
-        ("bodies/adult.toml", "lean_deg = [0.1, 4.0, 10.0]", "lean_deg = [0.1, 4.0, -10.0]", "phrase.lean_deg", ">= 0.0"),
+        ("bodies/adult.toml", "lean_deg = [0.1, 4.0, 10.0]", "lean_deg = [0.1, 4.0, -1]", "phrase.lean_deg", ">= 0.0"),
         ("bodies/adult.toml", "step_s = 0.55", "step_s = 0.0", "footwork.step_s", "> 0.0"),
         ("bodies/adult.toml", "chest_share = 1.0", "chest_share = 1.5", "breath.chest_share", "<= 1.0"),
         ("bone_names/mixamo.toml", 'name = "mixamo"', 'name = "adobe"', "name", "adobe"),
