@@ -193,6 +193,20 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         # Only where the animator held something differently: nothing else has any.
         angles = ("up_deg", "left_deg", "roll_deg")
         table["poses"] = _events(plan.poses, clock, reason, "target", *angles, "fade_in_s", "fade_out_s")
+    if plan.additive:
+        table["additive"] = [
+            {
+                "id": event.id,
+                "channel": event.channel,
+                "start_tick": event.start_tick,
+                "end_tick": event.end_tick,
+                "start_s": event.start_s,
+                "end_s": event.end_s,
+                "low": event.low,
+                "high": event.high,
+            }
+            for event in plan.additive
+        ]
     return table
 
 

@@ -17,6 +17,7 @@ _KINDS: Final = {
     "bell_height": "event.bell_height",
     "lower_instrument": "event.instrument_lowered",
     "pose": "event.pose",
+    "additive": "event.additive_curve",
     "vary": "event.performed_anew",
 }
 _EXPRESSIONS: Final = {

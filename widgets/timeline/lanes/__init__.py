@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from widgets.timeline.lane import Lane
 from widgets.timeline.lanes.acting import ActingLane
+from widgets.timeline.lanes.additive import AdditiveLane
 from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.lanes.curves import CurvesLane
 from widgets.timeline.lanes.dance import DanceLane
@@ -19,6 +20,7 @@ LANES: tuple[type[Lane], ...] = (
     BreathLane,
     ActingLane,
     CurvesLane,
+    AdditiveLane,
     DanceLane,
     ProblemsLane,
 )
