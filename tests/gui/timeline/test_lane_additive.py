@@ -17,6 +17,7 @@ from app.plan.additive_curve import AdditiveCurve, CurveKey, Tangent
 from app.project.edit import additive as edit
 from app.project.edit.corrections import put
 from app.project.edit.generation import vary_everyone
+from tests.gui.timeline.conftest import Stage
 from tests.gui.timeline.lane_hands import (
     ALT,
     CTRL,
@@ -334,9 +335,11 @@ def test_the_channel_is_chosen_from_the_menu_which_marks_those_with_curves(lane:
 def test_a_curve_that_is_selected_is_shown_and_deleted_as_an_event(lane: AdditiveLane) -> None:
     given(lane, key(8 * QUARTER, 5.0), channel="torso.up")
     wanted = EventKey(player_of(lane), "additive:own-1")
+    lane.set_folded(True)
     lane.session.select(Selection(events=frozenset({wanted})))
     assert lane.channel == "torso.up"
     assert lane.chosen_curves == {"own-1"}
+    assert not lane.folded
     click(lane, place(lane, 2 * QUARTER, 6.0))
     assert not lane.session.selection.events
     x = place(lane, 7.6 * QUARTER, 0.0).x()
@@ -371,3 +374,23 @@ def test_a_key_may_come_upon_another_one(lane: AdditiveLane) -> None:
     px = place(lane, QUARTER, 0).x() - place(lane, 0, 0).x()
     drag(lane, place(lane, 8 * QUARTER, 2.0), dx=2 * px)
     assert [tick for tick, _ in values(one(lane))] == [10 * QUARTER]
+
+
+def test_the_lane_s_keys_come_before_the_program_s_while_it_has_them(stage: Stage) -> None:
+    stage.panel.open_lane("additive", True)
+    lane = stage.panel.lanes["additive"]
+    assert isinstance(lane, AdditiveLane)
+    given(lane, key(QUARTER, 5.0), key(2 * QUARTER, 1.0))
+    lane.plot.setFocus()
+    lane.select_all()
+    stage.table.refresh()
+    notes = stage.session.project.score.parts[0].notes
+    QTest.keyClick(lane.plot, Qt.Key.Key_C, CTRL)
+    stage.session.set_playhead(2.0)
+    stage.table.refresh()
+    QTest.keyClick(lane.plot, Qt.Key.Key_V, CTRL)
+    assert [tick for tick, _ in values(one(lane))] == [QUARTER, 2 * QUARTER, 4 * QUARTER, 5 * QUARTER]
+    QTest.keyClick(lane.plot, Qt.Key.Key_Delete)
+    assert [tick for tick, _ in values(one(lane))] == [QUARTER, 2 * QUARTER]
+    assert stage.session.project.score.parts[0].notes is notes
+    QGuiApplication.clipboard().clear()

@@ -20,8 +20,8 @@ LANES: tuple[type[Lane], ...] = (
     BreathLane,
     ActingLane,
     CurvesLane,
-    AdditiveLane,
     DanceLane,
     ProblemsLane,
+    AdditiveLane,
 )
 """In the order of a new window, from the top; the piano roll stands before them all but the first."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QMenu, QToolButton, QWidget
+from PySide6.QtWidgets import QMenu, QSizePolicy, QToolButton, QWidget
 
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
@@ -54,6 +54,7 @@ class AdditiveLane(CurveEditing):
         self.choice = named(QToolButton(self.header), "channel_choice")
         self.choice.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.choice.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
+        self.choice.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.channels = QMenu(self.choice)
         self.channels.aboutToShow.connect(self._fill_channels)
         self.choice.setMenu(self.channels)
@@ -132,7 +133,6 @@ class AdditiveLane(CurveEditing):
             ]
             if used:
                 self.set_channel(used[0])
-                self.set_folded(False)
         self.read_curves()
 
     def players_changed(self) -> None:
@@ -149,6 +149,7 @@ class AdditiveLane(CurveEditing):
             found = [item for item in edit.curves_of(self.session.project, self.player_id) if item.name in chosen]
             if found and self.channel not in {item.channel for item in found}:
                 self.set_channel(found[0].channel)
+            self.set_folded(False)
         elif now.events or now.notes:
             self.selected = frozenset()
         self.update_items()

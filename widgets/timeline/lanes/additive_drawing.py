@@ -8,17 +8,18 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
+from app.plan.additive_curve import Interpolation
 from widgets.common.channel_names import value_text
-from widgets.timeline.drawing import draw_path, draw_text, shade, small_font
+from widgets.timeline.drawing import draw_path, draw_text, polygon, shade, small_font
 from widgets.timeline.model.additive import KeyRef, ShownCurve
 from widgets.timeline.model.geometry import Floats
 from widgets.timeline.model.hand import Box
 from widgets.timeline.plot import LaneItem, LaneView
 
 KEY_PX = 4.5
-HANDLE_PX = 3.5
-BLEND_PX = 5.0
-LABEL_PX = 90.0
+HANDLE_PX = 3.0
+BLEND_PX = 6.0
+LABEL_PX, SCALE_PX = 90.0, 48.0
 
 
 class Shown(LaneView, Protocol):
@@ -94,16 +95,16 @@ class CurvesItem(LaneItem[Shown]):
             return
         x = np.append(np.arange(left, right, 0.5), right)
         values = shown.values(axis.seconds(0.0) + x / axis.px_per_s)
-        chosen = curve.name in lane.chosen_curves
-        tone = lane.session.tokens.accent if chosen else colour
-        style = Qt.PenStyle.SolidLine if curve.enabled else Qt.PenStyle.DotLine
-        alpha = 255 if curve.enabled else 150
-        if curve.enabled and curve.weight < 1.0:
-            draw_path(painter, np.stack((x, self._y(curve.weight * values)), axis=1), QPen(shade(tone, 150), 1.2))
-            style, alpha = Qt.PenStyle.DashLine, 190
-        draw_path(painter, np.stack((x, self._y(values)), axis=1), QPen(shade(tone, alpha), 1.8, style))
+        tone = lane.session.tokens.accent if curve.name in lane.chosen_curves else colour
+        pen = QPen(shade(tone), 1.8)
+        if not curve.enabled:
+            pen = QPen(shade(tone, 150), 1.6, Qt.PenStyle.DotLine)
+        elif curve.weight < 1.0:
+            self._paint_line(painter, x, curve.weight * values, pen)
+            pen = QPen(shade(tone, 170), 1.4, Qt.PenStyle.DashLine)
+        self._paint_line(painter, x, values, pen)
         painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(shade(tone, 200))
+        painter.setBrush(shade(tone, 220))
         zero = lane.y_px(0.0)
         for time_s, sign in ((shown.start_s, 1.0), (shown.end_s, -1.0)):
             at = axis.x_px(time_s)
@@ -112,7 +113,14 @@ class CurvesItem(LaneItem[Shown]):
             )
         if curve.title:
             painter.setPen(QColor(lane.session.tokens.text_dim))
-            draw_text(painter, QRectF(max(left, 2.0) + 8.0, zero + 1.0, right - left - 8.0, 13.0), curve.title)
+            begins = max(left, SCALE_PX) + 2.0
+            draw_text(painter, QRectF(begins, 1.0, right - begins, 14.0), curve.title)
+
+    def _paint_line(self, painter: QPainter, x: Floats, values: Floats, pen: QPen) -> None:
+        """As one line, so that dots and dashes go on along it."""
+        painter.setPen(pen)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawPolyline(polygon(np.stack((x, self._y(values)), axis=1)))
 
     def _paint_keys(self, painter: QPainter, shown: ShownCurve, colour: str) -> None:
         lane, tokens = self.lane, self.lane.session.tokens
@@ -124,28 +132,22 @@ class CurvesItem(LaneItem[Shown]):
                 self._paint_handles(painter, shown, at, place)
             if not room.contains(place):
                 continue
-            fill = QColor(tokens.accent if selected else tokens.sunken)
             painter.setPen(QPen(QColor(tokens.accent if selected else colour), 1.6))
-            painter.setBrush(fill)
-            if key.interpolation == "constant":
-                painter.drawRect(QRectF(place.x() - 3.8, place.y() - 3.8, 7.6, 7.6))
-            elif key.interpolation == "linear":
-                painter.drawPolygon([place + QPointF(*step) for step in ((0, -5.2), (5.2, 0), (0, 5.2), (-5.2, 0))])
-            else:
-                painter.drawEllipse(place, KEY_PX, KEY_PX)
+            painter.setBrush(QColor(tokens.accent if selected else tokens.sunken))
+            _paint_key(painter, place, key.interpolation)
             if selected and len(lane.selected) == 1:
                 painter.setPen(QColor(tokens.text))
                 over = place.y() - 19.0 if place.y() > 22.0 else place.y() + 6.0
-                left = min(place.x() + 6.0, lane.plot_rect.width() - LABEL_PX)
+                left = min(place.x() + 8.0, lane.plot_rect.width() - LABEL_PX)
                 draw_text(painter, QRectF(left, over, LABEL_PX, 14.0), value_text(lane.channel, key.value))
 
     def _paint_handles(self, painter: QPainter, shown: ShownCurve, at: int, place: QPointF) -> None:
         lane, tokens = self.lane, self.lane.session.tokens
         for _, time_s, value in shown.handles(at):
             end = QPointF(lane.axis.x_px(time_s), lane.y_px(value))
-            painter.setPen(QPen(shade(tokens.accent, 200), 1.0))
+            painter.setPen(QPen(QColor(tokens.text), 1.0))
             painter.drawLine(place, end)
-            painter.setBrush(QColor(tokens.sunken))
+            painter.setBrush(QColor(tokens.text))
             painter.drawEllipse(end, HANDLE_PX, HANDLE_PX)
 
     def _paint_scale(self, painter: QPainter) -> None:
@@ -161,6 +163,16 @@ class CurvesItem(LaneItem[Shown]):
         bottom, top = self.lane.y_range
         result: Floats = (top - values) / (top - bottom) * self.lane.plot_rect.height()
         return result
+
+
+def _paint_key(painter: QPainter, place: QPointF, interpolation: Interpolation) -> None:
+    """A circle, a diamond or a square, by how the curve goes on."""
+    if interpolation == "constant":
+        painter.drawRect(QRectF(place.x() - 3.8, place.y() - 3.8, 7.6, 7.6))
+    elif interpolation == "linear":
+        painter.drawPolygon([place + QPointF(*step) for step in ((0.0, -5.2), (5.2, 0.0), (0.0, 5.2), (-5.2, 0.0))])
+    else:
+        painter.drawEllipse(place, KEY_PX, KEY_PX)
 
 
 _TOP_LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
