@@ -24,8 +24,6 @@ from metadata.model import Body
 _NUMBERS: Final = {name: float(number) for number, name in enumerate(CHANNELS)}
 OF_LIPS: Final = ("mouth", "jaw", "tongue", "cheekPuff")
 """How the names of morph targets begin that belong to the embouchure while the instrument is at the lips."""
-HARDLY_UP_M: Final = 0.002
-"""How much longer standing legs can become."""
 
 
 @dataclass(frozen=True)
@@ -121,9 +119,9 @@ def with_added(motion: BodyMotion, added: Mapping[str, Added], body: Body, knee_
                 danced = motion.hips_danced or still
                 changes["hips_danced"] = danced | {"ahead_m": danced["ahead_m"] + more.beside(0.0)}
             case "hips", "up":
-                # Legs that are nearly straight become no longer: upwards there is what the body has sunk.
-                sunk = np.clip(motion.hips_bob_m + HARDLY_UP_M, 0.0, more.high)
-                changes["hips_bob_m"] = motion.hips_bob_m - within(more.values, sunk, -more.low)
+                # Legs that are nearly straight become no longer: upwards there is only what the body has sunk.
+                sunk = np.clip(motion.hips_bob_m, 0.0, more.high)
+                changes["hips_bob_m"] = motion.hips_bob_m - np.minimum(within(more.values, sunk, -more.low), sunk)
             case "knees", _:
                 room = motion.knee_rad + knee_rad
                 bent = within(more.values, more.high, np.minimum(room, -more.low))

@@ -40,10 +40,10 @@ POSED: Final[dict[str, tuple[PoseTarget, str]]] = {
 HIPS_M: Final[dict[str, Limits]] = {
     "hips.left": (-0.09, 0.09),
     "hips.ahead": (-0.06, 0.06),
-    "hips.up": (-0.12, 0.015),
+    "hips.up": (-0.1, 0.015),
 }
 """How far the hips leave the place above feet that stay. Upwards there is only what the player has sunk."""
-SHOULDERS_DEG: Final = (-5.0, 16.0)
+SHOULDERS_DEG: Final = (-5.0, 12.0)
 KNEES_DEG: Final = (-6.0, 45.0)
 """Added to the bend of knees that are hardly bent."""
 EYES_DEG: Final[dict[str, Limits]] = {"eyes.up": (-30.0, 25.0), "eyes.left": (-35.0, 35.0)}
