@@ -17,6 +17,7 @@ import numpy as np
 
 from app.motion.curve import Curve, FloatArray, Noise, bump, moves, rows_changed_s, through
 from app.motion.gaze import Look
+from app.motion.gestured import Gestured, Sums, with_gestures
 from app.motion.pose import Offset, Poses, hold_body
 from app.motion.seed import generator
 from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerPlan, PoseTarget, same_events
@@ -369,7 +370,8 @@ _KINDS = ("sway", "weight_shift", "bell_height", "lower_instrument")
 class LayerSamples:
     """The layers at some frames, before the player's sizes: members as of `Layers`, each (F,) float64.
 
-    ``dip`` and ``lift`` are of the nods, ``held`` what the animator holds differently.
+    ``dip`` and ``lift`` are of the nods, ``held`` what the animator holds differently, ``gestured``
+    the keyed gestures.
     """
 
     full: FloatArray
@@ -382,6 +384,7 @@ class LayerSamples:
     bobbing: FloatArray
     lowered: FloatArray
     held: dict[PoseTarget, Offset]
+    gestured: Sums = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -405,6 +408,7 @@ class Layers:
     bobbing: Bobbing
     lowered: Curve
     poses: Poses
+    gestured: Gestured
 
     @classmethod
     def of(
@@ -444,6 +448,7 @@ class Layers:
             if low
             else lowering(gestures["lower_instrument"], body.bell.lower_s, body.bell.raise_s),
             poses=Poses.of(plan.poses),
+            gestured=Gestured.of(plan.gestures),
         )
 
     def sample(self, times_s: FloatArray) -> LayerSamples:
@@ -517,7 +522,7 @@ def body_motion(
     roll = weight * sizes.rad(body.weight_shift.roll_deg)
     left.add(TRUNK_SHARES, -0.8 * roll)
     forward_rad, left_rad, turn_rad = forward.all(), left.all(), turn.all()
-    held = levels.held
+    held = with_gestures(levels.held, levels.gestured, parameters.amplitude, parameters.gestures)
     hold_body(held, body, forward_rad, left_rad, turn_rad)
     bell_held, elbows_held = {}, {}
     if "bell" in held:

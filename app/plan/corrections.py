@@ -95,13 +95,15 @@ class ChangeGesture(_Correction, frozen=True, tag="change_gesture"):
 
 
 class AddGesture(_Correction, frozen=True, tag="add_gesture"):
-    """A gesture of the animator's own, at a place of the score. ``name`` makes its event id unique."""
+    """A gesture of the animator's own, at a place of the score. ``name`` makes its event id unique; ``gesture`` is what
+    one of the kind ``"named"`` is called in `metadata.gestures`."""
 
     name: str
-    kind: Literal["sway", "weight_shift", "bell_height", "lower_instrument"]
+    kind: Literal["sway", "weight_shift", "bell_height", "lower_instrument", "named"]
     start_tick: int
     end_tick: int
     amount: float
+    gesture: str = ""
 
 
 class ChangeExpression(_Correction, frozen=True, tag="change_expression"):
@@ -192,7 +194,18 @@ Span = TypeVar("Span", GestureEvent, ExpressionEvent)
 WITHIN: Final = "within"
 """The first part of the ids of breaths within a note."""
 REMOVABLE = (
-    *("breath", "preparation", WITHIN, "cue", "sway", "weight_shift", "bell_height", "lower_instrument", "expression"),
+    *(
+        "breath",
+        "preparation",
+        WITHIN,
+        "cue",
+        "sway",
+        "weight_shift",
+        "bell_height",
+        "lower_instrument",
+        "named",
+        "expression",
+    ),
 )
 """Kinds of event a `RemoveEvent` may leave out: the first part of their ids."""
 
@@ -302,6 +315,7 @@ def correct_gestures(
             amount=item.amount,
             reason=BY_HAND,
             corrected=True,
+            name=item.gesture,
         )
         for item in corrections
         if isinstance(item, AddGesture)

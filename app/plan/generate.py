@@ -41,15 +41,20 @@ from app.plan.gesture import Pulse, plan_gestures, pulse
 from app.plan.line import LineTimes, MonophonicPart, Piece, Seeds, note_times, without_sound
 from app.plan.memo import Memo
 from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, Problem, TimeFrame
+from app.plan.named_gestures import with_definitions
 from app.plan.parameters import restricted
 from app.plan.pose import plan_poses
+from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled
 from app.plan.stagger import Breathed, Shared, SharedLine, breathed_of, shared_line, shared_with
 from app.plan.together import one_at_a_time
 from app.plan.traces import plan_traces
 from app.score.model import Note
 from app.score.tempo import TempoMap
+from metadata.gestures import Gesture
+from metadata.library import bundled_gestures, bundled_rules
 from metadata.load import load_expressions
 from metadata.model import Expression
+from metadata.rules import Rule
 
 __all__ = ["EnsemblePlan", "MonophonicPart", "Piece", "make_plans", "plan_ensemble", "time_frame"]
 
@@ -130,6 +135,8 @@ def plan_ensemble(
     before: EnsemblePlan | None = None,
     stop_requested: Callable[[], bool] = lambda: False,
     progress: Callable[[float], None] = lambda share: None,
+    rules: tuple[Rule, ...] | None = None,
+    gestures: Mapping[str, Gesture] | None = None,
 ) -> EnsemblePlan:
     """Plan every line of the ensemble, in order.
 
@@ -145,6 +152,10 @@ def plan_ensemble(
         Of the same ensemble before an edit: what has not changed is taken from there, to the object.
     stop_requested, progress : callable
         Asked, and called with the share that is done, between two players.
+    rules : tuple of Rule, optional
+        What players show and do by rules; the bundled ones by default.
+    gestures : mapping of str to Gesture, optional
+        What rules and the animator may name; the bundled ones by default.
 
     Raises
     ------
@@ -152,6 +163,8 @@ def plan_ensemble(
         ``stop_requested`` said so.
     """
     faces = load_expressions() if expressions is None else expressions
+    ruling = bundled_rules() if rules is None else rules
+    named = bundled_gestures() if gestures is None else gestures
     shared = Memo(None if before is None else before.shared)
     own = {line.player_id: Memo(None if before is None else before.own.get(line.player_id)) for line in lines}
     playable: list[tuple[MonophonicPart, LineTimes, tuple[Problem, ...]]] = []
@@ -179,7 +192,21 @@ def plan_ensemble(
         shared_breaths = memo.nested("shared", shared_with, this, others, tuple(breathed))
         own_cues = memo.step("cues", _cues_of, cues, line.player_id)
         given = _Given(
-            piece, line, times, frame, own_cues, cue_ids, this, shared_breaths, seed, beat, ending, problems, faces
+            piece,
+            line,
+            times,
+            frame,
+            own_cues,
+            cue_ids,
+            this,
+            shared_breaths,
+            seed,
+            beat,
+            ending,
+            problems,
+            faces,
+            ruling,
+            named,
         )
         plan, breaths = memo.nested("plan", _plan_line, given)
         plans[line.player_id] = plan
@@ -247,6 +274,8 @@ class _Given(NamedTuple):
     ending: Ending
     reported: tuple[Problem, ...]
     faces: Mapping[str, Expression]
+    rules: tuple[Rule, ...]
+    named: Mapping[str, Gesture]
 
 
 def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
@@ -283,8 +312,29 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     traces = memo.step("traces", plan_traces, notes, times, clock, instrument, lips, line.controller, envelope, by_hand)
     dynamics = memo.step("dynamics", dynamics_of, times, envelope)
     made_gestures = plan_gestures(notes, times, piece, frame, events, given.cues, seeds, given.pulse, dynamics, memo)
+    lowered = memo.step("lowered spans", lowered_spans_s, made_gestures)
+    ruled = memo.step(
+        "rules",
+        plan_by_rules,
+        notes,
+        times,
+        piece,
+        frame,
+        instrument,
+        restricted(parameters, "rules"),
+        dynamics,
+        lowered,
+        seeds,
+        given.rules,
+        given.faces,
+        given.named,
+    )
+    made_gestures = memo.step("gestures and rules", with_ruled, made_gestures, ruled.gestures)
     moved = _of(corrections, ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
-    gestures = memo.step("corrected gestures", correct_gestures, made_gestures, moved, clock)
+    corrected = memo.step("corrected gestures", correct_gestures, made_gestures, moved, clock)
+    held = restricted(parameters, "poses")
+    defined = memo.step("named gestures", with_definitions, corrected, given.named, instrument, held, times, lowered)
+    gestures = defined.gestures
     # Who corrected the smile after the last note keeps it, whatever the ending is.
     named = any(item.event_id == SMILE_ID for item in corrections if isinstance(item, ChangeExpression | RemoveEvent))
     ending = msgspec.structs.replace(given.ending, bright=True) if named else given.ending
@@ -303,6 +353,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         ending,
         given.faces,
     )
+    made_expressions = memo.step("expressions and rules", with_ruled, made_expressions, ruled.expressions)
     faced = _of(corrections, ChangeExpression, AddExpression, RemoveEvent, SetBreath, SetCue)
     expressions = memo.step("corrected expressions", correct_expressions, made_expressions, faced, clock)
     tongues = memo.step("tongues", plan_tongues, notes, times, instrument, fingerings)
@@ -318,7 +369,10 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         made_expressions,
         frame.first_frame_s,
     )
-    problems = (*fingering_problems, *breaths.problems, *pose_problems, *given.reported, *lost)
+    problems = (
+        *(*fingering_problems, *breaths.problems, *pose_problems, *given.reported, *lost),
+        *(*ruled.problems, *defined.problems),
+    )
     plan = PlayerPlan(
         player_id=line.player_id,
         time_frame=frame,

@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from app.errors import Message
 from app.identity_cache import IdentityCache
+from metadata.gestures import Gesture
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 
@@ -112,10 +113,11 @@ class CueEvent(msgspec.Struct, frozen=True, gc=False):
 
 
 class GestureEvent(msgspec.Struct, frozen=True, gc=False):
-    """A body motion over a span. ``amount`` is -1..1, signed by direction (left, up and forward are positive)."""
+    """A body motion over a span. ``amount`` is -1..1, signed by direction (left, up and forward are positive). One of
+    the kind ``"named"`` is the gesture of that ``name`` in `metadata.gestures`, as this player makes it."""
 
     id: str
-    kind: Literal["sway", "weight_shift", "bell_height", "lower_instrument"]
+    kind: Literal["sway", "weight_shift", "bell_height", "lower_instrument", "named"]
     start_tick: int
     end_tick: int
     start_s: float
@@ -123,6 +125,8 @@ class GestureEvent(msgspec.Struct, frozen=True, gc=False):
     amount: float
     reason: Message
     corrected: bool = False
+    name: str = ""
+    gesture: Gesture | None = None
 
 
 class ExpressionEvent(msgspec.Struct, frozen=True, gc=False):

@@ -43,7 +43,7 @@ from app.project.edit.found_events import placed_events as placed_events
 from app.project.model import Project
 from app.score.model import Note
 
-GestureKind: TypeAlias = Literal["sway", "weight_shift", "bell_height", "lower_instrument"]
+GestureKind: TypeAlias = Literal["sway", "weight_shift", "bell_height", "lower_instrument", "named"]
 BreathKind: TypeAlias = Literal["preparation", "breath"]
 GESTURE_KINDS: tuple[GestureKind, ...] = ("sway", "weight_shift", "bell_height", "lower_instrument")
 CATCH_S = 0.3
@@ -201,10 +201,17 @@ def add_cue(project: Project, plan: PlayerPlan, tick: int) -> Edited:
 
 
 def add_gesture(
-    project: Project, player_id: str, kind: GestureKind, start_tick: int, end_tick: int, amount: float = 0.5
+    project: Project,
+    player_id: str,
+    kind: GestureKind,
+    start_tick: int,
+    end_tick: int,
+    amount: float = 0.5,
+    gesture: str = "",
 ) -> Edited:
-    """A gesture custom."""
-    added = AddGesture(_new_name(project, player_id), kind, start_tick, max(end_tick, start_tick + 1), amount)
+    """A gesture custom; ``gesture`` is the name of one of the kind ``"named"``."""
+    end_tick = max(end_tick, start_tick + 1)
+    added = AddGesture(_new_name(project, player_id), kind, start_tick, end_tick, amount, gesture)
     return Edited(put(project, player_id, (added,)), (event_id_of(added),))
 
 

@@ -11,7 +11,7 @@ from PySide6.QtCore import QPoint, QPointF, QRectF
 from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
-from app.editor.additions import add_cues, add_expressions, add_gestures
+from app.editor.additions import add_cues, add_expressions, add_gestures, add_named_gestures
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import GestureEvent, PlayerPlan
@@ -20,7 +20,7 @@ from app.project.edit.found_events import event_id_of
 from app.project.edit.generation import variations
 from app.project.model import Project
 from app.score.tempo import TempoMap
-from widgets.common.event_names import expression_name, kind_name, pose_name
+from widgets.common.event_names import expression_name, gesture_name, kind_name, pose_name
 from widgets.common.menus import passing_menu
 from widgets.common.plain import verbatim
 from widgets.timeline.axis import TimeAxis
@@ -54,7 +54,7 @@ CUE_REACH_PX = 10.0
 """A cue that is dragged this close to an entry belongs to it."""
 
 
-NAMES = Names(expression_name, kind_name, pose_name)
+NAMES = Names(expression_name, kind_name, pose_name, gesture_name)
 
 
 class ActingLane(RegionLane):
@@ -119,7 +119,7 @@ class ActingLane(RegionLane):
             first |= dict.fromkeys(kinds, row)
             self.groups.append((kinds[0], row, count))
             row += count
-        removed = self.removed_regions(plan, (*GESTURE_KINDS, "cue", "expression"), first.__getitem__)
+        removed = self.removed_regions(plan, (*GESTURE_KINDS, "named", "cue", "expression"), first.__getitem__)
         return result + removed, row
 
     def _gestures(self, plan: PlayerPlan) -> list[Region]:
@@ -321,6 +321,12 @@ class ActingLane(RegionLane):
         for kind in GESTURE_KINDS:
             entry = gestures.addAction(kind_name(kind))
             entry.triggered.connect(lambda _=False, kind=kind: add_gestures(self.session, kind, self._spans(mouse)))
+        gestures.addSeparator()
+        for name in sorted(self.session.performance.metadata.gestures.items, key=gesture_name):
+            entry = gestures.addAction(verbatim(gesture_name(name)))
+            entry.triggered.connect(
+                lambda _=False, name=name: add_named_gestures(self.session, name, self._spans(mouse))
+            )
         menu.addAction(self.tr("acting_lane.add_cue_here")).triggered.connect(lambda _=False: self._add_cue(mouse))
 
     def _expression_entries(self, menu: QMenu, chosen: Callable[[str], None], now: Region | None = None) -> None:

@@ -16,7 +16,7 @@ from widgets.timeline.model.region import Region
 GROUPS: tuple[tuple[str, ...], ...] = (
     ("cue",),
     ("expression",),
-    ("lower_instrument", "pose"),
+    ("lower_instrument", "pose", "named"),
     ("bell_height",),
     ("weight_shift",),
     ("sway",),
@@ -36,6 +36,7 @@ class Names(NamedTuple):
     expression: Callable[[str], str]
     kind: Callable[[str], str]
     pose: Callable[[str], str]
+    gesture: Callable[[str], str]
 
 
 def packed_group(members: Sequence[Region], clock: TempoMap) -> tuple[list[int], int]:
@@ -97,11 +98,12 @@ def expression_region(player_id: str, event: ExpressionEvent, names: Names) -> R
 
 def gesture_region(player_id: str, event: GestureEvent, names: Names) -> Region:
     """A gesture."""
-    lowered = event.kind == "lower_instrument"
+    one_way = event.kind in ("lower_instrument", "named")
+    label = names.gesture(event.name) if event.kind == "named" else names.kind(event.kind)
     return Region(
         player_id, event.id, event.kind, event.start_tick, event.end_tick, event.start_s, event.end_s,
-        amount=event.amount, label=names.kind(event.kind), reason=event.reason, by_hand=event.corrected,
-        signed=not lowered,
+        amount=event.amount, label=label, reason=event.reason, by_hand=event.corrected,
+        signed=not one_way,
     )  # fmt: skip
 
 
