@@ -87,11 +87,13 @@ class ActingRows(Retranslated, QWidget):
 
     def _show_habits(self, had: Sequence[Sequence[str]]) -> None:
         known = HABITS.now().items
-        names = sorted({*known, *(name for each in had for name in each)}, key=habit_name)
-        if [(name, chip.text()) for name, chip in self._chips.items()] != [(name, habit_name(name)) for name in names]:
+        names = sorted({*known, *(name for each in had for name in each)})
+        if list(self._chips) != names:
             self._flow.clear()
             self._chips = {name: self._chip(name) for name in names}
         for name, chip in self._chips.items():
+            chip.setText(habit_name(name))
+            chip.setAccessibleName(chip.text())
             count = sum(name in each for each in had)
             chip.setChecked(bool(had) and count == len(had))
             tip = known[name].description if name in known else ""
