@@ -117,6 +117,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "no players are called {players}, so what is said of them was left out; players: {known}",
         "{players} という奏者がいないため、その内容を除外しました。奏者: {known}",
     ),
+    "metadata.written": ("metadata written to {file}", "メタデータを {file} に保存しました"),
+    "metadata.same": ("the piece has the metadata of {file}", "曲のメタデータは {file} と同じです"),
     "metadata.differ": (
         "{piece} and {file} differ in {count} {count:place|places}",
         "{piece} と {file} は {count} か所で異なります",

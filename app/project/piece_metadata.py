@@ -17,7 +17,7 @@ import msgspec
 
 from app.errors import MapError, Message
 from app.formats.atomic import atomic_write
-from app.formats.toml import read_toml, shaped, toml
+from app.formats.toml import header, read_toml, shaped, toml
 from app.plan.acting import AMOUNTS
 from app.plan.corrections import Correction, RemoveEvent, kind
 from app.project import limits
@@ -170,7 +170,20 @@ def _flat(value: Any, place: str) -> Iterator[tuple[str, str]]:
 def save_metadata(metadata: PieceMetadata, path: Path) -> None:
     """Write metadata to a file. Raises FileError."""
     with atomic_write(path) as stream:
-        stream.write(toml(_table(metadata)).encode())
+        stream.write(_text(_table(metadata)).encode())
+
+
+def _text(table: dict[str, Any]) -> str:
+    """The file: every correction and every expression is a table of its own, so that other programs compare them."""
+    text = toml({key: value for key, value in table.items() if key not in ("players", "expressions")})
+    for name, player in table["players"].items():
+        above = ("players", name)
+        text += toml({"parameters": player["parameters"]}, above) if player["parameters"] else ""
+        for correction in player["corrections"]:
+            text += f"\n[{header((*above, 'corrections'), many=True)}]\n{toml(correction)}"
+    for expression in table["expressions"]:
+        text += f"\n[{header(('expressions',), many=True)}]\n{toml(expression, ('expressions',))}"
+    return text
 
 
 def _table(metadata: PieceMetadata) -> dict[str, Any]:
@@ -189,10 +202,25 @@ def load_metadata(path: Path) -> PieceMetadata:
     version = table.get("version")
     if isinstance(version, int) and version > VERSION:
         raise MapError("metadata.newer", file=path.name, version=version, known=VERSION)
-    metadata = shaped(table, PieceMetadata, path.name)
+    players = table.get("players", {})
+    metadata = shaped({**table, "players": {}}, PieceMetadata, path.name)
+    if not isinstance(players, dict):
+        raise MapError("table.invalid", file=path.name, place="players", detail="must be a table")
+    named = {name: _player(name, player, path.name) for name, player in players.items()}
+    metadata = msgspec.structs.replace(metadata, players=named)
     for place, detail in _faults(metadata):
         raise MapError("table.invalid", file=path.name, place=place, detail=detail)
     return metadata
+
+
+def _player(name: str, table: object, file: str) -> PlayerMetadata:
+    """A player's part, whose faults name the player."""
+    try:
+        return shaped(table, PlayerMetadata, file)
+    except MapError as error:
+        said = error.message.arguments
+        place = f"players.{name}.{said['place']}"
+        raise MapError("table.invalid", file=file, place=place, detail=said["detail"]) from error
 
 
 def _faults(metadata: PieceMetadata) -> Iterator[tuple[str, str]]:

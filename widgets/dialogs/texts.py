@@ -555,6 +555,14 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "ファイルは既に存在し、上書きされます。",
     ),
     "learn_dialog.use_for": ("Use for {dancer}", "{dancer} に使用"),
+    "metadata_differences_dialog.close": ("Close", "閉じる"),
+    "metadata_differences_dialog.in_file": ("In the file", "ファイル"),
+    "metadata_differences_dialog.in_piece": ("In the piece", "曲"),
+    "metadata_differences_dialog.metadata_of_piece_and_file": (
+        "Metadata of the piece and {file}",
+        "曲と {file} のメタデータ",
+    ),
+    "metadata_differences_dialog.place": ("Place", "場所"),
     "midi_devices_dialog.any": ("Any", "すべて"),
     "midi_devices_dialog.bite": ("Bite", "バイト"),
     "midi_devices_dialog.blow_now_soft_loud_and": (

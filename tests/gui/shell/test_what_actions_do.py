@@ -29,11 +29,12 @@ from app.project.autosave import Autosave
 from app.project.casting import StagePosition
 from app.project.edit.notes import move
 from app.project.edit.piece import set_audio
-from app.project.edit.players import join, place
+from app.project.edit.players import join, place, set_parameters
 from app.project.edit.takes import add_takes, comp_whole, set_cleaning
 from app.project.grid import Grid
 from app.project.model import Project, map_choices
 from app.project.performers import Player
+from app.project.piece_metadata import load_metadata, metadata_of, save_metadata
 from app.project.presence import Presence
 from app.score.model import Note
 from app.score.read import read_midi
@@ -478,6 +479,14 @@ def reads_back(desk: Desk, path: Path) -> bool:
 
 FELT = {"eighth": 0.5, "quarter": 1.0, "dotted_quarter": 1.5, "half": 2.0, "dotted_half": 3.0}
 
+
+def has_metadata(desk: Desk) -> None:
+    """A file says something else of the first player."""
+    project = set_parameters(desk.project, (desk.project.players[0].id,), style="jazz")
+    desk.answers.path = desk.folder / "jazz.toml"
+    save_metadata(metadata_of(project), desk.answers.path)
+
+
 CASES: dict[str, Case] = {
     # Files
     "file.new": Case(lambda d: not d.project.players and d.program.editor.files.is_open),
@@ -519,6 +528,20 @@ CASES: dict[str, Case] = {
         lambda d: d.answers.asked == ["save"] and reads_back(d, d.folder / "piece.mid"),
         lambda d: setattr(d.answers, "path", d.folder / "piece"),
     ),
+    "file.save_metadata": Case(
+        lambda d: (
+            d.answers.asked == ["save"]
+            and load_metadata(d.folder / "piece.toml") == metadata_of(d.project)
+            and d.project is d.before
+        ),
+        lambda d: setattr(d.answers, "path", d.folder / "piece"),
+    ),
+    "file.load_metadata": Case(
+        lambda d: [player.parameters.style for player in d.project.players] == ["jazz", *["section_player"] * 3],
+        lambda d: has_metadata(d),
+        edits=True,
+    ),
+    "file.compare_metadata": Case(lambda d: d.dialog("metadata_differences"), lambda d: has_metadata(d)),
     "file.close": Case(lambda d: not d.program.editor.files.is_open and d.program.window.start_page.isVisible()),
     "file.piece_settings": Case(lambda d: d.dialog("piece_settings")),
     "export.files": Case(lambda d: d.dialog("export_files")),

@@ -1,0 +1,90 @@
+"""Commands that save, load and compare what was said of the acting in a piece."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from app.editor.session import Severity
+from app.editor.translated import tr
+from app.errors import AppError, Message
+from app.project.model import Project
+from app.project.piece_metadata import (
+    SUFFIX,
+    PieceMetadata,
+    differences,
+    load_metadata,
+    metadata_of,
+    save_metadata,
+    with_metadata,
+)
+from app.shell.editor import Editor, EditorAction, is_open
+
+
+def save(editor: Editor) -> None:
+    """Ask for a file, and write the piece's metadata to it."""
+    session = editor.session
+    proposal = Path(editor.files.folder) / f"{editor.files.stem}{SUFFIX}"
+    path = editor.questions.save_file(tr("files.save_metadata"), str(proposal), _kinds(), (SUFFIX,))
+    if path is None:
+        return
+    try:
+        save_metadata(metadata_of(session.project), path)
+    except AppError as error:
+        session.notice(error.message, Severity.ERROR)
+    else:
+        session.notice(Message("metadata.written", {"file": path.name, "path": str(path)}))
+
+
+def load(editor: Editor) -> None:
+    """Ask for a file, and take its metadata into the piece."""
+    session, found = editor.session, _read(editor)
+    if found is None:
+        return
+    path, metadata = found
+    problems: list[Message] = []
+
+    def edit(project: Project) -> Project:
+        loaded = with_metadata(project, metadata)
+        problems[:] = loaded.problems
+        return loaded.project
+
+    if session.attempt(Message("edit.load_metadata", {"file": path.name}), edit):
+        for problem in problems:
+            session.notice(problem, Severity.WARNING)
+
+
+def compare(editor: Editor) -> None:
+    """Ask for a file, and show where its metadata are not the piece's."""
+    from widgets.dialogs.metadata_differences import MetadataDifferencesDialog
+
+    session, found = editor.session, _read(editor)
+    if found is None:
+        return
+    path, metadata = found
+    differing = differences(metadata_of(session.project), metadata)
+    if differing:
+        MetadataDifferencesDialog(differing, path.name, editor.window).open()
+    else:
+        session.notice(Message("metadata.same", {"file": path.name}))
+
+
+def _read(editor: Editor) -> tuple[Path, PieceMetadata] | None:
+    path = editor.questions.open_file(tr("files.load_metadata"), editor.files.folder, _kinds())
+    if path is None:
+        return None
+    try:
+        return path, load_metadata(path)
+    except AppError as error:
+        editor.session.notice(error.message, Severity.ERROR)
+        return None
+
+
+def _kinds() -> str:
+    return f"{tr('files.metadata')} (*{SUFFIX})"
+
+
+ACTIONS: tuple[EditorAction, ...] = (
+    EditorAction("file.save_metadata", save, "file/metadata", enabled=is_open),
+    EditorAction("file.load_metadata", load, "file/metadata", enabled=is_open),
+    EditorAction("file.compare_metadata", compare, "file/metadata", enabled=is_open),
+)
