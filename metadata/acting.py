@@ -47,7 +47,7 @@ class Style(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     name: str
     title: Title
-    description: str
+    description: Title = Title("")
     factors: Factors = Factors()
     variation: Annotated[float, msgspec.Meta(ge=0.0, le=0.5)] = 0.2
 
@@ -57,8 +57,8 @@ class Habit(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     name: str
     title: Title
-    description: str
     factors: Factors
+    description: Title = Title("")
 
 
 T = TypeVar("T", Style, Habit)

@@ -74,11 +74,11 @@ class Gesture(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     name: str
     title: Title
-    description: str
     length_s: Annotated[float, msgspec.Meta(ge=0.3, le=30.0)]
     tracks: tuple[Track, ...]
     may_start: Start = "anytime"
     amplitude: AmplitudeScale = (0.3, 1.0, 1.5)
+    description: Title = Title("")
 
 
 def read_gesture(path: Path) -> Gesture:

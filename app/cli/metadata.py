@@ -72,7 +72,7 @@ def list_all() -> None:
     for folder, shelf in zip(FOLDERS, shelves, strict=True):
         for name, item in sorted(shelf.items.items()):
             title = getattr(item, "title", None)
-            said = item.description if title is None else f"{title.en}: {item.description}"
+            said = item.description if title is None else f"{title.en}: {item.description.en}"
             rows.append((folder.name, f"{name}{'*' if name in shelf.files else ''}", said))
     say(*columns(rows, of_numbers=False), "", "your own (*):")
     for shelf in shelves:

@@ -76,7 +76,7 @@ class ActingRows(Retranslated, QWidget):
         self._style.show_option(styles[0] if len(styles) == 1 else None)
         said = [parameter_text(_STYLE.tip)]
         if len(styles) == 1 and styles[0] in known:
-            said.append(known[styles[0]].description)
+            said.append(known[styles[0]].description.in_language(language()))
         self._style.setToolTip("\n".join(said))
         had = [names_in(player.parameters.habits) for player in self._players]
         self._show_habits(had)
@@ -96,7 +96,7 @@ class ActingRows(Retranslated, QWidget):
             chip.setAccessibleName(chip.text())
             count = sum(name in each for each in had)
             chip.setChecked(bool(had) and count == len(had))
-            tip = known[name].description if name in known else ""
+            tip = known[name].description.in_language(language()) if name in known else ""
             some = self.tr("acting_rows.some_of_the_selected").format(count=count) if 0 < count < len(had) else ""
             chip.setToolTip("\n".join(filter(None, (tip, some))))
 

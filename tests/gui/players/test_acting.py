@@ -150,7 +150,7 @@ def test_the_users_own_style_is_there_as_soon_as_its_file_is_and_a_fault_is_show
     assert combo is not None
     noticed: list[str] = []
     session.noticed.connect(lambda message, _: noticed.append(message.id))
-    text = 'name = "mine"\ntitle = { en = "My own" }\ndescription = ""\n[factors]\nsway = 2.0\n'
+    text = 'name = "mine"\ntitle = { en = "My own" }\n[factors]\nsway = 2.0\n'
     (tmp_path / "styles" / "mine.toml").write_text(text, encoding="utf-8")
     qtbot.waitUntil(lambda: combo.findText("My own") >= 0)
     first = session.project.players[0]

@@ -17,11 +17,10 @@ from metadata.load import ROOT
 from metadata.rules import read_rules
 from metadata.tables import Title
 
-STYLE = 'name = "mine"\ntitle = { en = "Mine" }\ndescription = ""\n'
+STYLE = 'name = "mine"\ntitle = { en = "Mine" }\ndescription = { en = "" }\n'
 HABIT = STYLE + "[factors]\nsway = 2.0\n"
 GESTURE = """name = "mine"
 title = { en = "Mine", ja = "自分の" }
-description = ""
 length_s = 1.0
 
 [[tracks]]
@@ -51,7 +50,8 @@ def test_the_bundled_ones_are_sound_and_a_section_player_changes_nothing() -> No
     for table in (*library.styles.items.values(), *library.habits.items.values(), *library.gestures.items.values()):
         assert table.title.en
         assert table.title.ja
-        assert table.description
+        assert table.description.en
+        assert table.description.ja
 
 
 def test_rules_name_what_there_is() -> None:
@@ -85,7 +85,7 @@ def test_a_title_without_japanese_is_the_english_one() -> None:
     [
         (read_style, STYLE, '"mine"', '"yours"', "name", "not the file's name"),
         (read_style, STYLE, 'en = "Mine"', 'en = " "', "title.en", "name on one line"),
-        (read_style, STYLE, 'description = ""', 'description = ""\nvariation = 0.7', "variation", "<= 0.5"),
+        (read_style, STYLE, 'description = { en = "" }', 'variation = 0.7', "variation", "<= 0.5"),
         (read_style, STYLE + "[factors]\nsway = 1.0\n", "sway = 1.0", "sway = -1.0", "factors.sway", ">= 0.0"),
         (read_style, STYLE + "[factors]\nsway = 1.0\n", "sway = 1.0", "swai = 1.0", "factors", "swai"),
         (read_habit, HABIT, "sway = 2.0", "sway = 1.0", "factors", "other than 1"),

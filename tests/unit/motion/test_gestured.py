@@ -22,7 +22,7 @@ from tests.unit.motion.test_perform import made, piece
 
 KEYS = (Key(0.0, 0.0), Key(0.3, 8.0), Key(0.6, 5.0), Key(1.0, 0.0))
 TRACK = Track("head", "up", KEYS)
-TILT = Gesture("tilt", Title("Tilt"), "", 2.0, (TRACK, Track("torso", "left", KEYS)))
+TILT = Gesture("tilt", Title("Tilt"), 2.0, (TRACK, Track("torso", "left", KEYS)))
 
 
 def event(start_s: float, end_s: float, gesture: Gesture = TILT, amount: float = 1.0, name: str = "x") -> GestureEvent:

@@ -86,7 +86,7 @@ def test_a_table_that_changes_changes_the_performance(tmp_path: Path, monkeypatc
     project = piece()
     player = project.players[0]
     mine = set_parameters(project, (player.id,), style="mine")
-    text = 'name = "mine"\ntitle = { en = "Mine" }\ndescription = ""\nvariation = 0.0\n[factors]\nsway = '
+    text = 'name = "mine"\ntitle = { en = "Mine" }\nvariation = 0.0\n[factors]\nsway = '
     (tmp_path / "mine.toml").write_text(f"{text}0.5\n", encoding="utf-8")
     STYLES.reload()
     before = Performance(mine)

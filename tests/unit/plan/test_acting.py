@@ -15,8 +15,8 @@ from metadata.library import metadata_library
 from metadata.tables import Title
 
 STYLES, HABITS = metadata_library().styles.items, metadata_library().habits.items
-EXACT = {"plain": Style("plain", Title("Plain"), "", Factors(sway=0.5, face_intensity=2.0), variation=0.0)}
-SWAYS = {"swayer": Habit("swayer", Title("Swayer"), "", Factors(sway=3.0))}
+EXACT = {"plain": Style("plain", Title("Plain"), factors=Factors(sway=0.5, face_intensity=2.0), variation=0.0)}
+SWAYS = {"swayer": Habit("swayer", Title("Swayer"), Factors(sway=3.0))}
 
 
 def test_usual_parameters_are_the_usual_acting() -> None:

@@ -29,9 +29,7 @@ NOTES = line_of(
     (24 * Q, Q, 62, 60), (25 * Q, Q, 76, 60), (26 * Q, 2 * Q, 64, 60),
 )  # fmt: skip
 LINE = MonophonicPart("p", NOTES, valves())
-NOD = Gesture(
-    "nodding", Title("Nodding"), "", 1.0, (Track("head", "up", (Key(0.0, 0.0), Key(0.4, -8.0), Key(1.0, 0.0))),)
-)
+NOD = Gesture("nodding", Title("Nodding"), 1.0, (Track("head", "up", (Key(0.0, 0.0), Key(0.4, -8.0), Key(1.0, 0.0))),))
 
 
 def plan(*rules: Rule, line: MonophonicPart = LINE, gesture: Gesture = NOD) -> PlayerPlan:
