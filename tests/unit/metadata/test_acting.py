@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,9 +13,9 @@ from app.plan.acting import AMOUNTS, LAYERS, Acting
 from app.plan.parameters import PARAMETERS
 from metadata.acting import SECTION_PLAYER, Factors, as_text, names_in, read_habit, read_style
 from metadata.gestures import read_gesture
-from metadata.library import FOLDERS, metadata_library
+from metadata.library import FOLDERS, READERS, metadata_library
 from metadata.load import ROOT
-from metadata.rules import read_rules
+from metadata.rules import When, read_rules
 from metadata.tables import Title
 
 STYLE = 'name = "mine"\ntitle = { en = "Mine" }\ndescription = { en = "" }\n'
@@ -174,3 +175,18 @@ def test_the_users_expressions_are_called_as_they_say(tmp_path: Path, monkeypatc
     found = metadata_library().expressions_by_name
     assert "Big grin" in found
     assert found["strained"].name == "strained"
+
+
+def test_the_guides_examples_are_sound(tmp_path: Path) -> None:
+    guide = (ROOT.parent / "docs" / "metadata.md").read_text(encoding="utf-8")
+    found = re.findall(r"`(\w+)/(\w+)\.toml`\n.*?```toml\n(.*?)```", guide, re.DOTALL)
+    assert sorted(folder for folder, _, _ in found) == ["expressions", "gestures", "rules", "styles"]
+    for folder, name, text in found:
+        path = tmp_path / folder / f"{name}.toml"
+        path.parent.mkdir()
+        path.write_text(text, encoding="utf-8")
+        READERS[folder](path)
+    said = {field for field in When.__struct_fields__ if f"`{field}`" in guide}
+    assert said == set(When.__struct_fields__), "the guide has every condition"
+    acting = (ROOT.parent / "docs" / "acting.md").read_text(encoding="utf-8")
+    assert all(f"`{name}`" in acting for name in AMOUNTS)
