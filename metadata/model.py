@@ -20,6 +20,8 @@ Range: TypeAlias = tuple[float, float]
 """Lowest and highest, degrees."""
 Axis: TypeAlias = tuple[float, float, float]
 """A unit vector in the T-pose; the positive rotation about it is the motion the field names."""
+Delay: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=0.12)]
+"""Seconds; later than that a body falls apart."""
 AmplitudeScale: TypeAlias = tuple[NotNegative, NotNegative, NotNegative]
 """The value at amplitude 0 (the residual of a player asked to keep still), 0.5 (natural) and 1 (exaggerated);
 linear between. Use `at_amplitude`."""
@@ -45,6 +47,9 @@ ARKIT_MORPHS: tuple[str, ...] = (
     "mouthUpperUpRight", "noseSneerLeft", "noseSneerRight", "tongueOut",
 )  # fmt: skip
 """The 52 morph targets of Apple's ARKit (`ARFaceAnchor.BlendShapeLocation`)."""
+
+BREATH_MORPHS: tuple[str, str] = ("chestExpand", "bellyExpand")
+"""Morph targets of a trunk: ribs and back, and belly, as wide as air makes them."""
 
 
 def at_amplitude(scale: AmplitudeScale, amplitude: float) -> float:
@@ -127,7 +132,7 @@ class Posture(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defa
 
 
 class Sway(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Bobbing and leaning with the music; sizes by amplitude."""
+    """Leaning aside with the music, and what knees and hips give on an accent; sizes by amplitude."""
 
     side_deg: AmplitudeScale
     forward_deg: AmplitudeScale
@@ -138,11 +143,71 @@ class Sway(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     residual_hz: Positive
 
 
+class PhraseMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What trunk, head and pelvis do by phrase and accent.
+
+    Attributes
+    ----------
+    lean_deg, head_deg : AmplitudeScale
+        Trunk forward at a phrase's climax, and the head in the world.
+    accent_deg, accent_head_deg : AmplitudeScale
+        The same on an accent.
+    ahead_m : AmplitudeScale
+        Hips back as the trunk leans forward.
+    pelvis_deg : AmplitudeScale
+        Pelvis forward with the trunk.
+    seated_share, seated_pelvis : float
+        Trunk and pelvis of who sits, times those of who stands.
+    """
+
+    lean_deg: AmplitudeScale
+    head_deg: AmplitudeScale
+    accent_deg: AmplitudeScale
+    accent_head_deg: AmplitudeScale
+    ahead_m: AmplitudeScale
+    pelvis_deg: AmplitudeScale
+    seated_share: Positive
+    seated_pelvis: Positive
+
+
+class Overlap(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """How much later than the hips the chest moves, than the chest the head and the elbows."""
+
+    chest_s: Delay
+    head_s: Delay
+    elbows_s: Delay
+
+
+class Footwork(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Steps and taps.
+
+    Attributes
+    ----------
+    step_m, lift_m : AmplitudeScale
+        How far ahead a foot is put, and how high it is lifted on its way.
+    step_s : float
+        How long it takes.
+    heel_deg, toes_deg : AmplitudeScale
+        How far heels and toes lift.
+    unload_m : AmplitudeScale
+        How far the hips go over the other foot for a step.
+    """
+
+    step_m: AmplitudeScale
+    lift_m: AmplitudeScale
+    step_s: Positive
+    heel_deg: AmplitudeScale
+    toes_deg: AmplitudeScale
+    unload_m: AmplitudeScale
+
+
 class WeightShift(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Moving the weight from one foot to the other."""
+    """Moving the weight from one foot to the other: hips aside and ahead, knees that give as they take it."""
 
     side_m: AmplitudeScale
     roll_deg: AmplitudeScale
+    ahead_m: AmplitudeScale
+    knee_deg: AmplitudeScale
     transition_s: Positive
 
 
@@ -157,7 +222,7 @@ class BellMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class CueMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The leader's start: knees bend and the instrument dips, then both rise on the preparatory beat."""
+    """Who gives an entry: head and instrument rise on the preparatory beat and drop onto the entry, the knees give."""
 
     knee_deg: AmplitudeScale
     bell_dip_deg: AmplitudeScale
@@ -166,15 +231,48 @@ class CueMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     head_deg: AmplitudeScale
 
 
+class ConcertMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What is done beside playing: gestures of the plan scale it.
+
+    Attributes
+    ----------
+    bow_trunk_deg, bow_head_deg : AmplitudeScale
+        Forward, standing; ``bow_seated_share`` of it seated.
+    look_up_deg : AmplitudeScale
+        The head up to the audience.
+    look_trunk_share : float
+        How much of the head's turn the trunk adds while the instrument is lowered.
+    count_head_deg : AmplitudeScale
+        The head on each counted beat.
+    settle_share : float
+        How much of the way up the instrument is lifted as the hands settle.
+    settle_shoulders_deg, settle_elbows_deg : AmplitudeScale
+        Shoulders up and elbows out meanwhile.
+    """
+
+    bow_trunk_deg: AmplitudeScale
+    bow_head_deg: AmplitudeScale
+    bow_seated_share: NotNegative
+    look_up_deg: AmplitudeScale
+    look_trunk_share: NotNegative
+    count_head_deg: AmplitudeScale
+    settle_share: NotNegative
+    settle_shoulders_deg: AmplitudeScale
+    settle_elbows_deg: AmplitudeScale
+
+
 class BreathMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """An inhalation of depth 1; a shallower one scales it. Players become more upright and the arms neutral
-    (Frontiers in Psychology 2024, 1394035). What the mouth does is the embouchure's `Embouchure.inhale`."""
+    (Frontiers in Psychology 2024, 1394035). What the mouth does is the embouchure's `Embouchure.inhale`.
+    ``chest_share`` and ``belly_share`` are weights of the shapes `BREATH_MORPHS`, where a character has them."""
 
     torso_back_deg: NotNegative
     shoulder_lift_deg: NotNegative
     head_back_deg: float
     elbow_out_deg: float
     preparation_forward_deg: NotNegative
+    chest_share: Fraction01
+    belly_share: Fraction01
 
 
 class Embouchure(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -234,9 +332,13 @@ class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     limits: dict[str, JointLimits]
     postures: dict[Literal["standing", "seated"], Posture]
     sway: Sway
+    phrase: PhraseMotion
+    overlap: Overlap
+    footwork: Footwork
     weight_shift: WeightShift
     bell: BellMotion
     cue: CueMotion
+    concert: ConcertMotion
     breath: BreathMotion
     embouchure: dict[EmbouchureKind, Embouchure]
 

@@ -186,7 +186,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
             )
         ],
         "breaths": _events(plan.breaths, clock, reason, "kind"),
-        "cues": _events(plan.cues, clock, reason, "", "peak_s", "beat_s"),
+        "cues": _events(plan.cues, clock, reason, "", "peak_s", "beat_s", "downbeat_s", "takers"),
         "gestures": _events(plan.gestures, clock, reason, "kind", "amount"),
         "expressions": _events(plan.expressions, clock, reason, "expression", "strength", "fade_in_s", "fade_out_s"),
     }

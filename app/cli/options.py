@@ -13,7 +13,7 @@ import msgspec
 from app.cli.terminal import warn
 from app.errors import UsageError
 from app.messages import text as worded
-from app.plan.generate import PREROLL_BEATS, PREROLL_LEAST_S
+from app.plan.generate import COME_UP_S, PREROLL_BEATS, PREROLL_LEAST_S
 from app.project import limits
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings
 from app.project.frame_rate import exact_number
@@ -179,7 +179,8 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         "--preroll",
         type=beats,
         metavar="BEATS",
-        help=f"beats before the first note, at least {PREROLL_LEAST_S:g} s (default: the project's, {PREROLL_BEATS:g})",
+        help=f"beats before the first note, at least {PREROLL_LEAST_S:g} s (default: the project's; of a MIDI file "
+        f"{PREROLL_BEATS:g}, or as many as take {COME_UP_S:g} s)",
     )
     command.add_argument(
         "--felt-beat",

@@ -77,13 +77,13 @@ class ContactJudge:
         return tuple(found)
 
     def _feet(self, motion: Motion, frames: IntArray, times_s: FloatArray) -> Iterator[Break]:
-        place = self._playing.player.place
+        place, meant_m = self._playing.player.place, self._playing.ankles_m(times_s)
         ankles = {side: limb.end for side, limb in place.legs.items()}
         joints = forward(
             self._character.skeleton, motion.rotations[frames], motion.hips_m[frames], sorted(ankles.values())
         )
         for side, ankle in ankles.items():
-            gaps_m = distance_m(joints.of(ankle)[0], place.ankles_m[side])
+            gaps_m = distance_m(joints.of(ankle)[0], meant_m[side])
             yield from runs(("foot", side, ""), times_s, gaps_m, gaps_m * 1000.0 > FEET_MM)
 
     def _playing_contacts(

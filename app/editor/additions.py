@@ -9,7 +9,7 @@ from typing import TypeAlias
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.plan.model import PlayerPlan
+from app.plan.model import SIGNED_KINDS, PlayerPlan
 from app.project.edit import events as edit
 from app.project.edit.events import Edited, GestureKind
 from app.project.model import Project
@@ -34,7 +34,7 @@ def add_cues(session: Session, places: Places) -> None:
 
 def add_gestures(session: Session, kind: GestureKind, spans: Spans) -> None:
     """Add a gesture over each span."""
-    amount = 1.0 if kind == "lower_instrument" else 0.5
+    amount = 0.5 if kind in SIGNED_KINDS else 1.0
     add = partial(edit.add_gesture, kind=kind, amount=amount)
     made = [
         (plan, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end)) for plan, start, end in spans

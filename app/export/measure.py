@@ -36,6 +36,7 @@ from app.export.playback import Playback, Surface
 from app.export.target import TargetSkeleton, normalised_target
 from app.export.threads import in_threads
 from app.formats.scene import Scene
+from app.plan.footwork import Foot, foot_of, lifted_s
 from app.plan.model import BreathEvent, PlayerPlan
 from app.rig import quaternion
 from app.rig.fitted_instrument import mouth_opens
@@ -181,7 +182,7 @@ def measure_player(
             np.zeros(0) if upper_lip_m is None else upper_lip_m[inhaling & ~notes.within(changing)], LIPS_MM
         ),
         feet={
-            name: Spread.of(distance_m(traces.marks_m[name], traces.marks_m[name][0]), FEET_MM)
+            name: Spread.of(_slid_m(traces.marks_m[name], times_s, plan, name, body), FEET_MM)
             for name in _SOLES
             if name in traces.marks_m
         },
@@ -275,6 +276,21 @@ def _read(
     done = itertools.count(1)
     in_threads(tasks, lambda index: progress(next(done) / len(tasks)))
     return _Read(Traces(landmarks, nodes), torso, deviation_m, depth_m)
+
+
+def _slid_m(sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str, body: Body) -> FloatArray:
+    """How far a sole is from where it was put down last, in the frames in which it stands."""
+    foot: Foot = "left" if name.startswith("left") else "right"
+    steps = [event for event in plan.gestures if event.kind == "step" and foot_of(event) == foot]
+    put = np.zeros(len(times_s), np.int64)
+    for number, event in enumerate(steps, 1):
+        put[(times_s >= event.start_s) & (times_s < event.end_s)] = number
+    lifted = np.zeros(len(times_s), np.bool_)
+    for start_s, end_s in lifted_s(plan.gestures, foot, body.footwork.step_s):
+        lifted |= (times_s >= start_s) & (times_s <= end_s)
+    standing_m, places = sole_m[~lifted], put[~lifted]
+    _, firsts, which = np.unique(places, return_index=True, return_inverse=True)
+    return distance_m(standing_m, standing_m[firsts[which]]) if len(standing_m) else np.zeros(0)
 
 
 def _control_values(instrument: InstrumentMap, held: Playback) -> dict[str, FloatArray]:

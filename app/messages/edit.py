@@ -22,6 +22,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "edit.set_embouchure": ("Change Embouchure of {count} {count:Note|Notes}", "アンブシュアを変更（音符 {count} 個）"),
     "edit.pin_fingerings": ("Pin Fingering of {count} {count:Note|Notes}", "運指を固定（音符 {count} 個）"),
     "edit.add_breath": ("Add Breath", "ブレスを追加"),
+    "edit.set_giver": ("Let {player} Give the Entry", "{player}が入りの合図を出す"),
     "edit.add_cue": ("Add Cue", "合図を追加"),
     "edit.add_gesture": ("Add Gesture", "ジェスチャーを追加"),
     "edit.add_expression": ("Add Expression", "表情を追加"),

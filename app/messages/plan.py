@@ -303,6 +303,23 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{rest_s:g} 秒の全休の後に全員を入れる合図（{leader_reason}）。予備拍は {beat_s:g} 秒です",
     ),
     "gesture.sway": ("half a swing in {beats:g} beats of {beat_s:g} s", "{beat_s:g} 秒の拍 {beats:g} つで半往復の揺れ"),
+    "gesture.still": ("the body keeps still", "体は動かしません"),
+    "gesture.lean": (
+        "lean towards the climax of a phrase of {length_s:g} s",
+        "{length_s:g} 秒のフレーズの頂点へ向かう前後の傾き",
+    ),
+    "gesture.lean_back": ("back at the end of the phrase", "フレーズの終わりに元の姿勢へ"),
+    "gesture.accent": ("a strong note", "強拍や長い音などの強い音"),
+    "gesture.accent_loud": ("a note louder than those around it", "前後より大きい音"),
+    "gesture.step": (
+        "a small step with the {side} foot between phrases, and back after a later one",
+        "フレーズの間に{side}足で小さく踏み出し、後のフレーズの終わりに戻します",
+    ),
+    "gesture.tap": ("the {side} foot taps with the beat", "{side}足のつま先で拍を取ります"),
+    "gesture.heel": (
+        "the weight is on the other foot: the {side} heel comes up",
+        "体重が反対の足に乗り、{side}足のかかとが上がります",
+    ),
     "gesture.weight_shift": ("weight shift to the {side} foot", "{side}足への重心移動"),
     "gesture.bell_height": (
         "the melody is around {pitch}; the mean of the part is {mean_pitch}",
@@ -332,6 +349,35 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "gesture.lower_instrument": (
         "{rest_s:g} s of rest: the instrument is lowered and raised again before the entry",
         "{rest_s:g} 秒の休み: 楽器を下ろし、入りの前に構え直します",
+    ),
+    "gesture.come_up": (
+        "{rest_s:g} s before the first note: the instrument comes up from rest",
+        "最初の音の {rest_s:g} 秒前: 楽器を下ろした状態から構えます",
+    ),
+    "gesture.nod": (
+        "nods with the cue to this entry, {after_ms:g} ms after it",
+        "この入りの合図より {after_ms:g} ミリ秒後に、一緒にうなずきます",
+    ),
+    "gesture.count": (
+        "{rest_s:g} s of rest: the last {beats:g} beats are counted",
+        "{rest_s:g} 秒の休み: 最後の {beats:g} 拍を数えます",
+    ),
+    "gesture.look_about": ("{rest_s:g} s of rest: time to look about", "{rest_s:g} 秒の休み: 周りを見ます"),
+    "gesture.settle_grip": (
+        "{rest_s:g} s of rest: the hands settle on the instrument",
+        "{rest_s:g} 秒の休み: 楽器を持ち直します",
+    ),
+    "gesture.hold_still": (
+        "the end of the last note: nothing moves until the instrument comes down",
+        "最後の音の終わり: 楽器を下ろすまで動きません",
+    ),
+    "gesture.look_up": (
+        "{after_s:g} s after the last note of all: up to the audience",
+        "全員の最後の音から {after_s:g} 秒後に客席を見ます",
+    ),
+    "gesture.bow": (
+        "{after_s:g} s after the last note of all: the bow",
+        "全員の最後の音から {after_s:g} 秒後にお辞儀をします",
     ),
     "gesture.lower_at_end": (
         "the instrument is lowered {after_s:g} s after the last note",

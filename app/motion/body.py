@@ -1,55 +1,55 @@
-"""Layers of body motion: sway, weight, knees, breath, cue, bell, gaze and the residue of a body asked to keep still.
+"""Layers of body motion: sway, lean, accents, weight, knees, breath, cue, bell, gaze, feet, and the residue of a body
+asked to keep still.
 
-Every layer is a function of time in anatomical angles. Layers are added, so each can be left out and none knows the
-others; contacts are solved afterwards and are never broken by them. Sizes come from `metadata` at the player's
-amplitude.
+Hips, chest, head and elbows have the same layers one after another (`app.motion.overlap`). Every layer is a function of
+time in anatomical angles. Layers are added, so each can be left out and none knows the others; contacts are solved
+afterwards and are never broken by them. Sizes come from `metadata` at the player's amplitude.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields, replace
-from functools import lru_cache
+from dataclasses import dataclass, fields, replace
 from itertools import zip_longest
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
-from app.motion.curve import Curve, FloatArray, Noise, bump, moves, rows_changed_s, through
+from app.motion.accents import Accents
+from app.motion.body_sum import TRUNK, Angles, Part, Sizes, Sum
+from app.motion.concert import CONCERT_KINDS, Concert, ConcertSamples, beside_playing
+from app.motion.curve import Curve, Envelopes, FloatArray, moves
+from app.motion.feet import Feet, feet_moved
+from app.motion.follow import follow, path
 from app.motion.gaze import Look
 from app.motion.gestured import Gestured, Sums, with_gestures
+from app.motion.holding import held_still, holds_of
+from app.motion.lowering import lowering
+from app.motion.nods import Nods
+from app.motion.overlap import Leads, Overlapped
+from app.motion.path import Path
 from app.motion.pose import Offset, Poses, hold_body
-from app.motion.seed import generator
-from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerPlan, PoseTarget, same_events
+from app.motion.ribs import air
+from app.plan.acting import Acting
+from app.plan.footwork import FOOT_KINDS
+from app.plan.model import BreathEvent, GestureEvent, PlayerPlan, PoseTarget, same_events
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
-from app.score.metre_map import FeltBeats, beat_ticks_at
-from metadata.model import AmplitudeScale, Body, Posture, at_amplitude
+from app.score.metre_map import FeltBeats
+from metadata.model import Body, Posture
 
-TRUNK = (*TRUNK_SHARES, *NECK_SHARES)
-EYES_LEVEL = 0.6
-"""Share of the trunk's sideways lean that neck and head take back, so that the eyes stay level."""
 EYES_BACK = 0.6
 """Share of the head's turn to the instrument that the eyes turn back, to the music and to the others."""
-QUICK_S = 0.6
-"""Gestures shorter than this are smaller in proportion: no one leans as far in half the time."""
-UPRIGHT_S = 1.0
-"""A body that bobs no more comes up within this time, and goes down again in as much before it does."""
 EXHALE_S = 3.0
 FULLEST = 1.4
 LEAST_DRAWN = 0.4
 """However soon breaths follow each other, each has this much room: no breath goes unseen, also where a bell sinks."""
 BREATH_LEAD_S = 0.03
 """The inhalation is complete this long before the breath's end."""
-RESIDUE_SHARE = 0.6
-"""RMS of the wandering that is always there, as a share of the sizes at amplitude 0."""
-NOISE_SHARE = 0.30
-"""Wandering beside the planned gestures, as a share of their size."""
-LIFT_LAG = 0.6547
-"""Where the side lobe of a bump's acceleration peaks, in half widths: a lift placed there adds to the nod's peak
-without moving it."""
-LIFT_SHARE = 0.6
-_NONE_AT_REST = ("protraction_rad", "elbow_held_rad", "bell_held_rad", "hips_danced")
+LIFT_SHARE = 0.9
+STEP_IN_HIPS = 0.4
+"""Hips go along with a foot that is put ahead."""
+_NONE_AT_REST = (*("protraction_rad", "elbow_held_rad", "bell_held_rad", "hips_danced", "elbows_late_rad", "feet"),)
 
 
 @dataclass(frozen=True)
@@ -60,10 +60,10 @@ class BodyMotion:
     ----------
     forward_rad, left_rad, turn_rad : dict of str to array
         Flexion, sideways lean and twist of each joint of trunk and neck.
-    hips_side_m, hips_bob_m : array
-        Of the hips, to the left and down.
-    hips_roll_rad, hips_turn_rad : array
-        Left and left.
+    hips_side_m, hips_ahead_m, hips_bob_m : array
+        Of the hips, to the left, ahead and down.
+    hips_roll_rad, hips_turn_rad, hips_forward_rad : array
+        Left, left and forward.
     knee_rad : array
         Bend added to both knees.
     bell_rad, bell_cue_rad : array
@@ -87,15 +87,21 @@ class BodyMotion:
     hips_danced : dict of str to array
         What a dance adds to the hips (`app.motion.danced`): ``ahead_m``, ``forward_rad`` and ``ease_m``, by how much
         more the hand-over from leg to leg is rounded; empty: no one dances.
+    elbows_late_rad : dict of str to array
+        ``forward``, ``turn`` and ``left``: how far the elbows are from where the chest has them; empty: not at all.
+    feet : dict of str to array
+        What feet do that do not stand (`app.motion.feet.feet_moved`); empty: they stand.
     """
 
     forward_rad: dict[str, FloatArray]
     left_rad: dict[str, FloatArray]
     turn_rad: dict[str, FloatArray]
     hips_side_m: FloatArray
+    hips_ahead_m: FloatArray
     hips_bob_m: FloatArray
     hips_roll_rad: FloatArray
     hips_turn_rad: FloatArray
+    hips_forward_rad: FloatArray
     knee_rad: FloatArray
     bell_rad: FloatArray
     bell_cue_rad: FloatArray
@@ -110,6 +116,8 @@ class BodyMotion:
     protraction_rad: dict[str, FloatArray]
     elbow_held_rad: dict[str, FloatArray]
     hips_danced: dict[str, FloatArray]
+    elbows_late_rad: dict[str, FloatArray]
+    feet: dict[str, FloatArray]
 
     def __getitem__(self, frames: slice) -> BodyMotion:
         """The same motion in some of its frames."""
@@ -133,129 +141,6 @@ class BodyMotion:
         rest: dict[str, Any] = {member.name: zero for member in fields(cls)}
         empty: dict[str, Any] = {name: {} for name in _NONE_AT_REST}
         return cls(**(rest | {"forward_rad": held, "left_rad": left, "turn_rad": turned} | empty))
-
-
-@dataclass(frozen=True)
-class _Sizes:
-    """The body's sizes at one player's amplitude, and the noise of that player."""
-
-    body: Body
-    parameters: PlayerParameters
-    player_id: str
-
-    def of(self, scale: AmplitudeScale) -> float:
-        return at_amplitude(scale, self.parameters.amplitude)
-
-    def rad(self, scale: AmplitudeScale) -> float:
-        return float(np.deg2rad(self.of(scale)))
-
-    def wander(self, layer: str, scale: AmplitudeScale, times_s: FloatArray) -> FloatArray:
-        """Noise of this player's layer: the residue, and a share of the planned motion's size."""
-        noise = _noise(self.player_id, self.parameters.seed, layer, self.body.sway.residual_hz)
-        return noise.sample(times_s) * (RESIDUE_SHARE * scale[0] + NOISE_SHARE * (self.of(scale) - scale[0]))
-
-
-@lru_cache(maxsize=4096)
-def _noise(player_id: str, seed: int, layer: str, low_hz: float) -> Noise:
-    return Noise.of(generator(player_id, seed, layer), 0.4 * low_hz, 2.5 * low_hz)
-
-
-def follow(
-    events: Sequence[GestureEvent],
-    kind: Literal["sway", "weight_shift", "bell_height"],
-    transition_s: float | None = None,
-) -> Curve:
-    """A value that goes to each gesture's amount: over the whole gesture, or within ``transition_s`` of its start.
-
-    It goes back to 0 where the next gesture is more than its own length (at least a second) away.
-    """
-    chosen = [event for event in events if event.kind == kind]
-    segments: list[tuple[float, float, float]] = []
-    for event, following in zip_longest(chosen, chosen[1:]):
-        end_s = event.end_s if following is None else min(event.end_s, following.start_s)
-        length_s = end_s - event.start_s
-        if length_s <= 0.0:
-            continue
-        move_s = length_s if transition_s is None else min(transition_s, length_s)
-        size = min(1.0, move_s / QUICK_S)
-        amount = min(max(event.amount * size, -1.0), 1.0)
-        segments.append((event.start_s, event.start_s + move_s, amount))
-        pause_s = np.inf if following is None else following.start_s - end_s
-        if pause_s > max(1.0, length_s):
-            segments.append((end_s, end_s + min(max(length_s, 1.0), 2.0, pause_s), 0.0))
-    return moves(segments)
-
-
-@dataclass(frozen=True)
-class Bobbing:
-    """Down-ness 0..1 of a body that bobs with the sway's beats: lowest on each beat, where its acceleration peaks.
-
-    Attributes
-    ----------
-    start_s, length_s, beats : (N,) float64
-        Swings in order, and how many beats each lasts.
-    level : Curve
-        How far down the body goes.
-    """
-
-    start_s: FloatArray
-    length_s: FloatArray
-    beats: FloatArray
-    level: Curve
-
-    @classmethod
-    def of(cls, events: Sequence[GestureEvent], felt_beats: FeltBeats) -> Bobbing:
-        """From the sways among a player's gestures."""
-        found = [event for event in events if event.kind == "sway" and event.end_s > event.start_s]
-        # Of those that begin together the last one counts, as in `follow`.
-        swings = [one for one, after in zip_longest(found, found[1:]) if after is None or after.start_s > one.start_s]
-        if not swings:
-            nothing = np.zeros(0)
-            return cls(nothing, nothing, nothing, moves(()))
-        start_s = np.array([event.start_s for event in swings])
-        length_s = np.array([event.end_s for event in swings]) - start_s
-        start_tick = np.array([event.start_tick for event in swings])
-        lasts_tick = np.array([event.end_tick for event in swings]) - start_tick
-        beats = np.maximum(1.0, np.round(lasts_tick / beat_ticks_at(felt_beats, start_tick)))
-        size = np.square(np.minimum(1.0, length_s / beats / QUICK_S))
-        # Who hardly sways hardly bobs: a body that is still is still.
-        size *= np.sqrt(np.abs([event.amount for event in swings]))
-        end_s = start_s + length_s
-        # Between swings far apart the body stands upright.
-        far = np.flatnonzero(start_s[1:] - end_s[:-1] > 2.0 * UPRIGHT_S)
-        knots_s = np.concatenate(
-            (start_s, end_s[-1:], end_s[far], end_s[far] + UPRIGHT_S, start_s[far + 1] - UPRIGHT_S)
-        )
-        sizes = np.concatenate((size, [0.0], size[far], np.zeros(2 * len(far))))
-        order = np.argsort(knots_s, kind="stable")
-        return cls(start_s, length_s, beats, through(knots_s[order], sizes[order]))
-
-    def sample(self, times_s: FloatArray) -> FloatArray:
-        """Values at ascending times, (F,) float64."""
-        if len(self.start_s) == 0:
-            return np.zeros(len(times_s))
-        inner = np.clip(np.searchsorted(self.start_s, times_s, side="right") - 1, 0, len(self.start_s) - 1)
-        phase = (times_s - self.start_s[inner]) / self.length_s[inner]
-        level = self.level.sample(times_s)
-        within = (phase >= 0.0) & (phase <= 1.0)
-        waving = level * (0.5 + 0.5 * np.cos(2.0 * np.pi * self.beats[inner] * phase))
-        down: FloatArray = np.where(within, waving, level)
-        return down
-
-    def changed_s(self, other: Bobbing) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
-        swings = rows_changed_s(self._rows, other._rows, self._spans_s, other._spans_s)
-        return np.concatenate((swings, self.level.changed_s(other.level)))
-
-    @property
-    def _rows(self) -> FloatArray:
-        return np.stack((self.start_s, self.length_s, self.beats), axis=1)
-
-    @property
-    def _spans_s(self) -> FloatArray:
-        """A swing holds to its end, or to the next one."""
-        end_s = self.start_s + self.length_s
-        return np.stack((self.start_s, np.maximum(end_s, np.append(self.start_s[1:], -np.inf)[: len(end_s)])), axis=1)
 
 
 def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
@@ -286,105 +171,35 @@ def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
     return moves(full), moves(lean)
 
 
-def lowering(gestures: Sequence[GestureEvent], lower_s: float, raise_s: float) -> Curve:
-    """0 with the instrument at the lips, 1 with it lowered; it is up again when the gesture ends.
-
-    Gestures that overlap are one: the instrument stays down from the first to the last, as low as the lowest of them.
-    """
-    spans: list[tuple[float, float, float]] = []
-    lowerings = (event for event in gestures if event.kind == "lower_instrument" and event.end_s > event.start_s)
-    for event in sorted(lowerings, key=lambda event: event.start_s):
-        if spans and event.start_s < spans[-1][1]:
-            start_s, end_s, amount = spans[-1]
-            spans[-1] = (start_s, max(end_s, event.end_s), max(amount, event.amount))
-        else:
-            spans.append((event.start_s, event.end_s, event.amount))
-    segments: list[tuple[float, float, float]] = []
-    for start_s, end_s, amount in spans:
-        share = min(1.0, (end_s - start_s) / (lower_s + raise_s))
-        segments.append((start_s, start_s + share * lower_s, amount))
-        segments.append((end_s - share * raise_s, end_s, 0.0))
-    return moves(segments)
-
-
-@dataclass(frozen=True)
-class Nods:
-    """Dips and lifts of all cues: the dip's acceleration peaks on the preparatory beat, its width is the beat.
-
-    Attributes
-    ----------
-    peak_s, half_s, amount : (N,) float64
-    """
-
-    peak_s: FloatArray
-    half_s: FloatArray
-    amount: FloatArray
-
-    @classmethod
-    def of(cls, cues: Sequence[CueEvent]) -> Nods:
-        """From a player's cues."""
-        rows = [(cue.peak_s, min(0.6 * cue.beat_s, cue.peak_s - cue.start_s), cue.amount) for cue in cues]
-        table = np.array([row for row in rows if row[1] > 0.0], dtype=np.float64).reshape(-1, 3)
-        return cls(table[:, 0], table[:, 1], table[:, 2])
-
-    def sample(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Dip and lift, 1 as usual, at ascending times, each (F,) float64."""
-        dip, lift = np.zeros(len(times_s)), np.zeros(len(times_s))
-        first = np.searchsorted(times_s, self.peak_s - self.half_s)
-        last = np.searchsorted(times_s, self.peak_s + 2.0 * self.half_s)
-        for index in np.flatnonzero(last > first):
-            here = slice(first[index], last[index])
-            peak_s, half_s = float(self.peak_s[index]), float(self.half_s[index])
-            amount = float(self.amount[index])
-            np.maximum(dip[here], amount * bump(times_s[here], peak_s, half_s), out=dip[here])
-            np.maximum(lift[here], amount * bump(times_s[here], peak_s + LIFT_LAG * half_s, half_s), out=lift[here])
-        return dip, lift
-
-    def changed_s(self, other: Nods) -> FloatArray:
-        """Spans (K, 2) outside of which both have the very same values."""
-        mine, others = (np.stack((nods.peak_s, nods.half_s, nods.amount), axis=1) for nods in (self, other))
-        spans = [np.stack((row[:, 0] - row[:, 1], row[:, 0] + 2.0 * row[:, 1]), axis=1) for row in (mine, others)]
-        return rows_changed_s(mine, others, *spans)
-
-
-@dataclass
-class _Sum:
-    """Angles of trunk and neck while the layers are added."""
-
-    frames: int
-    angles: dict[str, FloatArray] = field(default_factory=dict)
-
-    def add(self, shares: dict[str, float], values: FloatArray) -> None:
-        for joint, share in shares.items():
-            self.angles[joint] = self.angles.get(joint, 0.0) + share * values
-
-    def all(self) -> dict[str, FloatArray]:
-        return {joint: self.angles.get(joint, np.zeros(self.frames)) for joint in TRUNK}
-
-
-_KINDS = ("sway", "weight_shift", "bell_height", "lower_instrument")
-"""Gestures that layers are made of."""
+_KINDS = ("sway", "weight_shift", "bell_height", "lower_instrument", "lean", "accent", "feet", "nod", "concert")
+"""Gestures that layers are made of; those of the feet are one layer, and those beside playing."""
 
 
 @dataclass(frozen=True)
 class LayerSamples:
     """The layers at some frames, before the player's sizes: members as of `Layers`, each (F,) float64.
 
-    ``dip`` and ``lift`` are of the nods, ``held`` what the animator holds differently, ``gestured``
-    the keyed gestures.
+    ``dip`` and ``lift`` are of the nods, ``giving`` is 1 half way between two places of the weight, ``held`` what the
+    animator holds differently, ``gestured`` the keyed gestures, ``feet`` as of `Feet.sample`, ``concert`` what is done
+    beside playing (None: nothing).
     """
 
     full: FloatArray
     leaning: FloatArray
+    air: FloatArray
     dip: FloatArray
     lift: FloatArray
-    sway: FloatArray
-    weight: FloatArray
+    sway: Overlapped
+    lean: Overlapped
+    accent: Overlapped
+    weight: Overlapped
+    giving: FloatArray
     height: FloatArray
-    bobbing: FloatArray
     lowered: FloatArray
+    feet: dict[str, FloatArray]
     held: dict[PoseTarget, Offset]
-    gestured: Sums = field(default_factory=dict)
+    gestured: Sums | None = None
+    concert: ConcertSamples | None = None
 
 
 @dataclass(frozen=True)
@@ -394,21 +209,33 @@ class Layers:
     Attributes
     ----------
     full, leaning : Curve
-        How full the lungs are, and the lean that prepares a breath.
-    sway, weight, height : Curve
-        Where sway, weight and bell go, -1..1.
+        How full the lungs look, and the lean that prepares a breath.
+    air : Curve
+        How much air is in them.
+    sway, lean : Path
+        Where the trunk goes aside and forward, -1..1.
+    weight, height : Curve
+        Where weight and bell go, -1..1.
+    leads : Leads
+        How the parts of the body follow one another.
     """
 
     full: Curve
     leaning: Curve
+    air: Curve
     nods: Nods
-    sway: Curve
+    sway: Path
+    lean: Path
+    accents: Accents
     weight: Curve
     height: Curve
-    bobbing: Bobbing
     lowered: Curve
+    feet: Feet
     poses: Poses
     gestured: Gestured
+    concert: Concert
+    still: Envelopes
+    leads: Leads
 
     @classmethod
     def of(
@@ -420,109 +247,145 @@ class Layers:
             if same_events(plan, other, "gestures"):
                 if not same_events(plan, other, "breaths"):
                     full, leaning = lungs(plan.breaths)
-                    layers = replace(layers, full=full, leaning=leaning)
+                    layers = replace(layers, full=full, leaning=leaning, air=air(plan.breaths))
                 if not same_events(plan, other, "cues"):
-                    layers = replace(layers, nods=Nods.of(plan.cues))
+                    answers = [event for event in plan.gestures if event.kind == "nod"]
+                    layers = replace(layers, nods=Nods.of(plan.cues, answers))
                 return layers if same_events(plan, other, "poses") else replace(layers, poses=Poses.of(plan.poses))
         full, leaning = lungs(plan.breaths)
-        gestures = {kind: [event for event in plan.gestures if event.kind == kind] for kind in _KINDS}
+        gestures = _by_layer(plan.gestures)
         same: dict[str, Layers | None] = dict.fromkeys(_KINDS)
         if before is not None:
             # Other heights of the bell, and the same swings: most gestures outlive an edit.
             layers, other = before
+            others = _by_layer(other.gestures)
             for kind in _KINDS:
-                if gestures[kind] == [event for event in other.gestures if event.kind == kind]:
+                if gestures[kind] == others[kind]:
                     same[kind] = layers
-        swing, shift, bell, low = (same[kind] for kind in _KINDS)
+        swing, shift, bell, low, leant, accented, stepped, _, others_too = (same[kind] for kind in _KINDS)
         return cls(
             full=full,
             leaning=leaning,
-            nods=Nods.of(plan.cues),
-            sway=swing.sway if swing else follow(gestures["sway"], "sway"),
+            air=air(plan.breaths),
+            nods=Nods.of(plan.cues, gestures["nod"]),
+            sway=swing.sway if swing else path(gestures["sway"], "sway"),
+            lean=leant.lean if leant else path(gestures["lean"], "lean"),
+            accents=accented.accents if accented else Accents.of(gestures["accent"]),
             weight=shift.weight
             if shift
             else follow(gestures["weight_shift"], "weight_shift", body.weight_shift.transition_s),
             height=bell.height if bell else follow(gestures["bell_height"], "bell_height", 0.5),
-            bobbing=swing.bobbing if swing else Bobbing.of(gestures["sway"], felt_beats),
             lowered=low.lowered
             if low
             else lowering(gestures["lower_instrument"], body.bell.lower_s, body.bell.raise_s),
+            feet=stepped.feet if stepped else Feet.of(gestures["feet"], body.footwork.step_s),
             poses=Poses.of(plan.poses),
             gestured=Gestured.of(plan.gestures),
+            concert=others_too.concert if others_too else Concert.of(gestures["concert"], felt_beats),
+            still=others_too.still if others_too else holds_of(gestures["concert"]),
+            leads=Leads.of(body.overlap),
         )
 
     def sample(self, times_s: FloatArray) -> LayerSamples:
         """The layers at ascending times."""
-        sampled: dict[str, Any] = {layer.name: getattr(self, layer.name).sample(times_s) for layer in fields(self)}
-        dip, lift = sampled.pop("nods")
-        return LayerSamples(dip=dip, lift=lift, held=sampled.pop("poses"), **sampled)
+        return held_still(self._moving(times_s), self.still, times_s, self._moving)
+
+    def _moving(self, times_s: FloatArray) -> LayerSamples:
+        """The layers of a body that holds still nowhere."""
+        dip, lift = self.nods.sample(times_s)
+        before, after, share = self.weight.between(self.leads.at(times_s).hips)
+        return LayerSamples(
+            full=self.full.sample(times_s),
+            leaning=self.leaning.sample(times_s),
+            air=self.air.sample(times_s),
+            dip=dip,
+            lift=lift,
+            sway=self.leads.sample(self.sway, times_s),
+            lean=self.leads.sample(self.lean, times_s),
+            accent=self.leads.sample(self.accents, times_s),
+            weight=self.leads.sample(self.weight, times_s),
+            giving=2.0 * share * (1.0 - share) * np.abs(after - before),
+            height=self.height.sample(times_s),
+            lowered=self.lowered.sample(times_s),
+            feet=self.feet.sample(times_s),
+            held=self.poses.sample(times_s),
+            concert=self.concert.sample(times_s),
+        )
+
+    def changed_s(self, other: Layers) -> list[FloatArray]:
+        """Spans (K, 2) outside of which both have the very same values."""
+        names = [member.name for member in fields(self) if member.name != "leads"]
+        return [self.leads.widened(getattr(self, name).changed_s(getattr(other, name))) for name in names]
+
+
+def _by_layer(gestures: Sequence[GestureEvent]) -> dict[str, list[GestureEvent]]:
+    """Gestures by the layer they are of, each in order."""
+    found: dict[str, list[GestureEvent]] = {kind: [] for kind in _KINDS}
+    for event in gestures:
+        kind = "feet" if event.kind in FOOT_KINDS else "concert" if event.kind in CONCERT_KINDS else event.kind
+        if kind in found:
+            found[kind].append(event)
+    return found
 
 
 def body_motion(
     levels: LayerSamples,
     player_id: str,
     parameters: PlayerParameters,
+    acting: Acting,
     body: Body,
     posture: Posture,
     look: Look,
     times_s: FloatArray,
+    *,
+    steps: bool = True,
 ) -> BodyMotion:
-    """Sum of all layers at ascending ``times_s`` (F,), on top of the posture's own angles."""
-    sizes = _Sizes(body, parameters, player_id)
-    sway, frames = body.sway, len(times_s)
-    inhaled, lean, dip, lift = levels.full, levels.leaning, levels.dip, levels.lift
+    """Sum of all layers at ascending ``times_s`` (F,), on top of the posture's own angles; without ``steps`` feet only
+    tap."""
+    sizes, sway, deg = Sizes(body, parameters, player_id), body.sway, np.deg2rad
+    inhaled, lean = levels.full, levels.leaning
+    dip, lift = acting.cue * levels.dip, acting.cue * levels.lift
+    frames, lowered, seated = len(times_s), levels.lowered, posture.seat_height_shank > 0.0
+    total = Sum(frames)
+    aside_rad = _held(total, posture, lowered)
+    angles = Angles.of(
+        Part(levels.sway, acting.sway), Part(levels.lean, acting.phrase), Part(levels.accent, acting.phrase),
+        Part(levels.weight, acting.weight_shift), sizes, seated, Leads.of(body.overlap), times_s,
+    )  # fmt: skip
+    angles.add_to(total)
+    total.left(NECK_SHARES, deg(sizes.wander("head_side", sway.head_deg, times_s)))
+    total.turn(NECK_SHARES, deg(sizes.wander("head_turn", sway.head_deg, times_s)))
 
-    aside = parameters.sway * levels.sway
-    down = parameters.sway * levels.bobbing * (1.0 - np.clip(inhaled, 0.0, 1.0))
-    weight = parameters.weight_shift * levels.weight
-    height = parameters.bell_height * levels.height
+    breathing = deg(body.breath.torso_back_deg) * inhaled - deg(body.breath.preparation_forward_deg) * lean
+    total.forward(TRUNK_SHARES, -breathing)
+    total.forward(NECK_SHARES, -deg(body.breath.head_back_deg) * inhaled + 0.4 * breathing)
+
+    total.forward(TRUNK_SHARES, sizes.rad(body.cue.trunk_deg) * (dip - LIFT_SHARE * lift))
+    total.forward(NECK_SHARES, sizes.rad(body.cue.head_deg) * (dip - LIFT_SHARE * lift))
+    bell_cue = LIFT_SHARE * sizes.rad(body.cue.bell_lift_deg) * lift - sizes.rad(body.cue.bell_dip_deg) * dip
+    # The head follows a rising or sinking bell a little, the trunk less.
+    height = acting.bell_height * levels.height
     bell_up = np.maximum(height, 0.0) * sizes.rad(body.bell.up_deg) + np.minimum(height, 0.0) * sizes.rad(
         body.bell.down_deg
     )
+    total.forward(NECK_SHARES, -0.35 * bell_up)
+    total.forward(TRUNK_SHARES, -0.15 * bell_up)
 
-    forward, left, turn = _Sum(frames), _Sum(frames), _Sum(frames)
-    lowered = levels.lowered
-    for joint, angle_deg in posture.spine_deg.items():
-        forward.add({joint: 1.0}, np.full(frames, np.deg2rad(angle_deg)))
-    for summed, angles in ((left, posture.spine_left_deg), (turn, posture.spine_turn_deg)):
-        for joint, angle_deg in angles.items():
-            # A player turned to the instrument looks straight ahead when it is lowered; the trunk stays with the hands.
-            there = 1.0 - lowered if joint in NECK_SHARES else np.ones(frames)
-            summed.add({joint: np.deg2rad(angle_deg)}, there)
-    aside_rad = sum(np.deg2rad(angle_deg) for angle_deg in posture.spine_turn_deg.values()) * (1.0 - lowered)
+    total.turn(NECK_SHARES, 0.5 * look.head_yaw_rad)
+    total.forward(NECK_SHARES, 0.5 * look.head_pitch_rad)
+    total.forward(TRUNK_SHARES, deg(body.bell.lowered_trunk_deg) * lowered)
 
-    deg = np.deg2rad
-    side = aside * sizes.rad(sway.side_deg) + deg(sizes.wander("side", sway.side_deg, times_s))
-    left.add(TRUNK_SHARES, side)
-    left.add(NECK_SHARES, -EYES_LEVEL * side)
-    twist = -aside * sizes.rad(sway.turn_deg) + deg(sizes.wander("turn", sway.turn_deg, times_s))
-    turn.add(TRUNK_SHARES, 0.7 * twist)
-    nod_forward = down * sizes.rad(sway.forward_deg) + deg(sizes.wander("forward", sway.forward_deg, times_s))
-    forward.add(TRUNK_SHARES, nod_forward)
-    forward.add(NECK_SHARES, down * sizes.rad(sway.head_deg) - 0.4 * nod_forward)
-    left.add(NECK_SHARES, deg(sizes.wander("head_side", sway.head_deg, times_s)))
-    turn.add(NECK_SHARES, deg(sizes.wander("head_turn", sway.head_deg, times_s)))
-
-    breathing = deg(body.breath.torso_back_deg) * inhaled - deg(body.breath.preparation_forward_deg) * lean
-    forward.add(TRUNK_SHARES, -breathing)
-    forward.add(NECK_SHARES, -deg(body.breath.head_back_deg) * inhaled + 0.4 * breathing)
-
-    forward.add(TRUNK_SHARES, sizes.rad(body.cue.trunk_deg) * (dip - LIFT_SHARE * lift))
-    forward.add(NECK_SHARES, sizes.rad(body.cue.head_deg) * (dip - LIFT_SHARE * lift))
-    bell_cue = LIFT_SHARE * sizes.rad(body.cue.bell_lift_deg) * lift - sizes.rad(body.cue.bell_dip_deg) * dip
-    # The head follows a rising or sinking bell a little, the trunk less.
-    forward.add(NECK_SHARES, -0.35 * bell_up)
-    forward.add(TRUNK_SHARES, -0.15 * bell_up)
-
-    turn.add(NECK_SHARES, 0.5 * look.head_yaw_rad)
-    forward.add(NECK_SHARES, 0.5 * look.head_pitch_rad)
-
-    forward.add(TRUNK_SHARES, deg(body.bell.lowered_trunk_deg) * lowered)
-
-    roll = weight * sizes.rad(body.weight_shift.roll_deg)
-    left.add(TRUNK_SHARES, -0.8 * roll)
-    forward_rad, left_rad, turn_rad = forward.all(), left.all(), turn.all()
-    held = with_gestures(levels.held, levels.gestured, parameters.amplitude, parameters.gestures)
+    shoulders, elbows = deg(body.breath.shoulder_lift_deg) * inhaled, deg(body.breath.elbow_out_deg) * inhaled
+    if levels.concert is not None:
+        beside = beside_playing(levels.concert, body.concert, parameters.amplitude, acting.gestures, seated)
+        total.forward(TRUNK_SHARES, beside.trunk_rad)
+        total.forward(NECK_SHARES, beside.neck_rad)
+        total.turn(TRUNK_SHARES, body.concert.look_trunk_share * lowered * 0.5 * look.head_yaw_rad)
+        lowered = lowered * (1.0 - beside.up_share)
+        shoulders, elbows = shoulders + beside.shoulders_rad, elbows + beside.elbows_rad
+    feet = feet_moved(levels.feet, body, parameters.amplitude, acting.footwork, steps=steps)
+    forward_rad, left_rad, turn_rad = total.all()
+    held = with_gestures(levels.held, levels.gestured, parameters.amplitude, acting.gestures)
     hold_body(held, body, forward_rad, left_rad, turn_rad)
     bell_held, elbows_held = {}, {}
     if "bell" in held:
@@ -532,27 +395,74 @@ def body_motion(
         elbows_held["left"] = held["left_elbow"].up
     if "right_elbow" in held:
         elbows_held["right"] = held["right_elbow"].up
+    down = acting.phrase * levels.accent.hips
+    giving = acting.weight_shift * levels.giving * sizes.rad(body.weight_shift.knee_deg)
     return BodyMotion(
         forward_rad=forward_rad,
         left_rad=left_rad,
         turn_rad=turn_rad,
-        hips_side_m=weight * sizes.of(body.weight_shift.side_m)
-        + sizes.wander("weight", body.weight_shift.side_m, times_s),
-        hips_bob_m=down * sizes.of(sway.bob_m),
-        hips_roll_rad=roll,
-        hips_turn_rad=0.3 * twist,
-        knee_rad=down * sizes.rad(sway.knee_deg) + dip * sizes.rad(body.cue.knee_deg),
+        hips_side_m=_aside_m(levels, sizes, acting, steps, times_s),
+        hips_ahead_m=_ahead_m(levels, sizes, acting, feet, times_s),
+        hips_bob_m=np.maximum(down, 0.0) * sizes.of(sway.bob_m),
+        hips_roll_rad=angles.hips_roll_rad,
+        hips_turn_rad=angles.hips_turn_rad,
+        hips_forward_rad=angles.pelvis,
+        # Knees give way on an accent, in a nod, and as they take the weight.
+        knee_rad=np.maximum(down, -0.3) * sizes.rad(sway.knee_deg) + dip * sizes.rad(body.cue.knee_deg) + giving,
         bell_rad=0.5 * bell_up,
         bell_cue_rad=bell_cue,
         bell_down_rad=np.zeros(frames),
         bell_right_rad=np.zeros(frames),
         bell_held_rad=bell_held,
-        shoulders_rad=deg(body.breath.shoulder_lift_deg) * inhaled,
-        elbows_rad=deg(body.breath.elbow_out_deg) * inhaled,
+        shoulders_rad=shoulders,
+        elbows_rad=elbows,
         eyes_yaw_rad=look.yaw_rad - 0.5 * look.head_yaw_rad - EYES_BACK * aside_rad,
         eyes_pitch_rad=look.pitch_rad - 0.5 * look.head_pitch_rad,
         lowered=lowered,
         protraction_rad={},
         elbow_held_rad=elbows_held,
         hips_danced={},
+        elbows_late_rad=angles.elbows_late(),
+        feet=feet,
     )
+
+
+def _held(total: Sum, posture: Posture, lowered: FloatArray) -> FloatArray:
+    """Add a posture, and return how far the head is turned to the instrument."""
+    still = np.ones(len(lowered))
+    for joint, angle_deg in posture.spine_deg.items():
+        total.forward({joint: 1.0}, np.deg2rad(angle_deg) * still)
+    for add, angles in ((total.left, posture.spine_left_deg), (total.turn, posture.spine_turn_deg)):
+        for joint, angle_deg in angles.items():
+            # A player turned to the instrument looks straight ahead when it is lowered; the trunk stays with the hands.
+            there = 1.0 - lowered if joint in NECK_SHARES else still
+            add({joint: np.deg2rad(angle_deg)}, there)
+    aside: FloatArray = sum(np.deg2rad(angle_deg) for angle_deg in posture.spine_turn_deg.values()) * (1.0 - lowered)
+    return aside
+
+
+def _aside_m(levels: LayerSamples, sizes: Sizes, acting: Acting, steps: bool, times_s: FloatArray) -> FloatArray:
+    """Hips to the left: with the weight, and over the foot that stands during a step."""
+    side_m = sizes.body.weight_shift.side_m
+    aside_m: FloatArray = acting.weight_shift * levels.weight.hips * sizes.of(side_m)
+    aside_m = aside_m + sizes.wander("weight", side_m, times_s)
+    if steps:
+        over_m = acting.footwork * sizes.of(sizes.body.footwork.unload_m)
+        for side, sign in (("left", -1.0), ("right", 1.0)):
+            if f"{side}_unloaded" in levels.feet:
+                aside_m = aside_m + sign * over_m * levels.feet[f"{side}_unloaded"]
+    return aside_m
+
+
+def _ahead_m(
+    levels: LayerSamples, sizes: Sizes, acting: Acting, feet: dict[str, FloatArray], times_s: FloatArray
+) -> FloatArray:
+    """Hips ahead: back as the trunk leans forward, aslant with the weight, half as far as a foot that is put ahead."""
+    phrase, shift = sizes.body.phrase, sizes.body.weight_shift
+    back = acting.phrase * (levels.lean.hips + 0.5 * levels.accent.hips) * sizes.of(phrase.ahead_m)
+    aslant = sizes.aslant * acting.weight_shift * levels.weight.hips * sizes.of(shift.ahead_m)
+    ahead_m: FloatArray = aslant - back + sizes.wander("ahead", shift.ahead_m, times_s)
+    for side in ("left", "right"):
+        if f"{side}_ahead" in feet:
+            ahead_m = ahead_m + STEP_IN_HIPS * feet[f"{side}_ahead"]
+    return ahead_m

@@ -92,7 +92,7 @@ class Doubling(PerformanceCurves):
             at_m = a.hips_m[here] + (b.hips_m[here] - a.hips_m[here]).astype(np.float64) * share[:, None]
             player = self.player
             hips = turned[:, player.skeleton.index("hips")]
-            for joint, leg in solve_legs(player.place, player.skeleton, at_m, hips).items():
+            for joint, leg in solve_legs(player.place, player.skeleton, at_m, hips, {}).items():
                 turned[:, joint] = leg
             rotations[here], hips_m[here] = turned, at_m
             for name, values in morphs.items():

@@ -15,11 +15,14 @@ from itertools import accumulate
 import numpy as np
 
 from app.motion.curve import Curve, Envelopes, FloatArray, moves
+from app.motion.glances import with_glances
 from app.motion.seed import generator
 from app.plan.model import PlayerPlan
 
 SACCADE_S = 0.05
 HEAD_TURN_S = 0.45
+HEAD_TURNS = 0.5
+"""The head makes so much of the turn that a fixation lets it follow (`app.motion.body`)."""
 BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S = 0.08, 0.03, 0.16
 ENTRY_GUARD_S = 0.20
 REST_S = 1.0
@@ -72,7 +75,8 @@ class Gaze:
 
 def plan_gaze(plan: PlayerPlan, seed: int) -> Gaze:
     """Fixations and blinks of a whole performance, seeded by the player."""
-    targets = _fixations(plan, generator(plan.player_id, seed, "gaze"))
+    fixations = _fixations(plan, generator(plan.player_id, seed, "gaze"))
+    targets = with_glances(fixations, plan.glances, HEAD_TURN_S, HEAD_TURNS)
     return Gaze(
         yaw_rad=moves([(t, t + SACCADE_S, yaw) for t, yaw, _, _ in targets]),
         pitch_rad=moves([(t, t + SACCADE_S, pitch) for t, _, pitch, _ in targets], MUSIC_PITCH_RAD),
@@ -86,7 +90,7 @@ def plan_gaze(plan: PlayerPlan, seed: int) -> Gaze:
 
 def looks_alike(plan: PlayerPlan, other: PlayerPlan) -> bool:
     """Whether the gaze of two plans of a player is the same: notes matter only where they leave rests."""
-    same = plan.cues == other.cues and plan.time_frame == other.time_frame
+    same = plan.cues == other.cues and plan.glances == other.glances and plan.time_frame == other.time_frame
     return same and _rests(plan) == _rests(other)
 
 

@@ -112,7 +112,7 @@ class Gestured:
 
 
 def with_gestures(
-    held: dict[PoseTarget, Offset], gestured: Sums, amplitude: float, amount: float
+    held: dict[PoseTarget, Offset], gestured: Sums | None, amplitude: float, amount: float
 ) -> dict[PoseTarget, Offset]:
     """What the animator holds differently, with the gestures: as large as each is at the player's amplitude, times the
     player's amount, at most as it is at full amplitude, and no further than hands follow."""

@@ -17,12 +17,16 @@ from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
 from app.motion.danced import BodyLayer, giving_way, inhaling, with_dance
 from app.motion.face import Drivers, Face, face_morphs, usual_morphs
+from app.motion.feet import feet_moved
 from app.motion.gaze import Gaze, Look, looks_alike, plan_gaze
+from app.motion.holding import with_holds
 from app.motion.model import Motion
-from app.motion.posture import hips_path, stance, trunk
+from app.motion.posture import SIDES, Side, footing, hips_path, stance, trunk
+from app.motion.ribs import widened
 from app.motion.solve import Curves, Player, padding, solve
 from app.motion.splice import changed_stretch, spliced
 from app.motion.stations import raised_curve, sampled, station_curves
+from app.plan.acting import Acting, acting_of
 from app.plan.model import PlayerPlan, TimeFrame, same_events
 from app.plan.parameters import PlayerParameters, deciding
 from app.rig.carriage import carrying
@@ -85,6 +89,8 @@ class PerformanceCurves:
     felt_beats : tuple of (tick, ticks)
     parameters : PlayerParameters
         As set, with less sway where the instrument lies still.
+    acting : Acting
+        What these parameters show, with less where the instrument lies still or a dance takes its place.
     posture : Posture
         With head and trunk turned to the instrument.
     expressions : dict of str to Expression
@@ -109,6 +115,7 @@ class PerformanceCurves:
     instrument_map: InstrumentMap
     felt_beats: FeltBeats
     parameters: PlayerParameters
+    acting: Acting
     posture: Posture
     body: Body
     expressions: dict[str, Expression]
@@ -159,7 +166,15 @@ class PerformanceCurves:
     def curves(self, frames: Frames) -> Curves:
         """What the contacts are solved from, of frames wherever they come from."""
         moved = body_motion(
-            frames.levels, self.player_id, self.parameters, self.body, self.posture, frames.look, frames.times_s
+            frames.levels,
+            self.player_id,
+            self.parameters,
+            self.acting,
+            self.body,
+            self.posture,
+            frames.look,
+            frames.times_s,
+            steps=_steps(self.player),
         )
         if frames.danced is not None:
             amount, free = self.parameters.dance_amount, _stands_free(self.player)
@@ -174,6 +189,7 @@ class PerformanceCurves:
             frames.look.blinks,
             moved.lowered,
         )
+        morphs |= widened(frames.levels.air, self.body.breath, self.acting.breath)
         return Curves(
             moved, frames.controls, morphs, frames.face.mouth_open, frames.placed, frames.raised, frames.stowed
         )
@@ -184,6 +200,12 @@ class PerformanceCurves:
         asked = {table.finger for hand in hands for table in hand.fingers}
         asked |= {giving_for(finger) for hand in hands for lean in hand.leans for finger, _ in lean.places}
         return {name: sampled(curve, times_s) for name, curve in self.stations.items() if name in asked}
+
+    def ankles_m(self, times_s: FloatArray) -> dict[Side, FloatArray]:
+        """Where both ankles (F, 3) are meant to be at ascending times."""
+        levels, amplitude = self.layers.feet.sample(times_s), self.parameters.amplitude
+        moved = feet_moved(levels, self.body, amplitude, self.acting.footwork, steps=_steps(self.player))
+        return {side: footing(self.player.place, side, moved, len(times_s)).ankle_m for side in SIDES}
 
     def changed_s(self, other: PerformanceCurves) -> FloatArray:
         """Spans (K, 2) of seconds, outside of which (and of `padding` frames around) both make the very same frames."""
@@ -198,7 +220,8 @@ class PerformanceCurves:
         spans.append(self.inhaling.changed_s(other.inhaling))
         if self.stowed is not None and other.stowed is not None:
             spans.append(self.stowed.changed_s(other.stowed))
-        for ours, theirs in ((self.layers, other.layers), (self.face, other.face), (self.gaze, other.gaze)):
+        spans += self.layers.changed_s(other.layers)
+        for ours, theirs in ((self.face, other.face), (self.gaze, other.gaze)):
             for member in fields(ours):
                 value = getattr(ours, member.name)
                 if not isinstance(value, dict):
@@ -210,7 +233,7 @@ class PerformanceCurves:
                 spans.append(shown.changed_s(others_shown))
             else:
                 spans += [shown.spans_s, others_shown.spans_s]
-        return np.concatenate(spans)
+        return with_holds(np.concatenate(spans), self.layers.still, other.layers.still)
 
     @property
     def _settings(self) -> tuple[object, ...]:
@@ -218,7 +241,17 @@ class PerformanceCurves:
         still = self.player
         endpin = None if still.stand is None else still.stand.endpin
         shown, put = deciding(self.parameters, "motion"), (still.aside, self.stowed is None)
-        values = (self.player_id, self.start_s, shown, self.posture, still.carriage, still.lowered, endpin, put)
+        values = (
+            self.player_id,
+            self.start_s,
+            shown,
+            self.acting,
+            self.posture,
+            still.carriage,
+            still.lowered,
+            endpin,
+            put,
+        )
         return (values, still.skeleton, still.hold, self.body, self.dance)
 
 
@@ -251,9 +284,8 @@ def prepare(
     carriage = instrument_map.hold.carriage(parameters.posture)
     if parameters.dance_amount == 0.0:
         dance = None
+    acting = _shown(parameters, carriage, dancing=dance is not None)
     parameters = _settled(parameters, carriage)
-    if dance is not None:
-        parameters = _dancing(parameters)
     posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
     tension = parameters.embouchure_tension
     player = _player(parameters, instrument_map, character, hold, body, posture, before)
@@ -278,6 +310,7 @@ def prepare(
         instrument_map=instrument_map,
         felt_beats=felt_beats,
         parameters=parameters,
+        acting=acting,
         posture=posture,
         body=body,
         expressions={name: known[name] for name in face.expressions},
@@ -367,22 +400,39 @@ def _fingers(
 
 def _settled(parameters: PlayerParameters, carriage: Carriage) -> PlayerParameters:
     """Parameters with the motion of the instrument limited as its carriage says: the lips must stay with it."""
-    share = SETTLED + (1.0 - SETTLED) * freedom(carriage)
+    share = _settling(carriage)
     if share == 1.0:
         return parameters
     return msgspec.structs.replace(
         parameters,
         amplitude=share * parameters.amplitude,
-        sway=share * parameters.sway,
-        weight_shift=share * parameters.weight_shift,
         dance_amount=share * share * parameters.dance_amount,
     )
 
 
-def _dancing(parameters: PlayerParameters) -> PlayerParameters:
-    """The parameters of who dances instead of swaying, as far as the amount says."""
-    left = 1.0 - parameters.dance_amount
-    return msgspec.structs.replace(parameters, sway=left * parameters.sway, weight_shift=left * parameters.weight_shift)
+def _settling(carriage: Carriage) -> float:
+    """Share of their amplitude that players keep with an instrument that is carried so."""
+    return SETTLED + (1.0 - SETTLED) * freedom(carriage)
+
+
+def _shown(parameters: PlayerParameters, carriage: Carriage, *, dancing: bool) -> Acting:
+    """What parameters show: less of the trunk with an instrument that lies still, and of all that moves the body as far
+    as a dance takes its place."""
+    share = _settling(carriage)
+    left = 1.0 - share * share * parameters.dance_amount if dancing else 1.0
+    acting = acting_of(parameters)
+    return msgspec.structs.replace(
+        acting,
+        sway=left * share * acting.sway,
+        weight_shift=left * share * acting.weight_shift,
+        phrase=left * share * acting.phrase,
+        footwork=left * acting.footwork,
+    )
+
+
+def _steps(player: Player) -> bool:
+    """Whether feet leave their place: not beside an instrument that stands on its pin."""
+    return player.stand is None
 
 
 def _stands_free(player: Player) -> bool:

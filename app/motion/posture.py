@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -13,6 +14,7 @@ from app.rig import quaternion
 from app.rig.ik import SOFT_SHARE, Limb, leg, solve_limb
 from app.rig.model import Skeleton
 from app.rig.skeleton import rest_positions
+from app.rig.stature import leg_size
 from metadata.model import Posture
 
 Side = Literal["left", "right"]
@@ -22,6 +24,13 @@ LEGS_BLEND_M = 0.003
 """The hips hang from the shorter leg; where both are as long the hand-over is rounded by about this much."""
 STRAIGHTEST = 0.9995
 """Share of its length a leg or an arm is stretched at most."""
+BALL = (-0.9, 1.5)
+"""Without a joint of the toes: how far down and ahead of the ankle the ball of the foot is, by the ankle's height."""
+HEEL = (-1.0, -0.45)
+"""The same of the heel."""
+SIT_BONES_M = 0.09
+"""Who sits leans the pelvis about what is so far below the hips."""
+X_AXIS = np.array([1.0, 0.0, 0.0])
 
 
 @dataclass(frozen=True)
@@ -38,6 +47,10 @@ class Stance:
         Place and rotation of both feet; they stay.
     seated : bool
         The hips stay on the seat.
+    balls_m, heels_m : dict of side to (3,) float64
+        From the ankle to the joint of the toes and to the heel, in the foot's frame: what a foot lifts about.
+    toes : dict of side to int
+        Joints of the toes, where there are any.
     """
 
     hips_m: FloatArray
@@ -46,6 +59,9 @@ class Stance:
     feet: dict[Side, FloatArray]
     legs: dict[Side, Limb]
     seated: bool
+    balls_m: dict[Side, FloatArray]
+    heels_m: dict[Side, FloatArray]
+    toes: dict[Side, int]
 
 
 def stance(skeleton: Skeleton, posture: Posture) -> Stance:
@@ -59,6 +75,9 @@ def stance(skeleton: Skeleton, posture: Posture) -> Stance:
     hips = skeleton.index("hips")
     ankles_m: dict[Side, FloatArray] = {}
     feet: dict[Side, FloatArray] = {}
+    balls_m: dict[Side, FloatArray] = {}
+    heels_m: dict[Side, FloatArray] = {}
+    toes: dict[Side, int] = {}
     for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
         hip_joint = rest[legs[side].upper]
         ankle = rest[legs[side].end].copy()
@@ -66,29 +85,74 @@ def stance(skeleton: Skeleton, posture: Posture) -> Stance:
         ankle[2] = hip_joint[2] + ahead_m + sign * 0.5 * posture.foot_forward_m
         ankles_m[side] = ankle
         feet[side] = quaternion.from_axis_angle(np.array([0.0, 1.0, 0.0]), sign * np.deg2rad(posture.toes_out_deg))
+        high_m = max(float(ankle[1]), 0.0)
+        balls_m[side], heels_m[side] = (high_m * np.array([0.0, *part]) for part in (BALL, HEEL))
+        if f"{side}Toes" in skeleton.names:
+            toes[side] = skeleton.index(f"{side}Toes")
+            balls_m[side] = skeleton.offsets_m[toes[side]]
     hips_m = rest[hips].copy()
     hips_m[1] = rest[legs["left"].end][1] + above_m - (rest[legs["left"].upper] - rest[hips])[1]
-    return Stance(hips_m, knee, ankles_m, feet, legs, posture.seat_height_shank > 0.0)
+    seated = posture.seat_height_shank > 0.0
+    return Stance(hips_m, knee, ankles_m, feet, legs, seated, balls_m, heels_m, toes)
+
+
+@dataclass(frozen=True)
+class Footing:
+    """Where one foot is: ankle (F, 3) and rotation (F, 4), and the rotation of its toes (F, 4), None: as at rest."""
+
+    ankle_m: FloatArray
+    foot: FloatArray
+    toes: FloatArray | None
+
+
+def footing(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: int) -> Footing:
+    """A foot as it stands, or as it is ``moved`` (`app.motion.feet.feet_moved`).
+
+    A heel lifts about the toes, which stay; toes lift about the heel; a step takes all of the foot.
+    """
+    ankle_m = np.broadcast_to(place.ankles_m[side], (frames, 3))
+    foot = np.broadcast_to(place.feet[side], (frames, 4))
+    heel, toes = moved.get(f"{side}_heel"), moved.get(f"{side}_toes")
+    ahead_m, up_m, push = (moved.get(f"{side}_{part}") for part in ("ahead", "up", "push"))
+    bent = None
+    for angle, pivot_m in ((heel, place.balls_m[side]), (None if toes is None else -toes, place.heels_m[side])):
+        if angle is not None:
+            turned = quaternion.multiply(foot, quaternion.from_axis_angle(X_AXIS, angle))
+            ankle_m = ankle_m + quaternion.rotate(foot, pivot_m) - quaternion.rotate(turned, pivot_m)
+            foot = turned
+    if heel is not None and side in place.toes:
+        bent = quaternion.from_axis_angle(X_AXIS, -heel)
+    if push is not None:
+        foot = quaternion.multiply(foot, quaternion.from_axis_angle(X_AXIS, push))
+    if ahead_m is not None:
+        ankle_m = ankle_m + np.multiply.outer(ahead_m, quaternion.rotate(place.feet[side], np.array([0.0, 0.0, 1.0])))
+    if up_m is not None:
+        ankle_m = ankle_m + np.multiply.outer(up_m, np.array([0.0, 1.0, 0.0]))
+    return Footing(ankle_m, foot, bent)
 
 
 def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[FloatArray, FloatArray]:
     """Translation (F, 3) and rotation (F, 4) of the hips in the root's frame.
 
     Standing, the hips come down as the knees bend and as far as the weight lies aside; neither leg is ever too short.
+    Seated, the pelvis leans on the seat.
     """
     frames = len(motion.hips_side_m)
-    if place.seated:
-        turn = np.zeros((frames, 3))
-        turn[:, 2] = -0.5 * motion.hips_roll_rad
-        return np.tile(place.hips_m, (frames, 1)), quaternion.from_rotation_vector(turn)
+    hips_m = np.tile(place.hips_m, (frames, 1))
     turn = np.zeros((frames, 3))
+    turn[:, 0] = motion.hips_forward_rad
+    if place.seated:
+        turn[:, 2] = -motion.hips_roll_rad
+        above_m = np.array([0.0, SIT_BONES_M * leg_size(skeleton), 0.0])
+        rotation = quaternion.from_rotation_vector(turn)
+        return hips_m + quaternion.rotate(rotation, above_m) - above_m, rotation
     turn[:, 1] = motion.hips_turn_rad
     turn[:, 2] = -motion.hips_roll_rad
     danced, ease_m = motion.hips_danced, np.full(frames, LEGS_BLEND_M)
-    hips_m = np.tile(place.hips_m, (frames, 1))
     hips_m[:, 0] += motion.hips_side_m
+    hips_m[:, 2] += motion.hips_ahead_m
     if danced:
-        turn[:, 0] = danced["forward_rad"]
+        turn[:, 0] += danced["forward_rad"]
         hips_m[:, 2] += danced["ahead_m"]
         ease_m += danced["ease_m"]
     rotation = quaternion.from_rotation_vector(turn)
@@ -97,11 +161,12 @@ def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[Fl
         limb = place.legs[side]
         a, b = np.linalg.norm(limb.upper_vector_m), np.linalg.norm(limb.lower_vector_m)
         joint_m = quaternion.rotate(rotation, skeleton.offsets_m[limb.upper])
-        across_m = hips_m[:, [0, 2]] + joint_m[:, [0, 2]] - place.ankles_m[side][[0, 2]]
+        ankle_m = footing(place, side, motion.feet, frames).ankle_m
+        across_m = hips_m[:, [0, 2]] + joint_m[:, [0, 2]] - ankle_m[:, [0, 2]]
         length2 = a * a + b * b + 2.0 * a * b * np.cos(place.knee_rad + motion.knee_rad)
         length2 = np.minimum(length2, np.square(STRAIGHTEST * (a + b)))
         rise_m = np.sqrt(np.maximum(length2 - np.einsum("fi,fi->f", across_m, across_m), 0.01))
-        heights.append(place.ankles_m[side][1] + rise_m - joint_m[:, 1])
+        heights.append(ankle_m[:, 1] + rise_m - joint_m[:, 1])
     lower = np.minimum(heights[0], heights[1])
     apart = np.abs(heights[0] - heights[1])
     hips_m[:, 1] = lower - ease_m * np.log1p(np.exp(-apart / ease_m)) - motion.hips_bob_m
@@ -124,19 +189,25 @@ def exact_target(limb: Limb, root_m: FloatArray, target_m: FloatArray) -> FloatA
 
 
 def solve_legs(
-    place: Stance, skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray
+    place: Stance,
+    skeleton: Skeleton,
+    hips_m: FloatArray,
+    hips_rotation: FloatArray,
+    feet: Mapping[str, FloatArray],
 ) -> dict[int, FloatArray]:
-    """Rotations of both legs and feet, by joint; the feet stay where the stance has them."""
+    """Rotations of both legs and feet, by joint; the feet stay where the stance has them, or are moved."""
     frames = len(hips_m)
     rotations: dict[int, FloatArray] = {}
     for side in SIDES:
         limb = place.legs[side]
         root_m = hips_m + quaternion.rotate(hips_rotation, skeleton.offsets_m[limb.upper])
-        target_m = np.broadcast_to(place.ankles_m[side], (frames, 3))
-        foot = np.broadcast_to(place.feet[side], (frames, 4))
+        there = footing(place, side, feet, frames)
         pole = quaternion.rotate(place.feet[side], np.array([0.0, 0.0, 1.0]))
-        pose = solve_limb(limb, root_m, hips_rotation, exact_target(limb, root_m, target_m), foot, pole)
+        target_m = exact_target(limb, root_m, there.ankle_m)
+        pose = solve_limb(limb, root_m, hips_rotation, target_m, there.foot, pole)
         rotations |= {limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}
+        if there.toes is not None:
+            rotations[place.toes[side]] = there.toes
     return rotations
 
 

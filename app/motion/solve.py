@@ -223,21 +223,32 @@ def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatAr
     hips_m, hips, upper, carried = _upper(player, curves)
     local = {skeleton.index("hips"): hips} | upper.local
     controls = stopped(skeleton, player.hold, upper, motion, carried, curves.controls, curves.placed)
-    arms = solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed)
+    late = _late(motion)
+    arms = solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed, late)
     if player.put_aside is not None and curves.stowed is not None and np.any(curves.stowed):
         # The other hand lets go where the instrument was lowered, and does not follow it.
         letting_go = player.put_aside.let_go(skeleton, player.hold, arms, curves.stowed)
         carried = player.put_aside.put(carried, curves.stowed)
         swung = player.put_aside.turned(curves.stowed)
+        if late is not None:
+            swung = quaternion.multiply(swung, late)
         arms = solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed, swung)
         arms |= letting_go
     local |= arms
-    local |= solve_legs(player.place, skeleton, hips_m, hips)
+    local |= solve_legs(player.place, skeleton, hips_m, hips, motion.feet)
     looking = np.stack([motion.eyes_pitch_rad, motion.eyes_yaw_rad, np.zeros(len(curves))], axis=-1)
     for name in ("leftEye", "rightEye"):
         if name in skeleton.names:
             local[skeleton.index(name)] = quaternion.from_rotation_vector(looking)
     return hips_m, local, carried, controls
+
+
+def _late(motion: BodyMotion) -> FloatArray | None:
+    """How far (F, 4) elbows are turned from where the chest has them, since they come after it."""
+    late = motion.elbows_late_rad
+    if not late:
+        return None
+    return quaternion.from_rotation_vector(np.stack([late["forward"], late["turn"], -late["left"]], axis=-1))
 
 
 def needs(player: Player, curves: Curves) -> Help:

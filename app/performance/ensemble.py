@@ -26,6 +26,7 @@ from app.plan.acting import with_style
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.doubling import Change, changes, first_played, held_plan
 from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
+from app.plan.glances import StagePlace
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.plan.parameters import PlayerParameters, deciding
@@ -142,6 +143,12 @@ class Performance:
         beat_ticks = self.project.metre_map.felt_ticks_at(first_tick)
         return frame_around(first_tick, last_tick, self.piece.clock, self.project.preroll_beats, beat_ticks)
 
+    @property
+    def places(self) -> dict[str, StagePlace]:
+        """Where every player is on the stage."""
+        stages = {player.id: player.stage for player in self.project.players}
+        return {id: StagePlace(stage.x_m, stage.z_m, stage.turn_rad) for id, stage in stages.items()}
+
     @cached_property
     def _ensemble(self) -> EnsemblePlan:
         self.prepare()
@@ -170,6 +177,7 @@ class Performance:
                 before,
                 stop_requested,
                 progress,
+                self.places,
                 self.metadata.all_rules,
                 self.metadata.gestures.items,
             )
@@ -220,7 +228,7 @@ class Performance:
         # What is as it was is the very same, field by field: motions are compared so.
         parts = {
             name: self._memo.step(f"held:{player.id}:{name}", _same, value)
-            for name in ("cues", "gestures", "expressions", "problems")
+            for name in ("cues", "gestures", "expressions", "problems", "glances")
             for value in [getattr(found, name)]
         }
         return self._memo.step(f"held:{player.id}", _with_parts, plan, tuple(parts), *parts.values())

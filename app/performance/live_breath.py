@@ -13,6 +13,7 @@ from app.motion.body import EXHALE_S, LayerSamples
 from app.motion.causal import Reach, Spring
 from app.motion.face import FORM_S, HOLD_S, SHALLOWEST, Drivers
 from app.motion.gaze import BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S, HEAD_TURN_S, MUSIC_PITCH_RAD, SACCADE_S, Look
+from app.motion.overlap import Overlapped
 from app.motion.perform import PerformanceCurves
 from app.motion.seed import generator
 from app.performance.live_hands import FRAMES
@@ -217,7 +218,7 @@ class LiveBreath:
     def at(self, now_s: float) -> Breathing:
         """Body and face now."""
         self.advance(now_s)
-        nothing = np.zeros(FRAMES)
+        nothing, still = np.zeros(FRAMES), Overlapped.nothing(FRAMES)
 
         def pair(value: float) -> FloatArray:
             return np.full(FRAMES, min(max(value, 0.0), 1.0))
@@ -237,13 +238,17 @@ class LiveBreath:
         levels = LayerSamples(
             full=np.full(FRAMES, max(self._full.at(now_s), 0.0)),
             leaning=nothing,
+            air=pair(self._full.at(now_s)),
             dip=nothing,
             lift=nothing,
-            sway=nothing,
-            weight=nothing,
+            sway=still,
+            lean=still,
+            accent=still,
+            weight=still,
+            giving=nothing,
             height=np.full(FRAMES, self._bell.value),
-            bobbing=nothing,
             lowered=nothing,
+            feet={},
             held={},
         )
         return Breathing(levels, face)

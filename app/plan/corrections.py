@@ -15,7 +15,17 @@ from typing import Final, Literal, TypeAlias, TypeVar
 import msgspec
 
 from app.errors import Message
-from app.plan.model import BreathEvent, CueEvent, EmbouchureEvent, ExpressionEvent, GestureEvent, PoseTarget, Problem
+from app.plan.model import (
+    GESTURE_KINDS,
+    BreathEvent,
+    CueEvent,
+    EmbouchureEvent,
+    ExpressionEvent,
+    GestureEvent,
+    GestureKind,
+    PoseTarget,
+    Problem,
+)
 from app.score.tempo import TempoMap
 
 BY_HAND = Message("correction.by_hand")
@@ -99,7 +109,7 @@ class AddGesture(_Correction, frozen=True, tag="add_gesture"):
     one of the kind ``"named"`` is called in `metadata.gestures`."""
 
     name: str
-    kind: Literal["sway", "weight_shift", "bell_height", "lower_instrument", "named"]
+    kind: GestureKind
     start_tick: int
     end_tick: int
     amount: float
@@ -193,20 +203,7 @@ Span = TypeVar("Span", GestureEvent, ExpressionEvent)
 
 WITHIN: Final = "within"
 """The first part of the ids of breaths within a note."""
-REMOVABLE = (
-    *(
-        "breath",
-        "preparation",
-        WITHIN,
-        "cue",
-        "sway",
-        "weight_shift",
-        "bell_height",
-        "lower_instrument",
-        "named",
-        "expression",
-    ),
-)
+REMOVABLE = ("breath", "preparation", WITHIN, "cue", *GESTURE_KINDS, "expression")
 """Kinds of event a `RemoveEvent` may leave out: the first part of their ids."""
 
 

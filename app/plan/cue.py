@@ -5,8 +5,9 @@ and the new start after a rest or a general pause of all; going on after a ferma
 given; and a player or a section that comes in after a long rest, or as the next voice of a canon, while others play.
 What an accompaniment plays that is not on stage sounds too: an entry with it needs no cue.
 
-The nod's acceleration peak marks the preparatory beat and its duration the tempo (Bishop and Goebl 2017). It falls on a
-beat of the metre: before a pickup on the one before the beat that the pickup lies in.
+Head and instrument rise on the preparatory beat, with the inhalation, and drop onto the next one: there lies the nod's
+acceleration peak, and its duration is the tempo (Bishop and Goebl 2017). Both are beats of the metre: before a pickup
+the second is the beat that the pickup lies in, else it is the entry.
 
 Messages: ``cue.start``, ``cue.after_rest``, ``cue.after_pause``, ``cue.after_fermata``, ``cue.tempo``, ``cue.section``,
 ``cue.joins``.
@@ -36,7 +37,7 @@ PAUSE_LEAST_S = 1.5
 LEAST_BEATS = 2.0
 """A cue needs the preparatory beat and room before it."""
 LEAD_BEATS = 1.5
-"""The nod begins half a beat before the preparatory beat, so that it lasts one beat and peaks on it."""
+"""Head and instrument begin to rise half a beat before the preparatory beat: they are on their way up on it."""
 
 HELD_S, HELD_BEATS = 3.0, 3.0
 """What all hold so long, in seconds and in beats, and leave together, was held by a fermata."""
@@ -350,13 +351,14 @@ def plan_cues(
         note = own.id if own is not None and own.onset_tick == entry.tick else f"@{entry.tick}"
         loudness = float(np.mean([all_times[line].loudness[index] for line, index in entry.players]))
         amount = round(min(max(float(vigour_of(np.array([loudness]))[0]), SMALLEST), LARGEST), 4)
-        cue = _cue(lines[leader].player_id, note, entry, why, piece, frame, amount)
+        takers = _takers(leader, entry.players, lines)
+        cue = _cue(lines[leader].player_id, note, entry, why, piece, frame, amount, takers)
         # No one nods twice at once.
         if cue.start_s >= busy_until_s.get(leader, -np.inf):
             busy_until_s[leader] = cue.end_s
             generated.append(cue)
     events = {event.id + event.player_id: event for event in generated}
-    for line in lines:
+    for place, line in enumerate(lines):
         removed = removed_ids(line.corrections)
         for event in generated:
             if event.player_id == line.player_id and event.id in removed:
@@ -369,13 +371,38 @@ def plan_cues(
                 tick = onsets.get(item.note_id, item.tick)
                 if tick is None:
                     continue
-                event = _cue_by_hand(line.player_id, item.note_id, tick, item.beats, piece, frame)
+                takers = _takers(place, _entering(tick, all_times, piece), lines)
+                event = _cue_by_hand(line.player_id, item.note_id, tick, item.beats, piece, frame, takers)
                 events[event.id + event.player_id] = event
     ordered = sorted(events.values(), key=lambda event: (event.start_s, event.player_id))
     return tuple(ordered), frozenset(event.id for event in generated)
 
 
-def _cue(player_id: str, note: str, entry: Entry, why: str, piece: Piece, frame: TimeFrame, amount: float) -> CueEvent:
+def _takers(leader: int, players: tuple[tuple[int, int], ...], lines: tuple[MonophonicPart, ...]) -> tuple[str, ...]:
+    """Ids of who comes in with a cue, without the leader and what else the leader's musician plays."""
+    own = lines[leader].musician or lines[leader].player_id
+    entering = [lines[line] for line, _ in players if line != leader]
+    return tuple(line.player_id for line in entering if (line.musician or line.player_id) != own)
+
+
+def _entering(tick: int, all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[tuple[int, int], ...]:
+    """Who begins to play with a cue that is given by hand: those who were silent before, or else all."""
+    found = _coming_in([(line, times) for line, times in enumerate(all_times)], tick, _together(piece, tick))
+    least = _beat(piece, tick) / 2
+    rested = tuple((line, index) for line, index in found if all_times[line].silence_tick[index] >= least)
+    return rested or found
+
+
+def _cue(
+    player_id: str,
+    note: str,
+    entry: Entry,
+    why: str,
+    piece: Piece,
+    frame: TimeFrame,
+    amount: float,
+    takers: tuple[str, ...],
+) -> CueEvent:
     """The cue of an entry, in the tempo that begins there."""
     clock, tick, beat = piece.clock, entry.tick, _beat(piece, entry.tick)
     end_s = clock.seconds(float(tick))
@@ -401,10 +428,13 @@ def _cue(player_id: str, note: str, entry: Entry, why: str, piece: Piece, frame:
         beat_s=beat_s,
         reason=Message(reason, arguments),
         amount=amount,
+        takers=takers,
     )
 
 
-def _cue_by_hand(player_id: str, note: str, tick: int, beats: float, piece: Piece, frame: TimeFrame) -> CueEvent:
+def _cue_by_hand(
+    player_id: str, note: str, tick: int, beats: float, piece: Piece, frame: TimeFrame, takers: tuple[str, ...]
+) -> CueEvent:
     """A cue whose preparatory beat lasts as many beats of the score as it was given."""
     seconds, beat = piece.clock.seconds, _beat(piece, tick) * beats
     start_tick = tick - LEAD_BEATS * beat
@@ -420,4 +450,5 @@ def _cue_by_hand(player_id: str, note: str, tick: int, beats: float, piece: Piec
         beat_s=end_s - peak_s,
         reason=BY_HAND,
         corrected=True,
+        takers=takers,
     )

@@ -159,6 +159,11 @@ def held_plan(plan: PlayerPlan, first: str, found: Sequence[Change], names: Mapp
         gestures=tuple(gestures),
         expressions=_within(plan.expressions, spans),
         problems=tuple(sorted((*plan.problems, *reported), key=lambda problem: problem.start_s)),
+        glances=tuple(
+            glance
+            for glance in plan.glances
+            if any(glance.start_s < end_s and start_s < glance.end_s for start_s, end_s in spans)
+        ),
     )
 
 

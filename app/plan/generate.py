@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -9,6 +10,7 @@ from typing import NamedTuple
 import msgspec
 
 from app.errors import Cancelled
+from app.plan.acting import acting_of
 from app.plan.bar_phase import lowest, with_felt_bars
 from app.plan.breath import plan_breaths
 from app.plan.breath_envelope import blown
@@ -38,6 +40,7 @@ from app.plan.ending import Ending, ending_of
 from app.plan.expression import SMILE_ID, plan_expressions
 from app.plan.fingering import plan_fingerings
 from app.plan.gesture import Pulse, plan_gestures, pulse
+from app.plan.glances import StagePlace, glances_of
 from app.plan.line import LineTimes, MonophonicPart, Piece, Seeds, note_times, without_sound
 from app.plan.memo import Memo
 from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, Problem, TimeFrame
@@ -60,7 +63,11 @@ __all__ = ["EnsemblePlan", "MonophonicPart", "Piece", "make_plans", "plan_ensemb
 
 PREROLL_BEATS = 4.0
 PREROLL_LEAST_S = 2.0
-AFTER_LAST_S = 2.0
+COME_UP_S = 3.0
+"""A new piece begins so long before the first note at least: time to be seen at rest, and to come up from it."""
+MOST_PREROLL_BEATS = 32
+AFTER_LAST_S = 6.0
+"""Time to hold still, lower the instrument, look up and bow."""
 
 
 def time_frame(
@@ -69,8 +76,8 @@ def time_frame(
     preroll_beats: float = PREROLL_BEATS,
     beat_ticks: int | None = None,
 ) -> TimeFrame:
-    """The performance's span: a pre-roll of some beats, at least 2 s, before the first note of all lines, to 2 s
-    after the last. Times before the first tick are negative. Without any note: around tick 0.
+    """The performance's span: a pre-roll of some beats, at least 2 s, before the first note of all lines, to
+    `AFTER_LAST_S` after the last. Times before the first tick are negative. Without any note: around tick 0.
 
     Parameters
     ----------
@@ -94,6 +101,12 @@ def frame_around(
     first_s = clock.seconds(float(first_tick))
     start_s = min(clock.seconds(first_tick - preroll), first_s - PREROLL_LEAST_S)
     return TimeFrame(start_s, clock.seconds(float(last_tick)) + AFTER_LAST_S)
+
+
+def usual_preroll(beat_s: float) -> float:
+    """Felt beats before the first note of a new piece, by the length of a beat: a bar of four, or whole beats enough to
+    come up from rest."""
+    return max(PREROLL_BEATS, float(min(math.ceil(COME_UP_S / beat_s - 1e-6), MOST_PREROLL_BEATS)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,6 +148,7 @@ def plan_ensemble(
     before: EnsemblePlan | None = None,
     stop_requested: Callable[[], bool] = lambda: False,
     progress: Callable[[float], None] = lambda share: None,
+    places: Mapping[str, StagePlace] | None = None,
     rules: tuple[Rule, ...] | None = None,
     gestures: Mapping[str, Gesture] | None = None,
 ) -> EnsemblePlan:
@@ -152,6 +166,8 @@ def plan_ensemble(
         Of the same ensemble before an edit: what has not changed is taken from there, to the object.
     stop_requested, progress : callable
         Asked, and called with the share that is done, between two players.
+    places : mapping of str to StagePlace, optional
+        Where each player stands; who has no place looks at no one.
     rules : tuple of Rule, optional
         What players show and do by rules; the bundled ones by default.
     gestures : mapping of str to Gesture, optional
@@ -181,6 +197,7 @@ def plan_ensemble(
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
     beat = shared.step("pulse", pulse, piece, frame, first_s)
     ending = shared.step("ending", ending_of, all_times, piece)
+    last_s = max((float(times.played_end_s.max()) for times in all_times if len(times.onset_s)), default=0.0)
     together = [own[line.player_id].step("shared line", shared_line, times, piece) for line, times, _ in playable]
     breathed: list[Breathed] = []
     plans = {}
@@ -191,23 +208,12 @@ def plan_ensemble(
         memo = own[line.player_id]
         shared_breaths = memo.nested("shared", shared_with, this, others, tuple(breathed))
         own_cues = memo.step("cues", _cues_of, cues, line.player_id)
+        answered = memo.step("answered", _answered, cues, line.player_id)
+        seen = memo.step("seen", _seen, line.player_id, own_cues, answered, {} if places is None else places)
         given = _Given(
-            piece,
-            line,
-            times,
-            frame,
-            own_cues,
-            cue_ids,
-            this,
-            shared_breaths,
-            seed,
-            beat,
-            ending,
-            problems,
-            faces,
-            ruling,
-            named,
-        )
+            piece, line, times, frame, own_cues, cue_ids, this, shared_breaths, seed, beat, ending, problems, faces,
+            answered, last_s, seen, ruling, named, alone=musicians.count(musicians[done]) == 1,
+        )  # fmt: skip
         plan, breaths = memo.nested("plan", _plan_line, given)
         plans[line.player_id] = plan
         breathed.append(breaths)
@@ -219,6 +225,19 @@ def plan_ensemble(
 
 def _cues_of(cues: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...]:
     return tuple(cue for cue in cues if cue.player_id == player_id)
+
+
+def _answered(cues: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...]:
+    """The cues that a player comes in with."""
+    return tuple(cue for cue in cues if player_id in cue.takers)
+
+
+def _seen(
+    player_id: str, own: tuple[CueEvent, ...], answered: tuple[CueEvent, ...], places: Mapping[str, StagePlace]
+) -> dict[str, StagePlace]:
+    """The places of the player and of those whom the player looks at."""
+    others = {cue.player_id for cue in answered} | {taker for cue in own for taker in cue.takers}
+    return {one: place for one, place in places.items() if one == player_id or one in others}
 
 
 def _go_on(stop_requested: Callable[[], bool]) -> None:
@@ -274,8 +293,12 @@ class _Given(NamedTuple):
     ending: Ending
     reported: tuple[Problem, ...]
     faces: Mapping[str, Expression]
+    answered: tuple[CueEvent, ...]
+    last_s: float
+    seen: Mapping[str, StagePlace]
     rules: tuple[Rule, ...]
     named: Mapping[str, Gesture]
+    alone: bool
 
 
 def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
@@ -311,7 +334,22 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     embouchures = memo.step("embouchures", correct_embouchures, made_lips, by_hand)
     traces = memo.step("traces", plan_traces, notes, times, clock, instrument, lips, line.controller, envelope, by_hand)
     dynamics = memo.step("dynamics", dynamics_of, times, envelope)
-    made_gestures = plan_gestures(notes, times, piece, frame, events, given.cues, seeds, given.pulse, dynamics, memo)
+    made_gestures = plan_gestures(
+        notes,
+        times,
+        piece,
+        frame,
+        events,
+        given.cues,
+        seeds,
+        given.pulse,
+        dynamics,
+        memo,
+        acting_of(parameters),
+        given.alone,
+        answered=given.answered,
+        last_s=given.last_s,
+    )
     lowered = memo.step("lowered spans", lowered_spans_s, made_gestures)
     ruled = memo.step(
         "rules",
@@ -335,6 +373,8 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     held = restricted(parameters, "poses")
     defined = memo.step("named gestures", with_definitions, corrected, given.named, instrument, held, times, lowered)
     gestures = defined.gestures
+    looked = memo.step("looked at", _of_kinds, gestures, ("lower_instrument", "look_about", "look_up"))
+    glances = memo.step("glances", glances_of, line.player_id, given.cues + given.answered, looked, given.seen, seeds)
     # Who corrected the smile after the last note keeps it, whatever the ending is.
     named = any(item.event_id == SMILE_ID for item in corrections if isinstance(item, ChangeExpression | RemoveEvent))
     ending = msgspec.structs.replace(given.ending, bright=True) if named else given.ending
@@ -386,8 +426,14 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         problems=tuple(sorted(problems, key=lambda problem: problem.start_s)),
         poses=poses,
         traces=traces,
+        glances=glances,
     )
     return plan, breathed_of(given.shared_line, notes, breaths.catches, events)
+
+
+def _of_kinds(gestures: tuple[GestureEvent, ...], kinds: tuple[str, ...]) -> tuple[GestureEvent, ...]:
+    """The gestures of some kinds."""
+    return tuple(event for event in gestures if event.kind in kinds)
 
 
 def _lost(

@@ -1,44 +1,46 @@
-"""Body motion as gestures: sway on the beat, weight shifts, the bell's height, the instrument lowered in long rests.
+"""Body motion as gestures: sway, lean and accents (`app.plan.swing`, `app.plan.phrase`), weight shifts, the bell's
+height, the instrument lowered (`app.plan.lowered`), what feet do (`app.plan.footwork`) and what is done beside playing
+(`app.plan.answers`, `app.plan.concert`).
 
-How to read the events: sway, weight_shift and bell_height each lie end to end, and an event's ``amount`` is where the
-body goes: at the end of a sway (a half swing from beat to beat), and for as long as it lasts for the other two.
-``lower_instrument`` spans from leaving the lips to being back at them; one that reaches beyond the time frame begins
-(or stays) lowered. Amounts follow the dynamics (`app.plan.dynamics`); sizes belong to the motion, which scales by the
+How to read the events: sway, lean, weight_shift and bell_height each lie end to end, and an event's ``amount`` is where
+the body goes: at the end of a sway or lean, and for as long as it lasts for the other two.
+Amounts follow the dynamics (`app.plan.dynamics`); sizes belong to the motion, which scales by the
 player's amplitude.
 
-In a rest longer than twice `STIR_S` the body is still but at its edges: what is made is in proportion to the notes,
-however long the silence between them.
+In a rest longer than twice `app.plan.swing.STIR_S` the body is still but at its edges: what is made is in proportion to
+the notes, however long the silence between them.
 
 Everything random is drawn from player and score position (tick), so the same place repeats in every run, however the
 rest of the piece is edited (Wanderley: players repeat the same bell movement at the same place).
 
-Messages: ``gesture.sway``, ``gesture.weight_shift``, ``gesture.bell_height``, ``gesture.bell_accent``,
-``gesture.lower_instrument``, ``gesture.lower_at_end``, ``gesture.lower_at_start``.
+Messages: ``gesture.weight_shift``, ``gesture.bell_height``, ``gesture.bell_accent``.
 """
 
 from __future__ import annotations
 
 import itertools
-import math
-from bisect import bisect_right
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
 
 from app.errors import Message
+from app.plan.acting import Acting
+from app.plan.answers import answering_nods
+from app.plan.concert import after_the_end, holding_at_end, in_long_rests
 from app.plan.dynamics import Dynamics, grown
-from app.plan.line import IntArray, LineTimes, Piece, Rhythm, Seeds
+from app.plan.footwork import footwork
+from app.plan.line import LineTimes, Piece, Rhythm, Seeds
+from app.plan.lowered import lowered_spans
 from app.plan.memo import Memo
 from app.plan.model import BreathEvent, CueEvent, FloatArray, GestureEvent, TimeFrame
+from app.plan.phrase import accents, felt_at, leans, phrases
+from app.plan.swing import Pulse as Pulse
+from app.plan.swing import pulse as pulse
+from app.plan.swing import stirring, sways, swings_of
 from app.score.model import Note
 from app.score.tempo import TempoMap
 
-SWING_S = 1.1
-"""A body's half swing takes about this long, whatever the tempo: 1, 2, 4 ... beats of it."""
-STIR_S = 10.0
-"""So long before and after a note's beginning and its end the body moves with the beat."""
 SHIFT_MEAN_S = 9.0
 SHIFT_LEAST_S = 3.0
 CONTOUR_SEMITONES = 10.0
@@ -53,16 +55,6 @@ ARCH_LOUDNESS, ARCH_DOWNBEAT = 1.0, 0.1
 """What makes a climax beside the height of the bell: loudness above the phrase's mean, and the first beat of a bar."""
 ACCENT_LIFT, MOST_ACCENT_LIFT = 1.5, 0.4
 """The bell rises with an accent by so much for its loudness, and no more."""
-LOWER_REST_S = 6.0
-"""A shorter rest does not take the instrument off the lips."""
-LOWER_S = 1.1
-RAISE_S = 1.2
-LOWERED_LEAST_S = 1.0
-"""Coming down is not worth it for less."""
-AFTER_NOTE_S = 0.5
-BEFORE_BREATH_S = 0.2
-_RESTING = 0.35
-"""Size of the sway while not playing."""
 
 
 def plan_gestures(
@@ -76,6 +68,11 @@ def plan_gestures(
     pulse: Pulse,
     dynamics: Dynamics,
     memo: Memo,
+    acting: Acting,
+    alone: bool,
+    *,
+    answered: tuple[CueEvent, ...] = (),
+    last_s: float | None = None,
 ) -> tuple[GestureEvent, ...]:
     """All gestures of one player, ordered by start.
 
@@ -89,15 +86,36 @@ def plan_gestures(
         Of the line.
     memo : Memo
         Each kind is a step of its own: a pitch that changes moves the bell, and no swing.
+    acting : Acting
+        How much the player keeps still, and taps.
+    alone : bool
+        The body plays this line only: its feet may leave their place.
+    answered : tuple of CueEvent
+        Cues of others that the player comes in with.
+    last_s : float, optional
+        End of the last note of all players; None: there is no end to look up and bow at.
     """
     rhythm, clock = times.rhythm, piece.clock
+    lowered = memo.step("lowered", lowered_spans, notes, rhythm, piece, frame, breaths, cues + answered, seeds)
+    swings = memo.step("swings", swings_of, rhythm, pulse, frame, seeds, dynamics, acting.stillness)
+    found = memo.step("phrases", phrases, rhythm, breaths)
+    shifts = memo.step("weight shifts", weight_shifts, rhythm, pulse, frame, seeds, clock, dynamics)
+    feet = memo.step("feet", footwork, rhythm, found, pulse, clock, shifts, seeds, acting.tap, alone)
+    at_notes = memo.step("felt beats", felt_at, times, piece)
     return memo.step(
         "gestures",
         _in_order,
-        memo.step("sways", sways, rhythm, pulse, frame, seeds, dynamics),
-        memo.step("weight shifts", weight_shifts, rhythm, pulse, frame, seeds, clock, dynamics),
+        memo.step("sways", sways, swings, pulse),
+        shifts,
+        memo.step("leans", leans, found, times, clock, seeds, dynamics),
+        memo.step("accents", accents, times, pulse, at_notes, clock, swings, seeds, dynamics),
         memo.step("bell heights", bell_heights, notes, times, piece, dynamics),
-        memo.step("lowered", lowered_spans, notes, rhythm, piece, frame, breaths, cues),
+        lowered,
+        memo.step("answering nods", answering_nods, notes, rhythm, answered, piece, seeds),
+        memo.step("in long rests", in_long_rests, notes, rhythm, lowered, piece, frame, seeds),
+        memo.step("holding", holding_at_end, rhythm, lowered, piece, frame),
+        memo.step("after the end", after_the_end, last_s, piece, frame, seeds) if notes and last_s is not None else (),
+        feet,
     )
 
 
@@ -105,110 +123,11 @@ def _in_order(*kinds: Sequence[GestureEvent]) -> tuple[GestureEvent, ...]:
     return tuple(sorted(itertools.chain(*kinds), key=lambda event: (event.start_s, event.id)))
 
 
-@dataclass(frozen=True, eq=False)
-class Pulse:
-    """Beats and bars of a performance, which all players share.
-
-    Attributes
-    ----------
-    swing_beats : int
-        Beats of a half swing.
-    beat_s : float
-        Where the piece's tempo was taken.
-    beat_ticks, bar_ticks : (N,) int64
-        Where they begin; some before the performance and after it. The last of the bars is where the performance ends.
-    beats_s, bars_s : (N,) float64
-        The same in seconds.
-    """
-
-    swing_beats: int
-    beat_s: float
-    beat_ticks: IntArray
-    beats_s: FloatArray
-    bar_ticks: IntArray
-    bars_s: FloatArray
-
-
-def pulse(piece: Piece, frame: TimeFrame, swing_at_s: float) -> Pulse:
-    """The pulse of a performance; how many beats a swing has is chosen by the tempo at ``swing_at_s``."""
-    clock = piece.clock
-    at_tick = clock.ticks(swing_at_s)
-    beat = int(piece.beat_ticks_at(np.array([at_tick]))[0])
-    beat_s = clock.seconds(at_tick + beat) - clock.seconds(at_tick)
-    swing_beats = 2 ** max(round(math.log2(SWING_S / beat_s)), 0)
-    first_tick, last_tick = int(clock.ticks(frame.first_frame_s)), int(np.ceil(clock.ticks(frame.end_s)))
-    # Players whose swings are twice as long have whole ones too.
-    margin = 4 * swing_beats * beat
-    beats = piece.metre_map.felt_between(first_tick - margin, last_tick + margin)
-    bars = np.append(piece.bars(first_tick, last_tick), last_tick)
-    in_s = clock.seconds
-    return Pulse(swing_beats, beat_s, beats, in_s(beats.astype(np.float64)), bars, in_s(bars.astype(np.float64)))
-
-
-def sways(times: Rhythm, pulse: Pulse, frame: TimeFrame, seeds: Seeds, dynamics: Dynamics) -> list[GestureEvent]:
-    """Half swings from beat to beat, left and right in turn, each of its own size; small where the player rests."""
-    beats, beat_s = pulse.swing_beats, pulse.beat_s
-    if seeds.chance("swing") < 0.3 and beats * beat_s < 1.5 * SWING_S:
-        # Some players take the tempo in longer swings than others.
-        beats *= 2
-    # Counted from the piece's beginning, so that a longer pre-roll or a note added at the end changes nothing.
-    phase = (int(np.searchsorted(pulse.beat_ticks, 0)) + int(seeds.chance("phase") * beats)) % beats
-    every_tick, every_s = pulse.beat_ticks[phase::beats], pulse.beats_s[phase::beats]
-    origin = int(np.searchsorted(every_tick, 0))
-    places = _stirring(times, frame, every_s)
-    places = places[(every_s[places + 1] > frame.first_frame_s) & (every_s[places] < frame.end_s)]
-    ticks, ends, starts_s, ends_s = every_tick[places], every_tick[places + 1], every_s[places], every_s[places + 1]
-    playing = _sounding_share(times, starts_s, ends_s)
-    flip = 1.0 if seeds.chance("side") < 0.5 else -1.0
-    sides = np.where((places - origin) % 2 == 0, flip, -flip)
-    sizes = 0.3 + 0.7 * seeds.chances_at("sway", ticks)
-    held = seeds.chances_at("sway held", ticks) < 0.12
-    sides, sizes = np.where(held, -sides, sides), np.where(held, 0.5 * sizes, sizes)
-    amounts = sides * sizes * (_RESTING + (1.0 - _RESTING) * playing)
-    amounts = grown(amounts, dynamics.at((starts_s + ends_s) / 2.0))
-    reason = Message("gesture.sway", {"beats": beats, "beat_s": round(beat_s, 3)})
-    rows = zip(ticks.tolist(), ends.tolist(), starts_s.tolist(), ends_s.tolist(), amounts.tolist(), strict=True)
-    return [
-        GestureEvent(f"sway:@{tick}", "sway", tick, end, start_s, end_s, round(amount, 4), reason)
-        for tick, end, start_s, end_s, amount in rows
-    ]
-
-
-def _sounding_share(times: Rhythm, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
-    """Part of each span in which the line sounds."""
-    if len(times.onset_s) == 0:
-        return np.zeros(len(starts_s))
-    sounded = np.concatenate(([0.0], np.cumsum(times.duration_s)))
-    knots = np.stack((times.onset_s, times.played_end_s), axis=1).ravel()
-    values = np.stack((sounded[:-1], sounded[1:]), axis=1).ravel()
-    lasts_s = np.interp(ends_s, knots, values) - np.interp(starts_s, knots, values)
-    share: FloatArray = np.clip(lasts_s / np.maximum(ends_s - starts_s, 1e-6), 0.0, 1.0)
-    return share
-
-
-def _stirring(times: Rhythm, frame: TimeFrame, edges_s: FloatArray) -> IntArray:
-    """Which spans between neighbouring edges lie near the begin or end of a note, or near the frame's ends; ascending.
-
-    What it costs depends on how many these are, not on how many spans there are.
-    """
-    near_s = np.concatenate(([frame.first_frame_s], times.onset_s, times.played_end_s, [frame.end_s]))
-    near_s.sort()
-    last = len(edges_s) - 1
-    lows = np.maximum(np.searchsorted(edges_s, near_s - STIR_S, side="right") - 1, 0)
-    highs = np.clip(np.searchsorted(edges_s, near_s + STIR_S, side="left"), lows, last)
-    # Each begins where the one before has ended.
-    lows = np.minimum(np.maximum(lows, np.concatenate(([0], np.maximum.accumulate(highs)[:-1]))), highs)
-    counts = highs - lows
-    before = np.cumsum(counts) - counts
-    places: IntArray = np.repeat(lows - before, counts) + np.arange(counts.sum())
-    return places
-
-
 def weight_shifts(
     times: Rhythm, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: TempoMap, dynamics: Dynamics
 ) -> list[GestureEvent]:
     """Shifts of weight at arbitrary times (T7), about every `SHIFT_MEAN_S`: bar by bar a player shifts or not."""
-    places = _stirring(times, frame, pulse.bars_s)
+    places = stirring(times, frame, pulse.bars_s)
     ticks, ends = pulse.bar_ticks[places], pulse.bar_ticks[places + 1]
     chances = np.minimum((pulse.bars_s[places + 1] - pulse.bars_s[places]) / SHIFT_MEAN_S, 0.9)
     shifts = seeds.chances_at("shift", ticks) < chances
@@ -328,67 +247,3 @@ def _arches(
         turns[[climax, last]] = True
         arches[here] = ARCH * np.interp(at_s[here], at_s[places], [knots[place] for place in places])
     return arches, turns
-
-
-def lowered_spans(
-    notes: tuple[Note, ...],
-    times: Rhythm,
-    piece: Piece,
-    frame: TimeFrame,
-    breaths: tuple[BreathEvent, ...],
-    cues: tuple[CueEvent, ...],
-) -> list[GestureEvent]:
-    """Where the instrument is off the lips: in rests long enough to lower it, rest it and raise it before anything that
-    belongs to the entry (cue, preparation, breath) begins."""
-    if not notes:
-        return [_lowered("all", frame.first_frame_s - LOWER_S, frame.end_s + RAISE_S, piece, "gesture.lower_at_start",
-                         {"rest_s": round(frame.end_s - frame.first_frame_s, 2)})]  # fmt: skip
-    spans_s = [(event.start_s, event.end_s) for event in breaths] + [(event.start_s, event.end_s) for event in cues]
-    busy = _Busy(sorted(spans_s))
-    events = []
-    first_s = busy.free_until(frame.first_frame_s, float(times.onset_s[0])) - BEFORE_BREATH_S
-    if first_s - RAISE_S - LOWERED_LEAST_S >= frame.first_frame_s:
-        rest_s = {"rest_s": round(float(times.onset_s[0]) - frame.first_frame_s, 2)}
-        start_s = frame.first_frame_s - LOWER_S
-        events.append(_lowered(notes[0].id, start_s, first_s, piece, "gesture.lower_at_start", rest_s))
-    rests_s = times.onset_s[1:] - times.played_end_s[:-1]
-    for index in np.flatnonzero(rests_s >= LOWER_REST_S).tolist():
-        start_s = float(times.played_end_s[index]) + AFTER_NOTE_S
-        end_s = busy.free_until(start_s, float(times.onset_s[index + 1])) - BEFORE_BREATH_S
-        if end_s - start_s >= LOWER_S + LOWERED_LEAST_S + RAISE_S:
-            rest = {"rest_s": round(float(rests_s[index]), 2)}
-            events.append(_lowered(notes[index + 1].id, start_s, end_s, piece, "gesture.lower_instrument", rest))
-    start_s = float(times.played_end_s.max()) + AFTER_NOTE_S
-    if start_s + LOWER_S <= frame.end_s and busy.free_until(start_s, frame.end_s) >= frame.end_s:
-        after = {"after_s": AFTER_NOTE_S}
-        events.append(_lowered("end", start_s, frame.end_s + RAISE_S, piece, "gesture.lower_at_end", after))
-    return events
-
-
-class _Busy:
-    """Spans in which a player does something, (start, end) ordered by start."""
-
-    def __init__(self, spans_s: list[tuple[float, float]]) -> None:
-        self._starts_s = [start_s for start_s, _ in spans_s]
-        # A span that ends later than all before it is the first that ends after a time.
-        self._last_ends_s = list(itertools.accumulate((end_s for _, end_s in spans_s), max))
-
-    def free_until(self, start_s: float, end_s: float) -> float:
-        """Start of the first span that ends after ``start_s`` and begins before ``end_s``, else ``end_s``."""
-        index = bisect_right(self._last_ends_s, start_s)
-        return min(self._starts_s[index], end_s) if index < len(self._starts_s) else end_s
-
-
-def _lowered(
-    name: str, start_s: float, end_s: float, piece: Piece, rule: str, arguments: Mapping[str, float]
-) -> GestureEvent:
-    return GestureEvent(
-        id=f"lower_instrument:{name}",
-        kind="lower_instrument",
-        start_tick=round(piece.clock.ticks(start_s)),
-        end_tick=round(piece.clock.ticks(end_s)),
-        start_s=start_s,
-        end_s=end_s,
-        amount=1.0,
-        reason=Message(rule, dict(arguments)),
-    )

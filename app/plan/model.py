@@ -7,7 +7,7 @@ float64 seconds of the performance, which may be negative before the first tick.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final, Literal, TypeAlias
+from typing import Final, Literal, TypeAlias, get_args
 
 import msgspec
 import numpy as np
@@ -95,9 +95,19 @@ class EmbouchureEvent(msgspec.Struct, frozen=True, gc=False):
 
 
 class CueEvent(msgspec.Struct, frozen=True, gc=False):
-    """A lead-in by body and instrument. The nod starts at ``start_s``; its acceleration peaks at ``peak_s``, the
-    preparatory beat, one beat (``beat_s``) before the entry at ``end_s`` (before a pickup more). ``amount`` is its size
-    as a share of that of a cue to play mezzoforte."""
+    """A lead-in by body and instrument: up on the preparatory beat, and down onto the beat on which they come in.
+
+    Attributes
+    ----------
+    start_s : float
+        When head and instrument begin to rise.
+    peak_s : float
+        The preparatory beat, one beat (``beat_s``) before the entry at ``end_s`` (before a pickup more).
+    amount : float
+        Its size as a share of that of a cue to play mezzoforte.
+    takers : tuple of str
+        Ids of the players who come in with it, without who gives it.
+    """
 
     id: str
     player_id: str
@@ -110,14 +120,51 @@ class CueEvent(msgspec.Struct, frozen=True, gc=False):
     reason: Message
     corrected: bool = False
     amount: float = 1.0
+    takers: tuple[str, ...] = ()
+
+    @property
+    def downbeat_s(self) -> float:
+        """The beat that the nod drops onto, where its acceleration peaks: the entry, or before a pickup the beat in
+        which that lies."""
+        return self.peak_s + self.beat_s
+
+
+GestureKind: TypeAlias = Literal[
+    "sway",
+    "weight_shift",
+    "bell_height",
+    "lower_instrument",
+    "lean",
+    "accent",
+    "step",
+    "tap",
+    "heel",
+    "nod",
+    "count",
+    "look_about",
+    "settle_grip",
+    "hold_still",
+    "look_up",
+    "bow",
+    "named",
+]
+"""What a body does beside playing."""
+GESTURE_KINDS: Final[tuple[GestureKind, ...]] = get_args(GestureKind)
+OWN_KINDS: Final[tuple[GestureKind, ...]] = tuple(kind for kind in GESTURE_KINDS if kind != "named")
+"""What the program itself makes; the others are named in a table."""
+SIGNED_KINDS: Final[frozenset[GestureKind]] = frozenset(GESTURE_KINDS[:3] + GESTURE_KINDS[4:9])
+"""Gestures that go one way or the other; of all others there is no less than nothing."""
+ACCENT_AT: Final = 0.45
+"""Part of an accent's length after which its note begins."""
 
 
 class GestureEvent(msgspec.Struct, frozen=True, gc=False):
-    """A body motion over a span. ``amount`` is -1..1, signed by direction (left, up and forward are positive). One of
-    the kind ``"named"`` is the gesture of that ``name`` in `metadata.gestures`, as this player makes it."""
+    """A body motion over a span. ``amount`` is -1..1, signed by direction (left, up and forward are positive; down of
+    an accent; of a foot the sign says which) where the kind has one. A nod marks the beat at its end. One of the kind
+    ``"named"`` is the gesture of that ``name`` in `metadata.gestures`, as this player makes it."""
 
     id: str
-    kind: Literal["sway", "weight_shift", "bell_height", "lower_instrument", "named"]
+    kind: GestureKind
     start_tick: int
     end_tick: int
     start_s: float
@@ -143,6 +190,32 @@ class ExpressionEvent(msgspec.Struct, frozen=True, gc=False):
     fade_out_s: float
     reason: Message
     corrected: bool = False
+
+
+AUDIENCE: Final = "audience"
+ABOUT: Final = "about"
+
+
+class GlanceEvent(msgspec.Struct, frozen=True, gc=False):
+    """Eyes that leave the music for somebody.
+
+    Attributes
+    ----------
+    at : str
+        Id of a player, `AUDIENCE`, or `ABOUT` for no one.
+    yaw_rad, pitch_rad : float
+        The direction from the player's own, left and down.
+    head_share : float
+        How much of it the head turns.
+    """
+
+    id: str
+    at: str
+    start_s: float
+    end_s: float
+    yaw_rad: float
+    pitch_rad: float
+    head_share: float
 
 
 PoseTarget: TypeAlias = Literal["bell", "head", "left_elbow", "right_elbow", "torso"]
@@ -229,7 +302,8 @@ def _same(one: FloatArray | None, other: FloatArray | None) -> bool:
 
 
 class PlayerPlan(msgspec.Struct, frozen=True):
-    """Everything one player does. Each tuple is ordered by start; ``traces`` are there where controllers tell."""
+    """Everything one player does. Each tuple is ordered by start, and ``glances`` do not overlap; ``traces`` are there
+    where controllers tell."""
 
     player_id: str
     time_frame: TimeFrame
@@ -243,6 +317,7 @@ class PlayerPlan(msgspec.Struct, frozen=True):
     problems: tuple[Problem, ...]
     poses: tuple[PoseEvent, ...] = ()
     traces: SampledCurves | None = None
+    glances: tuple[GlanceEvent, ...] = ()
 
     @property
     def grips(self) -> tuple[FingeringEvent, ...]:

@@ -16,7 +16,7 @@ import msgspec
 Bounds: TypeAlias = tuple[float, float]
 """Lowest and highest, both allowed."""
 Value: TypeAlias = str | int | float | bool | None
-Decided: TypeAlias = Literal["breaths", "cues", "lips", "poses", "rules", "motion"]
+Decided: TypeAlias = Literal["breaths", "cues", "lips", "poses", "gestures", "rules", "motion"]
 """What a parameter decides: a step of the plan, or how a plan looks."""
 
 SEED: Final = (0, 2**63 - 1)
@@ -259,7 +259,7 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     )] = 1.0
     stillness: Annotated[float, Parameter(
         "parameter.stillness", "parameter.stillness_tip", "unit.times",
-        bounds=_NATURAL, section="acting", spread=0.5, since=10,
+        bounds=_NATURAL, section="acting", spread=0.5, decides=frozenset({"gestures", "motion"}), since=10,
     )] = 1.0
     footwork: Annotated[float, Parameter(
         "parameter.footwork", "parameter.footwork_tip", "unit.times",
@@ -267,7 +267,7 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     )] = 1.0
     toe_taps: Annotated[float, Parameter(
         "parameter.toe_taps", "parameter.toe_taps_tip", "unit.times",
-        bounds=_NATURAL, section="acting", spread=0.5, since=10,
+        bounds=_NATURAL, section="acting", spread=0.5, decides=frozenset({"gestures", "motion"}), since=10,
     )] = 1.0
     breath_motion: Annotated[float, Parameter(
         "parameter.breath_motion", "parameter.breath_motion_tip", "unit.times",

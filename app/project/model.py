@@ -13,7 +13,7 @@ import numpy as np
 
 from app.errors import UsageError
 from app.plan.corrections import Correction
-from app.plan.generate import PREROLL_BEATS
+from app.plan.generate import PREROLL_BEATS, usual_preroll
 from app.plan.parameters import Parameter, PlayerParameters, declared
 from app.project.casting import amplitude, choose_characters, player_seed, stage_seats, usual_posture
 from app.project.dance_corrections import DanceCorrection
@@ -274,9 +274,18 @@ def project_from_score(score: Score, maps: Mapping[str, InstrumentMap], *, seed:
                 doubles="" if musician == part.id else musician,
             )
         )
-    return Project(
+    project = Project(
         score, tuple(players), seed=seed, read_notes={part.id: {note.id: note for note in part.notes} for part in parts}
     )
+    return replace(project, preroll_beats=preroll_of_new(project))
+
+
+def preroll_of_new(project: Project) -> float:
+    """The pre-roll of a new piece, felt beats, by the tempo at its first note."""
+    clock = project.score.tempo_map
+    first = min((part.notes[0].onset_tick for part in project.score.parts if part.notes), default=0)
+    beat = project.metre_map.felt_ticks_at(first)
+    return usual_preroll(clock.seconds(float(first + beat)) - clock.seconds(float(first)))
 
 
 def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:

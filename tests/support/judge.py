@@ -113,7 +113,7 @@ def slow_seconds(tick: float, changes: Sequence[tuple[int, int]], quarter: int) 
 
 def faults(
     path: Path, found: Inspection, *, thresholds: Sequence[float] = (0.5, 1.0, 2.0), felt_beat: float = 1.0,
-    preroll: float = 4.0,
+    preroll: float | None = None,
 ) -> list[str]:  # fmt: skip
     """Everything that is wrong with what was printed about a file of format 0 or 1."""
     changes, quarter = tempos(path), found["ticks_per_beat"]
@@ -128,6 +128,10 @@ def faults(
     if onsets:
         first = min(onsets)
         first_s = slow_seconds(first, changes, quarter)
+        if preroll is None:
+            preroll = found["preroll_beats"]
+            if preroll < 4.0 or preroll % 1.0:
+                wrong.append(f"a pre-roll of {preroll} beats")
         start_s = min(slow_seconds(first - preroll * felt_beat * quarter, changes, quarter), first_s - 2.0)
         if abs(found["first_frame_s"] - start_s) > 1e-6:
             wrong.append(f"first_frame_s {found['first_frame_s']} instead of {start_s}")

@@ -150,7 +150,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
     def _reset_all(self) -> None:
         """As in a new piece; only the title is no one's default."""
         title = self._kept("title", self._title.text())
-        self._show(usual_settings(title))
+        self._show(usual_settings(title, self._session.project))
 
     def _another_seed(self) -> None:
         project, seed = self._session.project, self._typed_seed()

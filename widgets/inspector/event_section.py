@@ -12,7 +12,7 @@ from app.editor.session import Session
 from app.errors import Message
 from app.plan.corrections import PoseCorrection, SetBreath, SetCue
 from app.plan.cue import LEAD_BEATS
-from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.plan.model import SIGNED_KINDS, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
 from app.project.edit import events as edit
 from app.project.edit.corrections import put
 from app.project.edit.events import Placed
@@ -163,7 +163,7 @@ class EventSection(Retranslated, QWidget):
     def _show_amounts(self, first: Placed, made: Placed | None) -> None:
         field = amount_field(first)
         self._show_number("amount", field, made)
-        low = -1.0 if isinstance(first, GestureEvent) else 0.0
+        low = -1.0 if isinstance(first, GestureEvent) and first.kind in SIGNED_KINDS else 0.0
         self._numbers["amount"].set_range(low, 1.0)
         if field is not None:
             self._numbers["amount"].set_texts(self._amount_word(field))

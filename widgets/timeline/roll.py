@@ -24,6 +24,7 @@ from widgets.common.pitch import pitch_text
 from widgets.common.text import sentence
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import rect
+from widgets.timeline.entry_arrows import EntryArrows
 from widgets.timeline.keyboard import KEYBOARD_PX, Keyboard
 from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
 from widgets.timeline.model.gestures import Gesture
@@ -79,6 +80,7 @@ class PianoRoll(Lane):
         self.rows = Rows(self, -200.0)
         self.notes = Notes(self)
         self.labels = Labels(self)
+        self.entries = EntryArrows(self)
         self.lasso = Lasso(self)
         Hint(self, 5.0)
         self._set_font()

@@ -15,6 +15,9 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         ("Drag to move, drag up or down for strength, an edge to resize, a corner for a fade. Double-click to add."),
         "ドラッグで移動、上下で強さ、端で長さ、角でフェードを変更します。ダブルクリックで追加します。",
     ),
+    "acting_lane.beside": ("Beside playing", "演奏以外"),
+    "acting_lane.given_by": ("Given by", "合図を出す人"),
+    "acting_lane.feet": ("Feet", "足"),
     "acting_lane.pose": ("Pose", "ポーズ"),
     "acting_lane.these_bars_are_performed_anew": (
         "These bars were regenerated. Press Backspace to restore the first performance.",

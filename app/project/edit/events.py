@@ -31,7 +31,10 @@ from app.plan.corrections import (
     Vary,
 )
 from app.plan.cue import LEAD_BEATS
+from app.plan.model import GESTURE_KINDS as GESTURE_KINDS
+from app.plan.model import OWN_KINDS as OWN_KINDS
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.plan.model import GestureKind as GestureKind
 from app.project.edit.corrections import put, take_back
 from app.project.edit.found_events import OWN as OWN
 from app.project.edit.found_events import Placed as Placed
@@ -43,9 +46,7 @@ from app.project.edit.found_events import placed_events as placed_events
 from app.project.model import Project
 from app.score.model import Note
 
-GestureKind: TypeAlias = Literal["sway", "weight_shift", "bell_height", "lower_instrument", "named"]
 BreathKind: TypeAlias = Literal["preparation", "breath"]
-GESTURE_KINDS: tuple[GestureKind, ...] = ("sway", "weight_shift", "bell_height", "lower_instrument")
 CATCH_S = 0.3
 """A breath added where notes touch is this long."""
 

@@ -19,7 +19,7 @@ from app.plan.corrections import Correction
 from app.project import limits
 from app.project.check import expression_faults
 from app.project.edit.tempo import set_metre, set_tempo
-from app.project.model import AudioTrack, Project
+from app.project.model import AudioTrack, Project, preroll_of_new
 from app.project.names import clean_name
 from app.score.model import Score
 from app.score.tempo import TempoMap
@@ -33,7 +33,8 @@ def new_piece(
     """A piece without players, to be filled by hand or by recording. Raises UsageError."""
     _check("ticks_per_quarter", ticks_per_quarter, limits.TICKS_PER_QUARTER)
     score = Score(clean_name(title)[: limits.MOST_NAME], ticks_per_quarter, TempoMap(ticks_per_quarter))
-    return set_metre(set_tempo(Project(score, ()), 0, bpm), 0, *metre)
+    project = set_metre(set_tempo(Project(score, ()), 0, bpm), 0, *metre)
+    return _with(project, preroll_beats=preroll_of_new(project))
 
 
 def set_title(project: Project, title: str) -> Project:
@@ -93,9 +94,10 @@ def piece_settings(project: Project) -> PieceSettings:
     return PieceSettings(title=project.score.title, **values)
 
 
-def usual_settings(title: str) -> PieceSettings:
-    """What a new piece of this title begins with."""
-    return piece_settings(new_piece(title))
+def usual_settings(title: str, project: Project | None = None) -> PieceSettings:
+    """What a new piece of this title begins with, by the tempo and the notes of ``project`` where that is given."""
+    usual = piece_settings(new_piece(title))
+    return usual if project is None else msgspec.structs.replace(usual, preroll_beats=preroll_of_new(project))
 
 
 def set_piece_settings(project: Project, settings: PieceSettings) -> Project:

@@ -14,7 +14,7 @@ from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import PlayerPlan
 from app.project.edit.events import (
-    GESTURE_KINDS,
+    OWN_KINDS,
     GestureKind,
     event_id_of,
     give_back,
@@ -69,7 +69,7 @@ def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
 def choose_gesture(session: Session) -> None:
     """Show the kinds of gestures where the mouse is, and below them those that are written in tables."""
     menu = _menu()
-    for kind in GESTURE_KINDS:
+    for kind in OWN_KINDS:
         menu.addAction(session.actions[f"gesture.{kind}"])
     menu.addSeparator()
     for name in sorted(session.performance.metadata.gestures.items, key=gesture_name):
@@ -243,8 +243,5 @@ ACTIONS: tuple[Action, ...] = (
         has_player,
         icon="expression",
     ),
-    _kind("sway"),
-    _kind("weight_shift"),
-    _kind("bell_height"),
-    _kind("lower_instrument"),
+    *map(_kind, OWN_KINDS),
 )

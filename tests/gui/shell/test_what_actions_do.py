@@ -644,6 +644,13 @@ CASES: dict[str, Case] = {
     "gesture.weight_shift": gesture_case("weight_shift"),
     "gesture.bell_height": gesture_case("bell_height"),
     "gesture.lower_instrument": gesture_case("lower_instrument"),
+    "gesture.nod": gesture_case("nod"),
+    "gesture.count": gesture_case("count"),
+    "gesture.look_about": gesture_case("look_about"),
+    "gesture.settle_grip": gesture_case("settle_grip"),
+    "gesture.hold_still": gesture_case("hold_still"),
+    "gesture.look_up": gesture_case("look_up"),
+    "gesture.bow": gesture_case("bow"),
     # Players
     "dancers.add": Case(lambda d: len(d.project.dancers) == len(d.before.dancers) + 1, edits=True),
     "dancers.rename": Case(typing_name("dancer_name"), dancing),

@@ -8,6 +8,7 @@ import pytest
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QPainter, QPixmap
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QMenu
 from pytestqt.qtbot import QtBot
 
 from app.editor.selection import EventKey, Selection
@@ -43,6 +44,7 @@ from widgets.timeline.lanes.acting import ActingLane
 from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.model.regions import LEAST_REGION_PX
 from widgets.timeline.panel import TimelinePanel
+from widgets.timeline.roll import PianoRoll
 
 
 @pytest.fixture
@@ -194,7 +196,8 @@ def test_several_selected_move_together(panel: TimelinePanel, session: Session) 
 def test_a_gestures_amount_is_signed(panel: TimelinePanel, session: Session) -> None:
     lane = acting_lane(panel)
     shift = next(event for event in front_plan(session).gestures if event.kind == "weight_shift" and event.start_s > 0)
-    height = lane.row_box(region_of(lane, shift.id).row)[1]
+    # Of a row's height two pixels are its margin.
+    height = lane.row_box(region_of(lane, shift.id).row)[1] - 2.0
     drag(lane, middle(lane, shift.id), dy=-height * 0.5 if shift.amount < 0 else height * 0.5)
     (change,) = corrections(session)
     assert isinstance(change, ChangeGesture)
@@ -249,6 +252,34 @@ def test_a_cue_snaps_to_an_entry(panel: TimelinePanel, session: Session) -> None
     assert isinstance(correction, SetCue)
     assert correction.note_id == target.id
     assert session.selection.events == {EventKey(front_plan(session).player_id, f"cue:{target.id}")}
+
+
+def test_another_player_gives_the_entry_from_the_menu_of_a_cue(panel: TimelinePanel, session: Session) -> None:
+    lane = acting_lane(panel)
+    giver = front_plan(session).player_id
+    cue = front_plan(session).cues[0]
+    other = next(player for player in session.project.players if player.id != giver)
+    roll = panel.lanes["roll"]
+    assert isinstance(roll, PianoRoll)
+    arrows = roll.entries.arrows
+    assert {arrow.giver_id for arrow in arrows if arrow.from_s == cue.peak_s} == {giver}
+    assert len(arrows) >= len(cue.takers) > 0
+    box = lane.box(region_of(lane, cue.id))
+    menu = lane.context_menu(lane.mouse_at(QPointF(box.center().x(), box.bottom() - 3)))
+    assert menu is not None
+    givers = menu.findChild(QMenu, "givers")
+    assert givers is not None
+    entries = {action.text(): action for action in givers.actions()}
+    assert len(entries) == len(session.project.players)
+    assert [action.isChecked() for action in givers.actions()].count(True) == 1
+    givers.actions()[session.project.players.index(other)].trigger()
+    menu.close()
+    made = session.project.corrections
+    assert made[giver] == (RemoveEvent(cue.id, cue.id.split(":", 1)[1]),)
+    (given,) = made[other.id]
+    assert isinstance(given, SetCue)
+    session.document.undo()
+    assert not session.project.corrections
 
 
 def test_a_double_click_in_a_gestures_row_adds_one(panel: TimelinePanel, session: Session) -> None:

@@ -26,6 +26,7 @@ from app.plan.corrections import (
     Vary,
 )
 from app.plan.parameters import PARAMETERS
+from app.project.casting import StagePosition
 from app.project.edit.corrections import put
 from app.project.model import Project, project_from_score
 from app.project.performers import Player
@@ -101,6 +102,7 @@ def _corrections(draw: st.DrawFn, project: Project, player: Player) -> Correctio
         SetEmbouchure(note, effort=0.9),
         ChangeGesture(gesture, amount=amount),
         AddGesture("mine", "bell_height", tick, end, amount),
+        AddGesture("beside", draw(st.sampled_from(BESIDE)), tick, end, abs(amount)),
         ChangeExpression(expression, strength=0.4),
         AddExpression("mine", draw(st.sampled_from(["strained", "smile", "grin"])), tick, end),
         PoseCorrection("mine", "bell", tick, end, up_deg=10.0 * amount, fade_in_ticks=240),
@@ -108,6 +110,9 @@ def _corrections(draw: st.DrawFn, project: Project, player: Player) -> Correctio
         Vary("mine", tick, end, 5),
     ]
     return draw(st.sampled_from(choices))
+
+
+BESIDE = ("nod", "count", "look_about", "settle_grip", "hold_still", "look_up", "bow")
 
 
 @st.composite
@@ -145,6 +150,8 @@ def edits(draw: st.DrawFn, project: Project) -> Project:
         return _with_player(project, player, instrument_id=other)
     if kind == "character":
         return _with_player(project, player, character_id=draw(st.sampled_from(["man_adult", "unknown"])))
+    if kind == "stage":
+        return _with_player(project, player, stage=StagePosition(draw(st.floats(-2.0, 2.0)), 0.5, 0.2))
     if kind == "tempo":
         changes = (TempoChange(0, draw(st.sampled_from([400_000.0, 600_000.0]))), TempoChange(9600, 500_000.0))
         return replace(project, score=msgspec.structs.replace(project.score, tempo_map=TempoMap(QUARTER, changes)))
@@ -167,5 +174,5 @@ def edits(draw: st.DrawFn, project: Project) -> Project:
 
 _KINDS = (
     "correct", "correct", "correct", "correct", "take back", "pitch", "move", "length", "delete", "draw", "parameter",
-    "parameter", "instrument", "character", "tempo", "curve", "expression", "players", "seed", "preroll",
+    "parameter", "instrument", "character", "tempo", "curve", "expression", "players", "seed", "preroll", "stage",
 )  # fmt: skip

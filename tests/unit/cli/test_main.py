@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import socket
 import subprocess
@@ -117,8 +118,11 @@ def test_the_felt_beat_counts_in_pre_roll_cue_and_breaths(run: Run) -> None:
     halves = json.loads(run("inspect", LUTKIN, "--json", "--felt-beat", "2")[1])
     beat_s = 60.0 / quarters["tempo"][0]["bpm"]
     first_s = min(note["onset_s"] for player in quarters["players"] for note in player["notes"])
-    assert quarters["first_frame_s"] == pytest.approx(first_s - max(4 * beat_s, 2.0))
-    assert halves["first_frame_s"] == pytest.approx(first_s - max(8 * beat_s, 2.0))
+    # A bar of four, or as many beats as give time to come up from rest.
+    beats = max(4, math.ceil(3.0 / beat_s))
+    assert quarters["preroll_beats"] == halves["preroll_beats"] == beats
+    assert quarters["first_frame_s"] == pytest.approx(first_s - beats * beat_s)
+    assert halves["first_frame_s"] == pytest.approx(first_s - 2 * beats * beat_s)
     for found, beats in ((quarters, 1), (halves, 2)):
         (cue,) = [
             cue for player in found["players"] for cue in player["cues"] if cue["end_s"] == pytest.approx(first_s)

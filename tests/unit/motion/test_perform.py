@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import itertools
 from fractions import Fraction
 from functools import cache
 
+import msgspec
 import numpy as np
 import pytest
 
 from app.motion.model import Motion
 from app.motion.perform import frame_count
+from app.motion.posture import SIT_BONES_M
+from app.plan.footwork import lifted_s
 from app.plan.model import GestureEvent, PlayerPlan, TimeFrame
 from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
 from app.rig.hold import hand_targets
 from app.rig.skeleton import forward, rest_positions
+from app.rig.stature import leg_size
 from metadata.load import load_body, load_skeleton
 from tests.support.performed import perform
 from tests.unit.motion import figure
@@ -109,8 +114,98 @@ def test_planted_feet_stay(posture, amplitude) -> None:
 
 
 def test_seated_hips_stay_on_the_chair() -> None:
-    motion = made(posture="seated", amplitude=1.0)
-    assert np.ptp(motion.hips_m, axis=0).max() == 0.0
+    leans = [("lean", 2.0, 5.0, 1.0), ("lean", 5.0, 8.0, 0.0)]
+    motion = made(with_gestures(*leans), posture="seated", amplitude=1.0)
+    sit_bones_m = world(motion, "hips")[0][0] - quaternion.rotate(
+        world(motion, "hips")[0][1], np.array([0.0, SIT_BONES_M * leg_size(CHARACTER.skeleton), 0.0])
+    )
+    # The pelvis leans on the seat, and does not leave it.
+    assert np.ptp(motion.hips_m[:, 2]) > 0.01
+    assert np.ptp(sit_bones_m, axis=0).max() < 1e-6
+
+
+def with_gestures(*rows: tuple[str, float, float, float]) -> PlayerPlan:
+    """The piece with more gestures."""
+    more = [
+        GestureEvent(f"more{i}", kind, round(start * 960), round(end * 960), start, end, amount, REASON)  # type: ignore[arg-type]
+        for i, (kind, start, end, amount) in enumerate(rows)
+    ]
+    return msgspec.structs.replace(
+        piece(), gestures=tuple(sorted((*piece().gestures, *more), key=lambda event: event.start_s))
+    )
+
+
+FOOTWORK = with_gestures(
+    ("step", 2.0, 6.0, 1.0),
+    ("tap", 7.0, 7.4, -1.0),
+    ("tap", 7.5, 7.9, -0.7),
+    ("heel", 8.2, 9.8, 1.0),
+    ("step", 17.0, 21.0, -0.6),
+)
+
+
+@pytest.mark.parametrize("posture", ["standing", "seated"])
+def test_feet_leave_the_ground_as_planned_and_else_stand(posture) -> None:
+    motion = made(FOOTWORK, posture=posture, amplitude=1.0)
+    t = times(motion)
+    ankle_m = rest_positions(CHARACTER.skeleton)[CHARACTER.skeleton.index("leftFoot")]
+    for foot in ("left", "right"):
+        lifted = np.zeros(len(t), np.bool_)
+        for start_s, end_s in lifted_s(FOOTWORK.gestures, foot, BODY.footwork.step_s):  # type: ignore[arg-type]
+            here = (t > start_s) & (t < end_s)
+            lifted |= here
+        for name in (f"{foot}Foot", f"{foot}Toes"):
+            ((place_m, _),) = world(motion, name)
+            # While it stands no foot slides, and after its step it is where it was.
+            assert np.linalg.norm(np.diff(place_m, axis=0), axis=1)[~lifted[1:] & ~lifted[:-1]].max() < 1e-4
+            assert np.ptp(place_m[(t < 1.9) | (t > 22.0)], axis=0).max() < 1e-3
+            assert place_m[:, 1].min() > place_m[0, 1] - 1e-3
+    (left_m, _), (left_toes_m, _), (right_toes_m, _) = world(motion, "leftFoot", "leftToes", "rightToes")
+    out = (t > 3.0) & (t < 5.0)
+    assert left_m[out, 2].min() > left_m[0, 2] + 0.06
+    assert left_m[(t > 2.1) & (t < 2.5), 1].max() > ankle_m[1] + 0.03
+    assert np.ptp(left_m[out], axis=0).max() < 1e-3
+    # Toes tap about the heel, heels lift about the toes.
+    assert right_toes_m[(t > 7.0) & (t < 7.9), 1].max() > right_toes_m[0, 1] + 0.01
+    assert right_toes_m[np.searchsorted(t, 7.42), 1] < right_toes_m[0, 1] + 1e-3
+    heel = (t > 8.8) & (t < 9.2)
+    assert left_m[heel, 1].min() > ankle_m[1] + 0.02
+    assert np.linalg.norm(left_toes_m[heel] - left_toes_m[0], axis=1).max() < 1e-3
+
+
+def test_a_player_who_keeps_still_lifts_no_foot() -> None:
+    motion = made(FOOTWORK, amplitude=0.0)
+    for place_m, _ in world(motion, "leftFoot", "rightFoot", "leftToes", "rightToes"):
+        assert np.ptp(place_m, axis=0).max() < 1e-3
+
+
+def test_the_weight_goes_over_before_a_foot_steps() -> None:
+    still, stepping = (made(plan, amplitude=1.0) for plan in (piece(), FOOTWORK))
+    over_m = stepping.hips_m[:, 0] - still.hips_m[:, 0]
+    assert over_m[np.searchsorted(times(still), 2.05)] < -0.02
+
+
+@pytest.mark.parametrize("posture", ["standing", "seated"])
+def test_hips_begin_and_chest_head_and_elbows_follow(posture) -> None:
+    """A lean and a swing, alone: each part does what the one before did, 40 to 120 ms later."""
+    rows = [("sway", 1.0 + 1.2 * i, 2.2 + 1.2 * i, (-1.0) ** i) for i in range(8)]
+    rows = [(kind, start_s, end_s, amount) for kind, start_s, end_s, amount in rows]
+    plan = msgspec.structs.replace(piece(), gestures=with_gestures(*rows).gestures[:0], breaths=(), cues=(), poses=())
+    events = [
+        GestureEvent(f"s{i}", "sway", round(a * 960), round(b * 960), a, b, amount, REASON)
+        for i, (_, a, b, amount) in enumerate(rows)
+    ]
+    motion = made(msgspec.structs.replace(plan, gestures=tuple(events)), posture=posture, amplitude=1.0)
+    here = (times(motion) > 1.5) & (times(motion) < 10.0)
+    leans = []
+    for name in ("hips", "upperChest", "head"):
+        ((_, rotation),) = world(motion, name)
+        up = quaternion.rotate(rotation, np.array([0.0, 1.0, 0.0]))
+        leans.append(np.arctan2(up[:, 0], up[:, 1]))
+    for before, after in itertools.pairwise(leans):
+        lags = range(-18, 19)
+        likeness = [np.corrcoef(before[here], np.roll(after, -lag)[here])[0, 1] for lag in lags]
+        assert 0.04 <= lags[int(np.argmax(likeness))] / 60.0 <= 0.12
 
 
 @pytest.mark.parametrize("posture", ["standing", "seated"])
@@ -161,14 +256,14 @@ def test_every_breath_shows() -> None:
 
 
 @pytest.mark.parametrize("fps", [Fraction(24), Fraction(60)])
-def test_the_nod_accelerates_most_on_the_preparatory_beat(fps) -> None:
+def test_the_nod_accelerates_most_on_the_downbeat(fps) -> None:
     motion = made(fps=fps, amplitude=1.0)
     t = times(motion)
     for event in piece().cues:
         near = (t > event.start_s) & (t < event.end_s + 0.3)
         for height_m in (motion.hips_m[:, 1].astype(float), world(motion, "head")[0][0][:, 1]):
             acceleration = np.gradient(np.gradient(height_m, t), t)
-            assert t[near][acceleration[near].argmax()] == pytest.approx(event.peak_s, abs=1.01 / float(fps))
+            assert t[near][acceleration[near].argmax()] == pytest.approx(event.downbeat_s, abs=1.01 / float(fps))
 
 
 def sway_m(motion: Motion) -> np.ndarray:

@@ -21,9 +21,11 @@ class _Hips:
 
     def __init__(self, **moved: Any) -> None:
         still = np.zeros(FRAMES)
-        for name in ("hips_side_m", "hips_bob_m", "hips_roll_rad", "hips_turn_rad", "knee_rad"):
+        lengths, angles = ("side_m", "ahead_m", "bob_m"), ("roll_rad", "turn_rad", "forward_rad")
+        for name in (*(f"hips_{one}" for one in (*lengths, *angles)), "knee_rad"):
             setattr(self, name, moved.get(name, still))
         self.hips_danced: dict[str, Any] = {}
+        self.feet: dict[str, Any] = {}
 
 
 def test_legs_reach_their_feet_bent_as_the_knees_say() -> None:

@@ -8,7 +8,7 @@ import pytest
 from app.chance import chance
 from app.plan.corrections import ChangeExpression, RemoveEvent
 from app.plan.embouchure import TONGUE_S
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import AFTER_LAST_S, MonophonicPart, make_plans, time_frame
 from app.plan.line import MEZZOFORTE, line_times
 from app.plan.model import ExpressionEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
@@ -145,7 +145,7 @@ def test_the_time_frame(bpm: float, beats: float, start_s: float) -> None:
     )
     frame = time_frame((late, early), clock, beats)
     assert frame.first_frame_s == pytest.approx(start_s)
-    assert frame.end_s == pytest.approx(11 * 60.0 / bpm + 2.0)
+    assert frame.end_s == pytest.approx(11 * 60.0 / bpm + AFTER_LAST_S)
 
 
 def test_the_pre_roll_counts_from_the_first_note() -> None:

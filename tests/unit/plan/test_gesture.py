@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 from app.plan.generate import MonophonicPart, make_plans, time_frame
-from app.plan.gesture import ARCH, LOWER_S, LOWERED_LEAST_S, RAISE_S, RELEASE, STIR_S
+from app.plan.gesture import ARCH, RELEASE
+from app.plan.lowered import LOWER_S, LOWERED_LEAST_S, RAISE_S
 from app.plan.model import GestureEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
+from app.plan.swing import STIR_S
 from app.score.metre_map import Metre
 from tests.support.plan import PlainClock, PlainNote, even, line_of, piece_of, valves
 

@@ -15,7 +15,7 @@ from app.editor.additions import add_cues, add_expressions, add_gestures, add_na
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import GestureEvent, PlayerPlan
-from app.project.edit.events import GESTURE_KINDS, set_expression
+from app.project.edit.events import GESTURE_KINDS, OWN_KINDS, set_expression
 from app.project.edit.found_events import event_id_of
 from app.project.edit.generation import variations
 from app.project.model import Project
@@ -26,10 +26,13 @@ from widgets.common.plain import verbatim
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_columns, draw_mark, draw_rects, shade
 from widgets.timeline.lanes.acting_drawing import ActingPainter
+from widgets.timeline.lanes.giver_menu import add_givers
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.model.acting import (
     BASE,
+    CONCERT_KINDS,
+    CURVES,
     GROUPS,
     STRIPS,
     VARIED,
@@ -61,7 +64,7 @@ class ActingLane(RegionLane):
     """What body and face do beside playing."""
 
     id = "acting"
-    preferred_height_px = 134
+    preferred_height_px = 154
     least_height_px = 70
     least_row_px = 19.0
 
@@ -91,7 +94,12 @@ class ActingLane(RegionLane):
         """What a group of rows is called, after its first kind."""
         if kind == VARIED:
             return self.tr("acting_lane.anew")
-        return self.tr("acting_lane.pose") if kind == "lower_instrument" else kind_name(kind)
+        names = {
+            "lower_instrument": "acting_lane.pose",
+            "step": "acting_lane.feet",
+            CONCERT_KINDS[0]: "acting_lane.beside",
+        }
+        return self.tr(names[kind]) if kind in names else kind_name(kind)
 
     # Regions
 
@@ -119,7 +127,7 @@ class ActingLane(RegionLane):
             first |= dict.fromkeys(kinds, row)
             self.groups.append((kinds[0], row, count))
             row += count
-        removed = self.removed_regions(plan, (*GESTURE_KINDS, "named", "cue", "expression"), first.__getitem__)
+        removed = self.removed_regions(plan, (*GESTURE_KINDS, "cue", "expression"), first.__getitem__)
         return result + removed, row
 
     def _gestures(self, plan: PlayerPlan) -> list[Region]:
@@ -239,7 +247,7 @@ class ActingLane(RegionLane):
             y = amount[low:high] * half
             painter.setPen(QPen(shade(tokens.line_strong, 120), 1.0))
             painter.drawLine(QPointF(exposed.left(), middle), QPointF(exposed.right(), middle))
-            if kind == "sway":
+            if kind in CURVES:
                 self._painter.paint_sway(painter, x0, x1, middle - y, shade(colour, 170))
             elif len(x0) > exposed.width():
                 draw_columns(painter, exposed, x0, x1, middle - y, middle, shade(colour, 90))
@@ -307,7 +315,7 @@ class ActingLane(RegionLane):
             self._expression_entries(menu, lambda name: add_expressions(self.session, name, self._spans(mouse)))
             menu.popup(QPoint(*mouse.screen_px))
         else:
-            for gesture in GESTURE_KINDS:
+            for gesture in OWN_KINDS:
                 if gesture == kind:
                     add_gestures(self.session, gesture, self._spans(mouse))
 
@@ -315,10 +323,12 @@ class ActingLane(RegionLane):
         if region is not None and region.kind == "expression" and not region.removed:
             other = menu.addMenu(self.tr("acting_lane.another_expression"))
             self._expression_entries(other, self._choose_expression, region)
+        if region is not None and region.kind == "cue" and not region.removed:
+            add_givers(menu, self.session, region, self.tr("acting_lane.given_by"))
         adding = menu.addMenu(self.tr("acting_lane.add_expression_here"))
         self._expression_entries(adding, lambda name: add_expressions(self.session, name, self._spans(mouse)))
         gestures = menu.addMenu(self.tr("acting_lane.add_gesture_here"))
-        for kind in GESTURE_KINDS:
+        for kind in OWN_KINDS:
             entry = gestures.addAction(kind_name(kind))
             entry.triggered.connect(lambda _=False, kind=kind: add_gestures(self.session, kind, self._spans(mouse)))
         gestures.addSeparator()

@@ -7,25 +7,33 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PoseEvent
+from app.plan.model import SIGNED_KINDS, CueEvent, ExpressionEvent, GestureEvent, PoseEvent
 from app.project.edit.events import OWN
 from app.score.tempo import TempoMap
 from widgets.timeline.model.geometry import Floats, packed_rows
 from widgets.timeline.model.region import Region
 
+CONCERT_KINDS = ("nod", "count", "look_about", "settle_grip", "hold_still", "look_up", "bow")
+"""What is done beside playing."""
 GROUPS: tuple[tuple[str, ...], ...] = (
     ("cue",),
     ("expression",),
-    ("lower_instrument", "pose", "named"),
+    ("lower_instrument", "pose"),
+    (*CONCERT_KINDS, "named"),
     ("bell_height",),
     ("weight_shift",),
+    ("step", "tap", "heel"),
     ("sway",),
+    ("lean",),
+    ("accent",),
 )
 """Kinds that share rows, from the top."""
 VARIED = "vary"
 """Bars performed anew: not an event, but the user chose it; its row is there only with them, above all others."""
-STRIPS = ("bell_height", "weight_shift", "sway")
+STRIPS = ("bell_height", "weight_shift", "sway", "lean", "accent")
 """Kinds of which there are so many that what is generated is drawn as one calm strip."""
+CURVES = ("sway", "lean")
+"""Kinds of these that go on from where the one before ended."""
 BASE = "expression:neutral"
 """The face beneath all others, as long as the piece: a thin line at the foot of its row."""
 
@@ -98,12 +106,11 @@ def expression_region(player_id: str, event: ExpressionEvent, names: Names) -> R
 
 def gesture_region(player_id: str, event: GestureEvent, names: Names) -> Region:
     """A gesture."""
-    one_way = event.kind in ("lower_instrument", "named")
     label = names.gesture(event.name) if event.kind == "named" else names.kind(event.kind)
     return Region(
         player_id, event.id, event.kind, event.start_tick, event.end_tick, event.start_s, event.end_s,
         amount=event.amount, label=label, reason=event.reason, by_hand=event.corrected,
-        signed=not one_way,
+        signed=event.kind in SIGNED_KINDS,
     )  # fmt: skip
 
 
@@ -117,11 +124,12 @@ def pose_region(player_id: str, event: PoseEvent, names: Names) -> Region:
 
 
 def strip(regions: Sequence[Region], kind: str) -> tuple[Floats, Floats, Floats]:
-    """Starts, ends and amounts of what is drawn as a strip; a sway's curve takes in changed swings, not added ones."""
+    """Starts, ends and amounts of what is drawn as a strip; a sway's or a lean's curve takes in changed ones,
+    not added ones."""
     chosen = [
         region
         for region in regions
-        if region.kind == kind and (not region.by_hand or (kind == "sway" and f":{OWN}" not in region.event_id))
+        if region.kind == kind and (not region.by_hand or (kind in CURVES and f":{OWN}" not in region.event_id))
     ]
     return (
         np.array([region.start_s for region in chosen], np.float64),

@@ -1,0 +1,55 @@
+"""Another player gives an entry: an edit that can be taken back, and arrows that show it."""
+
+from __future__ import annotations
+
+from app.performance.ensemble import Performance
+from app.plan.corrections import RemoveEvent, SetCue
+from app.project.edit.givers import set_giver
+from app.project.model import Project
+from tests.unit.project.pieces import small_project
+from widgets.timeline.model.entries import entry_arrows
+
+TRUMPET, TROMBONE = "1.1.1", "2.1.1"
+
+
+def given(project: Project) -> dict[str, tuple[str, tuple[str, ...]]]:
+    """Id and takers of each player's cue."""
+    plans = Performance(project).plans
+    return {player: (cue.id, cue.takers) for player, plan in plans.items() for cue in plan.cues}
+
+
+def test_another_player_gives_the_entry_and_the_first_again() -> None:
+    project = small_project()
+    assert given(project) == {TRUMPET: ("cue:1:1", (TROMBONE,))}
+    edited = set_giver(project, Performance(project).plans[TRUMPET], "cue:1:1", TROMBONE)
+    assert edited.event_ids == ("cue:2:1",)
+    assert given(edited.project) == {TROMBONE: ("cue:2:1", (TRUMPET,))}
+    assert edited.project.corrections == {
+        TRUMPET: (RemoveEvent("cue:1:1", "1:1"),),
+        TROMBONE: (SetCue("2:1", 1.0, added=True),),
+    }
+    back = set_giver(edited.project, Performance(edited.project).plans[TROMBONE], "cue:2:1", TRUMPET)
+    assert back.event_ids == ("cue:1:1",)
+    assert back.project.corrections == {}
+    assert given(back.project) == given(project)
+
+
+def test_a_giver_who_does_not_play_there_gives_it_at_its_place() -> None:
+    project = small_project()
+    plan = Performance(project).plans[TRUMPET]
+    same = set_giver(project, plan, "cue:1:1", TRUMPET)
+    assert same.project is project
+    gone = set_giver(project, plan, "cue:1:9", TROMBONE)
+    assert gone.project is project
+
+
+def test_arrows_go_from_who_gives_an_entry_to_who_takes_it() -> None:
+    project = small_project()
+    plans = Performance(project).plans
+    (arrow,) = entry_arrows(project, plans, TRUMPET)
+    assert (arrow.giver_id, arrow.taker_id) == (TRUMPET, TROMBONE)
+    assert (arrow.from_pitch, arrow.to_pitch) == (60, 48)
+    assert arrow.from_s == plans[TRUMPET].cues[0].peak_s
+    assert arrow.to_s == 0.0
+    assert entry_arrows(project, plans, TROMBONE) == (arrow,)
+    assert entry_arrows(project, plans, "nobody") == ()
