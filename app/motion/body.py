@@ -309,6 +309,7 @@ class Layers:
             lowered=self.lowered.sample(times_s),
             feet=self.feet.sample(times_s),
             held=self.poses.sample(times_s),
+            gestured=self.gestured.sample(times_s),
             concert=self.concert.sample(times_s),
         )
 
