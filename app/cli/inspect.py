@@ -24,7 +24,15 @@ from app.performance.judged import all_problems
 from app.performance.loudness import controller_input
 from app.plan.bends import bends
 from app.plan.line import dynamic_mark, staccato
-from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, FingeringEvent, GestureEvent, PoseEvent
+from app.plan.model import (
+    AdditiveEvent,
+    BreathEvent,
+    CueEvent,
+    ExpressionEvent,
+    FingeringEvent,
+    GestureEvent,
+    PoseEvent,
+)
 from app.plan.problem_lines import problem_lines
 from app.project.performers import Dancer, Player
 from app.score.model import Note, UnplayedPart
@@ -194,6 +202,8 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         # Only where the animator held something differently: nothing else has any.
         angles = ("up_deg", "left_deg", "roll_deg")
         table["poses"] = _events(plan.poses, clock, reason, "target", *angles, "fade_in_s", "fade_out_s")
+    if plan.additive:
+        table["curves"] = _spans(plan.additive, clock, "channel", "low", "high")
     return table
 
 
@@ -233,6 +243,19 @@ def _events(
     *fields: str,
 ) -> list[Table]:
     """Events with what they are, where they are in seconds and beats, some fields of them, and why."""
+    return [
+        span | {"reason": reason(event.reason)}
+        for event, span in zip(events, _spans(events, clock, what, *fields), strict=True)
+    ]
+
+
+def _spans(
+    events: Sequence[BreathEvent | CueEvent | ExpressionEvent | GestureEvent | PoseEvent | AdditiveEvent],
+    clock: TempoMap,
+    what: str,
+    *fields: str,
+) -> list[Table]:
+    """The same without the reason."""
     seconds = np.array([(event.start_s, event.end_s) for event in events]).reshape(-1, 2)
     beats = clock.ticks(seconds) / clock.ticks_per_quarter
     return [
@@ -243,7 +266,6 @@ def _events(
             "start_beat": start_beat,
             "end_beat": end_beat,
             **{field: getattr(event, field) for field in fields},
-            "reason": reason(event.reason),
         }
         for event, (start_s, end_s), (start_beat, end_beat) in zip(
             events, seconds.tolist(), beats.tolist(), strict=True

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from operator import is_not
 from typing import Final
 
 from PySide6.QtCore import QObject, QTimer
@@ -12,7 +13,7 @@ from app.editor.session import Session
 from app.performance.cast import performers_of
 from app.performance.motion import playing_of
 from app.performance.play_along import PlayAlong
-from app.plan.model import PoseEvent
+from app.plan.model import AdditiveEvent, PoseEvent
 from app.score.take import ControllerMapping
 
 REST_S: Final = 4.0
@@ -33,8 +34,9 @@ class LivePlayer(QObject):
         self._session, self._chosen = session, chosen
         self._play_along: PlayAlong | None = None
         self._of: tuple[object, ...] = ()
-        self._poses: tuple[PoseEvent, ...] = ()
         """What the one that plays along was made from."""
+        self._held: tuple[tuple[PoseEvent, ...], tuple[AdditiveEvent, ...]] = ((), ())
+        """How that one stands."""
         self._rest = QTimer(self, singleShot=True, interval=round(1000 * REST_S))
         self._rest.timeout.connect(self._rested)
 
@@ -75,7 +77,7 @@ class LivePlayer(QObject):
         player = next((player for player in performance.project.players if player.id == player_id), None)
         if player is None or player.id not in performance.plans or player.id in performance.waiting:
             return None
-        poses = performance.plans[player.id].poses
+        plan = performance.plans[player.id]
         of = (player.id, player.instrument_id, player.character_id, performance.parameters(player))
         if of != self._of:
             if self._play_along is not None:
@@ -86,7 +88,8 @@ class LivePlayer(QObject):
                 self._play_along = PlayAlong(playing_of(performance, performer, danced=False))
                 self._session.live_players.begin(self._play_along)
             self._of = of
-        if self._play_along is not None and poses is not self._poses:
-            self._play_along.hold(poses)
-        self._poses = poses
+        held = (plan.poses, plan.additive)
+        if self._play_along is not None and any(map(is_not, held, self._held)):
+            self._play_along.hold(*held)
+        self._held = held
         return self._play_along

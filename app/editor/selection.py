@@ -63,6 +63,6 @@ class Selection(msgspec.Struct, frozen=True):
         events = frozenset(
             key
             for key in self.events
-            if key.event_id in known.get(key.player_id, ()) or key.event_id.startswith("vary:")
+            if key.event_id in known.get(key.player_id, ()) or key.event_id.startswith(("vary:", "additive:"))
         )
         return self if events == self.events else msgspec.structs.replace(self, events=events)

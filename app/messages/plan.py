@@ -431,6 +431,18 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ),
         "{target}の指定は {asked_deg:g} 度（{angle}）ですが、体や楽器の構えの限度は {most_deg:g} 度です",
     ),
+    "additive.beyond_reach": (
+        "curve for {moved}: {asked:g}{unit}, but the limit of the body or instrument hold is {most:g}{unit}",
+        "{moved} のカーブは {asked:g}{unit} ですが、体や楽器の構えの限度は {most:g}{unit} です",
+    ),
+    "additive.not_here": (
+        "curve for {moved}: this does not move in the player's posture; the curve is kept but inactive",
+        "{moved} は、この奏者の姿勢では動かないため、カーブは無効です。残してあります",
+    ),
+    "additive.too_fast": (
+        "curve for {moved}: changes faster than a body moves; put its keys further apart",
+        "{moved} のカーブは、体の動きより速く変化します。キーの間隔を広げてください",
+    ),
     "correction.no_such_fingering": (
         "{label} is not a fingering of note {note} on this instrument; the generated fingering is used",
         "{label} はこの楽器での音符 {note} の運指ではないため、自動生成の運指を使います",

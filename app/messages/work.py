@@ -20,6 +20,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "work.reimport": ("re-importing MIDI…", "MIDI を再読み込み中…"),
     "work.portraits": ("creating character thumbnails…", "サムネイルを作成中…"),
     "work.choreography": ("loading choreography…", "振り付けを読み込み中…"),
+    "work.generated_curve": ("sampling generated motion…", "生成された動きを計算中…"),
     "work.dances": ("generating dances…", "ダンスを生成中…"),
     "work.stream": ("resolving {host}…", "{host} を検索中…"),
     "work.character": ("reading {file}…", "{file} を読み込み中…"),

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 
 import msgspec
 import numpy as np
 
+from app.motion.additive import NOTHING, Added, Additive, with_added, with_added_morphs, with_held
 from app.motion.aside import Aside
 from app.motion.body import BodyMotion, Layers, LayerSamples, body_motion
 from app.motion.contact import Carried, freedom
@@ -67,6 +68,8 @@ class Frames:
         Of its layer; None: nothing is danced.
     stowed : (F,) float64 or None
         How far the instrument is put aside.
+    added : dict of str to Added
+        What the animator's curves add, by channel.
     """
 
     times_s: FloatArray
@@ -78,6 +81,7 @@ class Frames:
     raised: FloatArray
     danced: FloatArray | None = None
     stowed: FloatArray | None = None
+    added: Mapping[str, Added] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +113,8 @@ class PerformanceCurves:
         When the dance gives way to breaths.
     stowed : Curve or None
         How far the instrument is put aside for another one (`app.motion.doubling`).
+    additive : Additive
+        The animator's curves.
     """
 
     plan: PlayerPlan
@@ -129,6 +135,7 @@ class PerformanceCurves:
     dance: BodyLayer | None = None
     inhaling: Envelopes = NOT_SHOWN
     stowed: Curve | None = None
+    additive: Additive = NOTHING
 
     @property
     def player_id(self) -> str:
@@ -144,7 +151,12 @@ class PerformanceCurves:
         """Make some frames of the motion. The same frames are the same bits in every span."""
         pad = padding(fps)
         times_s = frame_times(self.start_s, fps, first_frame - pad, frames + 2 * pad)
-        frames_of = Frames(
+        curves = self.curves(self.frames(times_s))
+        return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]))
+
+    def frames(self, times_s: FloatArray) -> Frames:
+        """What the player does at ascending times."""
+        return Frames(
             times_s=times_s,
             levels=self.layers.sample(times_s),
             look=self.gaze.sample(times_s),
@@ -154,9 +166,8 @@ class PerformanceCurves:
             raised=self.raised.sample(times_s),
             danced=self._danced(times_s),
             stowed=None if self.stowed is None else self.stowed.sample(times_s),
+            added=self.additive.sample(times_s),
         )
-        curves = self.curves(frames_of)
-        return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]))
 
     def _danced(self, times_s: FloatArray) -> FloatArray | None:
         if self.dance is None:
@@ -165,8 +176,11 @@ class PerformanceCurves:
 
     def curves(self, frames: Frames) -> Curves:
         """What the contacts are solved from, of frames wherever they come from."""
+        levels, added = frames.levels, frames.added
+        if added:
+            levels = replace(levels, held=with_held(levels.held, added))
         moved = body_motion(
-            frames.levels,
+            levels,
             self.player_id,
             self.parameters,
             self.acting,
@@ -179,6 +193,8 @@ class PerformanceCurves:
         if frames.danced is not None:
             amount, free = self.parameters.dance_amount, _stands_free(self.player)
             moved = with_dance(moved, frames.danced, amount, self.body, legs=free)
+        if added:
+            moved = with_added(moved, added, self.body, self.player.place.knee_rad)
         if frames.stowed is not None and self.player.put_aside is not None:
             moved = self.player.put_aside.watched(moved, frames.stowed)
         morphs = face_morphs(
@@ -190,6 +206,8 @@ class PerformanceCurves:
             moved.lowered,
         )
         morphs |= widened(frames.levels.air, self.body.breath, self.acting.breath)
+        if added:
+            morphs = with_added_morphs(morphs, added, frames.face.at_lips)
         return Curves(
             moved, frames.controls, morphs, frames.face.mouth_open, frames.placed, frames.raised, frames.stowed
         )
@@ -218,6 +236,7 @@ class PerformanceCurves:
         spans += [curve.changed_s(other.stations[name]) for name, curve in self.stations.items()]
         spans.append(self.raised.changed_s(other.raised))
         spans.append(self.inhaling.changed_s(other.inhaling))
+        spans.append(self.additive.changed_s(other.additive))
         if self.stowed is not None and other.stowed is not None:
             spans.append(self.stowed.changed_s(other.stowed))
         spans += self.layers.changed_s(other.layers)
@@ -323,7 +342,15 @@ def prepare(
         raised=fingers[2],
         dance=dance,
         inhaling=NOT_SHOWN if dance is None else inhaling(plan.breaths),
+        additive=_additive(plan, before),
     )
+
+
+def _additive(plan: PlayerPlan, before: PerformanceCurves | None) -> Additive:
+    """The animator's curves; those of ``before`` where they are the same."""
+    if before is not None and same_events(plan, before.plan, "additive"):
+        return before.additive
+    return Additive.of(plan.additive)
 
 
 def lying(

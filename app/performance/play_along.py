@@ -14,6 +14,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from app.motion.additive import Additive
 from app.motion.doubling import Doubling
 from app.motion.perform import Frames, PerformanceCurves
 from app.motion.pose import Poses
@@ -23,7 +24,7 @@ from app.performance.chunks import Floats, Pose
 from app.performance.live_breath import LiveBreath, LiveLook
 from app.performance.live_hands import FRAMES, LiveHands
 from app.performance.live_help import LiveHelp
-from app.plan.model import PoseEvent
+from app.plan.model import AdditiveEvent, PoseEvent
 from app.score.take import SILENCING, ControllerMapping, decoded, is_wired, said
 from instrument_maps.model import Fingering
 from metadata.load import load_expressions
@@ -58,6 +59,7 @@ class PlayAlong:
         self._look = LiveLook(playing)
         self._help = LiveHelp()
         self._poses, self._at_s = playing.layers.poses, -math.inf
+        self._additive = playing.additive
         self._held: dict[int, int] = {}
         """Notes that are held with their velocities, in the order they began."""
         self._ended_s = -math.inf
@@ -160,9 +162,9 @@ class PlayAlong:
                 self.bend(time_s, value)
         return message.type in ("note_on", "note_off")
 
-    def hold(self, poses: Sequence[PoseEvent]) -> None:
+    def hold(self, poses: Sequence[PoseEvent], additive: Sequence[AdditiveEvent] = ()) -> None:
         """Stand as the project says, from now on."""
-        self._poses = Poses.of(poses)
+        self._poses, self._additive = Poses.of(poses), Additive.of(additive)
 
     def pose(self, time_s: float, at_s: float | None = None) -> Pose:
         """How the player stands now.
@@ -193,9 +195,11 @@ class PlayAlong:
         that far hands are given now."""
         hands, breathing, look = self._hands.at(now_s), self._breath.at(now_s), self._look.at(now_s)
         times_s = np.full(FRAMES, now_s)
-        levels = replace(breathing.levels, held=self._poses.sample(np.full(FRAMES, self._at_s)))
+        here_s = np.full(FRAMES, self._at_s)
+        levels = replace(breathing.levels, held=self._poses.sample(here_s))
+        added = self._additive.sample(here_s)
         curves = self._playing.curves(
-            Frames(times_s, levels, look, breathing.face, hands.controls, hands.placed, hands.raised)
+            Frames(times_s, levels, look, breathing.face, hands.controls, hands.placed, hands.raised, added=added)
         )
         return curves, self._help.at(now_s, hands.arrived_s, needs(self._playing.player, curves))
 

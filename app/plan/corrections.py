@@ -10,11 +10,13 @@ Messages: ``correction.orphaned``, ``correction.no_such_fingering``, ``breath.in
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
 from typing import Final, Literal, TypeAlias, TypeVar
 
 import msgspec
 
 from app.errors import Message
+from app.plan.additive_curve import AdditiveCurve
 from app.plan.model import (
     GESTURE_KINDS,
     BreathEvent,
@@ -194,6 +196,7 @@ Correction: TypeAlias = (
     | ChangeExpression
     | AddExpression
     | PoseCorrection
+    | AdditiveCurve
     | Vary
 )
 
@@ -241,6 +244,8 @@ def _is_empty(item: Correction) -> bool:
         return item.start_offset_tick >= item.end_offset_tick
     if isinstance(item, SetCue):
         return item.beats <= 0.0
+    if isinstance(item, AdditiveCurve):
+        return not item.keys or any(key.tick >= following.tick for key, following in pairwise(item.keys))
     if isinstance(item, AddGesture | AddExpression | ChangeGesture | ChangeExpression | PoseCorrection | Vary):
         return item.start_tick is not None and item.end_tick is not None and item.start_tick >= item.end_tick
     return False
@@ -255,7 +260,7 @@ def anchor(item: Correction) -> str:
     """What a correction is tied to: a note, an event, or the name the animator gave."""
     if isinstance(item, PinFingering | SetBreath | SetCue | SetEmbouchure):
         return item.note_id
-    if isinstance(item, AddGesture | AddExpression | PoseCorrection | Vary):
+    if isinstance(item, AddGesture | AddExpression | PoseCorrection | AdditiveCurve | Vary):
         return item.name
     return item.event_id
 

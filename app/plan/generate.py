@@ -11,6 +11,8 @@ import msgspec
 
 from app.errors import Cancelled
 from app.plan.acting import acting_of
+from app.plan.additive import plan_additive
+from app.plan.additive_curve import AdditiveCurve
 from app.plan.bar_phase import lowest, with_felt_bars
 from app.plan.breath import plan_breaths
 from app.plan.breath_envelope import blown
@@ -399,6 +401,10 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     tongues = memo.step("tongues", plan_tongues, notes, times, instrument, fingerings)
     posed = _of(corrections, PoseCorrection)
     poses, pose_problems = memo.step("poses", plan_poses, posed, instrument, restricted(parameters, "poses"), clock)
+    keyed = _of(corrections, AdditiveCurve)
+    additive, key_problems = memo.step(
+        "additive", plan_additive, keyed, instrument, restricted(parameters, "poses"), clock
+    )
     lost = memo.step(
         "lost",
         _lost,
@@ -410,7 +416,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         frame.first_frame_s,
     )
     problems = (
-        *(*fingering_problems, *breaths.problems, *pose_problems, *given.reported, *lost),
+        *(*fingering_problems, *breaths.problems, *pose_problems, *key_problems, *given.reported, *lost),
         *(*ruled.problems, *defined.problems),
     )
     plan = PlayerPlan(
@@ -425,6 +431,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         expressions=expressions,
         problems=tuple(sorted(problems, key=lambda problem: problem.start_s)),
         poses=poses,
+        additive=additive,
         traces=traces,
         glances=glances,
     )

@@ -241,6 +241,37 @@ class PoseEvent(msgspec.Struct, frozen=True, gc=False):
     corrected: bool = True
 
 
+class CurveSegment(msgspec.Struct, frozen=True, gc=False):
+    """A stretch of a curve: a cubic with two handles between both ends, or (``eased``) a minimum-jerk move. Handles are
+    places: a time within the stretch, and a value."""
+
+    start_s: float
+    end_s: float
+    before: float
+    after: float
+    leave_s: float
+    leave_value: float
+    arrive_s: float
+    arrive_value: float
+    eased: bool
+
+
+class AdditiveEvent(msgspec.Struct, frozen=True, gc=False):
+    """A curve that is added to a channel (`app.plan.additive_curve`). Ticks are of its first and last key, seconds from
+    when it begins to come in to when it is gone. ``low`` and ``high`` are how far the channel goes; values are in the
+    channel's unit, weighted."""
+
+    id: str
+    channel: str
+    start_tick: int
+    end_tick: int
+    start_s: float
+    end_s: float
+    segments: tuple[CurveSegment, ...]
+    low: float
+    high: float
+
+
 Event: TypeAlias = (
     FingeringEvent | BreathEvent | TongueEvent | EmbouchureEvent | CueEvent | GestureEvent | ExpressionEvent | PoseEvent
 )
@@ -316,6 +347,7 @@ class PlayerPlan(msgspec.Struct, frozen=True):
     expressions: tuple[ExpressionEvent, ...]
     problems: tuple[Problem, ...]
     poses: tuple[PoseEvent, ...] = ()
+    additive: tuple[AdditiveEvent, ...] = ()
     traces: SampledCurves | None = None
     glances: tuple[GlanceEvent, ...] = ()
 

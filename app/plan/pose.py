@@ -45,7 +45,7 @@ LEAST_FADE_S = 0.15
 REPORTED_DEG = 1.0
 """An angle this much beyond what a body does is reported."""
 
-_PEAK = 10.0 / math.sqrt(3.0)
+MINIMUM_JERK_PEAK = 10.0 / math.sqrt(3.0)
 """Peak acceleration of a minimum-jerk move over 1 in 1 s."""
 
 
@@ -138,4 +138,4 @@ def _narrowest(ranges: Sequence[tuple[float, ...]]) -> tuple[float, float]:
 
 def _least_fade_s(*angles_deg: float) -> float:
     largest = max(abs(float(np.deg2rad(angle))) for angle in angles_deg)
-    return max(LEAST_FADE_S, math.sqrt(_PEAK * largest / GENTLE_RAD_S2))
+    return max(LEAST_FADE_S, math.sqrt(MINIMUM_JERK_PEAK * largest / GENTLE_RAD_S2))

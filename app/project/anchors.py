@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 
 import msgspec
 
+from app.plan.additive_curve import CurveKey, Tangent
 from app.plan.corrections import Correction
 from app.project.dance_corrections import DanceCorrection
 
@@ -53,6 +54,8 @@ def moved(
         if field in NOTE_FIELDS or field == "event_id":
             if value is not None:
                 changes[field] = _renamed(value, note_ids, place)
+        elif field == "keys":
+            changes[field] = _moved_keys(value, place, scale)
         elif not isinstance(value, int) or isinstance(value, bool):
             continue
         elif field.endswith(("_offset_tick", "_ticks")):
@@ -66,6 +69,24 @@ def moved(
         return correction
     result: C = msgspec.structs.replace(correction, **changes)
     return result
+
+
+def _moved_keys(
+    keys: tuple[CurveKey, ...], place: Callable[[int], int] | None, scale: Fraction
+) -> tuple[CurveKey, ...]:
+    """Keys of a curve at other places: still one after another, none lost."""
+    result: list[CurveKey] = []
+    for key in keys:
+        tick = key.tick if place is None else place(key.tick)
+        if result and tick <= result[-1].tick:
+            tick = result[-1].tick + 1
+        handles = {side: _scaled(getattr(key, side), scale) for side in ("arrive", "leave")}
+        result.append(msgspec.structs.replace(key, tick=tick, **handles))
+    return tuple(result)
+
+
+def _scaled(handle: Tangent | None, scale: Fraction) -> Tangent | None:
+    return None if handle is None else Tangent(round(handle.ticks * scale), handle.value)
 
 
 def correction_span(correction: Correction | DanceCorrection) -> int:

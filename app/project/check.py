@@ -9,8 +9,10 @@ from typing import Any
 
 import msgspec
 
+from app.plan.additive_curve import AdditiveCurve
 from app.plan.corrections import Correction
 from app.project import limits
+from app.project.check_curves import curve_faults
 from app.project.check_dancers import dancer_faults
 from app.project.fault import (
     COLOUR,
@@ -242,6 +244,8 @@ def _correction_faults(project: Project) -> Iterator[Fault]:
 def _one_correction_faults(correction: Correction, place: str) -> Iterator[Fault]:
     for field in correction.__struct_fields__:
         yield from _plain_faults(f"{place}.{field}", getattr(correction, field))
+    if isinstance(correction, AdditiveCurve):
+        yield from curve_faults(correction, place)
 
 
 def _plain_faults(place: str, value: Any) -> Iterator[Fault]:

@@ -71,6 +71,7 @@ STRUCTURE: Final[Mapping[int, Migration]] = {
     7: _with_dancers,
     # A player may share the body of another; before, each player had one.
     9: lambda raw: {**raw, "players": [{**player, "doubles": ""} for player in raw["players"]]},
+    # There may be curves of the animator's among the corrections; an older file has none.
     10: _with_section_intensity,
 }
 """By the version that they lead to. New parameters say themselves since which version they are there."""

@@ -102,6 +102,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.lanes.acting": ("Acting Lane", "演技レーン"),
     "action.lanes.audio": ("Audio Lane", "音源レーン"),
     "action.lanes.breath": ("Breath Lane", "ブレスレーン"),
+    "action.lanes.additive": ("Additive Curves Lane", "加算カーブレーン"),
     "action.lanes.curves": ("Curves Lane", "カーブレーン"),
     "action.lanes.dance": ("Dance Lane", "ダンスレーン"),
     "action.lanes.fingering": ("Fingering Lane", "運指レーン"),

@@ -79,7 +79,8 @@ WORKSPACES: Final = (
         right_whole="if_low",
         lists_share=0.4,
         lanes=LaneState(
-            order=("audio", "roll", "takes", "fingering", "breath", "acting", "problems"), folded=("curves",)
+            order=("audio", "roll", "takes", "fingering", "breath", "acting", "problems", "additive"),
+            folded=("curves", "additive"),
         ),
     ),
     Workspace(
@@ -96,7 +97,7 @@ WORKSPACES: Final = (
         lanes=LaneState(
             order=("audio", "roll", "takes", "curves", "breath"),
             shown=("takes",),
-            folded=("fingering", "acting", "problems"),
+            folded=("fingering", "acting", "problems", "additive"),
         ),
     ),
     Workspace(
@@ -111,8 +112,19 @@ WORKSPACES: Final = (
         right_whole="always",
         lists_share=0.62,
         lanes=LaneState(
-            order=("problems", "roll", "takes", "fingering", "breath", "acting", "curves", "dance", "audio"),
-            folded=("acting", "curves", "audio"),
+            order=(
+                "problems",
+                "roll",
+                "takes",
+                "fingering",
+                "breath",
+                "acting",
+                "additive",
+                "curves",
+                "dance",
+                "audio",
+            ),
+            folded=("acting", "additive", "curves", "audio"),
         ),
     ),
 )

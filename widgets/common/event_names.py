@@ -32,6 +32,7 @@ _KINDS: Final = {
     "look_up": "event.look_up",
     "bow": "event.bow",
     "pose": "event.pose",
+    "additive": "event.additive_curve",
     "vary": "event.performed_anew",
 }
 _EXPRESSIONS: Final = {

@@ -10,11 +10,13 @@ from app.editor.translated import tr
 from app.errors import Argument, Message
 from app.messages import PITCHES, WORDINGS, filled
 from app.messages.pitches import pitch_name
+from app.plan.additive_curve import CHANNELS
 from app.plan.problem_lines import NOTES, note_of, note_place
 from app.project.performers import Player
 from app.score.model import Note
 from instrument_maps.library import all_maps
 from instrument_maps.model import PARTS
+from widgets.common.channel_names import channel_name
 from widgets.common.event_names import kind_name, pose_name
 from widgets.common.instrument_name import instrument_name
 from widgets.common.pitch import pitch_text
@@ -109,6 +111,7 @@ def _corrections() -> dict[str, str]:
         "change_expression": kind_name("expression"),
         "add_expression": kind_name("expression"),
         "pose": kind_name("pose"),
+        "additive": kind_name("additive"),
         "vary": kind_name("vary"),
     }
 
@@ -153,6 +156,7 @@ _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
     "target": _targets,
     "side": lambda: {"left": tr("word.left"), "right": tr("word.right")},
     "touch": _touches,
+    "moved": lambda: {channel: channel_name(channel) for channel in CHANNELS},
     "map": lambda: {id: instrument_name(instrument) for id, instrument in all_maps().items()},
     "control": _controls,
     "angle": lambda: {"up": tr("word.up_and_down"), "left": tr("word.to_side"), "roll": tr("word.leaning")},

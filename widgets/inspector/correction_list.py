@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QWidget
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
+from app.plan.additive_curve import AdditiveCurve
 from app.plan.corrections import Correction, PinFingering, SetEmbouchure, Vary
 from app.plan.model import Event, PlayerPlan
 from app.project.edit import events as edit
@@ -116,7 +117,7 @@ class CorrectionList(Retranslated, QWidget):
 
     def _tick(self, place: Place) -> int:
         event = place.event or place.generated
-        if isinstance(place.correction, Vary):
+        if isinstance(place.correction, Vary | AdditiveCurve):
             return place.correction.start_tick
         if event is None:
             return LATE_TICK
@@ -145,6 +146,13 @@ class CorrectionList(Retranslated, QWidget):
                 self._session.colour(player),
                 "by_hand",
             )
+        if isinstance(place.correction, AdditiveCurve):
+            curve = place.correction
+            start, end = (score.metre_map.label(tick) for tick in (curve.start_tick, curve.end_tick))
+            detail = self.tr("correction_list.curve_up_to").format(end=end, count=len(curve.keys))
+            if not curve.enabled:
+                detail = self.tr("correction_list.curve_off").format(detail=detail)
+            return ListRow(place, title, start, detail, self._session.colour(player), "by_hand")
         now, before = self._value(place.correction, place.event), self._value(place.correction, place.generated)
         if place.generated is None:
             detail = (
@@ -185,7 +193,7 @@ class CorrectionList(Retranslated, QWidget):
         item, event = key.correction, key.event or key.generated
         if isinstance(item, PinFingering | SetEmbouchure):
             self._session.select(Selection(notes=frozenset((item.note_id,))))
-        elif isinstance(item, Vary):
+        elif isinstance(item, Vary | AdditiveCurve):
             self._session.select(Selection(events=frozenset((EventKey(key.player_id, edit.event_id_of(item)),))))
             self._session.reveal(self._session.project.score.tempo_map.seconds(float(item.start_tick)))
         elif key.event is not None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from app.editor.translated import tr
+from app.plan.additive_curve import AdditiveCurve
 from app.plan.corrections import (
     AddExpression,
     AddGesture,
@@ -21,6 +22,7 @@ from app.plan.model import BreathEvent, CueEvent, EmbouchureEvent, Event, Expres
 from app.plan.model import FingeringEvent as Fingered
 from app.project.edit.events import Placed
 from app.score.model import Score
+from widgets.common.channel_names import channel_name
 from widgets.common.event_names import expression_name, kind_name, pose_name
 
 
@@ -101,5 +103,8 @@ def correction_title(item: Correction) -> str:
             return expression_name(item.expression)
         case Vary():
             return kind_name("vary")
+        case AdditiveCurve():
+            name = channel_name(item.channel)
+            return f"{item.title} ({name})" if item.title else tr("inspector.additive_curve").format(name=name)
         case PoseCorrection():
             return tr("inspector.pose").format(name=pose_name(item.target))

@@ -169,6 +169,11 @@ class Lane(QWidget):
         """A key went down while the plot has the focus; whether it was used."""
         return False
 
+    def claims(self, event: QKeyEvent) -> bool:
+        """Whether a key that may be an action's shortcut is the lane's own while the plot has the focus; `key` follows
+        then."""
+        return False
+
     # What a lane uses
 
     @property

@@ -56,6 +56,7 @@ class PlotOwner(Protocol):
     def double_clicked(self, event: QMouseEvent) -> None: ...
     def wheeled(self, event: QWheelEvent) -> None: ...
     def key_pressed(self, event: QKeyEvent) -> None: ...
+    def claims(self, event: QKeyEvent) -> bool: ...
     def hover(self, mouse: LaneMouse | None) -> None: ...
 
 
@@ -156,6 +157,12 @@ class Plot(Pictured):
             painter.restore()
 
     # Qt overrides
+
+    def event(self, event: QEvent) -> bool:
+        if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.ShortcutOverride and self._lane.claims(event):
+            event.accept()
+            return True
+        return super().event(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

@@ -23,6 +23,45 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "These bars were regenerated. Press Backspace to restore the first performance.",
         "この小節は別パターンで再生成されています。Backspace で最初の演奏に戻します。",
     ),
+    "additive_lane.add_key_here": ("Add Key Here", "ここにキーを追加"),
+    "additive_lane.automatic": ("Automatic", "自動"),
+    "additive_lane.bezier": ("Bezier", "ベジェ"),
+    "additive_lane.channel": ("Channel", "チャンネル"),
+    "additive_lane.constant": ("Constant", "一定"),
+    "additive_lane.copy_keys": ("Copy Keys", "キーをコピー"),
+    "additive_lane.delete_curve": ("Delete Curve", "カーブを削除"),
+    "additive_lane.delete_keys": ("Delete Keys", "キーを削除"),
+    "additive_lane.double_click_to_add": (
+        "Double-click to add a key for {channel}.",
+        "ダブルクリックで {channel} のキーを追加します。",
+    ),
+    "additive_lane.drag_to_blend": ("Drag to change the blend", "ドラッグでブレンドの長さを変更"),
+    "additive_lane.enabled": ("Enabled", "有効"),
+    "additive_lane.flat": ("Flat", "水平"),
+    "additive_lane.interpolation": ("Interpolation", "補間"),
+    "additive_lane.linear": ("Linear", "直線"),
+    "additive_lane.not_here": (
+        "This does not move in the player's posture.",
+        "この奏者の姿勢では動きません。",
+    ),
+    "additive_lane.off": ("Disabled", "無効"),
+    "additive_lane.paste_keys_here": ("Paste Keys Here", "ここにキーを貼り付け"),
+    "additive_lane.rename": ("Rename...", "名前を変更..."),
+    "additive_lane.tangents": ("Tangents", "接線"),
+    "additive_lane.title": ("Additive Curves", "加算カーブ"),
+    "additive_lane.value": ("Value...", "値..."),
+    "additive_lane.weight": ("Weight...", "ウェイト..."),
+    "additive_lane.weight_is": ("Weight {weight:.2f}", "ウェイト {weight:.2f}"),
+    "additive_lane.what_to_do": (
+        (
+            "Keys added to the generated motion. Double-click to add a key, drag keys, tangents and blends, "
+            "right-click for more. Hold Shift for fine steps, Alt to ignore the grid."
+        ),
+        (
+            "生成された動きに加えるキーです。ダブルクリックでキーを追加、ドラッグでキー・接線・ブレンドを変更、"
+            "右クリックでその他の操作。Shift で微調整、Alt でグリッドを無視します。"
+        ),
+    ),
     "alternates.back_to_generators_choice": ("Revert to generated fingering", "自動生成の運指に戻す"),
     "alternates.choice": ("Choice {rank}", "第 {rank} 候補"),
     "alternates.generated": ("Revert to Generated", "自動生成に戻す"),

@@ -15,6 +15,7 @@ from typing import Literal, NamedTuple, TypeAlias
 import msgspec
 
 from app.errors import AppError
+from app.plan.additive_curve import AdditiveCurve
 from app.plan.corrections import (
     WITHIN,
     AddExpression,
@@ -247,9 +248,9 @@ def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Proj
     player_id = plan.player_id
     note_ids = frozenset(note.id for note in _notes(project, player_id))
     event_ids = tuple(event_ids)
-    # Bars performed anew are no event of the plan.
-    varied = [item for item in corrections_of(project, player_id, event_ids) if isinstance(item, Vary)]
-    project = take_back(project, player_id, varied) if varied else project
+    # Bars performed anew and curves are no events of the plan.
+    added = [item for item in corrections_of(project, player_id, event_ids) if isinstance(item, Vary | AdditiveCurve)]
+    project = take_back(project, player_id, added) if added else project
     for event in _current(project, plan, event_ids):
         said = corrections_of(project, player_id, (event.id,))
         project = take_back(project, player_id, said)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Final, TypeAlias
 
+from app.plan.additive_curve import AdditiveCurve
 from app.plan.corrections import (
     WITHIN,
     AddExpression,
@@ -46,6 +47,8 @@ def event_id_of(correction: Correction) -> str:
             return f"expression:{correction.name}"
         case PoseCorrection():
             return f"pose:{correction.name}"
+        case AdditiveCurve():
+            return f"additive:{correction.name}"
         case Vary():
             return f"vary:{correction.name}"
         case _:
@@ -74,7 +77,7 @@ def is_there(project: Project, player_id: str, event_id: str) -> bool:
     except KeyError:
         return False
     kind, _, of = event_id.partition(":")
-    if kind in ("pose", "vary") or of.startswith(OWN):
+    if kind in ("pose", "additive", "vary") or of.startswith(OWN):
         return bool(corrections_of(project, player_id, (event_id,)))
     return kind not in _OF_NOTES or of.startswith("@") or of in project.part(player).note_ids
 

@@ -36,7 +36,7 @@ def _counted(display: TimeDisplay) -> Action:
     )
 
 
-LANES: Final = ("audio", "roll", "takes", "fingering", "breath", "acting", "curves", "dance", "problems")
+LANES: Final = ("audio", "roll", "takes", "fingering", "breath", "acting", "curves", "dance", "problems", "additive")
 """As they stand in a new window."""
 
 
@@ -75,7 +75,7 @@ ACTIONS: tuple[Action, ...] = (
     _counted("bars"),
     _counted("seconds"),
     _counted("frames"),
-    *(_lane(id, f"Ctrl+Alt+{number}") for number, id in enumerate(LANES, 1)),
+    *(_lane(id, f"Ctrl+Alt+{number % 10}") for number, id in enumerate(LANES, 1)),
     _fold("unfold_all", False),
     _fold("fold_all", True),
 )

@@ -44,6 +44,8 @@ OTHERS: dict[str, Any] = {
     "instrument_id": "flugelhorn_Bb",
     "character_id": "woman_adult",
     "choreography": "",
+    "channel": "head.left",
+    "interpolation": "linear",
     "expression": "smile",
     "label": "123",
     "reason": None,

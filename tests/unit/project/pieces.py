@@ -8,6 +8,7 @@ from msgspec.structs import replace
 
 from app.errors import Message
 from app.plan.acting import AMOUNTS
+from app.plan.additive_curve import AdditiveCurve, CurveKey, Tangent
 from app.plan.corrections import (
     AddExpression,
     AddGesture,
@@ -105,6 +106,22 @@ def full_project(folder: str = "/music") -> Project:
             ChangeExpression("expression:neutral", "angry", 0, 100, 0.7),
             AddExpression("yours", "angry", 10, 20, 0.4, 0.1, 0.1),
             PoseCorrection("pose", "bell", 480, 960, 5.0, 1.0, -1.0, 120, 60),
+            AdditiveCurve(
+                "own-1",
+                "head.up",
+                (
+                    CurveKey(-480, 0.0),
+                    CurveKey(480, 6.5, "linear"),
+                    CurveKey(960, -2.25, "constant", Tangent(120, 1.5), Tangent(60, -3.0)),
+                    CurveKey(1440, 1.0),
+                ),
+                240,
+                480,
+                0.75,
+                False,
+                "見上げる",
+            ),
+            AdditiveCurve("own-2", "face.browInnerUp", (CurveKey(0, 0.5),)),
             Vary("varied-1", 0, 480, 2**62 + 1),
         ),
         trombone.id: (PinFingering("2:1", "1"),),

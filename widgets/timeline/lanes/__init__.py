@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from widgets.timeline.lane import Lane
 from widgets.timeline.lanes.acting import ActingLane
+from widgets.timeline.lanes.additive import AdditiveLane
 from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.lanes.curves import CurvesLane
 from widgets.timeline.lanes.dance import DanceLane
@@ -21,5 +22,6 @@ LANES: tuple[type[Lane], ...] = (
     CurvesLane,
     DanceLane,
     ProblemsLane,
+    AdditiveLane,
 )
 """In the order of a new window, from the top; the piano roll stands before them all but the first."""

@@ -1,4 +1,4 @@
-"""A number typed in the lane itself."""
+"""A number or a text typed in the lane itself."""
 
 from __future__ import annotations
 
@@ -86,3 +86,25 @@ class NumberField(QLineEdit):
         super().focusOutEvent(event)
         if event.reason() != Qt.FocusReason.PopupFocusReason:
             self.hide()
+
+
+class TextField(NumberField):
+    """The same for a text."""
+
+    def __init__(self, lane: Lane) -> None:
+        super().__init__(lane)
+        self.setObjectName("text_field")
+        self._take_text: Callable[[str], None] | None = None
+
+    def ask(self, box: QRectF, text: str, take: Callable[[str], None], name: str) -> None:
+        """Ask for a text at a place of the plot; ``name`` is for screen readers."""
+        self.open(box, 0.0, 0, lambda _: None, name)
+        self._take_text = take
+        self.setText(text)
+        self.selectAll()
+
+    def _entered(self) -> None:
+        text, take = self.text(), self._take_text
+        self.close_field()
+        if take is not None:
+            take(text)

@@ -1,0 +1,49 @@
+"""What the generator itself does on a channel that the animator can lay a curve over."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from app.motion.body import BodyMotion
+from app.motion.curve import FloatArray
+from app.motion.perform import PerformanceCurves
+from app.plan.additive_curve import CHANNELS, FACE
+from app.plan.pose import NECK_SHARES, TRUNK_SHARES
+
+_JOINTS: Final = {"head": tuple(NECK_SHARES), "torso": tuple(TRUNK_SHARES)}
+
+
+def generated(curves: PerformanceCurves, channel: str, times_s: FloatArray) -> FloatArray:
+    """Values (F,) of a channel at ascending times without its curves, in the channel's unit; angles are seen from the
+    posture at rest."""
+    asked = curves.curves(replace(curves.frames(times_s), added={}))
+    if channel.startswith(FACE):
+        return asked.morphs.get(channel.removeprefix(FACE), np.zeros(len(times_s)))
+    values = _of_body(asked.body, channel) - _of_body(curves.player.still, channel)
+    return np.rad2deg(values) if CHANNELS[channel].unit == "deg" else values
+
+
+def _of_body(motion: BodyMotion, channel: str) -> FloatArray:
+    part, _, what = channel.partition(".")
+    if part in _JOINTS:
+        angles = {"up": motion.forward_rad, "left": motion.turn_rad, "roll": motion.left_rad}[what]
+        total = np.sum([angles[joint] for joint in _JOINTS[part]], axis=0)
+        return -total if what == "up" else np.asarray(total)
+    hips = motion.hips_danced
+    values: dict[str, FloatArray] = {
+        "bell.up": motion.bell_rad + motion.bell_cue_rad,
+        "left_elbow.up": motion.elbows_rad,
+        "right_elbow.up": motion.elbows_rad,
+        "shoulders.up": motion.shoulders_rad,
+        "hips.left": motion.hips_side_m,
+        "hips.up": -motion.hips_bob_m,
+        "knees.bend": motion.knee_rad,
+        "eyes.up": -motion.eyes_pitch_rad,
+        "eyes.left": motion.eyes_yaw_rad,
+    }
+    if channel == "hips.ahead" and hips:
+        return hips["ahead_m"]
+    return values.get(channel, np.zeros(len(motion.hips_side_m)))

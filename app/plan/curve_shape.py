@@ -1,0 +1,79 @@
+"""Values of curves with handles: cubic Bézier segments whose handles lie between their keys, and eased moves.
+
+A value depends on its own time only, so any span of times has the values that it has in the whole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.model import CurveSegment
+
+FloatArray = npt.NDArray[np.float64]
+
+HALVINGS: Final = 40
+"""After so many the place on a segment is known to the last bits that matter."""
+COLUMNS: Final = 9
+"""Of a row: what `CurveSegment` has, in its order."""
+
+
+def rows(segments: Sequence[CurveSegment]) -> FloatArray:
+    """Segments as a table (S, `COLUMNS`)."""
+    table = [
+        (
+            one.start_s, one.end_s, one.before, one.after,
+            one.leave_s, one.leave_value, one.arrive_s, one.arrive_value, float(one.eased),
+        )
+        for one in segments
+    ]  # fmt: skip
+    return np.array(table, np.float64).reshape(-1, COLUMNS)
+
+
+def sampled(segments: Sequence[CurveSegment], times_s: FloatArray) -> FloatArray:
+    """Values at any times, (F,) float64; 0 before the first and after the last segment."""
+    return sampled_rows(rows(segments), times_s)
+
+
+def sampled_rows(table: FloatArray, times_s: FloatArray) -> FloatArray:
+    """The same from a table of segments that touch one another."""
+    result = np.zeros(len(times_s))
+    if not len(table):
+        return result
+    inside = np.flatnonzero((times_s >= table[0, 0]) & (times_s <= table[-1, 1]))
+    if not len(inside):
+        return result
+    at = times_s[inside]
+    chosen = table[np.maximum(np.searchsorted(table[:, 0], at, side="right") - 1, 0)]
+    start_s, end_s, before, after = chosen[:, 0], chosen[:, 1], chosen[:, 2], chosen[:, 3]
+    length_s = np.maximum(end_s - start_s, 1e-9)
+    phase = np.clip((at - start_s) / length_s, 0.0, 1.0)
+    eased = before + (after - before) * (phase * phase * phase * (10.0 + phase * (6.0 * phase - 15.0)))
+    free = chosen[:, 8] == 0.0
+    values = eased
+    if free.any():
+        some = chosen[free]
+        span_s = length_s[free]
+        place = _place(phase[free], (some[:, 4] - some[:, 0]) / span_s, (some[:, 6] - some[:, 0]) / span_s)
+        values[free] = _cubic(place, some[:, 2], some[:, 5], some[:, 7], some[:, 3])
+    result[inside] = values
+    return result
+
+
+def _place(phase: FloatArray, leave: FloatArray, arrive: FloatArray) -> FloatArray:
+    """How far along its segment (F,) a curve is at a share of the segment's time; handles lie within 0..1."""
+    low, high = np.zeros(len(phase)), np.ones(len(phase))
+    nothing, whole = low.copy(), high.copy()
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        early = _cubic(middle, nothing, leave, arrive, whole) < phase
+        low, high = np.where(early, middle, low), np.where(early, high, middle)
+    return 0.5 * (low + high)
+
+
+def _cubic(u: FloatArray, a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray) -> FloatArray:
+    v = 1.0 - u
+    return v * v * v * a + 3.0 * v * v * u * b + 3.0 * v * u * u * c + u * u * u * d
