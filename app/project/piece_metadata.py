@@ -187,13 +187,15 @@ def _text(table: dict[str, Any]) -> str:
 
 
 def _table(metadata: PieceMetadata) -> dict[str, Any]:
-    table: dict[str, Any] = msgspec.to_builtins(metadata)
-    for player in table["players"].values():
-        player["corrections"] = [
-            {name: value for name, value in correction.items() if value is not None}
-            for correction in player["corrections"]
-        ]
+    table: dict[str, Any] = _without_none(msgspec.to_builtins(metadata))
     return table
+
+
+def _without_none(value: Any) -> Any:
+    """What is not said is left out: TOML has no word for it."""
+    if isinstance(value, Mapping):
+        return {key: _without_none(item) for key, item in value.items() if item is not None}
+    return [_without_none(item) for item in value] if isinstance(value, list | tuple) else value
 
 
 def load_metadata(path: Path) -> PieceMetadata:
