@@ -49,7 +49,7 @@ from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, 
 from app.plan.named_gestures import with_definitions
 from app.plan.parameters import restricted
 from app.plan.pose import plan_poses
-from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled
+from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled, without_overruled
 from app.plan.stagger import Breathed, Shared, SharedLine, breathed_of, shared_line, shared_with
 from app.plan.together import one_at_a_time
 from app.plan.traces import plan_traces
@@ -372,6 +372,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     made_gestures = memo.step("gestures and rules", with_ruled, made_gestures, ruled.gestures)
     moved = _of(corrections, ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
     corrected = memo.step("corrected gestures", correct_gestures, made_gestures, moved, clock)
+    corrected = memo.step("gestures by hand", without_overruled, corrected)
     held = restricted(parameters, "poses")
     defined = memo.step("named gestures", with_definitions, corrected, given.named, instrument, held, times, lowered)
     gestures = defined.gestures
@@ -398,6 +399,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     made_expressions = memo.step("expressions and rules", with_ruled, made_expressions, ruled.expressions)
     faced = _of(corrections, ChangeExpression, AddExpression, RemoveEvent, SetBreath, SetCue)
     expressions = memo.step("corrected expressions", correct_expressions, made_expressions, faced, clock)
+    expressions = memo.step("expressions by hand", without_overruled, expressions)
     tongues = memo.step("tongues", plan_tongues, notes, times, instrument, fingerings)
     posed = _of(corrections, PoseCorrection)
     poses, pose_problems = memo.step("poses", plan_poses, posed, instrument, restricted(parameters, "poses"), clock)

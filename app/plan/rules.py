@@ -305,6 +305,26 @@ def with_ruled(made: tuple[E, ...], ruled: tuple[E, ...]) -> tuple[E, ...]:
     return tuple(both) if ruled else made
 
 
+def without_overruled(events: tuple[E, ...]) -> tuple[E, ...]:
+    """Events without those of rules where the animator put one of the same kind: what is placed by hand wins. The very
+    same tuple where nothing is left out."""
+    placed = [event for event in events if event.corrected and ":rule:" not in event.id]
+    spans: dict[str, list[tuple[float, float]]] = {}
+    for event in placed:
+        spans.setdefault(event.id.split(":", 1)[0], []).append((event.start_s, event.end_s))
+    if not spans:
+        return events
+    kept = tuple(event for event in events if event.corrected or not _is_overruled(event, spans))
+    return kept if len(kept) < len(events) else events
+
+
+def _is_overruled(event: GestureEvent | ExpressionEvent, spans: Mapping[str, list[tuple[float, float]]]) -> bool:
+    kind, *rest = event.id.split(":", 2)
+    if rest[:1] != ["rule"]:
+        return False
+    return any(start_s < event.end_s and event.start_s < end_s for start_s, end_s in spans.get(kind, ()))
+
+
 def lowered_spans_s(gestures: tuple[GestureEvent, ...]) -> tuple[tuple[float, float], ...]:
     """Where the instrument is off the lips."""
     return tuple((event.start_s, event.end_s) for event in gestures if event.kind == "lower_instrument")

@@ -1,4 +1,4 @@
-"""Commands that save, load and compare what was said of the acting in a piece."""
+"""Commands that save, load and compare what was said of the acting in a piece, and show where the user's tables are."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ from app.project.piece_metadata import (
     with_metadata,
 )
 from app.shell.editor import Editor, EditorAction, is_open
+from metadata.library import FOLDERS, metadata_library
+from widgets.common.paths import show_folder
 
 
 def save(editor: Editor) -> None:
@@ -68,6 +70,16 @@ def compare(editor: Editor) -> None:
         session.notice(Message("metadata.same", {"file": path.name}))
 
 
+def open_folder(editor: Editor) -> None:
+    """Show the folder of the user's own tables, with a folder for each kind, in the file manager; what is wrong in them
+    is said once more."""
+    for folder in FOLDERS:
+        folder.folder().mkdir(parents=True, exist_ok=True)
+    for problems in metadata_library().problems.values():
+        editor.session.notice(problems[0], Severity.ERROR)
+    show_folder(FOLDERS[0].folder().parent)
+
+
 def _read(editor: Editor) -> tuple[Path, PieceMetadata] | None:
     path = editor.questions.open_file(tr("files.load_metadata"), editor.files.folder, _kinds())
     if path is None:
@@ -87,4 +99,5 @@ ACTIONS: tuple[EditorAction, ...] = (
     EditorAction("file.save_metadata", save, "file/metadata", enabled=is_open),
     EditorAction("file.load_metadata", load, "file/metadata", enabled=is_open),
     EditorAction("file.compare_metadata", compare, "file/metadata", enabled=is_open),
+    EditorAction("file.metadata_folder", open_folder, "file/metadata"),
 )

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from app.plan.corrections import AddGesture, ChangeGesture, RemoveEvent
+from app.plan.corrections import AddExpression, AddGesture, ChangeGesture, RemoveEvent
 from app.plan.dynamics import dynamics_of
 from app.plan.generate import MonophonicPart, make_plans, plan_ensemble, time_frame
 from app.plan.line import line_times
@@ -152,6 +152,26 @@ def test_gestures_are_corrected_like_all_others() -> None:
     ]
     assert all(event.gesture is not None for event in made)
     assert not plan(rule, line=line).problems
+
+
+def test_what_is_placed_by_hand_wins_over_the_rules_there_and_only_there() -> None:
+    rules = (
+        Rule("leaps", When(leap_up=12), Do(gesture="nodding")),
+        Rule("faces", When(leap_up=12), Do(expression="smile")),
+    )
+    free = plan(*rules)
+    first = next(event for event in free.gestures if event.kind == "named")
+    by_hand = (
+        AddGesture("mine", "named", first.start_tick - 10, first.start_tick + 10, 1.0, "shrug"),
+        AddExpression("yours", "strained", first.start_tick, first.end_tick),
+        AddGesture("sways", "sway", 24 * Q, 28 * Q, 1.0),
+    )
+    held = plan(*rules, line=replace(LINE, corrections=by_hand))
+    assert {event.id for event in free.gestures} - {event.id for event in held.gestures} == {first.id}
+    assert {event.id for event in free.expressions} - {event.id for event in held.expressions} == {
+        "expression:rule:faces:1:3"
+    }
+    assert not held.problems, "no correction is about what gave way"
 
 
 def test_what_does_not_exist_is_reported() -> None:
