@@ -36,7 +36,7 @@ from app.plan.model import BreathEvent, GestureEvent, PlayerPlan, PoseTarget, sa
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
 from app.score.metre_map import FeltBeats
-from metadata.model import Body, Posture
+from metadata.model import Body, Posture, at_amplitude
 
 EYES_BACK = 0.6
 """Share of the head's turn to the instrument that the eyes turn back, to the music and to the others."""
@@ -47,7 +47,7 @@ LEAST_DRAWN = 0.4
 BREATH_LEAD_S = 0.03
 """The inhalation is complete this long before the breath's end."""
 LIFT_SHARE = 0.9
-STEP_IN_HIPS = 0.4
+STEP_IN_HIPS = 0.3
 """Hips go along with a foot that is put ahead."""
 _NONE_AT_REST = (*("protraction_rad", "elbow_held_rad", "bell_held_rad", "hips_danced", "elbows_late_rad", "feet"),)
 
@@ -357,6 +357,7 @@ def body_motion(
     total.left(NECK_SHARES, deg(sizes.wander("head_side", sway.head_deg, times_s)))
     total.turn(NECK_SHARES, deg(sizes.wander("head_turn", sway.head_deg, times_s)))
 
+    inhaled = acting.breath * at_amplitude(body.breath.shown, parameters.amplitude) * inhaled
     breathing = deg(body.breath.torso_back_deg) * inhaled - deg(body.breath.preparation_forward_deg) * lean
     total.forward(TRUNK_SHARES, -breathing)
     total.forward(NECK_SHARES, -deg(body.breath.head_back_deg) * inhaled + 0.4 * breathing)
