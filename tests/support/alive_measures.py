@@ -275,7 +275,7 @@ def head_mm_s(read: Read) -> float:
 
 
 def pairwise(reads: list[Read]) -> float:
-    """The greatest correlation of any two players' heads (sideways and fore-aft paths, 0.1 to 3 Hz) while both play: all
+    """The greatest correlation of two players' heads (sideways and fore-aft paths, 0.1 to 3 Hz) while both play: all
     come up before the first note together, and bow together after the last."""
     found = [0.0]
     for one, other in itertools.combinations(reads, 2):
