@@ -108,7 +108,7 @@ def leans(
     back = seeds.chances_at("lean back", ticks) < BACK_CHANCE
     vigours = dynamics.at((starts_s + ends_s) / 2.0)
     sizes = sizes * np.minimum(1.0, (ends_s - starts_s) / WHOLE_S)
-    amounts = grown(np.where(back, -0.7 * sizes, sizes), vigours)
+    amounts = grown(np.where(back, -0.5 * sizes, sizes), vigours)
     rests = seeds.chances_at("lean rest", ticks)
     for place, (first, last) in enumerate(zip(firsts.tolist(), lasts.tolist(), strict=True)):
         start_s, end_s = float(starts_s[place]), float(ends_s[place])

@@ -46,7 +46,7 @@ def test_a_phrase_is_leant_into_to_its_climax_and_left_at_its_end() -> None:
     assert len(pairs) >= 10
     for up, back in pairs:
         assert up.end_s == back.start_s
-        assert 0.3 <= abs(up.amount) <= 1.0
+        assert 0.2 <= abs(up.amount) <= 1.0
         # The climax is the highest note, 9 beats in.
         assert (up.end_tick - up.start_tick) == 9 * Q
         assert abs(back.amount) < 0.2 * abs(up.amount)
