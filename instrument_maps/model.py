@@ -85,11 +85,14 @@ class Embouchure(_Table, frozen=True):
         Height of what lies between the lips where they close around it; 0 for a cup and an air jet.
     puff : float
         How far low and loud notes fill the cheeks: 1 as a brass player's may, 0 where cheeks stay flat.
+    vibrato : float
+        How much vibrato held notes usually have, 0..1.
     """
 
     kind: EmbouchureKind
     lips_apart_m: float = 0.0
     puff: float = 1.0
+    vibrato: float = 0.5
 
 
 class Mouthpiece(_Table, frozen=True):

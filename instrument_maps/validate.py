@@ -98,6 +98,8 @@ def _mouthpiece(instrument: InstrumentMap) -> Iterator[Problem]:
         yield "mouthpiece.up_axis", "is not at a right angle to air_axis"
     if not 0.0 <= instrument.embouchure.puff <= 1.0:
         yield "embouchure.puff", "must be from 0 to 1"
+    if not 0.0 <= instrument.embouchure.vibrato <= 1.0:
+        yield "embouchure.vibrato", "must be from 0 to 1"
     apart_m = instrument.embouchure.lips_apart_m
     if instrument.embouchure.kind in LIPS_MEET:
         if apart_m:

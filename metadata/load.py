@@ -14,6 +14,7 @@ from typing import TypeVar, get_args
 import msgspec
 
 from app.errors import MapError
+from metadata.face_model import EMBOUCHURE_WEIGHTS, FACE_WEIGHTS, UPPER_FACE, FaceMotion
 from metadata.model import (
     ARKIT_MORPHS,
     Body,
@@ -39,8 +40,6 @@ GENERIC_CONTROLLER = "generic"
 """The controller of last resort: any that no other table recognises."""
 _AXIS_TOLERANCE = 2e-3
 _MORPHS = frozenset(ARKIT_MORPHS)
-WEIGHTS = ("relaxed", "tight", "air", "effort", "tongue_stroke", "inhale")
-"""The tables of weights of an embouchure."""
 
 T = TypeVar("T")
 
@@ -226,9 +225,23 @@ def read_body(path: Path) -> Body:
         if kind not in body.embouchure:
             raise _invalid(path, "embouchure", f"no embouchure {kind!r}")
     for kind, embouchure in body.embouchure.items():
-        for field in WEIGHTS:
+        for field in EMBOUCHURE_WEIGHTS:
             _check_morphs(path, f"embouchure.{kind}.{field}", getattr(embouchure, field))
+        if embouchure.vibrato_hz[0] > embouchure.vibrato_hz[1]:
+            raise _invalid(path, f"embouchure.{kind}.vibrato_hz", "the lowest rate comes first")
+    _check_face(path, body.face)
     return body
+
+
+def _check_face(path: Path, face: FaceMotion) -> None:
+    for field in FACE_WEIGHTS:
+        weights = getattr(face, field)
+        _check_morphs(path, f"face.{field}", weights)
+        for morph in weights:
+            if not morph.startswith(UPPER_FACE):
+                raise _invalid(path, f"face.{field}.{morph}", "the mouth belongs to the embouchure")
+    if face.left_right[0] > face.left_right[1]:
+        raise _invalid(path, "face.left_right", "the smallest difference comes first")
 
 
 def _path(kind: str, name: str) -> Path:

@@ -13,18 +13,17 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
-Fraction01: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
-Positive: TypeAlias = Annotated[float, msgspec.Meta(gt=0.0)]
-NotNegative: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0)]
-Range: TypeAlias = tuple[float, float]
-"""Lowest and highest, degrees."""
-Axis: TypeAlias = tuple[float, float, float]
-"""A unit vector in the T-pose; the positive rotation about it is the motion the field names."""
-Delay: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=0.12)]
-"""Seconds; later than that a body falls apart."""
-AmplitudeScale: TypeAlias = tuple[NotNegative, NotNegative, NotNegative]
-"""The value at amplitude 0 (the residual of a player asked to keep still), 0.5 (natural) and 1 (exaggerated);
-linear between. Use `at_amplitude`."""
+from metadata.face_model import Embouchure as Embouchure
+from metadata.face_model import EmbouchureKind as EmbouchureKind
+from metadata.face_model import FaceMotion as FaceMotion
+from metadata.units import AmplitudeScale as AmplitudeScale
+from metadata.units import Axis as Axis
+from metadata.units import Delay as Delay
+from metadata.units import Fraction01 as Fraction01
+from metadata.units import NotNegative as NotNegative
+from metadata.units import Positive as Positive
+from metadata.units import Range as Range
+from metadata.units import at_amplitude as at_amplitude
 
 REQUIRED_JOINTS: tuple[str, ...] = (
     *("hips", "spine", "head"),
@@ -50,14 +49,6 @@ ARKIT_MORPHS: tuple[str, ...] = (
 
 BREATH_MORPHS: tuple[str, str] = ("chestExpand", "bellyExpand")
 """Morph targets of a trunk: ribs and back, and belly, as wide as air makes them."""
-
-
-def at_amplitude(scale: AmplitudeScale, amplitude: float) -> float:
-    """Value of a scale at a player's amplitude 0..1, linear between its three values."""
-    residual, natural, exaggerated = scale
-    if amplitude <= 0.5:
-        return residual + (natural - residual) * max(amplitude, 0.0) * 2.0
-    return natural + (exaggerated - natural) * (min(amplitude, 1.0) - 0.5) * 2.0
 
 
 class Expression(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -277,44 +268,6 @@ class BreathMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     belly_share: Fraction01
 
 
-class Embouchure(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """ARKit weights of one way to play (the map's ``embouchure.kind``).
-
-    The face while playing is ``relaxed * (1 - tension) + tight * tension + air * air + effort * effort``; on top of it
-    the jaw opens as far as lips need that close around something, or leave an opening (`app.motion.face`).
-
-    Attributes
-    ----------
-    relaxed, tight : dict of str to float
-        Low notes, fully relaxed, and high notes, drawn tight.
-    air, effort : dict of str to float
-        Full air and full effort.
-    tongue_stroke : dict of str to float
-        The tongue before an attack.
-    inhale : dict of str to float
-        The mouth in a full breath.
-    opening_m : float
-        Height of the opening between the lips beside what lies between them; 0: the lips stay as the weights have them.
-    """
-
-    relaxed: dict[str, Fraction01]
-    tight: dict[str, Fraction01]
-    air: dict[str, Fraction01]
-    effort: dict[str, Fraction01]
-    tongue_stroke: dict[str, Fraction01]
-    inhale: dict[str, Fraction01]
-    opening_m: NotNegative = 0.0
-
-    @property
-    def usual(self) -> dict[str, float]:
-        """Weights of a middling tension."""
-        names = sorted(self.relaxed.keys() | self.tight.keys())
-        return {name: 0.5 * (self.relaxed.get(name, 0.0) + self.tight.get(name, 0.0)) for name in names}
-
-
-EmbouchureKind: TypeAlias = Literal["cup", "single_reed", "double_reed", "air_jet", "fipple"]
-"""The kinds an instrument map may name."""
-
 TRUNK_JOINTS = ("spine", "chest", "upperChest")
 NECK_JOINTS = ("neck", "head")
 HEAD_FOLLOWS = 0.4
@@ -343,6 +296,7 @@ class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     concert: ConcertMotion
     breath: BreathMotion
     embouchure: dict[EmbouchureKind, Embouchure]
+    face: FaceMotion
 
     def turned_to(
         self,

@@ -1,23 +1,23 @@
-"""Morph weights of the face (ARKit's 52 names) from the plan: embouchure, breath, tongue, effort, expression, lids.
+"""What a plan asks of a face, as curves of time: embouchure, breath, tongue, effort, expressions, what playing costs.
 
-Every morph is a sum of drivers, each a curve 0..1 of time, with weights from `metadata`, clipped to 0..1. The jaw also
-opens as far as lips need that close around something, or blow through an opening: that is solved from how the
-character's own morphs move its lips.
+`app.motion.face_morphs` makes the weights of a character's morphs of them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from app.motion.curve import Curve, Envelopes, FloatArray, Trace, moves, moves_to
+from app.motion.exertion import Exertion, Lungs, exertion_of
+from app.motion.held_notes import easing, firmness, vibrato_size
+from app.motion.spline import Spline
 from app.plan.model import EmbouchureEvent, PlayerPlan, same_events
-from app.rig.hold import Lips
-from metadata.model import Embouchure, Expression
+from metadata.face_model import FaceMotion
 
-FORM_S = 0.16
+FORM_S = 0.26
 """The lips form in this time before the first note of a phrase, and let go as slowly after its last."""
 SHIFT_S = 0.09
 """From one note's tension to the next."""
@@ -29,9 +29,6 @@ TONGUE_RELEASE_S = 0.05
 SWELL_S = 0.35
 """Effort and air swell and fade slowly, over several notes."""
 
-LIDS = ("eyeBlinkLeft", "eyeBlinkRight")
-AROUND_FROM, AROUND_BY = 0.32, 0.06
-"""Lowered by less than this, the lips begin to part for what goes between them; by less than that they have."""
 SHALLOWEST = 0.5
 """However shallow a breath, the mouth opens by this share of a full one's."""
 
@@ -122,7 +119,37 @@ class Drivers:
     air: FloatArray
     tongue: FloatArray
     mouth_open: FloatArray
+    firm: FloatArray
+    eased: FloatArray
+    vibrato: FloatArray
+    exertion: Exertion
     expressions: dict[str, FloatArray]
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What the curves of a face are made from.
+
+    Attributes
+    ----------
+    embouchure_tension : float
+        Scales the tension; 1 is as planned.
+    motion : FaceMotion
+        Of the body.
+    lungs : Lungs
+        Of the player, with the instrument.
+    """
+
+    plan: PlayerPlan
+    embouchure_tension: float
+    motion: FaceMotion
+    lungs: Lungs
+
+    def same(self, other: Asked, *kinds: str) -> bool:
+        """Whether what is made of these events of the plan is the same."""
+        mine, others = (one.plan.time_frame for one in (self, other))
+        alike = (self.embouchure_tension, self.lungs, mine) == (other.embouchure_tension, other.lungs, others)
+        return alike and self.motion is other.motion and same_events(self.plan, other.plan, *kinds)
 
 
 @dataclass(frozen=True)
@@ -133,6 +160,10 @@ class Face:
     ----------
     at_lips : Curve
         1 while the lips are formed.
+    firm, eased, vibrato : Curve
+        What the lips do within notes and between them (`app.motion.held_notes`).
+    exertion : Spline
+        Members of `Exertion`.
     expressions : dict of str to Envelopes
         By name.
     """
@@ -143,25 +174,29 @@ class Face:
     air: Curve | Trace
     tongue: Envelopes
     mouth_open: Envelopes
+    firm: Curve
+    eased: Curve
+    vibrato: Curve
+    exertion: Spline
     expressions: dict[str, Envelopes]
 
     @classmethod
-    def of(
-        cls, plan: PlayerPlan, embouchure_tension: float, before: tuple[Face, PlayerPlan, float] | None = None
-    ) -> Face:
-        """From a whole plan, or from what is the same as in the plan ``before``. ``embouchure_tension`` scales the
-        tension; 1 is as planned."""
+    def of(cls, asked: Asked, before: tuple[Face, Asked] | None = None) -> Face:
+        """From a whole plan, or from what is the same as in the plan ``before``."""
+        plan = asked.plan
         events = plan.embouchures
-        embouchures = ("embouchures", "traces")
-        if before is not None and before[2] == embouchure_tension and same_events(plan, before[1], *embouchures):
-            face, other, _ = before
+        if before is not None and asked.same(before[1], "embouchures", "traces"):
+            face, other = before
+            tongues, breaths = (same_events(plan, other.plan, kind) for kind in ("tongues", "breaths"))
             return replace(
                 face,
-                tongue=face.tongue if same_events(plan, other, "tongues") else _tongue(plan),
-                mouth_open=face.mouth_open if same_events(plan, other, "breaths") else breath_opening(plan),
-                expressions=face.expressions if same_events(plan, other, "expressions") else _shown(plan),
+                tongue=face.tongue if tongues else _tongue(plan),
+                firm=face.firm if tongues else firmness(plan),
+                mouth_open=face.mouth_open if breaths else breath_opening(plan),
+                exertion=face.exertion if breaths else exertion_of(plan, asked.motion, asked.lungs),
+                expressions=face.expressions if same_events(plan, other.plan, "expressions") else _shown(plan),
             )
-        tension, effort, air = _strains(plan, embouchure_tension)
+        tension, effort, air = _strains(plan, asked.embouchure_tension)
         return cls(
             at_lips=_tracked(events, [1.0] * len(events), FORM_S, 0.0),
             tension=tension,
@@ -169,89 +204,18 @@ class Face:
             air=air,
             tongue=_tongue(plan),
             mouth_open=breath_opening(plan),
+            firm=firmness(plan),
+            eased=easing(plan),
+            vibrato=vibrato_size(plan),
+            exertion=exertion_of(plan, asked.motion, asked.lungs),
             expressions=_shown(plan),
         )
 
     def sample(self, times_s: FloatArray) -> Drivers:
         """What moves the face at ascending times."""
-        driven = vars(self).items()
+        alone = {name: curve for name, curve in vars(self).items() if name not in ("expressions", "exertion")}
         return Drivers(
-            **{name: curve.sample(times_s) for name, curve in driven if name != "expressions"},
+            **{name: curve.sample(times_s) for name, curve in alone.items()},
+            exertion=Exertion(*self.exertion.sample(times_s)),
             expressions={name: envelopes.sample(times_s) for name, envelopes in self.expressions.items()},
         )
-
-
-def face_morphs(
-    face: Drivers,
-    embouchure: Embouchure,
-    lips: Lips,
-    expressions: Mapping[str, Expression],
-    blinks: FloatArray,
-    lowered: FloatArray,
-) -> dict[str, FloatArray]:
-    """Weights 0..1 of every morph that moves, each (F,) float64.
-
-    Parameters
-    ----------
-    embouchure : Embouchure
-        Weights of the instrument's kind of embouchure.
-    lips : Lips
-        Of the character, with the instrument.
-    expressions : mapping of str to Expression
-        All that ``face`` names.
-    blinks : (F,) float64
-        Lids: 1 is closed.
-    lowered : (F,) float64
-        0 with the instrument at the lips, 1 with it lowered.
-    """
-    inhaling, at_lips, tension = face.mouth_open, face.at_lips, face.tension
-    formed = at_lips * (1.0 - 0.9 * inhaling)
-    around = formed
-    if lips.apart_m > 0.0:
-        # What is between the lips stays between them in a rest, as long as it is not lowered.
-        share = np.clip((AROUND_FROM - lowered) / (AROUND_FROM - AROUND_BY), 0.0, 1.0)
-        around = share * share * (3.0 - 2.0 * share)
-    resting = np.maximum(around - at_lips, 0.0) * (1.0 - 0.9 * inhaling)
-    drivers: list[tuple[FloatArray, Mapping[str, float]]] = [
-        (formed * (1.0 - tension) + resting, embouchure.relaxed),
-        (formed * tension, embouchure.tight),
-        (formed * face.air, embouchure.air),
-        (formed * face.effort, embouchure.effort),
-        (face.tongue, embouchure.tongue_stroke),
-        (inhaling, embouchure.inhale),
-    ]
-    for name, shown in face.expressions.items():
-        expression = expressions[name]
-        drivers.append((shown if expression.while_playing else shown * (1.0 - at_lips), expression.weights))
-    drivers.append((blinks, dict.fromkeys(LIDS, 1.0)))
-    morphs = _mixed(drivers)
-    if lips.jaw:
-        _part_lips(morphs, lips, around, formed)
-    return morphs
-
-
-def usual_morphs(embouchure: Embouchure, lips: Lips) -> dict[str, float]:
-    """The face of a middling tension, with the jaw as it closes the lips around what lies between them."""
-    morphs = {name: np.array([weight]) for name, weight in embouchure.usual.items()}
-    one = np.ones(1)
-    if lips.jaw:
-        _part_lips(morphs, lips, one, one)
-    return {name: float(values[0]) for name, values in morphs.items()}
-
-
-def _part_lips(morphs: dict[str, FloatArray], lips: Lips, around: FloatArray, formed: FloatArray) -> None:
-    """Open the jaw until the lips are as far apart as they must be, and by what it opens for a breath beyond that."""
-    needed = lips.jaw_for(lips.apart_m + lips.opening_m * formed, morphs, len(around))
-    beyond = morphs.get(lips.jaw, np.zeros(len(around)))
-    morphs[lips.jaw] = np.clip(around * needed + beyond, 0.0, 1.0)
-
-
-def _mixed(drivers: Sequence[tuple[FloatArray, Mapping[str, float]]]) -> dict[str, FloatArray]:
-    morphs: dict[str, FloatArray] = {}
-    for driver, weights in drivers:
-        for name, weight in weights.items():
-            if weight != 0.0:
-                morphs[name] = morphs.get(name, 0.0) + weight * driver
-    for values in morphs.values():
-        np.clip(values, 0.0, 1.0, out=values)
-    return morphs

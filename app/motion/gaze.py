@@ -1,34 +1,60 @@
-"""Where a player looks, and when the eyelids close.
+"""Where a player looks, and how the head goes along.
 
-The eyes rest on the music most of the time, go up at a cue and wander in rests. Saccades last about 50 ms, fixations
-one to three seconds; the lids close every few seconds, more often at rest than in a phrase, and not on an entry
-(people blink about 17 times a minute at rest, and much less at a visual task: Bentivoglio et al. 1997).
+The eyes read the music line by line, leave it for the glances of the plan and for a cue, wander in rests and now and
+then while playing, and meet the audience at the end. Saccades last 50 ms and more (Bahill et al.
+1975); the head follows larger ones some 100 ms later, and more slowly. Whatever chance decides belongs to a place in
+time, so that an edit changes only what is near it.
 """
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
-from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import accumulate
+from typing import Final, NamedTuple
 
 import numpy as np
 
-from app.motion.curve import Curve, Envelopes, FloatArray, moves
-from app.motion.glances import with_glances
+from app.motion.blinks import BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S, ENTRY_GUARD_S, blinks_of
+from app.motion.curve import Curve, Envelopes, FloatArray, moves_to
 from app.motion.seed import generator
+from app.motion.silences import Silences, holds, overlaps, same_silences
+from app.motion.spline import Spline
 from app.plan.model import PlayerPlan
 
-SACCADE_S = 0.05
-HEAD_TURN_S = 0.45
-HEAD_TURNS = 0.5
-"""The head makes so much of the turn that a fixation lets it follow (`app.motion.body`)."""
-BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S = 0.08, 0.03, 0.16
-ENTRY_GUARD_S = 0.20
-REST_S = 1.0
+__all__ = ["BLINK_DOWN_S", "BLINK_SHUT_S", "BLINK_UP_S", "ENTRY_GUARD_S", "Gaze", "Look", "Watching", "plan_gaze"]
 
+SACCADE_S = 0.05
+SACCADE_BASE_S, SACCADE_S_RAD = 0.035, 0.12
+"""A saccade takes the one and so much by its size."""
+HEAD_TURN_S = 0.45
+HEAD_LAG_S: Final = 0.18
+"""What the head follows is so old: with the curve's own rounding it begins some 80 ms after the eyes."""
+HEAD_STEP_S: Final = 0.05
+MOST_YAW_RAD, MOST_UP_RAD, MOST_DOWN_RAD = 0.5, 0.15, 0.4
 MUSIC_PITCH_RAD = 0.20
 """The music on its stand lies about 12 degrees below the line of sight."""
+LINE_RAD, SYSTEM_RAD, SYSTEMS = 0.075, 0.018, 6
+"""Half of a line's width, and how far the next one is below it, of so many on a page."""
+LINE_S = (5.0, 8.0)
+"""In this time a line is read."""
+FIXATION_S: Final = 0.65
+LOOK_S: Final = 1.9
+"""A look away from the music lasts at most so long."""
+UP_IN_PHRASE, ABOUT_IN_REST = 0.10, 0.5
+"""How likely looks are: up while playing, and about in a rest."""
+BACK_S: Final = 0.8
+"""So long before an entry the eyes are on the music again."""
+CUE_LEAD_S, CUE_BACK_BEATS = 0.3, 0.6
+ASIDE_RAD: Final = 0.22
+AUDIENCE_S: Final = 0.9
+"""So long after the last note the eyes go up to the audience."""
+CLOSE_S: Final = 0.14
+"""Fixations are at least so long."""
+PLAYING_SHARE, RESTING_SHARE, READING_SHARE = 0.35, 0.6, 0.25
+"""How much of it the head follows."""
+HEAD_TURNS = 0.5
+"""The head makes so much of the turn that a look lets it follow (`app.motion.body`)."""
+EYES_RAD: Final = 0.52
+"""Eyes turn no further in the head: what is further aside comes in sight with the head."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +65,8 @@ class Look:
     pitch_rad: FloatArray
     head_yaw_rad: FloatArray
     head_pitch_rad: FloatArray
-    blinks: FloatArray
+    left_lid: FloatArray
+    right_lid: FloatArray
 
 
 @dataclass(frozen=True)
@@ -50,116 +77,179 @@ class Gaze:
     ----------
     yaw_rad, pitch_rad : Curve
         Left and down are positive.
-    head_yaw_rad, head_pitch_rad : Curve
-        What the head follows of it, slowly.
-    blinks : Envelopes
+    head : Spline
+        Yaw and pitch of what the head follows of it.
+    left_lid, right_lid : Envelopes
         Closed at 1.
     """
 
     yaw_rad: Curve
     pitch_rad: Curve
-    head_yaw_rad: Curve
-    head_pitch_rad: Curve
-    blinks: Envelopes
+    head: Spline
+    left_lid: Envelopes
+    right_lid: Envelopes
 
     def sample(self, times_s: FloatArray) -> Look:
         """Where the eyes look at ascending times."""
+        head_yaw_rad, head_pitch_rad = self.head.sample(times_s)
+        turned_rad = HEAD_TURNS * head_yaw_rad
         return Look(
-            yaw_rad=self.yaw_rad.sample(times_s),
+            yaw_rad=np.clip(self.yaw_rad.sample(times_s), turned_rad - EYES_RAD, turned_rad + EYES_RAD),
             pitch_rad=self.pitch_rad.sample(times_s),
-            head_yaw_rad=self.head_yaw_rad.sample(times_s),
-            head_pitch_rad=self.head_pitch_rad.sample(times_s),
-            blinks=self.blinks.sample(times_s),
+            head_yaw_rad=head_yaw_rad,
+            head_pitch_rad=head_pitch_rad,
+            left_lid=self.left_lid.sample(times_s),
+            right_lid=self.right_lid.sample(times_s),
         )
 
 
-def plan_gaze(plan: PlayerPlan, seed: int) -> Gaze:
+class Watching(NamedTuple):
+    """Beside the plan, what decides a gaze.
+
+    Attributes
+    ----------
+    gaze, blink : float
+        How much the eyes leave the music, and how often the lids close; 1 as usual.
+    """
+
+    seed: int = 0
+    gaze: float = 1.0
+    blink: float = 1.0
+
+
+def plan_gaze(plan: PlayerPlan, watching: Watching) -> Gaze:
     """Fixations and blinks of a whole performance, seeded by the player."""
-    fixations = _fixations(plan, generator(plan.player_id, seed, "gaze"))
-    targets = with_glances(fixations, plan.glances, HEAD_TURN_S, HEAD_TURNS)
+    silences = Silences.of(plan)
+    at_s, yaw, pitch, share = _fixations(plan, silences, watching)
+    far = np.hypot(np.diff(yaw, prepend=yaw[:1]), np.diff(pitch, prepend=pitch[:1]))
+    until_s = np.minimum(
+        at_s + np.maximum(SACCADE_BASE_S + SACCADE_S_RAD * far, SACCADE_S), np.append(at_s[1:], np.inf)
+    )
+    left_lid, right_lid = blinks_of(plan, silences, watching.seed, watching.blink)
     return Gaze(
-        yaw_rad=moves([(t, t + SACCADE_S, yaw) for t, yaw, _, _ in targets]),
-        pitch_rad=moves([(t, t + SACCADE_S, pitch) for t, _, pitch, _ in targets], MUSIC_PITCH_RAD),
-        head_yaw_rad=moves([(t, t + HEAD_TURN_S, share * yaw) for t, yaw, _, share in targets]),
-        head_pitch_rad=moves(
-            [(t, t + HEAD_TURN_S, 0.25 * share * (pitch - MUSIC_PITCH_RAD)) for t, _, pitch, share in targets]
-        ),
-        blinks=_blinks(plan, generator(plan.player_id, seed, "blink")),
+        yaw_rad=moves_to(at_s, until_s, yaw),
+        pitch_rad=moves_to(at_s, until_s, pitch, MUSIC_PITCH_RAD),
+        head=_head(plan, at_s, share * yaw, 0.25 * share * (pitch - MUSIC_PITCH_RAD)),
+        left_lid=left_lid,
+        right_lid=right_lid,
     )
 
 
 def looks_alike(plan: PlayerPlan, other: PlayerPlan) -> bool:
-    """Whether the gaze of two plans of a player is the same: notes matter only where they leave rests."""
-    same = plan.cues == other.cues and plan.glances == other.glances and plan.time_frame == other.time_frame
-    return same and _rests(plan) == _rests(other)
+    """Whether the gaze of two plans of a player is the same: of the notes only when they are counts."""
+    same = plan.cues == other.cues and plan.glances == other.glances
+    return same and same_silences(plan, other)
 
 
-def _fixations(plan: PlayerPlan, random: np.random.Generator) -> list[tuple[float, float, float, float]]:
-    """Rows of (start_s, yaw_rad, pitch_rad, share the head follows), at least `HEAD_TURN_S` apart."""
-    rests = _Spans(_rests(plan))
-    cues = sorted((cue.start_s, cue.end_s) for cue in plan.cues)
-    up, ups_s = _Spans([(start_s - 0.3, end_s) for start_s, end_s in cues]), [start_s - 0.2 for start_s, _ in cues]
-    side = 1.0 if random.random() < 0.5 else -1.0
-    rows: list[tuple[float, float, float, float]] = []
-    time_s = plan.time_frame.first_frame_s + random.uniform(0.1, 0.6)
-    while time_s < plan.time_frame.end_s:
-        length_s = float(random.uniform(0.9, 3.0))
-        yaw, pitch = random.normal(0.0, 0.035), MUSIC_PITCH_RAD + random.normal(0.0, 0.03)
-        wander = random.random()
-        share = 0.3
-        if up.hold(time_s):
-            yaw, pitch, share = side * 0.22 + random.normal(0.0, 0.05), 0.0, 0.35
-        elif rests.hold(time_s):
-            share = 0.6
-            if wander < 0.5:
-                yaw, pitch = random.normal(0.0, 0.25), random.normal(0.03, 0.04)
-        elif wander < 0.12:
-            yaw, pitch = random.normal(0.0, 0.12), 0.02
-        rows.append((time_s, min(max(float(yaw), -0.5), 0.5), min(max(float(pitch), -0.15), 0.4), share))
-        # The eyes go up in time for a cue, unless the head has only just turned.
-        following = bisect_right(ups_s, time_s + HEAD_TURN_S)
-        time_s = min(time_s + length_s, ups_s[following] if following < len(ups_s) else np.inf)
-    return rows
+class _Looks(NamedTuple):
+    """Looks away from the music: spans (K, 2) in order, and where to."""
+
+    spans_s: FloatArray
+    yaw: FloatArray
+    pitch: FloatArray
+    share: FloatArray | float
 
 
-def _blinks(plan: PlayerPlan, random: np.random.Generator) -> Envelopes:
-    spans = _rests(plan)
-    rests, entries_s = _Spans(spans), [end_s for _, end_s in spans]
-    rows: list[tuple[float, float, float, float, float]] = []
-    time_s = plan.time_frame.first_frame_s + random.uniform(0.3, 2.0)
-    while time_s < plan.time_frame.end_s:
-        shut_s = time_s + BLINK_DOWN_S
-        open_s = shut_s + BLINK_SHUT_S + BLINK_UP_S
-        last = bisect_left(entries_s, open_s + ENTRY_GUARD_S) - 1
-        if last >= 0 and entries_s[last] > time_s - ENTRY_GUARD_S:
-            time_s = entries_s[last] + ENTRY_GUARD_S + random.uniform(0.1, 0.8)
-            continue
-        rows.append((time_s, shut_s, shut_s + BLINK_SHUT_S, open_s, 1.0))
-        pause_s = random.lognormal(np.log(2.4 if rests.hold(time_s) else 4.2), 0.5)
-        time_s = open_s + min(max(pause_s, 0.5), 12.0)
-    return Envelopes.of(rows)
+def _fixations(
+    plan: PlayerPlan, silences: Silences, watching: Watching
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Times, yaw, pitch and what share the head follows, (K,) each."""
+    random, frame = _random(plan, watching, "reads"), plan.time_frame
+    line_s, side = float(random.uniform(*LINE_S)), 1.0 if random.random() < 0.5 else -1.0
+    layers = [
+        _about(plan, silences, watching),
+        _audience(plan, silences, watching),
+        _cues(plan, side),
+        _glances(plan),
+    ]
+    reads = int(np.ceil((frame.end_s - frame.first_frame_s) / FIXATION_S))
+    chances = random.random((reads, 3))
+    read_s = frame.first_frame_s + (np.arange(reads) + 0.15 + 0.7 * chances[:, 0]) * FIXATION_S
+    turns_s = np.sort(np.concatenate([layer.spans_s.ravel() for layer in layers]))
+    turns_s = turns_s[(turns_s >= frame.first_frame_s) & (turns_s < frame.end_s)]
+    near = holds(np.stack((turns_s - CLOSE_S, turns_s + CLOSE_S), axis=1), read_s)
+    at_s = np.concatenate((read_s[~near], turns_s))
+    jitter = np.concatenate((chances[~near, 1:], np.full((len(turns_s), 2), 0.5)))
+    order = np.argsort(at_s, kind="stable")
+    at_s, jitter = at_s[order], jitter[order]
+    # Of two that are too close the later one counts: the eyes stay a moment longer where they were.
+    wide = np.append(np.diff(at_s) >= CLOSE_S, np.ones(min(len(at_s), 1), dtype=bool))
+    at_s, jitter = at_s[wide], jitter[wide]
+    line, along = np.divmod((at_s - frame.first_frame_s) / line_s, 1.0)
+    yaw = LINE_RAD * (1.0 - 2.0 * along) + 0.03 * (jitter[:, 0] - 0.5)
+    pitch = MUSIC_PITCH_RAD + SYSTEM_RAD * (line % SYSTEMS - 0.5 * (SYSTEMS - 1)) + 0.012 * (jitter[:, 1] - 0.5)
+    share = np.full(len(at_s), READING_SHARE)
+    for layer in layers:
+        if len(layer.spans_s):
+            number = np.maximum(np.searchsorted(layer.spans_s[:, 0], at_s, side="right") - 1, 0)
+            here = (at_s >= layer.spans_s[number, 0]) & (at_s < layer.spans_s[number, 1])
+            yaw, pitch = np.where(here, layer.yaw[number], yaw), np.where(here, layer.pitch[number], pitch)
+            share = np.where(here, np.broadcast_to(layer.share, len(layer.yaw))[number], share)
+    return at_s, yaw, pitch, share
 
 
-class _Spans:
-    """Spans in order of their starts, asked whether one of them holds a time."""
-
-    def __init__(self, spans: Sequence[tuple[float, float]]) -> None:
-        self._starts = [start for start, _ in spans]
-        self._ends = list(accumulate((end for _, end in spans), max))
-
-    def hold(self, time_s: float) -> bool:
-        """Whether any begins at or before the time and ends after it."""
-        index = bisect_right(self._starts, time_s) - 1
-        return index >= 0 and self._ends[index] > time_s
+def _random(plan: PlayerPlan, watching: Watching, purpose: str) -> np.random.Generator:
+    # One for each purpose: a longer piece draws more, and the rest stays as it was.
+    return generator(plan.player_id, watching.seed, "gaze", purpose)
 
 
-def _rests(plan: PlayerPlan) -> list[tuple[float, float]]:
-    """Spans of at least `REST_S` without a note, the first ending at the first entry."""
-    spans: list[tuple[float, float]] = []
-    silent_from_s = plan.time_frame.first_frame_s
-    for event in plan.fingerings:
-        if event.start_s - silent_from_s >= REST_S:
-            spans.append((silent_from_s, event.start_s))
-        silent_from_s = event.end_s
-    spans.append((silent_from_s, plan.time_frame.end_s))
-    return spans
+def _about(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
+    """About in rests, and now and then up while playing."""
+    frame = plan.time_frame
+    slots = int(np.ceil((frame.end_s - frame.first_frame_s) / LOOK_S))
+    chances = _random(plan, watching, "about").random((slots, 3))
+    wide, up = (_random(plan, watching, "where").normal(0.0, 1.0, (slots, 2)) * (0.25, 0.04) + (0.0, 0.03)).T
+    start_s = frame.first_frame_s + (np.arange(slots) + 0.4 * chances[:, 0]) * LOOK_S
+    resting = holds(silences.rests_s, start_s)
+    end_s = start_s + np.where(resting, LOOK_S * (0.35 + 0.2 * chances[:, 1]), 0.5 + 0.3 * chances[:, 1])
+    ready_s = np.append(silences.entries_s - BACK_S, np.inf)
+    end_s = np.where(resting, np.minimum(end_s, ready_s[np.searchsorted(silences.entries_s, start_s, "right")]), end_s)
+    kept = chances[:, 2] < watching.gaze * np.where(resting, ABOUT_IN_REST, UP_IN_PHRASE)
+    # Hands and eyes are busy while the instrument goes down or comes up.
+    kept &= (end_s - start_s > 2.0 * CLOSE_S) & ~overlaps(silences.carried_s, start_s, end_s + HEAD_TURN_S)
+    yaw = np.clip(np.where(resting, wide, 0.4 * wide), -MOST_YAW_RAD, MOST_YAW_RAD)
+    pitch = np.clip(up, -MOST_UP_RAD, MOST_DOWN_RAD)
+    share = np.where(resting, RESTING_SHARE, PLAYING_SHARE)
+    return _Looks(np.stack((start_s, end_s), axis=1)[kept], yaw[kept], pitch[kept], share[kept])
+
+
+def _audience(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
+    """Still on the last note, then up to the audience, here and there."""
+    chances = _random(plan, watching, "audience").normal(0.0, 1.0, (4, 2))
+    last_s = float(silences.ends_s[-1]) if len(silences.ends_s) else np.inf
+    at_s = last_s + np.array([-0.3, AUDIENCE_S, AUDIENCE_S + 1.7, AUDIENCE_S + 3.9, np.inf])
+    yaw = np.append([0.0], 0.10 * chances[1:, 0])
+    pitch = np.append([MUSIC_PITCH_RAD - 0.02], -0.02 + 0.015 * chances[1:, 1])
+    return _Looks(np.stack((at_s[:-1], at_s[1:]), axis=1), yaw, pitch, RESTING_SHARE)
+
+
+def _cues(plan: PlayerPlan, side: float) -> _Looks:
+    """Up from the music while giving a cue, and back for the entry; whom to look at the plan says (`_glances`)."""
+    spans_s = [(cue.start_s - CUE_LEAD_S, cue.end_s - CUE_BACK_BEATS * cue.beat_s) for cue in plan.cues]
+    rows = np.array(spans_s).reshape(-1, 2)
+    return _Looks(rows, np.full(len(rows), side * ASIDE_RAD), np.zeros(len(rows)), PLAYING_SHARE)
+
+
+def _glances(plan: PlayerPlan) -> _Looks:
+    rows = np.array(
+        [(one.start_s, one.end_s, one.yaw_rad, one.pitch_rad, one.head_share / HEAD_TURNS) for one in plan.glances]
+    ).reshape(-1, 5)
+    return _Looks(rows[:, :2], rows[:, 2], rows[:, 3], rows[:, 4])
+
+
+def _head(plan: PlayerPlan, at_s: FloatArray, yaw: FloatArray, pitch: FloatArray) -> Spline:
+    """The head goes after the eyes: late, and as slowly as a head turns."""
+    first = int(np.floor(plan.time_frame.first_frame_s / HEAD_STEP_S)) - 1
+    count = int(np.ceil(plan.time_frame.end_s / HEAD_STEP_S)) + 2 - first
+    grid_s = (first + np.arange(count)) * HEAD_STEP_S
+    held = np.searchsorted(at_s, grid_s - HEAD_LAG_S, side="right")
+    steps = round(0.5 * HEAD_TURN_S / HEAD_STEP_S)
+    rows = []
+    for values in (yaw, pitch):
+        # Whole millionths: the mean of them is the same wherever it is taken.
+        whole = np.rint(1e6 * np.append(0.0, values)[held]).astype(np.int64)
+        for _ in range(2):
+            total = np.concatenate(([0], np.cumsum(np.concatenate((np.full(steps, whole[0]), whole)))))
+            whole = (total[steps + 1 :] - total[: -steps - 1]) // (steps + 1)
+        rows.append(whole / 1e6)
+    return Spline(first, HEAD_STEP_S, np.stack(rows))

@@ -7,40 +7,38 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 
-import msgspec
 import numpy as np
 
 from app.motion.additive import NOTHING, Added, Additive, with_added, with_added_morphs, with_held
 from app.motion.aside import Aside
 from app.motion.body import BodyMotion, Layers, LayerSamples, body_motion
-from app.motion.contact import Carried, freedom
+from app.motion.contact import Carried
 from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
 from app.motion.danced import BodyLayer, giving_way, inhaling, with_dance
-from app.motion.face import Drivers, Face, face_morphs, usual_morphs
+from app.motion.exertion import Lungs
+from app.motion.face import Asked, Drivers, Face
+from app.motion.face_morphs import FaceSizes, face_morphs, face_sizes, usual_morphs
 from app.motion.feet import feet_moved
-from app.motion.gaze import Gaze, Look, looks_alike, plan_gaze
+from app.motion.gaze import Gaze, Look, Watching, looks_alike, plan_gaze
 from app.motion.holding import with_holds
 from app.motion.model import Motion
 from app.motion.posture import SIDES, Side, footing, hips_path, stance, trunk
 from app.motion.ribs import widened
+from app.motion.settled import settled, shown_by
 from app.motion.solve import Curves, Player, padding, solve
 from app.motion.splice import changed_stretch, spliced
 from app.motion.stations import raised_curve, sampled, station_curves
-from app.plan.acting import Acting, acting_of
+from app.plan.acting import Acting
 from app.plan.model import PlayerPlan, TimeFrame, same_events
 from app.plan.parameters import PlayerParameters, deciding
 from app.rig.carriage import carrying
 from app.rig.hold import GripPose, Lips, Placed, giving_for
 from app.rig.model import Character
 from app.score.metre_map import FeltBeats
-from instrument_maps.model import Carriage, InstrumentMap
+from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
 from metadata.model import Body, Embouchure, Expression, Posture
-
-SETTLED = 0.6
-"""Part of their amplitude, and of their sway once more, that players keep whose instrument lies on the lap."""
-
 
 NOT_SHOWN = Envelopes.of(())
 
@@ -101,6 +99,8 @@ class PerformanceCurves:
         Those the plan names.
     player : Player
         What does not change with time.
+    asked, watching : Asked, Watching
+        What face and gaze are made from.
     controls : dict of str to Curve
         By the instrument's control.
     stations : dict of str to Curve
@@ -127,7 +127,9 @@ class PerformanceCurves:
     expressions: dict[str, Expression]
     player: Player
     layers: Layers
+    asked: Asked
     face: Face
+    watching: Watching
     gaze: Gaze
     controls: dict[str, Curve]
     stations: dict[str, Curve]
@@ -202,8 +204,10 @@ class PerformanceCurves:
             self.body.embouchure[self.instrument_map.embouchure.kind],
             self.player.hold.lips,
             self.expressions,
-            frames.look.blinks,
+            frames.look,
             moved.lowered,
+            self._face_sizes,
+            frames.times_s,
         )
         morphs |= widened(frames.levels.air, self.body.breath, self.acting.breath)
         if added:
@@ -255,6 +259,11 @@ class PerformanceCurves:
         return with_holds(np.concatenate(spans), self.layers.still, other.layers.still)
 
     @property
+    def _face_sizes(self) -> FaceSizes:
+        mouth, recorded = self.instrument_map.embouchure, self.plan.traces is not None
+        return face_sizes(self.player_id, self.parameters, self.acting, self.body, mouth.kind, mouth.vibrato, recorded)
+
+    @property
     def _settings(self) -> tuple[object, ...]:
         """What every frame depends on: values first, the others by identity."""
         still = self.player
@@ -270,6 +279,7 @@ class PerformanceCurves:
             still.lowered,
             endpin,
             put,
+            self.plan.traces is None,
         )
         return (values, still.skeleton, still.hold, self.body, self.dance)
 
@@ -303,22 +313,22 @@ def prepare(
     carriage = instrument_map.hold.carriage(parameters.posture)
     if parameters.dance_amount == 0.0:
         dance = None
-    acting = _shown(parameters, carriage, dancing=dance is not None)
-    parameters = _settled(parameters, carriage)
+    acting = shown_by(parameters, carriage, dancing=dance is not None)
+    parameters = settled(parameters, carriage)
     posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
-    tension = parameters.embouchure_tension
+    asked = Asked(plan, parameters.embouchure_tension, body.face, Lungs.of(parameters, instrument_map.air))
+    watching = Watching(parameters.seed, acting.gaze, acting.blink)
     player = _player(parameters, instrument_map, character, hold, body, posture, before)
     if before is None:
-        face, layers = Face.of(plan, tension), Layers.of(plan, body, felt_beats)
-        gaze = plan_gaze(plan, parameters.seed)
+        face, layers = Face.of(asked), Layers.of(plan, body, felt_beats)
+        gaze = plan_gaze(plan, watching)
         fingers = _fingers(plan, instrument_map, felt_beats, player)
     else:
         old = before.plan
-        face = Face.of(plan, tension, (before.face, old, before.parameters.embouchure_tension))
+        face = Face.of(asked, (before.face, before.asked))
         layers = Layers.of(plan, body, felt_beats, (before.layers, old))
-        looks_same = looks_alike(plan, old)
-        seed = before.parameters.seed
-        gaze = before.gaze if looks_same and seed == parameters.seed else plan_gaze(plan, parameters.seed)
+        looks_same = watching == before.watching and looks_alike(plan, old)
+        gaze = before.gaze if looks_same else plan_gaze(plan, watching)
         fingers = (before.controls, before.stations, before.raised)
         if before.player.farthest != player.farthest:
             fingers = _fingers(plan, instrument_map, felt_beats, player)
@@ -335,7 +345,9 @@ def prepare(
         expressions={name: known[name] for name in face.expressions},
         player=player,
         layers=layers,
+        asked=asked,
         face=face,
+        watching=watching,
         gaze=gaze,
         controls=fingers[0],
         stations=fingers[1],
@@ -423,38 +435,6 @@ def _fingers(
         stations = station_curves(notes, instrument_map, controls)
     hovers = any(control.hover_m for control in instrument_map.controls)
     return controls, stations, raised_curve(notes) if hovers else moves(())
-
-
-def _settled(parameters: PlayerParameters, carriage: Carriage) -> PlayerParameters:
-    """Parameters with the motion of the instrument limited as its carriage says: the lips must stay with it."""
-    share = _settling(carriage)
-    if share == 1.0:
-        return parameters
-    return msgspec.structs.replace(
-        parameters,
-        amplitude=share * parameters.amplitude,
-        dance_amount=share * share * parameters.dance_amount,
-    )
-
-
-def _settling(carriage: Carriage) -> float:
-    """Share of their amplitude that players keep with an instrument that is carried so."""
-    return SETTLED + (1.0 - SETTLED) * freedom(carriage)
-
-
-def _shown(parameters: PlayerParameters, carriage: Carriage, *, dancing: bool) -> Acting:
-    """What parameters show: less of the trunk with an instrument that lies still, and of all that moves the body as far
-    as a dance takes its place."""
-    share = _settling(carriage)
-    left = 1.0 - share * share * parameters.dance_amount if dancing else 1.0
-    acting = acting_of(parameters)
-    return msgspec.structs.replace(
-        acting,
-        sway=left * share * acting.sway,
-        weight_shift=left * share * acting.weight_shift,
-        phrase=left * share * acting.phrase,
-        footwork=left * acting.footwork,
-    )
 
 
 def _steps(player: Player) -> bool:

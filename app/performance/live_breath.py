@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from app.motion.body import EXHALE_S, LayerSamples
 from app.motion.causal import Reach, Spring
+from app.motion.exertion import LIGHT, Exertion
 from app.motion.face import FORM_S, HOLD_S, SHALLOWEST, Drivers
 from app.motion.gaze import BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S, HEAD_TURN_S, MUSIC_PITCH_RAD, SACCADE_S, Look
 from app.motion.overlap import Overlapped
@@ -43,10 +44,14 @@ RELAXES_S = 2.0
 TENSION_S, PRESSED_S, AIR_S, EFFORT_S, RAISES_S = 0.09, 0.05, 0.10, 0.50, 1.6
 """How quickly the lips follow the notes, and bite and bend, cheeks the air, the face the strain, and the bell the
 loudness; they settle in this time."""
+WORKS_S, STRAINS_S = 0.35, 3.0
+"""How quickly brows and cheeks go with what a note costs, and with a strain that lasts."""
 USUAL_BITE_S = 8.0
 """The bite counts by how far it is from what it usually is: that settles in this time."""
 TONGUE_UP_S, TONGUE_DOWN_S = 0.015, 0.06
 """The tongue's stroke: it is seen as it leaves the reed or the teeth."""
+OTHER_LID = 0.95
+"""The eyes do not close quite alike."""
 BELL_RISES = 0.5
 """The bell rises by this share of its range from mezzoforte to the loudest, and sinks as much."""
 
@@ -89,6 +94,8 @@ class LiveBreath:
         self._tension = Spring(float(tension_of(np.array([float(self._middle)]), self._instrument)[0]), TENSION_S)
         self._air, self._effort = Spring(0.0, AIR_S), Spring(0.0, EFFORT_S)
         self._bell = Spring(0.0, RAISES_S)
+        self._load = playing.body.face.load
+        self._working, self._strain = Spring(0.0, WORKS_S), Spring(0.0, STRAINS_S)
         self._pressed, self._usual_bite = Spring(0.0, PRESSED_S), Spring(0.0, USUAL_BITE_S)
         self._shown = {
             name: Spring(0.0, expressions[name].fade_in_s) for name in ("strained", "puffed") if name in expressions
@@ -209,6 +216,10 @@ class LiveBreath:
             effort = np.zeros(1)
         self._air.follow(float(loud[0]), elapsed_s)
         self._effort.follow(float(effort[0]), elapsed_s)
+        asked = self._load.tension * tight + self._load.air * float(loud[0]) + self._load.effort * float(effort[0])
+        load = min(max(asked - self._load.easy, 0.0), 1.0) if self._blown else 0.0
+        self._working.follow(load, elapsed_s)
+        self._strain.follow(max(load - LIGHT, 0.0) / (1.0 - LIGHT), elapsed_s)
         height = float(np.clip((loud[0] - MEZZOFORTE) / (1.0 - MEZZOFORTE), -1.0, 1.0)) if self._blown else 0.0
         self._bell.follow(BELL_RISES * height, elapsed_s)
         strengths = {"strained": strained(effort), "puffed": puffed(pitch, loud, self._instrument)}
@@ -233,6 +244,18 @@ class LiveBreath:
             air=pair(self._air.value),
             tongue=pair(self._tongue.at(now_s)),
             mouth_open=pair(self._mouth.at(now_s)),
+            firm=nothing,
+            eased=nothing,
+            vibrato=nothing,
+            exertion=Exertion(
+                working=pair(self._working.value),
+                strain=pair(self._strain.value),
+                contour=nothing,
+                swell=nothing,
+                emptying=pair(self._spent * self._spent),
+                phrase=nothing,
+                tired=nothing,
+            ),
             expressions=dict(sorted(expressions.items())),
         )
         levels = LayerSamples(
@@ -291,5 +314,6 @@ class LiveLook:
             pitch_rad=np.full(FRAMES, self._pitch.at(now_s)),
             head_yaw_rad=np.full(FRAMES, self._head_yaw.at(now_s)),
             head_pitch_rad=np.full(FRAMES, self._head_pitch.at(now_s)),
-            blinks=np.full(FRAMES, lids),
+            left_lid=np.full(FRAMES, lids),
+            right_lid=np.full(FRAMES, OTHER_LID * lids),
         )

@@ -28,6 +28,8 @@ JOIN_S = 0.35
 """Notes closer than this share one expression: a face does not flicker with 16ths."""
 LEAST_S = 0.2
 """A shorter moment does not reach the face."""
+PASSES = 0.7
+"""A strain begins to pass by the end of its notes: this share of its fade is still to come."""
 LOUD = 0.75
 PUFF_SEMITONES = 6.0
 ENTRY_REST_S = 4.0
@@ -65,6 +67,7 @@ def plan_expressions(
         strained(effort),
         clock,
         lambda peak: Message("expression.effort", {"effort": round(float(effort[peak]), 2), "threshold": EFFORT}),
+        PASSES * faces["strained"].fade_out_s,
     )
     easy_low = instrument.range.easy_low
     events += _moments(
@@ -109,17 +112,22 @@ def _moments(
     strength: FloatArray,
     clock: TempoMap,
     reason: Callable[[int], Message],
+    after_s: float = 0.0,
 ) -> list[ExpressionEvent]:
-    """One expression for every run of notes with a strength above 0 and no more than `JOIN_S` between them."""
+    """One expression for every run of notes with a strength above 0 and no more than `JOIN_S` between them; it lasts
+    ``after_s`` longer than they do."""
     at = np.flatnonzero(strength > 0.0)
     if len(at) == 0:
         return []
     apart = times.onset_s[at[1:]] - times.played_end_s[at[:-1]] > JOIN_S
     events = []
-    for run in np.split(at, np.flatnonzero(apart) + 1):
+    runs = np.split(at, np.flatnonzero(apart) + 1)
+    next_s = [float(times.onset_s[run[0]]) for run in runs[1:]] + [np.inf]
+    for run, until_s in zip(runs, next_s, strict=True):
         start_s, end_s = float(times.onset_s[run[0]]), float(times.played_end_s[run[-1]])
         if end_s - start_s < LEAST_S:
             continue
+        end_s = min(end_s + after_s, until_s)
         peak = int(run[np.argmax(strength[run])])
         size = round(float(strength[peak]), 4)
         events.append(_event(f"expression:{name}:{notes[run[0]].id}", face, start_s, end_s, size, clock, reason(peak)))

@@ -1,12 +1,17 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import msgspec
 import numpy as np
 import pytest
 
 from app.errors import Message
-from app.motion.face import Face, breath_opening, face_morphs
-from app.motion.gaze import ENTRY_GUARD_S, plan_gaze
+from app.motion.exertion import Lungs
+from app.motion.face import Asked, Face, breath_opening
+from app.motion.face_morphs import face_morphs, face_sizes
+from app.motion.gaze import Watching, plan_gaze
+from app.plan.acting import Acting
 from app.plan.model import EmbouchureEvent, ExpressionEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.rig.hold import Lips
@@ -26,11 +31,22 @@ def plan(**changes: object) -> PlayerPlan:
     return msgspec.structs.replace(made, **changes)
 
 
-def face(made: PlayerPlan, times_s: np.ndarray = TIMES_S, **parameters: float) -> dict[str, np.ndarray]:
-    settings = PlayerParameters(**parameters)
-    face = Face.of(made, settings.embouchure_tension).sample(times_s)
-    blinks, up = plan_gaze(made, 0).blinks.sample(times_s), np.zeros(len(times_s))
-    return face_morphs(face, load_body().embouchure["cup"], LIPS, load_expressions(), blinks, up)
+def curves(made: PlayerPlan, tension: float = 1.0) -> Face:
+    return Face.of(Asked(made, tension, load_body().face, Lungs(9.0)))
+
+
+def face(
+    made: PlayerPlan, times_s: np.ndarray = TIMES_S, *, still: bool = False, **parameters: float
+) -> dict[str, np.ndarray]:
+    """Weights of a trumpeter; ``still`` is one whose face does nothing of its own."""
+    body, settings = load_body(), PlayerParameters(**parameters)
+    sizes = face_sizes(made.player_id, settings, Acting(), body, "cup", 0.6, recorded=False)
+    if still:
+        sizes = replace(sizes, own=replace(sizes.own, left_more=dict.fromkeys(sizes.own.left_more, 0.0)),
+                        upper=0.0, lips=0.0, vibrato=0.0)  # fmt: skip
+    shown, look = curves(made, settings.embouchure_tension).sample(times_s), plan_gaze(made, Watching()).sample(times_s)
+    up = np.zeros(len(times_s))
+    return face_morphs(shown, body.embouchure["cup"], LIPS, load_expressions(), look, up, sizes, times_s)
 
 
 def embouchure(tension: float, effort: float = 0.0, air: float = 0.0) -> tuple[EmbouchureEvent, ...]:
@@ -49,10 +65,12 @@ def test_high_notes_are_tighter_than_low_ones() -> None:
     body = load_body().embouchure["cup"]
     middle = np.array([2.5])
     for tension in (0.0, 0.4, 1.0):
-        morphs = face(plan(embouchures=embouchure(tension), tongues=(), breaths=()), middle)
+        morphs = face(plan(embouchures=embouchure(tension), tongues=(), breaths=()), middle, still=True)
         for name in set(body.relaxed) | set(body.tight):
             expected = (1 - tension) * body.relaxed.get(name, 0.0) + tension * body.tight.get(name, 0.0)
-            assert morphs[name][0] == pytest.approx(min(expected, 1.0), abs=1e-12)
+            expected += body.soft.get(name, 0.0)
+            # Left and right still vary a little.
+            assert morphs[name][0] == pytest.approx(min(expected, 1.0), rel=0.01, abs=1e-12)
 
 
 def test_the_lips_are_formed_at_the_onset_and_let_go_in_a_long_rest() -> None:
@@ -79,12 +97,12 @@ def test_the_lips_let_go_for_a_breath_and_stay_formed_in_a_short_rest_without_on
     rows = fingerings([(0.0, 2.0, {}), (2.6, 4.0, {})])
     pressed = [face(plan_of(rows, breaths=taken), np.array([1.0, 2.3]))["mouthPressLeft"]
                for taken in ((), (breath(2.0, 2.6, 1.0),))]  # fmt: skip
-    assert pressed[0][1] > 0.8 * pressed[0][0] > 0.0
+    assert pressed[0][0] > pressed[0][1] > 0.5 * pressed[0][0], "at ease, but formed"
     assert pressed[1][1] < 0.3 * pressed[1][0]
 
 
 def test_the_tongue_is_up_just_before_the_attack_and_down_soon_after() -> None:
-    tongue = Face.of(plan(), 1.0).tongue.sample(np.array([13.96, 13.99, 14.0, 14.06]))
+    tongue = curves(plan()).tongue.sample(np.array([13.96, 13.99, 14.0, 14.06]))
     np.testing.assert_allclose(tongue, [0.0, 1.0, 1.0, 0.0], atol=1e-9)
 
 
@@ -100,40 +118,4 @@ def test_what_is_not_for_playing_does_not_show_while_playing() -> None:
     morphs = face(plan(expressions=(smile, strained)), np.array([5.0, 12.0]))
     assert morphs["mouthSmileLeft"][0] == 0.0
     assert morphs["mouthSmileLeft"][1] > 0.4
-    assert morphs["browDownLeft"][0] == pytest.approx(load_expressions()["strained"].weights["browDownLeft"])
-
-
-def test_blinks_come_as_often_as_peoples_and_not_on_an_entry() -> None:
-    made = plan()
-    starts_s = np.concatenate([plan_gaze(made, seed).blinks.start_s for seed in range(30)])
-    per_minute = len(starts_s) / 30 / ((made.time_frame.end_s - made.time_frame.first_frame_s) / 60)
-    assert 8 < per_minute < 25
-    for entry_s in (0.0, 14.0):
-        assert not np.any((starts_s > entry_s - ENTRY_GUARD_S) & (starts_s < entry_s + ENTRY_GUARD_S))
-
-
-def test_eyes_rest_on_the_music_and_go_up_at_a_cue() -> None:
-    gaze = plan_gaze(plan(), 3)
-    pitch = gaze.pitch_rad.sample(TIMES_S)
-    playing = (TIMES_S > 1.0) & (TIMES_S < 10.0)
-    assert np.median(pitch[playing]) > 0.1
-    assert gaze.pitch_rad.sample(np.array([13.4]))[0] < 0.05
-
-
-def test_the_head_follows_the_eyes_up_to_a_cue_and_not_down_to_the_music() -> None:
-    cued = np.array([plan_gaze(plan(), seed).head_pitch_rad.sample(np.array([13.9]))[0] for seed in range(8)])
-    assert cued.max() < -0.005
-
-
-def test_in_rests_the_eyes_wander_to_both_sides_and_the_lids_close_more_often() -> None:
-    made = plan_of(fingerings([(60.0 + i, 61.0 + i, {}) for i in range(60)]))
-    gazes = [plan_gaze(made, seed) for seed in range(12)]
-    resting = np.arange(2.0, 55.0, 0.1)
-    yaw, pitch = (
-        np.concatenate([getattr(gaze, name).sample(resting) for gaze in gazes]) for name in ("yaw_rad", "pitch_rad")
-    )
-    assert yaw.min() < -0.2 < 0.2 < yaw.max()
-    assert np.abs(yaw).max() <= 0.5
-    assert pitch.min() >= -0.15
-    blinks_s = np.concatenate([gaze.blinks.start_s for gaze in gazes])
-    assert np.count_nonzero(blinks_s < 58.0) > 1.3 * np.count_nonzero(blinks_s > 62.0)
+    assert morphs["browDownLeft"][0] > 0.9 * load_expressions()["strained"].weights["browDownLeft"]

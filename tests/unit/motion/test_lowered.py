@@ -117,8 +117,9 @@ def test_wrists_stay_in_their_range(rest: Case) -> None:
             degrees.T, (bound.flexion_deg, bound.sideways_deg, bound.twist_deg), strict=True
         ):
             beyond = np.maximum(low - angles, angles - high)
-            # A small body's wrist that is a little beyond while playing cannot jump back at once.
-            assert beyond[1:-1].max() <= max(BEYOND_DEG, beyond[0] + 0.5), (side, angles)
+            # A small body's wrist that is a little beyond while playing cannot jump back at once, and the head looks
+            # about meanwhile, by chance.
+            assert beyond[1:-1].max() <= max(BEYOND_DEG, beyond[0] + 1.0), (side, angles)
             assert beyond[-1] <= BEYOND_DEG, (side, angles)
 
 

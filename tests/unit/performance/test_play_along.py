@@ -248,7 +248,7 @@ def test_a_bite_counts_by_how_far_it_is_from_the_usual_one() -> None:
 
 def test_the_lids_close_now_and_then_and_open_again_at_once() -> None:
     look = LiveLook(playing_alone("trumpet_Bb", line("trumpet_Bb", 16)))
-    lids = np.array([look.at(time_s).blinks[0] for time_s in np.arange(0.0, 120.0, 1 / FPS)])
+    lids = np.array([look.at(time_s).left_lid[0] for time_s in np.arange(0.0, 120.0, 1 / FPS)])
     shut = lids > 0.5
     begins = np.flatnonzero(np.diff(shut.astype(int)) == 1)
     assert 10 < len(begins) < 60

@@ -84,7 +84,7 @@ def test_faces_follow_effort_entries_and_the_end() -> None:
     faces = {event.id: event for event in plan(follower).expressions}
     assert faces["expression:neutral"].start_s == -2.0
     strained = faces["expression:strained:1:9"]
-    assert (strained.expression, strained.start_s, strained.end_s) == ("strained", 4.0, 8.0)
+    assert (strained.expression, strained.start_s, strained.end_s) == ("strained", 4.0, 8.77)
     entry = faces["expression:brows_up:1:17"]
     assert entry.end_s == 20.0
     assert entry.reason.id == "expression.takes_entry"
