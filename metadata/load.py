@@ -14,7 +14,6 @@ from typing import TypeVar, get_args
 import msgspec
 
 from app.errors import MapError
-from app.formats.toml import read_toml, shaped
 from metadata.face_model import EMBOUCHURE_WEIGHTS, FACE_WEIGHTS, UPPER_FACE, FaceMotion
 from metadata.model import (
     ARKIT_MORPHS,
@@ -26,6 +25,7 @@ from metadata.model import (
     FaceNames,
     SkeletonProfile,
 )
+from metadata.tables import check_name, decoded, invalid
 
 ROOT = Path(__file__).parent
 _KIND_FOLDERS = {
@@ -252,16 +252,15 @@ def _path(kind: str, name: str) -> Path:
 
 
 def _decode(path: Path, type_: type[T]) -> T:
-    return shaped(read_toml(path, path.name), type_, path.name)
+    return decoded(path, type_, path.name)
 
 
 def _invalid(path: Path, key: str, detail: str) -> MapError:
-    return MapError("table.invalid", file=path.name, place=key, detail=detail)
+    return invalid(path, key, detail, path.name)
 
 
 def _check_name(path: Path, name: str) -> None:
-    if name != path.stem:
-        raise _invalid(path, "name", f"{name!r} is not the file's name {path.stem!r}")
+    check_name(path, name, path.name)
 
 
 def _check_morphs(path: Path, key: str, weights: Iterable[str]) -> None:

@@ -255,8 +255,10 @@ class ConcertMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 class BreathMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """An inhalation of depth 1; a shallower one scales it. Players become more upright and the arms neutral
     (Frontiers in Psychology 2024, 1394035). What the mouth does is the embouchure's `Embouchure.inhale`.
-    ``chest_share`` and ``belly_share`` are weights of the shapes `BREATH_MORPHS`, where a character has them."""
+    ``shown`` is how much of it is seen, by amplitude; ``chest_share`` and ``belly_share`` are weights of the shapes
+    `BREATH_MORPHS`, where a character has them."""
 
+    shown: AmplitudeScale
     torso_back_deg: NotNegative
     shoulder_lift_deg: NotNegative
     head_back_deg: float

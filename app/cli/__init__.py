@@ -20,6 +20,7 @@ import app.cli.export
 import app.cli.film
 import app.cli.inspect
 import app.cli.instruments
+import app.cli.metadata
 import app.cli.midi
 import app.cli.ports
 import app.cli.record
@@ -48,6 +49,8 @@ examples:
   suisou stream quartet.mid --player horn --loop
   suisou instruments
   suisou instruments scale INSTRUMENT
+  suisou metadata
+  suisou metadata session.suisou --save session.toml
   suisou characters check figure.vrm
   suisou characters add figure.vrm --name "Ms Mori"
   suisou choreography learn --pair salsa.bvh drums.mid --fps 60 --to salsa.choreography
@@ -76,6 +79,7 @@ def parser() -> argparse.ArgumentParser:
     app.cli.film.add_command(commands)
     app.cli.midi.add_command(commands)
     app.cli.instruments.add_command(commands)
+    app.cli.metadata.add_command(commands)
     app.cli.characters.add_command(commands)
     app.cli.choreography.add_command(commands)
     app.cli.ports.add_command(commands)

@@ -99,6 +99,7 @@ def inspection(performance: Performance, *, contacts: bool = True) -> Table:
         "preroll_beats": project.preroll_beats,
         "felt_beat_quarters": project.felt_beat_quarters,
         "seed": project.seed,
+        "section_intensity": project.section_intensity,
         "duration_s": score.tempo_map.seconds(float(score.sounding_end_tick)),
         "ticks_per_beat": score.ticks_per_quarter,
         "tempo": [{"tick": tick, "bpm": bpm} for tick, bpm in score.tempo_map.bpm],

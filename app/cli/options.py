@@ -29,6 +29,7 @@ from app.score.parts import PartAssignment, stream_name, usual_assignments
 from app.score.read import assigned_score, read_contents
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
+from metadata.library import metadata_library
 
 Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 """Where a sub-command declares itself."""
@@ -83,6 +84,7 @@ LONGEST_S: Final = 24 * 3600.0
 frame_rate = within(*limits.FPS, "a number of frames per second such as 24, 29.97 or 30000/1001", typed_rate)
 whole_number = within(0, 2**63 - 1, "a whole number", int)
 beats = within(*limits.PREROLL_BEATS, "a number of beats", float)
+section_intensity = within(*limits.SECTION_INTENSITY, "a multiplier", float)
 _felt_quarters = within(
     *limits.FELT_BEAT_QUARTERS,
     "auto or a length in quarters such as 1, 1.5 or 1/2",
@@ -187,6 +189,12 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         help="length of the beat that the players feel: 1.5 for a fast 6/8, 2 for alla breve, auto for what metre and "
         "tempo say (default: the project's, auto); breaths, cues, sway and the pre-roll count in it",
     )
+    command.add_argument(
+        "--section-intensity",
+        type=section_intensity,
+        metavar="TIMES",
+        help="multiplies what all players show of their acting, 0 to 2 (default: the project's, 1)",
+    )
 
 
 def add_title_option(command: argparse.ArgumentParser) -> None:
@@ -220,6 +228,8 @@ def open_project(arguments: argparse.Namespace) -> Project:
     maps = known.maps
     for problems in known.problems.values():
         warn(worded(problems[0]))
+    for problems in metadata_library().problems.values():
+        warn(worded(problems[0]))
     project = _saved_project(arguments) if is_project_file(arguments.file) else _cast_project(arguments, maps)
     settings = parse_settings(
         arguments.settings, [player.name for player in project.players], maps, tuple(characters())
@@ -235,6 +245,7 @@ def _piece(arguments: argparse.Namespace, project: Project) -> PieceSettings:
         "preroll_beats": getattr(arguments, "preroll", None),
         "felt_beat_quarters": getattr(arguments, "felt_beat", None),
         "seed": getattr(arguments, "seed", None),
+        "section_intensity": getattr(arguments, "section_intensity", None),
     }
     given = {field: value for field, value in asked.items() if value is not None}
     if given.get("felt_beat_quarters") == AUTOMATIC:

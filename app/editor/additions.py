@@ -42,6 +42,19 @@ def add_gestures(session: Session, kind: GestureKind, spans: Spans) -> None:
     _add(session, "edit.add_gesture", made)
 
 
+def add_named_gestures(session: Session, name: str, spans: Spans) -> None:
+    """Add the gesture of this name at the start of each span, as long as it usually is."""
+    clock = session.project.score.tempo_map
+    length_s = session.performance.metadata.gestures.items[name].length_s
+    add = partial(edit.add_gesture, kind="named", amount=1.0, gesture=name)
+    made = [
+        (plan, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end))
+        for plan, start, _ in spans
+        for end in [round(clock.ticks(clock.seconds(float(start)) + length_s))]
+    ]
+    _add(session, "edit.add_gesture", made)
+
+
 def add_expressions(session: Session, name: str, spans: Spans) -> None:
     """Add an expression of full strength, with its own fades, over each span."""
     face = session.performance.expressions[name]

@@ -26,6 +26,7 @@ from app.project.document import Change
 from app.project.model import Project
 from app.rig.character_library import character_library
 from instrument_maps.library import library
+from metadata.library import metadata_library
 
 AT_ONCE_NOTES = 2500
 """So many notes are planned within the time of two pictures ..."""
@@ -102,6 +103,7 @@ class Generator(QObject):
         session.instruments_changed.connect(self._plan_again)
         session.characters_changed.connect(self._plan_again)
         session.choreographies_changed.connect(self._plan_again)
+        session.metadata_changed.connect(self._plan_again)
         session.playhead_changed.connect(self._request_poses)
         session.players_changed.connect(self._request_poses)
         session.playing_changed.connect(self._worker.set_playing)
@@ -110,9 +112,11 @@ class Generator(QObject):
 
     @property
     def up_to_date(self) -> bool:
-        """Whether the session's plans are those of its project, on the instruments there are now."""
+        """Whether the session's plans are those of its project, on the instruments, characters and metadata
+        there are now."""
         performance = self._session.performance
         now = performance.library is library() and performance.characters is character_library()
+        now = now and performance.metadata.is_still(metadata_library())
         return performance.project is self._session.project and now
 
     @property

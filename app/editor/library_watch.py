@@ -14,6 +14,7 @@ from app.errors import Message
 from app.formats.user_folder import Shelf, UserFolder
 from app.rig.character_library import LIBRARY as CHARACTERS
 from instrument_maps.library import LIBRARY as INSTRUMENTS
+from metadata.library import FOLDERS
 
 
 class LibraryWatch(QObject):
@@ -26,16 +27,19 @@ class LibraryWatch(QObject):
     ----------
     read_again : str, optional
         Id of the message (maps) that says what was read again.
+    family : str, optional
+        First part of the names of the session's signals, where it is not the kind's.
     """
 
-    def __init__(self, session: Session, library: UserFolder[Any, Any], read_again: str = "") -> None:
+    def __init__(self, session: Session, library: UserFolder[Any, Any], read_again: str = "", family: str = "") -> None:
         super().__init__(session)
         self._session, self._library, self._read_again = session, library, read_again
-        self._changed = getattr(session, f"{library.name}_changed")
+        self._family = family or library.name
+        self._changed = getattr(session, f"{self._family}_changed")
         self._known: Shelf[Any] = library.begin()
         self._watch = FolderWatch(self, library.folder, library.suffixes)
         self._watch.changed.connect(self.read)
-        getattr(session, f"{library.name}_saved").connect(self._saved)
+        getattr(session, f"{self._family}_saved").connect(self._saved)
         self._is_first = True
         for problems in self._known.problems.values():
             QTimer.singleShot(0, self, partial(session.notice, problems[0], Severity.ERROR))
@@ -49,8 +53,8 @@ class LibraryWatch(QObject):
             now: Shelf[Any] = self._library.reload()
             return now
 
-        name = self._library.name
-        self._session.tasks.run(Message(f"work.{name}"), work, self._took, key=name)
+        said = Message(f"work.{self._family}")
+        self._session.tasks.run(said, work, self._took, key=self._library.name)
 
     def _saved(self) -> None:
         """What was written may have been read already: then it is there at once."""
@@ -82,3 +86,8 @@ def watch_instruments(session: Session) -> LibraryWatch:
 def watch_characters(session: Session) -> LibraryWatch:
     """Watch the user's own characters."""
     return LibraryWatch(session, CHARACTERS)
+
+
+def watch_metadata(session: Session) -> tuple[LibraryWatch, ...]:
+    """Watch the user's own styles, habits, expressions and what else there is in `metadata`."""
+    return tuple(LibraryWatch(session, folder, "metadata.read_again", "metadata") for folder in FOLDERS)

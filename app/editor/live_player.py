@@ -78,7 +78,7 @@ class LivePlayer(QObject):
         if player is None or player.id not in performance.plans or player.id in performance.waiting:
             return None
         plan = performance.plans[player.id]
-        of = (player.id, player.instrument_id, player.character_id, player.parameters)
+        of = (player.id, player.instrument_id, player.character_id, performance.parameters(player))
         if of != self._of:
             if self._play_along is not None:
                 self._session.live_players.end(self._play_along.player_id)

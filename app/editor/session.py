@@ -90,6 +90,10 @@ class Session(QObject):
         A character was written into the user's own folder, or removed from it.
     choreographies_changed()
         A choreography's file was written; dancers may dance it.
+    metadata_changed()
+        Some style, habit or expression is another one, or is there no more (`metadata.library`).
+    metadata_saved()
+        One of them was written into the user's own folder, or removed from it.
     """
 
     changed = Signal(object)
@@ -115,6 +119,8 @@ class Session(QObject):
     characters_changed = Signal()
     characters_saved = Signal()
     choreographies_changed = Signal()
+    metadata_changed = Signal()
+    metadata_saved = Signal()
 
     def __init__(self, project: Project, tasks: Tasks) -> None:
         super().__init__()

@@ -119,8 +119,14 @@ def toml(table: Mapping[str, Any], above: tuple[str, ...] = ()) -> str:
     for key, value in table.items():
         if isinstance(value, Mapping):
             path = (*above, key)
-            text += f"\n[{'.'.join(map(_key, path))}]\n{toml(value, path)}"
+            text += f"\n[{header(path)}]\n{toml(value, path)}"
     return text
+
+
+def header(path: tuple[str, ...], *, many: bool = False) -> str:
+    """What stands between the outer brackets of a table's head; ``many``: of one in a list of tables."""
+    name = ".".join(map(_key, path))
+    return f"[{name}]" if many else name
 
 
 def _syntax(text: str, file: str, at: int, detail: str) -> MapError:

@@ -100,6 +100,110 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "0: individual dance. Players and dancers with the same other number move in unison.",
         "0 は奏者ごとの個別のダンス。0 以外で番号が同じ奏者とダンサーは揃って動きます。",
     ),
+    "parameter.style": (
+        "Style",
+        "演奏スタイル",
+    ),
+    "parameter.style_tip": (
+        "What kind of player this is: factors for all amounts below and those of Motion",
+        "どんな奏者か。下の各量と「動き」の量に掛ける係数",
+    ),
+    "parameter.habits": (
+        "Habits",
+        "癖",
+    ),
+    "parameter.habits_tip": (
+        "What this player does more, or less, than others of the same style",
+        "同じスタイルの他の奏者より多い（少ない）動き",
+    ),
+    "parameter.phrase_motion": (
+        "Phrase motion",
+        "フレーズの動き",
+    ),
+    "parameter.phrase_motion_tip": (
+        "Torso and head moving with phrases, bars and accents: multiplier, 1 = as the style",
+        "フレーズ・小節・アクセントに合わせた上体と頭の動き（倍率、1 でスタイルどおり）",
+    ),
+    "parameter.stillness": (
+        "Stillness",
+        "静止",
+    ),
+    "parameter.stillness_tip": (
+        "How often torso and head keep still for a bar: multiplier, 1 = as the style",
+        "上体と頭が小節の間静止する頻度（倍率、1 でスタイルどおり）",
+    ),
+    "parameter.footwork": (
+        "Footwork",
+        "足の動き",
+    ),
+    "parameter.footwork_tip": (
+        "Lifted heels and steps to the other foot: multiplier, 1 = as the style",
+        "かかとの上げ下げと踏み替え（倍率、1 でスタイルどおり）",
+    ),
+    "parameter.toe_taps": (
+        "Toe taps",
+        "足拍子",
+    ),
+    "parameter.toe_taps_tip": (
+        "How often a foot taps with the beat: multiplier, 1 = as the style",
+        "足で拍を取る頻度（倍率、1 でスタイルどおり）",
+    ),
+    "parameter.breath_motion": (
+        "Visible breath",
+        "息の見え方",
+    ),
+    "parameter.breath_motion_tip": (
+        "How much chest, belly and shoulders show the air: multiplier, 1 = as the style",
+        "胸・腹・肩に表れる息の量（倍率、1 でスタイルどおり）",
+    ),
+    "parameter.cue_size": (
+        "Cue size",
+        "合図の大きさ",
+    ),
+    "parameter.cue_size_tip": (
+        "Size of nods and bell at an entry: multiplier, 1 = as the style",
+        "入りの合図でのうなずきとベルの大きさ（倍率、1 でスタイルどおり）",
+    ),
+    "parameter.face_intensity": (
+        "Face intensity",
+        "表情の強さ",
+    ),
+    "parameter.face_intensity_tip": (
+        "Brows, lids, cheeks and nostrils: multiplier, 1 = as the style",
+        "眉・まぶた・頬・鼻翼の動き（倍率、1 でスタイルどおり）",
+    ),
+    "parameter.lip_motion": (
+        "Lip motion",
+        "唇の動き",
+    ),
+    "parameter.lip_motion_tip": (
+        "What the lips do within held notes: multiplier, 1 = as the style",
+        "伸ばす音の間の唇の動き（倍率、1 でスタイルどおり）",
+    ),
+    "parameter.gaze": (
+        "Gaze",
+        "視線の動き",
+    ),
+    "parameter.gaze_tip": (
+        "How much the eyes leave the music: multiplier, 1 = as the style",
+        "視線が譜面を離れる量（倍率、1 でスタイルどおり）",
+    ),
+    "parameter.blinks": (
+        "Blinks",
+        "まばたき",
+    ),
+    "parameter.blinks_tip": (
+        "How often the lids close: multiplier, 1 = as the style",
+        "まばたきの頻度（倍率、1 でスタイルどおり）",
+    ),
+    "parameter.gestures": (
+        "Gestures",
+        "ジェスチャー",
+    ),
+    "parameter.gestures_tip": (
+        "Gestures before, between and after playing: multiplier, 1 = as the style",
+        "演奏の前後や合間のジェスチャー（倍率、1 でスタイルどおり）",
+    ),
     "dancer_parameter.seed": ("Variation", "バリエーション"),
     "dancer_parameter.seed_tip": (
         "Each number gives a different dance to the same music",

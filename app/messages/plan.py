@@ -329,6 +329,23 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "accent, {more:g} louder than the notes around it",
         "アクセント: 前後の音より {more:g} 大きい音",
     ),
+    "rule.applied": ("rule {rule}", "ルール {rule}"),
+    "rule.unknown_expression": (
+        "the rule {rule} shows the expression {name!r}, which does not exist; choose one of: {known}",
+        "ルール {rule} の表情 {name!r} がありません。使えるもの: {known}",
+    ),
+    "rule.unknown_gesture": (
+        "the rule {rule} makes the gesture {name!r}, which does not exist; choose one of: {known}",
+        "ルール {rule} のジェスチャー {name!r} がありません。使えるもの: {known}",
+    ),
+    "gesture.unknown": (
+        "the gesture {name!r} does not exist and does nothing; choose one of: {known}",
+        "ジェスチャー {name!r} がないため、何も行いません。使えるもの: {known}",
+    ),
+    "gesture.not_here": (
+        "the gesture {name!r} is meant for where its table says may_start = {start!r}; move it there",
+        "ジェスチャー {name!r} は、表の may_start = {start!r} の場所で行うものです。移動してください",
+    ),
     "gesture.lower_instrument": (
         "{rest_s:g} s of rest: the instrument is lowered and raised again before the entry",
         "{rest_s:g} 秒の休み: 楽器を下ろし、入りの前に構え直します",

@@ -139,6 +139,14 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the character {id!r} of {player} is not installed; choose another one or install it",
         ("{player} のキャラクター {id!r} がインストールされていません。別のキャラクターを選ぶか、追加してください"),
     ),
+    "project.style_missing": (
+        "the style {name!r} of {player} is not installed and changes nothing; choose one of: {known}",
+        "{player} のスタイル {name!r} がインストールされていないため、何も変わりません。使えるもの: {known}",
+    ),
+    "project.habit_missing": (
+        "the habit {name!r} of {player} is not installed and changes nothing; choose among: {known}",
+        "{player} の癖 {name!r} がインストールされていないため、何も変わりません。使えるもの: {known}",
+    ),
     "project.choreography_missing": (
         (
             "the choreography {name!r} of {dancer} is not included in this version of Suisou; choose a "

@@ -97,6 +97,33 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ),
     ),
     "instruments.invalid": ("{file} is invalid; problems: {count}", "{file} に問題が {count} 件あります"),
+    "metadata.no_piece": (
+        "--save, --load and --diff need a project: suisou metadata PIECE --save FILE",
+        "--save、--load、--diff にはプロジェクトが必要です: suisou metadata PIECE --save FILE",
+    ),
+    "metadata.nothing_asked": (
+        "say what to do with the piece: --save FILE, --load FILE or --diff FILE",
+        "曲に対する操作を指定してください: --save FILE、--load FILE、--diff FILE",
+    ),
+    "metadata.no_kind": (
+        "the folder {folder!r} says no kind of table; the file must be in a folder called one of: {known}",
+        "フォルダー {folder!r} からは表の種類がわかりません。次のいずれかの名前のフォルダーに置いてください: {known}",
+    ),
+    "metadata.newer": (
+        "{file} is of version {version}, and this version of Suisou reads up to {known}; update Suisou",
+        "{file} はバージョン {version} です。この Suisou が読めるのは {known} までです。Suisou を更新してください",
+    ),
+    "metadata.no_player": (
+        "no players are called {players}, so what is said of them was left out; players: {known}",
+        "{players} という奏者がいないため、その内容を除外しました。奏者: {known}",
+    ),
+    "metadata.written": ("metadata written to {file}", "メタデータを {file} に保存しました"),
+    "metadata.same": ("the piece has the metadata of {file}", "曲のメタデータは {file} と同じです"),
+    "metadata.differ": (
+        "{piece} and {file} differ in {count} {count:place|places}",
+        "{piece} と {file} は {count} か所で異なります",
+    ),
+    "metadata.read_again": ("metadata reloaded: {maps}", "メタデータを再読み込みしました: {maps}"),
     "instruments.read_again": ("instruments reloaded: {maps}", "楽器を再読み込みしました: {maps}"),
     "map.unreadable": ("{file} cannot be read: {detail}", "{file} を読み込めません: {detail}"),
     "map.not_rewritten": (

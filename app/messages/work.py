@@ -12,6 +12,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "work.clean_up": ("removing temporary files…", "一時ファイルを削除中…"),
     "work.plan": ("planning {players} players…", "{players} 人の演奏を計画中…"),
     "work.hold": ("fitting instruments to {players} players…", "{players} 人の楽器の持ち方を計算中…"),
+    "work.metadata": ("reading your styles and expressions…", "自分のスタイルと表情を読み込み中…"),
     "work.instruments": ("reading your instruments…", "自分の楽器を読み込み中…"),
     "work.load_figures": ("loading characters…", "キャラクターを読み込み中…"),
     "work.compare": ("generating {player} for comparison…", "{player} を比較のため生成中…"),

@@ -108,16 +108,17 @@ def with_held(held: Mapping[PoseTarget, Offset], added: Mapping[str, Added]) -> 
 def with_added(motion: BodyMotion, added: Mapping[str, Added], body: Body, knee_rad: float) -> BodyMotion:
     """The body with the curves of hips, knees, shoulders and eyes; ``knee_rad`` is how far knees are bent at rest."""
     changes: dict[str, object] = {}
-    frames = len(motion.hips_side_m)
     for channel, more in added.items():
         part, _, what = channel.partition(".")
         match part, what:
             case "hips", "left":
                 changes["hips_side_m"] = motion.hips_side_m + more.beside(0.0)
             case "hips", "ahead":
-                still = {name: np.zeros(frames) for name in ("ahead_m", "forward_rad", "ease_m")}
-                danced = motion.hips_danced or still
-                changes["hips_danced"] = danced | {"ahead_m": danced["ahead_m"] + more.beside(0.0)}
+                changes["hips_ahead_m"] = motion.hips_ahead_m + more.beside(0.0)
+            case "hips", "tilt":
+                changes["hips_forward_rad"] = motion.hips_forward_rad + more.beside(0.0)
+            case "hips", "roll":
+                changes["hips_roll_rad"] = motion.hips_roll_rad + more.beside(0.0)
             case "hips", "up":
                 # Legs that are nearly straight become no longer: upwards there is only what the body has sunk.
                 sunk = np.clip(motion.hips_bob_m, 0.0, more.high)

@@ -22,6 +22,7 @@ from app.motion.curve import Curve, Envelopes, FloatArray, moves
 from app.motion.feet import Feet, feet_moved
 from app.motion.follow import follow, path
 from app.motion.gaze import Look
+from app.motion.gestured import Gestured, Sums, with_gestures
 from app.motion.holding import held_still, holds_of
 from app.motion.lowering import lowering
 from app.motion.nods import Nods
@@ -35,7 +36,7 @@ from app.plan.model import BreathEvent, GestureEvent, PlayerPlan, PoseTarget, sa
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
 from app.score.metre_map import FeltBeats
-from metadata.model import Body, Posture
+from metadata.model import Body, Posture, at_amplitude
 
 EYES_BACK = 0.6
 """Share of the head's turn to the instrument that the eyes turn back, to the music and to the others."""
@@ -46,7 +47,7 @@ LEAST_DRAWN = 0.4
 BREATH_LEAD_S = 0.03
 """The inhalation is complete this long before the breath's end."""
 LIFT_SHARE = 0.9
-STEP_IN_HIPS = 0.4
+STEP_IN_HIPS = 0.3
 """Hips go along with a foot that is put ahead."""
 _NONE_AT_REST = (*("protraction_rad", "elbow_held_rad", "bell_held_rad", "hips_danced", "elbows_late_rad", "feet"),)
 
@@ -179,7 +180,8 @@ class LayerSamples:
     """The layers at some frames, before the player's sizes: members as of `Layers`, each (F,) float64.
 
     ``dip`` and ``lift`` are of the nods, ``giving`` is 1 half way between two places of the weight, ``held`` what the
-    animator holds differently, ``feet`` as of `Feet.sample`, ``concert`` what is done beside playing (None: nothing).
+    animator holds differently, ``gestured`` the keyed gestures, ``feet`` as of `Feet.sample`, ``concert`` what is done
+    beside playing (None: nothing).
     """
 
     full: FloatArray
@@ -196,6 +198,7 @@ class LayerSamples:
     lowered: FloatArray
     feet: dict[str, FloatArray]
     held: dict[PoseTarget, Offset]
+    gestured: Sums | None = None
     concert: ConcertSamples | None = None
 
 
@@ -229,6 +232,7 @@ class Layers:
     lowered: Curve
     feet: Feet
     poses: Poses
+    gestured: Gestured
     concert: Concert
     still: Envelopes
     leads: Leads
@@ -276,6 +280,7 @@ class Layers:
             else lowering(gestures["lower_instrument"], body.bell.lower_s, body.bell.raise_s),
             feet=stepped.feet if stepped else Feet.of(gestures["feet"], body.footwork.step_s),
             poses=Poses.of(plan.poses),
+            gestured=Gestured.of(plan.gestures),
             concert=others_too.concert if others_too else Concert.of(gestures["concert"], felt_beats),
             still=others_too.still if others_too else holds_of(gestures["concert"]),
             leads=Leads.of(body.overlap),
@@ -304,6 +309,7 @@ class Layers:
             lowered=self.lowered.sample(times_s),
             feet=self.feet.sample(times_s),
             held=self.poses.sample(times_s),
+            gestured=self.gestured.sample(times_s),
             concert=self.concert.sample(times_s),
         )
 
@@ -351,6 +357,7 @@ def body_motion(
     total.left(NECK_SHARES, deg(sizes.wander("head_side", sway.head_deg, times_s)))
     total.turn(NECK_SHARES, deg(sizes.wander("head_turn", sway.head_deg, times_s)))
 
+    inhaled = acting.breath * at_amplitude(body.breath.shown, parameters.amplitude) * inhaled
     breathing = deg(body.breath.torso_back_deg) * inhaled - deg(body.breath.preparation_forward_deg) * lean
     total.forward(TRUNK_SHARES, -breathing)
     total.forward(NECK_SHARES, -deg(body.breath.head_back_deg) * inhaled + 0.4 * breathing)
@@ -380,7 +387,7 @@ def body_motion(
         shoulders, elbows = shoulders + beside.shoulders_rad, elbows + beside.elbows_rad
     feet = feet_moved(levels.feet, body, parameters.amplitude, acting.footwork, steps=steps)
     forward_rad, left_rad, turn_rad = total.all()
-    held = levels.held
+    held = with_gestures(levels.held, levels.gestured, parameters.amplitude, acting.gestures)
     hold_body(held, body, forward_rad, left_rad, turn_rad)
     bell_held, elbows_held = {}, {}
     if "bell" in held:

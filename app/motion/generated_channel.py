@@ -32,18 +32,18 @@ def _of_body(motion: BodyMotion, channel: str) -> FloatArray:
         angles = {"up": motion.forward_rad, "left": motion.turn_rad, "roll": motion.left_rad}[what]
         total = np.sum([angles[joint] for joint in _JOINTS[part]], axis=0)
         return -total if what == "up" else np.asarray(total)
-    hips = motion.hips_danced
     values: dict[str, FloatArray] = {
         "bell.up": motion.bell_rad + motion.bell_cue_rad,
         "left_elbow.up": motion.elbows_rad,
         "right_elbow.up": motion.elbows_rad,
         "shoulders.up": motion.shoulders_rad,
         "hips.left": motion.hips_side_m,
+        "hips.ahead": motion.hips_ahead_m + motion.hips_danced.get("ahead_m", 0.0),
+        "hips.tilt": motion.hips_forward_rad + motion.hips_danced.get("forward_rad", 0.0),
+        "hips.roll": motion.hips_roll_rad,
         "hips.up": -motion.hips_bob_m,
         "knees.bend": motion.knee_rad,
         "eyes.up": -motion.eyes_pitch_rad,
         "eyes.left": motion.eyes_yaw_rad,
     }
-    if channel == "hips.ahead" and hips:
-        return hips["ahead_m"]
     return values.get(channel, np.zeros(len(motion.hips_side_m)))

@@ -1,8 +1,9 @@
 """What all players of a project do: plans from a snapshot of the project, made once and shared by everyone who asks.
 
 Messages: ``piece.too_long`` (as `app.score.limits.too_long` says it): "the piece would last {hours} hours, ...";
-as problems of the player's plan ``project.instrument_missing``, ``project.character_missing`` (player, id), or what is
-wrong with the file of that instrument or character.
+as problems of the player's plan ``project.instrument_missing``, ``project.character_missing`` (player, id),
+``project.style_missing``, ``project.habit_missing`` (player, name, known), or what is wrong with the file of that
+instrument or character.
 """
 
 from __future__ import annotations
@@ -17,23 +18,25 @@ import msgspec
 
 from app.contacts.breaks import by_time
 from app.errors import AppError, Cancelled, MapError, Message
+from app.performance.acting_problems import unknown_acting
 from app.performance.bodies import hold_now, is_held, suited_to
 from app.performance.body_problems import body_problems
 from app.performance.loudness import controller_input, note_loudness
+from app.plan.acting import with_style
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.doubling import Change, changes, first_played, held_plan
 from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
 from app.plan.glances import StagePlace
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
-from app.plan.parameters import deciding
+from app.plan.parameters import PlayerParameters, deciding
 from app.project.model import Project
 from app.project.performers import Player
 from app.rig.character_library import character_library
 from app.score.limits import too_long
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
-from metadata.load import load_expressions
+from metadata.library import MetadataLibrary, metadata_library
 from metadata.model import Expression
 
 LIGHT = 8
@@ -49,7 +52,7 @@ class Performance:
     A player without a map of the instrument, or with a character that is not installed, keeps a place: the plan has
     a problem and, without a map, no events; the others play on.
 
-    Its instruments and characters are those there are when it is made.
+    Its instruments, characters, styles, habits and expressions are those there are when it is made.
 
     Parameters
     ----------
@@ -77,11 +80,13 @@ class Performance:
         self.waiting = waiting
         self.library = library()
         self.characters = character_library()
+        self.metadata: MetadataLibrary = metadata_library()
         self.unseen = dict[str, Message]()
         """By player id, once there are plans: why players cannot be seen, streamed or exported."""
         # One that was never played knows nothing, but may know of one that was.
         self._before: Performance | None = before if before is None or before.planned else before._before
         self._memo: Memo = Memo(None if self._before is None else self._before._memo)
+        self._acted = dict[str, PlayerParameters]()
         self._lock = RLock()
 
     @cached_property
@@ -109,8 +114,19 @@ class Performance:
         corrections = self.project.corrections.get(player.id, ())
         loudness = self._memo.step(f"loudness:{player.id}", note_loudness, part)
         blown = self._memo.step(f"controller:{player.id}", controller_input, part)
-        said = (player.parameters, corrections, loudness, blown, player.doubles)
+        said = (self.parameters(player), corrections, loudness, blown, player.doubles)
         return self._memo.step(f"line:{player.id}", MonophonicPart, player.id, part.notes, instrument, *said)
+
+    def parameters(self, player: Player) -> PlayerParameters:
+        """What a player's plan and motion are made with: the player's parameters, with what style and habits make of
+        them."""
+        musician = self.project.musician(player).id
+        styles, habits = self.metadata.styles.items, self.metadata.habits.items
+        said = (player.parameters, musician, self.project.section_intensity, styles, habits)
+        with self._lock:
+            if player.id not in self._acted:
+                self._acted[player.id] = self._memo.step(f"acting:{player.id}", with_style, *said)
+            return self._acted[player.id]
 
     @cached_property
     def time_frame(self) -> TimeFrame:
@@ -162,6 +178,8 @@ class Performance:
                 stop_requested,
                 progress,
                 self.places,
+                self.metadata.all_rules,
+                self.metadata.gestures.items,
             )
             self.unseen = dict[str, Message]()
             self._plans = {player.id: self._in_hands(player, made) for player in self.project.players}
@@ -227,6 +245,7 @@ class Performance:
             lacking, unreached = found.lacking + _not_danced(player), found.unreached
             if found.unseen is not None:
                 self.unseen[player.id] = found.unseen
+        lacking += unknown_acting(player, self.metadata)
         frame = self.time_frame
         reported = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking) + unreached
         return self._memo.step(f"problems:{player.id}", _together, reported, plan.problems)
@@ -245,9 +264,10 @@ class Performance:
 
     @cached_property
     def expressions(self) -> dict[str, Expression]:
-        """Every expression by name; the project's own win over the bundled ones."""
+        """Every expression by name; the project's own win over the user's, and those over the bundled ones."""
         with self._lock:
-            return self._memo.step("expressions", _all_expressions, self.project.expressions)
+            there = self.metadata.expressions_by_name
+            return self._memo.step("expressions", _all_expressions, there, self.project.expressions)
 
     @property
     def unplanned_notes(self) -> int:
@@ -258,7 +278,8 @@ class Performance:
         before = self._before
         if before is None or self.piece is not before.piece or self.time_frame != before.time_frame:
             return sum(len(line.notes) for line in self.lines)
-        if self.project.seed != before.project.seed or self.expressions is not before.expressions:
+        same_rules = self.metadata.all_rules is before.metadata.all_rules
+        if self.project.seed != before.project.seed or self.expressions is not before.expressions or not same_rules:
             return sum(len(line.notes) for line in self.lines)
         known = {line.player_id: line for line in before.lines}
         return sum(_work(line, known.get(line.player_id)) for line in self.lines)
@@ -375,8 +396,8 @@ def _work(line: MonophonicPart, before: MonophonicPart | None) -> int:
     return len(line.notes) // LIGHT
 
 
-def _all_expressions(own: tuple[Expression, ...]) -> dict[str, Expression]:
-    return load_expressions() | {expression.name: expression for expression in own}
+def _all_expressions(there: dict[str, Expression], own: tuple[Expression, ...]) -> dict[str, Expression]:
+    return there | {expression.name: expression for expression in own}
 
 
 def _same(value: tuple[object, ...]) -> tuple[object, ...]:

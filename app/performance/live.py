@@ -180,6 +180,11 @@ class LiveMotion:
             def same_body(player: Player) -> bool:
                 return revisions.get(player.character_id) == before_it.get(player.character_id)
 
+            def same_acting(player: Player, old: Player | Dancer) -> bool:
+                if not isinstance(old, Player):
+                    return False
+                return performance.parameters(player) == before.performance.parameters(old)
+
             def same_playing(player: Player) -> bool:
                 old = before.tracks.get(player.id)
                 return (
@@ -187,6 +192,7 @@ class LiveMotion:
                     and performance.plan(player) is old.plan
                     and performance.problems(player.id) is old.known
                     and _looks_same(player, old.player)
+                    and same_acting(player, old.player)
                     and same_body(player)
                     and not player.parameters.choreography
                 )

@@ -77,9 +77,10 @@ def _alone(
         from app.performance.body_dance import layer_of
 
         dance = layer_of(performance, player)
+    parameters = performance.parameters(player)
     felt_beats, expressions = _same(performance.piece.metre_map.felt_beats), performance.expressions
     return _PLAYING.helped(
-        _prepared, before, plan, player.parameters, instrument, character, hold, body, felt_beats, expressions, dance
+        _prepared, before, plan, parameters, instrument, character, hold, body, felt_beats, expressions, dance
     )
 
 

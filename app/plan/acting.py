@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Final
+
 import msgspec
 
+from app.chance import chance
 from app.plan.parameters import PlayerParameters
+from metadata.acting import Factors, Habit, Style, names_in
 
 
 class Acting(msgspec.Struct, frozen=True):
@@ -52,6 +57,59 @@ class Acting(msgspec.Struct, frozen=True):
     gestures: float = 1.0
 
 
+AMOUNTS: Final = Factors.__struct_fields__
+"""The parameters that are amounts of layers: what styles and habits multiply."""
+LAYERS: Final[Mapping[str, str]] = {
+    "phrase_motion": "phrase",
+    "toe_taps": "tap",
+    "breath_motion": "breath",
+    "cue_size": "cue",
+    "face_intensity": "face",
+    "lip_motion": "lips",
+    "blinks": "blink",
+}
+"""By parameter the field of `Acting` that it decides, where that is called otherwise."""
+MOST: Final = 3.0
+"""Of an amount, whatever style, habits and parameters multiply to: beyond, a player would be a caricature."""
+_NOT_BY_SECTION: Final = frozenset({"stillness", "blinks"})
+"""Less of the one is more acting, and the other is no acting."""
+
+
 def acting_of(parameters: PlayerParameters) -> Acting:
-    """What a player with these parameters shows."""
-    return Acting(sway=parameters.sway, weight_shift=parameters.weight_shift, bell_height=parameters.bell_height)
+    """What a player with these parameters shows; style and habits are in them already, see `with_style`."""
+    usual = Acting()
+    shown = {}
+    for name in AMOUNTS:
+        layer = LAYERS.get(name, name)
+        shown[layer] = getattr(usual, layer) * getattr(parameters, name)
+    return Acting(**{**shown, "stillness": min(shown["stillness"], 1.0)})
+
+
+def with_style(
+    parameters: PlayerParameters,
+    player_id: str,
+    section_intensity: float,
+    styles: Mapping[str, Style],
+    habits: Mapping[str, Habit],
+) -> PlayerParameters:
+    """The parameters with what style, habits, the player's own variation and the whole section make of the amounts.
+
+    To be done once. A style or habit that is not there changes nothing.
+
+    Parameters
+    ----------
+    section_intensity : float
+        Multiplies what everybody shows.
+    """
+    style = styles.get(parameters.style)
+    factors = [] if style is None else [style.factors]
+    factors += [habits[name].factors for name in names_in(parameters.habits) if name in habits]
+    variation = 0.0 if style is None else style.variation
+    amounts = {}
+    for name in AMOUNTS:
+        amount: float = getattr(parameters, name)
+        for factor in factors:
+            amount *= getattr(factor, name)
+        amount *= 1.0 + variation * (2.0 * chance("acting", name, parameters.seed, player_id) - 1.0)
+        amounts[name] = min(amount if name in _NOT_BY_SECTION else amount * section_intensity, MOST)
+    return msgspec.structs.replace(parameters, **amounts)

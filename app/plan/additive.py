@@ -43,6 +43,8 @@ HIPS_M: Final[dict[str, Limits]] = {
     "hips.up": (-0.1, 0.015),
 }
 """How far the hips leave the place above feet that stay. Upwards there is only what the player has sunk."""
+PELVIS_DEG: Final[dict[str, Limits]] = {"hips.tilt": (-6.0, 8.0), "hips.roll": (-6.0, 6.0)}
+"""Tilted forward and leaning to the left, also on a seat; the trunk goes along."""
 SHOULDERS_DEG: Final = (-5.0, 12.0)
 KNEES_DEG: Final = (-6.0, 45.0)
 """Added to the bend of knees that are hardly bent."""
@@ -106,9 +108,13 @@ def channel_limits(channel: str, instrument: InstrumentMap, parameters: PlayerPa
         return EYES_DEG[channel]
     if channel == "shoulders.up":
         return SHOULDERS_DEG
-    # Not on a seat, nor over an instrument that stands on its pin.
+    if instrument.endpin is not None:
+        # Nothing moves over an instrument that stands on its pin.
+        return 0.0, 0.0
+    if channel in PELVIS_DEG:
+        return PELVIS_DEG[channel]
     posture = instrument.hold.possible(parameters.posture)
-    if body.postures[posture].seat_height_shank > 0.0 or instrument.endpin is not None:
+    if body.postures[posture].seat_height_shank > 0.0:
         return 0.0, 0.0
     return HIPS_M.get(channel, KNEES_DEG)
 

@@ -52,6 +52,8 @@ BODY_CHANNELS: Final[dict[str, Channel]] = {
     "hips.left": _PLACE,
     "hips.ahead": _PLACE,
     "hips.up": _PLACE,
+    "hips.tilt": _ANGLE,
+    "hips.roll": _ANGLE,
     "knees.bend": _ANGLE,
     "eyes.up": _ANGLE,
     "eyes.left": _ANGLE,

@@ -107,13 +107,15 @@ class ChangeGesture(_Correction, frozen=True, tag="change_gesture"):
 
 
 class AddGesture(_Correction, frozen=True, tag="add_gesture"):
-    """A gesture of the animator's own, at a place of the score. ``name`` makes its event id unique."""
+    """A gesture of the animator's own, at a place of the score. ``name`` makes its event id unique; ``gesture`` is what
+    one of the kind ``"named"`` is called in `metadata.gestures`."""
 
     name: str
     kind: GestureKind
     start_tick: int
     end_tick: int
     amount: float
+    gesture: str = ""
 
 
 class ChangeExpression(_Correction, frozen=True, tag="change_expression"):
@@ -315,6 +317,7 @@ def correct_gestures(
             amount=item.amount,
             reason=BY_HAND,
             corrected=True,
+            name=item.gesture,
         )
         for item in corrections
         if isinstance(item, AddGesture)

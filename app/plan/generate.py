@@ -46,15 +46,20 @@ from app.plan.glances import StagePlace, glances_of
 from app.plan.line import LineTimes, MonophonicPart, Piece, Seeds, note_times, without_sound
 from app.plan.memo import Memo
 from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, Problem, TimeFrame
+from app.plan.named_gestures import with_definitions
 from app.plan.parameters import restricted
 from app.plan.pose import plan_poses
+from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled, without_overruled
 from app.plan.stagger import Breathed, Shared, SharedLine, breathed_of, shared_line, shared_with
 from app.plan.together import one_at_a_time
 from app.plan.traces import plan_traces
 from app.score.model import Note
 from app.score.tempo import TempoMap
+from metadata.gestures import Gesture
+from metadata.library import bundled_gestures, bundled_rules
 from metadata.load import load_expressions
 from metadata.model import Expression
+from metadata.rules import Rule
 
 __all__ = ["EnsemblePlan", "MonophonicPart", "Piece", "make_plans", "plan_ensemble", "time_frame"]
 
@@ -146,6 +151,8 @@ def plan_ensemble(
     stop_requested: Callable[[], bool] = lambda: False,
     progress: Callable[[float], None] = lambda share: None,
     places: Mapping[str, StagePlace] | None = None,
+    rules: tuple[Rule, ...] | None = None,
+    gestures: Mapping[str, Gesture] | None = None,
 ) -> EnsemblePlan:
     """Plan every line of the ensemble, in order.
 
@@ -163,6 +170,10 @@ def plan_ensemble(
         Asked, and called with the share that is done, between two players.
     places : mapping of str to StagePlace, optional
         Where each player stands; who has no place looks at no one.
+    rules : tuple of Rule, optional
+        What players show and do by rules; the bundled ones by default.
+    gestures : mapping of str to Gesture, optional
+        What rules and the animator may name; the bundled ones by default.
 
     Raises
     ------
@@ -170,6 +181,8 @@ def plan_ensemble(
         ``stop_requested`` said so.
     """
     faces = load_expressions() if expressions is None else expressions
+    ruling = bundled_rules() if rules is None else rules
+    named = bundled_gestures() if gestures is None else gestures
     shared = Memo(None if before is None else before.shared)
     own = {line.player_id: Memo(None if before is None else before.own.get(line.player_id)) for line in lines}
     playable: list[tuple[MonophonicPart, LineTimes, tuple[Problem, ...]]] = []
@@ -201,7 +214,7 @@ def plan_ensemble(
         seen = memo.step("seen", _seen, line.player_id, own_cues, answered, {} if places is None else places)
         given = _Given(
             piece, line, times, frame, own_cues, cue_ids, this, shared_breaths, seed, beat, ending, problems, faces,
-            answered, last_s, seen, alone=musicians.count(musicians[done]) == 1,
+            answered, last_s, seen, ruling, named, alone=musicians.count(musicians[done]) == 1,
         )  # fmt: skip
         plan, breaths = memo.nested("plan", _plan_line, given)
         plans[line.player_id] = plan
@@ -285,6 +298,8 @@ class _Given(NamedTuple):
     answered: tuple[CueEvent, ...]
     last_s: float
     seen: Mapping[str, StagePlace]
+    rules: tuple[Rule, ...]
+    named: Mapping[str, Gesture]
     alone: bool
 
 
@@ -337,8 +352,30 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         answered=given.answered,
         last_s=given.last_s,
     )
+    lowered = memo.step("lowered spans", lowered_spans_s, made_gestures)
+    ruled = memo.step(
+        "rules",
+        plan_by_rules,
+        notes,
+        times,
+        piece,
+        frame,
+        instrument,
+        restricted(parameters, "rules"),
+        dynamics,
+        lowered,
+        seeds,
+        given.rules,
+        given.faces,
+        given.named,
+    )
+    made_gestures = memo.step("gestures and rules", with_ruled, made_gestures, ruled.gestures)
     moved = _of(corrections, ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
-    gestures = memo.step("corrected gestures", correct_gestures, made_gestures, moved, clock)
+    corrected = memo.step("corrected gestures", correct_gestures, made_gestures, moved, clock)
+    corrected = memo.step("gestures by hand", without_overruled, corrected)
+    held = restricted(parameters, "poses")
+    defined = memo.step("named gestures", with_definitions, corrected, given.named, instrument, held, times, lowered)
+    gestures = defined.gestures
     looked = memo.step("looked at", _of_kinds, gestures, ("lower_instrument", "look_about", "look_up"))
     glances = memo.step("glances", glances_of, line.player_id, given.cues + given.answered, looked, given.seen, seeds)
     # Who corrected the smile after the last note keeps it, whatever the ending is.
@@ -359,8 +396,10 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         ending,
         given.faces,
     )
+    made_expressions = memo.step("expressions and rules", with_ruled, made_expressions, ruled.expressions)
     faced = _of(corrections, ChangeExpression, AddExpression, RemoveEvent, SetBreath, SetCue)
     expressions = memo.step("corrected expressions", correct_expressions, made_expressions, faced, clock)
+    expressions = memo.step("expressions by hand", without_overruled, expressions)
     tongues = memo.step("tongues", plan_tongues, notes, times, instrument, fingerings)
     posed = _of(corrections, PoseCorrection)
     poses, pose_problems = memo.step("poses", plan_poses, posed, instrument, restricted(parameters, "poses"), clock)
@@ -378,7 +417,10 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         made_expressions,
         frame.first_frame_s,
     )
-    problems = (*fingering_problems, *breaths.problems, *pose_problems, *key_problems, *given.reported, *lost)
+    problems = (
+        *(*fingering_problems, *breaths.problems, *pose_problems, *key_problems, *given.reported, *lost),
+        *(*ruled.problems, *defined.problems),
+    )
     plan = PlayerPlan(
         player_id=line.player_id,
         time_frame=frame,

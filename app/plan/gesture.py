@@ -108,7 +108,7 @@ def plan_gestures(
         memo.step("sways", sways, swings, pulse),
         shifts,
         memo.step("leans", leans, found, times, clock, seeds, dynamics),
-        memo.step("accents", accents, times, pulse, at_notes, clock, swings, seeds, dynamics),
+        memo.step("accents", accents, times, pulse, at_notes, cues, breaths, clock, swings, seeds, dynamics),
         memo.step("bell heights", bell_heights, notes, times, piece, dynamics),
         lowered,
         memo.step("answering nods", answering_nods, notes, rhythm, answered, piece, seeds),

@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from app.errors import Message
 from app.identity_cache import IdentityCache
+from metadata.gestures import Gesture
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 
@@ -145,9 +146,12 @@ GestureKind: TypeAlias = Literal[
     "hold_still",
     "look_up",
     "bow",
+    "named",
 ]
 """What a body does beside playing."""
 GESTURE_KINDS: Final[tuple[GestureKind, ...]] = get_args(GestureKind)
+OWN_KINDS: Final[tuple[GestureKind, ...]] = tuple(kind for kind in GESTURE_KINDS if kind != "named")
+"""What the program itself makes; the others are named in a table."""
 SIGNED_KINDS: Final[frozenset[GestureKind]] = frozenset(GESTURE_KINDS[:3] + GESTURE_KINDS[4:9])
 """Gestures that go one way or the other; of all others there is no less than nothing."""
 ACCENT_AT: Final = 0.45
@@ -156,7 +160,8 @@ ACCENT_AT: Final = 0.45
 
 class GestureEvent(msgspec.Struct, frozen=True, gc=False):
     """A body motion over a span. ``amount`` is -1..1, signed by direction (left, up and forward are positive; down of
-    an accent; of a foot the sign says which) where the kind has one. A nod marks the beat at its end."""
+    an accent; of a foot the sign says which) where the kind has one. A nod marks the beat at its end. One of the kind
+    ``"named"`` is the gesture of that ``name`` in `metadata.gestures`, as this player makes it."""
 
     id: str
     kind: GestureKind
@@ -167,6 +172,8 @@ class GestureEvent(msgspec.Struct, frozen=True, gc=False):
     amount: float
     reason: Message
     corrected: bool = False
+    name: str = ""
+    gesture: Gesture | None = None
 
 
 class ExpressionEvent(msgspec.Struct, frozen=True, gc=False):

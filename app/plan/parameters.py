@@ -16,7 +16,7 @@ import msgspec
 Bounds: TypeAlias = tuple[float, float]
 """Lowest and highest, both allowed."""
 Value: TypeAlias = str | int | float | bool | None
-Decided: TypeAlias = Literal["breaths", "cues", "lips", "poses", "motion"]
+Decided: TypeAlias = Literal["breaths", "cues", "lips", "poses", "gestures", "rules", "motion"]
 """What a parameter decides: a step of the plan, or how a plan looks."""
 
 SEED: Final = (0, 2**63 - 1)
@@ -243,6 +243,60 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     )] = 0
     """Another one is another dance to the same music, the same for everyone who has it; 0: a dance of the player's own,
     by ``seed``."""
+    style: Annotated[str, Parameter(
+        "parameter.style", "parameter.style_tip",
+        section="acting", row=-1, decides=frozenset({"rules", "motion"}), since=10,
+    )] = "section_player"
+    """Name of a table of ``metadata/styles`` or of the user's own."""
+    habits: Annotated[str, Parameter(
+        "parameter.habits", "parameter.habits_tip",
+        section="acting", row=-1, decides=frozenset({"rules", "motion"}), since=10,
+    )] = ""
+    """Names of tables of ``metadata/habits`` or of the user's own, with commas between them."""
+    phrase_motion: Annotated[float, Parameter(
+        "parameter.phrase_motion", "parameter.phrase_motion_tip", "unit.times",
+        bounds=_NATURAL, section="acting", spread=0.5, since=10,
+    )] = 1.0
+    stillness: Annotated[float, Parameter(
+        "parameter.stillness", "parameter.stillness_tip", "unit.times",
+        bounds=_NATURAL, section="acting", spread=0.5, decides=frozenset({"gestures", "motion"}), since=10,
+    )] = 1.0
+    footwork: Annotated[float, Parameter(
+        "parameter.footwork", "parameter.footwork_tip", "unit.times",
+        bounds=_NATURAL, section="acting", spread=0.5, since=10,
+    )] = 1.0
+    toe_taps: Annotated[float, Parameter(
+        "parameter.toe_taps", "parameter.toe_taps_tip", "unit.times",
+        bounds=_NATURAL, section="acting", spread=0.5, decides=frozenset({"gestures", "motion"}), since=10,
+    )] = 1.0
+    breath_motion: Annotated[float, Parameter(
+        "parameter.breath_motion", "parameter.breath_motion_tip", "unit.times",
+        bounds=_NATURAL, section="acting", spread=0.3, since=10,
+    )] = 1.0
+    cue_size: Annotated[float, Parameter(
+        "parameter.cue_size", "parameter.cue_size_tip", "unit.times",
+        bounds=_NATURAL, section="acting", spread=0.3, since=10,
+    )] = 1.0
+    face_intensity: Annotated[float, Parameter(
+        "parameter.face_intensity", "parameter.face_intensity_tip", "unit.times",
+        bounds=_NATURAL, section="acting", spread=0.5, since=10,
+    )] = 1.0
+    lip_motion: Annotated[float, Parameter(
+        "parameter.lip_motion", "parameter.lip_motion_tip", "unit.times",
+        bounds=_NATURAL, section="acting", spread=0.3, since=10,
+    )] = 1.0
+    gaze: Annotated[float, Parameter(
+        "parameter.gaze", "parameter.gaze_tip", "unit.times",
+        bounds=_NATURAL, section="acting", spread=0.5, since=10,
+    )] = 1.0
+    blinks: Annotated[float, Parameter(
+        "parameter.blinks", "parameter.blinks_tip", "unit.times",
+        bounds=_NATURAL, section="acting", spread=0.3, since=10,
+    )] = 1.0
+    gestures: Annotated[float, Parameter(
+        "parameter.gestures", "parameter.gestures_tip", "unit.times",
+        bounds=_NATURAL, section="acting", spread=0.5, since=10,
+    )] = 1.0
     # fmt: on
 
 

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from app.errors import Message
 from app.plan.dynamics import Dynamics, grown
 from app.plan.line import IntArray, LineTimes, Piece, Rhythm, Seeds
-from app.plan.model import ACCENT_AT, BreathEvent, FloatArray, GestureEvent
+from app.plan.model import ACCENT_AT, BreathEvent, CueEvent, FloatArray, GestureEvent
 from app.plan.swing import Pulse, Swings
 from app.score.tempo import TempoMap
 
@@ -47,12 +47,16 @@ SHORTEST_ACCENT_S = 0.6
 ON_BEAT_S = 0.03
 APART_BEATS = 1.5
 """Accents are at least so far apart; those of notes played louder than their neighbours, a third of it."""
-LOUDER, DOWNBEAT, LONG, LEAP = 6.0, 0.28, 0.35, 0.2
+LOUDER, DOWNBEAT, LONG, LEAP = 6.0, 0.22, 0.35, 0.22
 """What makes a note a strong one: loudness above its neighbours, the first beat of a bar, length, a leap up to it."""
-STRONG = 0.62
+STRONG = 0.66
 """With chance (0..1, of this weight) added, a note from here on is accented."""
-CHANCE = 0.55
-LEAST_ACCENT = 0.35
+CHANCE = 0.62
+LEAST_ACCENT = 0.2
+AFTER_BREATH = 0.6
+"""Right after a breath, which the trunk shows too, an accent is short and so much smaller."""
+CUED_S = 0.35
+"""An entry that is cued has its nod."""
 
 
 class Phrase(NamedTuple):
@@ -67,8 +71,7 @@ def phrases(times: Rhythm, breaths: Sequence[BreathEvent]) -> tuple[Phrase, ...]
     count = len(times.onset_s)
     if not count:
         return ()
-    drawn_s = [breath.end_s for breath in breaths if breath.kind == "breath"]
-    after = np.searchsorted(times.onset_s, np.array(drawn_s) - ON_BEAT_S)
+    after = _after_breaths(times, breaths)
     rests = np.flatnonzero(times.onset_s[1:] - times.played_end_s[:-1] >= REST_S) + 1
     edges = np.unique(np.concatenate(([0], after[after < count], rests, [count])))
     found: list[Phrase] = []
@@ -80,6 +83,12 @@ def phrases(times: Rhythm, breaths: Sequence[BreathEvent]) -> tuple[Phrase, ...]
         bounds = sorted({first, end, *(cut for cut in cuts if first < cut < end)})
         found += [Phrase(*pair) for pair in pairwise(bounds)]
     return tuple(found)
+
+
+def _after_breaths(times: Rhythm, breaths: Sequence[BreathEvent]) -> IntArray:
+    """The note after each breath; their number for none."""
+    drawn_s = [breath.end_s for breath in breaths if breath.kind == "breath"]
+    return np.asarray(np.searchsorted(times.onset_s, np.array(drawn_s) - ON_BEAT_S))
 
 
 def leans(
@@ -130,6 +139,8 @@ def accents(
     times: LineTimes,
     pulse: Pulse,
     lengths: IntArray,
+    cues: Sequence[CueEvent],
+    breaths: Sequence[BreathEvent],
     clock: TempoMap,
     swings: Swings,
     seeds: Seeds,
@@ -160,16 +171,23 @@ def accents(
     ticks = times.onset_tick[candidates]
     longer = np.minimum(times.duration_s[candidates] / np.maximum(beat_s[candidates], 1e-6), 3.0) / 3.0
     up = np.diff(times.pitch, prepend=times.pitch[:1])[candidates] >= 5
-    chances = seeds.chances_at("accent", ticks)
+    chances, sizes = seeds.chances_at("accent", ticks), seeds.chances_at("accent size", ticks)
     strength = LOUDER * dynamics.accents[candidates] + DOWNBEAT * np.isin(ticks, bars) + LONG * longer + LEAP * up
     still = swings.still_at(ticks)
-    scores = strength + CHANCE * chances - 10.0 * (still & ~loud[candidates])
     at_s = times.onset_s[candidates]
+    nodded = np.zeros(len(at_s), np.bool_)
+    for cue in cues:
+        nodded |= np.abs(at_s - cue.end_s) < CUED_S
+    scores = strength + CHANCE * chances - 10.0 * ((still & ~loud[candidates]) | nodded)
     chosen = _apart(at_s, scores, loud[candidates], beat_s[candidates])
-    amounts = grown(np.clip(LEAST_ACCENT + 0.6 * strength * chances + 0.3 * chances, 0.0, 1.0), dynamics.at(at_s))
+    amounts = grown(np.clip(LEAST_ACCENT + 0.4 * strength + 0.6 * sizes * sizes, 0.0, 1.0), dynamics.at(at_s))
+    inhaled = np.isin(candidates, _after_breaths(times, breaths))
+    amounts = np.where(inhaled, AFTER_BREATH * amounts, amounts)
+    lengths_s = np.clip(ACCENT_BEATS * beat_s[candidates], SHORTEST_ACCENT_S, ACCENT_S)
+    lengths_s = np.where(inhaled, SHORTEST_ACCENT_S, lengths_s)
     events = []
     for place in chosen:
-        length_s = max(min(ACCENT_S, ACCENT_BEATS * float(beat_s[candidates[place]])), SHORTEST_ACCENT_S)
+        length_s = float(lengths_s[place])
         start_s = float(at_s[place]) - ACCENT_AT * length_s
         end_s, amount = start_s + length_s, round(float(amounts[place]), 4)
         start, end = round(clock.ticks(start_s)), round(clock.ticks(end_s))

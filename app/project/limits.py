@@ -25,6 +25,7 @@ TEMPO_RATIO: Final = (0.25, 4.0)
 METRE_NUMERATOR: Final = (1, 255)
 METRE_DENOMINATORS: Final = (1, 2, 4, 8, 16, 32, 64)
 PREROLL_BEATS: Final = (0.0, 64.0)
+SECTION_INTENSITY: Final = (0.0, 2.0)
 FELT_BEAT_QUARTERS: Final = (1 / 16, 16.0)
 FPS: Final = (Fraction(1), Fraction(240))
 SEED: Final = of_players.SEED

@@ -38,6 +38,16 @@ def _with_dancers(raw: Raw) -> Raw:
     return {**raw, "dancers": [], "dance_corrections": {}, "score": {**raw["score"], "percussion": []}}
 
 
+def _with_section_intensity(raw: Raw) -> Raw:
+    """9 to 10: what all players show of their acting has an amount; before, everything was shown. Added gestures may
+    be those of a table."""
+    corrections = {
+        player: [{**item, "gesture": ""} if item["correction"] == "add_gesture" else item for item in items]
+        for player, items in raw["corrections"].items()
+    }
+    return {**raw, "section_intensity": 1.0, "corrections": corrections}
+
+
 def _with_parameters(raw: Raw, version: int) -> Raw:
     """What players and dancers could not be set to before this version."""
     of_players, of_dancers = (
@@ -62,7 +72,7 @@ STRUCTURE: Final[Mapping[int, Migration]] = {
     # A player may share the body of another; before, each player had one.
     9: lambda raw: {**raw, "players": [{**player, "doubles": ""} for player in raw["players"]]},
     # There may be curves of the animator's among the corrections; an older file has none.
-    10: lambda raw: raw,
+    10: _with_section_intensity,
 }
 """By the version that they lead to. New parameters say themselves since which version they are there."""
 

@@ -109,6 +109,8 @@ class Project:
         Another seed is another performance of the same plan.
     preroll_beats : float
         Before the first note, in felt beats.
+    section_intensity : float
+        Multiplies what all players show of their acting; 1: as their styles and parameters have it.
     felt_beat_quarters : float or None
         The beat that is felt throughout, in quarters: 1.5 where a fast 6/8 is felt in two. None: metre and tempo say.
     fps : Fraction
@@ -144,6 +146,7 @@ class Project:
     takes: Mapping[str, PlayerTakes] = field(default_factory=dict)
     dancers: tuple[Dancer, ...] = ()
     dance_corrections: Mapping[str, tuple[DanceCorrection, ...]] = field(default_factory=dict)
+    section_intensity: float = 1.0
 
     def __post_init__(self) -> None:
         players = embodied(self.players)

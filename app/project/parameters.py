@@ -20,11 +20,14 @@ from app.choreography.model_file import SUFFIX
 from app.errors import UsageError
 from app.plan.parameters import AUTOMATIC, PARAMETERS, PlayerParameters, Value
 from app.project import limits
+from metadata.acting import as_text, names_in
+from metadata.library import HABITS, STYLES
 
 _CASTING: Final = ("instrument", "character")
 _DANCED: Final = "choreography"
 _GENERATED: Final = "none"
-"""As a choreography: the body moves as is generated."""
+"""As a choreography: the body moves as is generated. As habits: there are none."""
+_STYLE, _HABITS = "style", "habits"
 
 
 class Setting(msgspec.Struct, frozen=True):
@@ -104,6 +107,9 @@ def is_possible(parameter: str, value: object) -> bool:
     """Whether a player's parameter may have this value."""
     if parameter == _DANCED and isinstance(value, str) and value:
         return is_choreography(value) and len(value) <= limits.MOST_TEXT
+    if parameter in (_STYLE, _HABITS):
+        # What is not installed here may be elsewhere.
+        return isinstance(value, str) and value.isprintable() and len(value) <= limits.MOST_NAME
     return PARAMETERS[parameter].allows(value)
 
 
@@ -139,6 +145,8 @@ def _value(parameter: str, text: str, choices: Mapping[str, tuple[str, ...]]) ->
         return None if text == AUTOMATIC else text
     if parameter == _DANCED:
         return _choreography(text)
+    if parameter in (_STYLE, _HABITS):
+        return _known(parameter, text)
     try:
         return PARAMETERS[parameter].read(text)
     except ValueError as error:
@@ -160,8 +168,23 @@ def _choreography(text: str) -> str:
     return path
 
 
+def _known(parameter: str, text: str) -> str:
+    """A style, or habits with commas between them, of those that there are."""
+    if parameter == _HABITS and text.casefold() in (_GENERATED, AUTOMATIC):
+        return ""
+    known = STYLES.now().items if parameter == _STYLE else HABITS.now().items
+    named = (text,) if parameter == _STYLE else names_in(text)
+    if not all(name in known for name in named):
+        raise UsageError("set.value_invalid", parameter=parameter, value=text, possible=range_text(parameter))
+    return text if parameter == _STYLE else as_text(named)
+
+
 def range_text(parameter: str) -> str:
     """What a parameter may be, as a text for a message: numbers and words only."""
     if parameter == _DANCED:
         return ", ".join((_GENERATED, *bundled_choreographies(), f"*{SUFFIX}"))
+    if parameter == _STYLE:
+        return ", ".join(sorted(STYLES.now().items))
+    if parameter == _HABITS:
+        return ", ".join((_GENERATED, *sorted(HABITS.now().items)))
     return PARAMETERS[parameter].possible

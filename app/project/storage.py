@@ -61,6 +61,7 @@ class _Content(msgspec.Struct, forbid_unknown_fields=True):
     fps: str
     seed: int
     preroll_beats: float
+    section_intensity: float
     felt_beat_quarters: float | None
     audio: AudioTrack | None
     players: tuple[Player, ...]
@@ -201,6 +202,7 @@ def _content(project: Project, path: Path) -> _Content:
         fps=str(project.fps),
         seed=project.seed,
         preroll_beats=project.preroll_beats,
+        section_intensity=project.section_intensity,
         felt_beat_quarters=project.felt_beat_quarters,
         audio=audio,
         players=tuple(
@@ -365,6 +367,7 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
         corrections=corrections,
         seed=content.seed,
         preroll_beats=content.preroll_beats,
+        section_intensity=content.section_intensity,
         felt_beat_quarters=content.felt_beat_quarters,
         fps=Fraction(content.fps),
         audio=audio,

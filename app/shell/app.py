@@ -17,7 +17,7 @@ from PySide6.QtWidgets import QApplication
 from app.audio.playback import Playback
 from app.editor.files import Files
 from app.editor.generator import Generator
-from app.editor.library_watch import watch_characters, watch_instruments
+from app.editor.library_watch import watch_characters, watch_instruments, watch_metadata
 from app.editor.questions import Questions
 from app.editor.recorder import Recorder
 from app.editor.session import Session, Severity
@@ -45,6 +45,7 @@ from app.shell.rows import rows
 from app.shell.theme import apply_theme
 from app.shell.window import Window
 from instrument_maps.library import begin
+from metadata.library import begin_metadata
 from widgets.common.font import apply_font
 
 STOP_S = 3.0
@@ -117,6 +118,7 @@ class Program(QObject):
         # The user's own are read beside the window, which may take as long as it likes.
         begin()
         begin_characters()
+        begin_metadata()
         application = QApplication.instance()
         assert isinstance(application, QApplication)
         self._application = application
@@ -138,6 +140,7 @@ class Program(QObject):
         sound = Sound(self.session, playback, audible)
         watch_instruments(self.session)
         watch_characters(self.session)
+        watch_metadata(self.session)
         self.recorder = (Recorder if recorder is None else recorder)(self.session, files, settings, sound)
         streamer = Streamer(self.session, settings, self.generator.live)
         table = ActionTable(self.session, settings, rows())

@@ -17,6 +17,7 @@ from app.shell.commands import (
     fingerings,
     generate,
     notes,
+    piece_metadata,
     playback,
     players,
     problems,
@@ -40,6 +41,10 @@ FILE_ORDER: Final = (
     "file.add_audio",
     "file.add_character",
     "file.export_midi",
+    "file.save_metadata",
+    "file.load_metadata",
+    "file.compare_metadata",
+    "file.metadata_folder",
     "file.piece_settings",
     "file.close",
     "file.quit",
@@ -54,6 +59,6 @@ def rows() -> tuple[Row[Any], ...]:
         *(*file.ACTIONS, *exchange.ACTIONS, *stream.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *fingerings.ACTIONS),
         *(*events.ACTIONS, *beat.ACTIONS, *players.ACTIONS, *dancers.ACTIONS, *timeline.ACTIONS, *viewport.ACTIONS),
         *(*playback.ACTIONS, *record.ACTIONS, *takes.ACTIONS, *generate.ACTIONS, *problems.ACTIONS),
-        *(*characters.ACTIONS, *application.ACTIONS),
+        *(*characters.ACTIONS, *piece_metadata.ACTIONS, *application.ACTIONS),
     )
     return tuple(sorted(found, key=lambda row: place.get(row.id, len(place))))

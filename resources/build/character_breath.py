@@ -19,7 +19,7 @@ CHEST, BELLY = "chestExpand", "bellyExpand"
 TRUNK = ("hips", "spine", "chest", "upperChest", "neck", "leftUpperLeg", "rightUpperLeg")
 LEAST_M, SEEN_M = 2e-6, 1e-4
 """Smaller offsets are not stored, and a mesh that moves by less has no such shape."""
-GROWS_M = {CHEST: 0.0075, BELLY: 0.0075}
+GROWS_M = {CHEST: 0.0062, BELLY: 0.0056}
 """How far the sides go out at the middle of each."""
 AHEAD, BACK = {CHEST: 1.25, BELLY: 1.7}, {CHEST: 0.75, BELLY: 0.35}
 """How far front and back go, as shares of the sides."""

@@ -9,6 +9,12 @@ from hypothesis import strategies as st
 from app.plan.parameters import Parameter
 
 CHOREOGRAPHIES = ("", "salsa", "/dances/tango.choreography")
+NAMES = {
+    "choreography": CHOREOGRAPHIES,
+    "style": ("section_player", "reserved", "jazz"),
+    "habits": ("", "swayer", "statue,tapper"),
+}
+"""Some values of the parameters that name something."""
 
 
 def values(parameter: Parameter) -> st.SearchStrategy[Any]:
@@ -16,7 +22,7 @@ def values(parameter: Parameter) -> st.SearchStrategy[Any]:
     if parameter.choices:
         return st.sampled_from([value for value, _ in parameter.choices])
     if parameter.bounds is None:
-        return st.sampled_from(CHOREOGRAPHIES)
+        return st.sampled_from(NAMES[parameter.name])
     return st.integers(*map(int, parameter.bounds)) if parameter.kind is int else st.floats(*parameter.bounds)
 
 
@@ -25,7 +31,7 @@ def others(parameter: Parameter, now: object) -> list[Any]:
     if parameter.choices:
         found = [value for value, _ in parameter.choices]
     elif parameter.bounds is None:
-        found = list(CHOREOGRAPHIES[:2])
+        found = list(NAMES[parameter.name] if parameter.name != "choreography" else CHOREOGRAPHIES[:2])
     else:
         low, high = parameter.bounds
         found = [parameter.kind(low), parameter.kind(min(high if parameter.usual is None else parameter.usual, 1000))]

@@ -29,6 +29,7 @@ _WAYS: Final = {
     "roll": "channel.roll",
     "ahead": "channel.ahead",
     "bend": "channel.bend",
+    "tilt": "channel.tilt",
 }
 _FACE_GROUPS: Final = {
     "brow": "channel.brows",

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Final
 
 from app.editor.translated import tr
+from metadata.library import GESTURES
+from widgets.common.instrument_name import language
 
 _KINDS: Final = {
     "breath": "event.breath",
@@ -16,6 +18,7 @@ _KINDS: Final = {
     "weight_shift": "event.weight_shift",
     "bell_height": "event.bell_height",
     "lower_instrument": "event.instrument_lowered",
+    "named": "event.gesture",
     "lean": "event.lean",
     "accent": "event.accent",
     "step": "event.step",
@@ -56,6 +59,12 @@ def kind_name(kind: str) -> str:
 def expression_name(name: str) -> str:
     """The name of a bundled expression; custom are called what they are called."""
     return tr(_EXPRESSIONS[name]) if name in _EXPRESSIONS else name
+
+
+def gesture_name(name: str) -> str:
+    """The name of a gesture that is written in a table; one that is not there, by its own name."""
+    gesture = GESTURES.now().items.get(name)
+    return name if gesture is None else gesture.title.in_language(language())
 
 
 def pose_name(target: str) -> str:

@@ -25,6 +25,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "channel.right_elbow": ("Right elbow", "右ひじ"),
     "channel.roll": ("Lean left", "左に傾き"),
     "channel.shoulders": ("Shoulders", "肩"),
+    "channel.tilt": ("Tilt forward", "前に傾き"),
     "channel.tongue": ("Tongue", "舌"),
     "channel.torso": ("Torso", "上体"),
     "channel.up": ("Up", "上"),

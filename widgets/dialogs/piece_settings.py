@@ -1,4 +1,4 @@
-"""What holds for the piece as a whole: title, frame rate, pre-roll, felt beat and seed."""
+"""What holds for the piece as a whole: title, frame rate, pre-roll, felt beat, section intensity and seed."""
 
 from __future__ import annotations
 
@@ -53,6 +53,11 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._preroll.setDecimals(3)
         self._preroll.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
         self._felt = named(ComboBox(), "piece_felt_beat")
+        self._intensity = named(_Beats(), "piece_section_intensity")
+        self._intensity.setRange(*limits.SECTION_INTENSITY)
+        self._intensity.setDecimals(2)
+        self._intensity.setSingleStep(0.05)
+        self._intensity.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
         self._seed = named(QLineEdit(), "piece_seed")
         self._randomise = Button("piece_settings_dialog.randomise", self._another_seed, "piece_randomise")
         self._problem = named(wrapped(Label()), "piece_problem")
@@ -80,6 +85,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
                 "piece_settings_dialog.frame_rate": self._rate,
                 "piece_settings_dialog.pre_roll": self._preroll,
                 "piece_settings_dialog.felt_beat": self._felt,
+                "piece_settings_dialog.section_intensity": self._intensity,
                 "piece_settings_dialog.seed": in_row((self._seed, 1), self._randomise),
             }
         )
@@ -103,6 +109,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
             preroll_beats=self._kept("preroll", self._preroll.value()),
             felt_beat_quarters=self._felt.currentData(),
             seed=seed,
+            section_intensity=self._kept("intensity", self._intensity.value()),
         )
 
     def _kept(self, name: str, value: Value) -> Value:
@@ -132,10 +139,12 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._rate.setEditText(rate)
         self._preroll.setValue(settings.preroll_beats)
         self._felt.setCurrentIndex(self._felt.findData(settings.felt_beat_quarters))
+        self._intensity.setValue(settings.section_intensity)
         self._seed.setText(str(settings.seed))
         self._shown = {
             "title": (self._title.text(), settings.title),
             "preroll": (self._preroll.value(), settings.preroll_beats),
+            "intensity": (self._intensity.value(), settings.section_intensity),
         }
 
     def _reset_all(self) -> None:
@@ -194,6 +203,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
             self._rate: self.tr("piece_settings_dialog.of_ruler_and_of_steps"),
             self._preroll: self.tr("piece_settings_dialog.felt_beats_before_first_note"),
             self._felt: self.tr("piece_settings_dialog.breaths_cues_sway_and_pre"),
+            self._intensity: self.tr("piece_settings_dialog.multiplies_acting_of_all_players"),
             self._seed: self.tr("piece_settings_dialog.another_seed_is_another_performance"),
         }
         for field, tip in tips.items():
@@ -201,13 +211,14 @@ class PieceSettingsDialog(Retranslated, QDialog):
         for caption in self.findChildren(Caption):
             caption.setToolTip(caption.buddy().toolTip())
         self._preroll.setSuffix(self.tr("piece_settings_dialog.beats"))
+        self._intensity.setSuffix(self.tr("piece_settings_dialog.times"))
         for index, text in enumerate(self._beat_names().values()):
             self._felt.setItemText(index, text)
         self._randomise.setIcon(icon("dice", self._session.tokens))
         self._judge()
 
     def sizeHint(self) -> QSize:
-        return QSize(580, 290)
+        return QSize(580, 330)
 
 
 class _Beats(QDoubleSpinBox):

@@ -555,6 +555,14 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "ファイルは既に存在し、上書きされます。",
     ),
     "learn_dialog.use_for": ("Use for {dancer}", "{dancer} に使用"),
+    "metadata_differences_dialog.close": ("Close", "閉じる"),
+    "metadata_differences_dialog.in_file": ("In the file", "ファイル"),
+    "metadata_differences_dialog.in_piece": ("In the piece", "曲"),
+    "metadata_differences_dialog.metadata_of_piece_and_file": (
+        "Metadata of the piece and {file}",
+        "曲と {file} のメタデータ",
+    ),
+    "metadata_differences_dialog.place": ("Place", "場所"),
     "midi_devices_dialog.any": ("Any", "すべて"),
     "midi_devices_dialog.bite": ("Bite", "バイト"),
     "midi_devices_dialog.blow_now_soft_loud_and": (
@@ -734,6 +742,10 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "フレームレート: {low} から {high} までの数を入力してください（例: 24、29.97、30000/1001）。",
     ),
     "piece_settings_dialog.half": ("Half", "2分音符"),
+    "piece_settings_dialog.multiplies_acting_of_all_players": (
+        "Multiplies the acting of all players: 0 none, 1 as their styles and parameters, 2 twice as much",
+        "全奏者の演技に掛ける倍率。0 でなし、1 でスタイルとパラメーターどおり、2 で 2 倍",
+    ),
     "piece_settings_dialog.names_piece_in_midi_file": (
         "Name of the piece in MIDI files and in Unreal",
         "MIDI ファイルと Unreal で使われる曲名",
@@ -754,7 +766,9 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Seed: enter a whole number from {low} to {high}.",
         "シード: {low} から {high} までの整数を入力してください。",
     ),
+    "piece_settings_dialog.section_intensity": ("Section intensity", "全体の演技の強さ"),
     "piece_settings_dialog.sixteenth": ("Sixteenth", "16分音符"),
+    "piece_settings_dialog.times": (" ×", " ×"),
     "piece_settings_dialog.title": ("Title", "タイトル"),
     "piece_settings_dialog.whole": ("Whole", "全音符"),
     "place_chooser.choose": ("Browse...", "参照..."),

@@ -28,6 +28,7 @@ from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.swatch import ColourSwatch
 from widgets.common.text import parameter_text
+from widgets.players.acting import ActingRows
 from widgets.players.body_dance import BodyDanceRows
 from widgets.players.parameter_rows import ParameterChoice, ParameterSlider, rows_of
 from widgets.players.portrait import portrait_of
@@ -35,8 +36,9 @@ from widgets.players.portrait import portrait_of
 LABEL_PX = 88
 PORTRAIT_PX = 28
 PORTRAITS_AFTER_MS = 3000
-_SECTIONS = ("motion", "breath", "face", "player")
+_SECTIONS = ("motion", "acting", "breath", "face", "player")
 """What is changed most stands first."""
+_FOLDED = frozenset({"acting"})
 _POSTURE = "posture"
 
 
@@ -54,10 +56,12 @@ class ParameterSections(Retranslated, QWidget):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self._sections = {name: Section(session, f"players_{name}", self) for name in _SECTIONS}
+        self._sections = {name: Section(session, f"players_{name}", self, folded=name in _FOLDED) for name in _SECTIONS}
         self._sliders: dict[str, ParameterSlider] = {}
         self._choices: dict[str, ParameterChoice] = {}
         self._body_dance = BodyDanceRows(session)
+        self._acting = ActingRows(session)
+        self._acting.shown.connect(self._show_acting)
         dice_tip = "parameter_sections.another_seed_for_each"
         self._dice = IconButton(session, "dice", dice_tip, self.dice_thrown.emit, "seed_dice")
         outer = in_column(of=self, margins=0, spacing=0)
@@ -112,6 +116,10 @@ class ParameterSections(Retranslated, QWidget):
             body.addLayout(self._make_choice(parameter).line())
         elif parameter.name == "choreography":
             body.addWidget(self._body_dance)
+        elif parameter.name == "style":
+            body.addWidget(self._acting)
+        elif parameter.name == "habits":
+            return  # In the rows of the style.
         elif parameter.name == "seed":
             body.addLayout(in_row((self._make_slider(parameter), 1), self._dice, spacing=4))
         else:
@@ -149,6 +157,7 @@ class ParameterSections(Retranslated, QWidget):
                 choice.show_option(chosen.pop() if len(chosen) == 1 else None)
         self._colour.show_colours(tuple(dict.fromkeys(self._session.colour(player) for player in players)))
         self._body_dance.show_players(players)
+        self._acting.show_players(players)
         casts = [edit.cast_parameters(project, player.id, edit.instrument_of(player)) for player in players]
         for name, slider in self._sliders.items():
             values = [float(getattr(player.parameters, name)) for player in players]
@@ -249,6 +258,7 @@ class ParameterSections(Retranslated, QWidget):
         """Set every text in the language of the editor."""
         titles = (
             self.tr("parameter_sections.motion"),
+            self.tr("parameter_sections.acting"),
             self.tr("parameter_sections.breath"),
             self.tr("parameter_sections.face"),
             self.tr("parameter_sections.player"),
@@ -271,6 +281,10 @@ class ParameterSections(Retranslated, QWidget):
         for choice in self._choices.values():
             choice.retranslate()
         self.show_players()
+
+    def _show_acting(self, note: str) -> None:
+        """Folded, the section says what the players are."""
+        self._sections["acting"].header.set_texts(self.tr("parameter_sections.acting"), note)
 
     def _show_instruments(self) -> None:
         self._instrument.set_options([Option(map.id, instrument_name(map)) for map in library().in_score_order])

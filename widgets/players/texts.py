@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 TEXTS: Final[dict[str, tuple[str, str]]] = {
+    "acting_rows.some_of_the_selected": ("Selected players with it: {count}", "選択した奏者のうち {count} 人"),
     "body_dance_rows.another_dance_for_each": (
         "Assign a different variation to each",
         "それぞれに別のバリエーションを割り当てる",
@@ -34,6 +35,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "dancers_section.none": ("None", "なし"),
     "dancers_section.remove_selected_dancer": ("Remove selected dancer", "選択したダンサーを削除"),
     "dancers_section.show_what_choreography_has_learned": ("Show choreography", "振り付けを表示"),
+    "parameter_sections.acting": ("Acting", "演技"),
     "parameter_sections.another_seed_for_each": ("Assign a different seed to each", "それぞれに別のシードを割り当てる"),
     "parameter_sections.breath": ("Breath", "ブレス"),
     "parameter_sections.character": ("Character", "キャラクター"),
@@ -66,10 +68,13 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "players_panel.all_players": ("all players", "全員"),
     "players_panel.amplitude_sway_weight_shift_bell": (
         (
-            "Randomise amplitude, sway, weight shift, bell height, breath capacity, lip tension and seed around "
-            "their average"
+            "Randomise amplitude, sway, weight shift, bell height, breath capacity, lip tension, the amounts of acting "
+            "and seed around their average, and the habits"
         ),
-        "動きの大きさ、揺れ、重心移動、ベルの高さ、一息の長さ、唇の緊張、シードを、現在の平均を中心にランダム化",
+        (
+            "動きの大きさ、揺れ、重心移動、ベルの高さ、一息の長さ、唇の緊張、演技の各量、シードを、"
+            "現在の平均を中心にランダム化し、癖も割り当てます"
+        ),
     ),
     "players_panel.duplicate_same_part": (
         "Duplicate: adds a player with a copy of the part",

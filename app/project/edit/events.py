@@ -33,6 +33,7 @@ from app.plan.corrections import (
 )
 from app.plan.cue import LEAD_BEATS
 from app.plan.model import GESTURE_KINDS as GESTURE_KINDS
+from app.plan.model import OWN_KINDS as OWN_KINDS
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
 from app.plan.model import GestureKind as GestureKind
 from app.project.edit.corrections import put, take_back
@@ -202,10 +203,17 @@ def add_cue(project: Project, plan: PlayerPlan, tick: int) -> Edited:
 
 
 def add_gesture(
-    project: Project, player_id: str, kind: GestureKind, start_tick: int, end_tick: int, amount: float = 0.5
+    project: Project,
+    player_id: str,
+    kind: GestureKind,
+    start_tick: int,
+    end_tick: int,
+    amount: float = 0.5,
+    gesture: str = "",
 ) -> Edited:
-    """A gesture custom."""
-    added = AddGesture(_new_name(project, player_id), kind, start_tick, max(end_tick, start_tick + 1), amount)
+    """A gesture custom; ``gesture`` is the name of one of the kind ``"named"``."""
+    end_tick = max(end_tick, start_tick + 1)
+    added = AddGesture(_new_name(project, player_id), kind, start_tick, end_tick, amount, gesture)
     return Edited(put(project, player_id, (added,)), (event_id_of(added),))
 
 

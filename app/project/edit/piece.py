@@ -1,4 +1,4 @@
-"""The piece as a whole: begun anew, its title, picture rate, beat, recording, and the animator's own expressions.
+"""The piece as a whole: begun anew, its title, picture rate, beat, acting, recording, and own expressions.
 
 Messages (`UsageError`): ``piece.value_outside``, ``piece.no_recording``, ``piece.path_unusable``,
 ``expression.invalid``, ``expression.no_name``, ``expression.name_taken``, ``expression.none_of_name``.
@@ -57,6 +57,12 @@ def set_preroll(project: Project, beats: float) -> Project:
     return _with(project, preroll_beats=float(beats))
 
 
+def set_section_intensity(project: Project, intensity: float) -> Project:
+    """Multiply what all players show of their acting."""
+    _check("section_intensity", intensity, limits.SECTION_INTENSITY)
+    return _with(project, section_intensity=float(intensity))
+
+
 def set_felt_beat(project: Project, quarters: float | None) -> Project:
     """The beat that is felt, in quarters; None: metre and tempo say."""
     if quarters is None:
@@ -79,6 +85,7 @@ class PieceSettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     preroll_beats: float
     felt_beat_quarters: float | None
     seed: int
+    section_intensity: float = 1.0
 
 
 def piece_settings(project: Project) -> PieceSettings:
@@ -103,7 +110,7 @@ def set_piece_settings(project: Project, settings: PieceSettings) -> Project:
     """
     project = set_fps(set_title(project, settings.title), settings.fps)
     project = set_felt_beat(set_preroll(project, settings.preroll_beats), settings.felt_beat_quarters)
-    return set_seed(project, settings.seed)
+    return set_section_intensity(set_seed(project, settings.seed), settings.section_intensity)
 
 
 def set_audio(project: Project, path: str | os.PathLike[str] | None) -> Project:

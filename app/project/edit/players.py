@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Container, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TypeVar
+from typing import Final, TypeVar
 
 import msgspec
 
@@ -35,8 +35,13 @@ from app.score.choose import require_map
 from app.score.model import Part
 from instrument_maps.library import all_maps, find_map
 from instrument_maps.model import InstrumentMap, Posture
+from metadata.acting import as_text, names_in
+from metadata.library import HABITS
 
 P = TypeVar("P", bound=Player | Dancer)
+
+HABIT_CHANCES: Final = (0.7, 0.3)
+"""Of a first and a second habit, where players are randomised as far apart as is sensible."""
 
 
 def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap | None = None) -> PlayerParameters:
@@ -125,7 +130,8 @@ def reset_parameters(project: Project, player_ids: Collection[str], names: Colle
 
 
 def randomise(project: Project, player_ids: Collection[str], spread: float) -> Project:
-    """Make players differ: what has a spread by chance around what they have on average now, and a seed of their own.
+    """Make players differ: what has a spread by chance around what they have on average now, habits and a seed of
+    their own.
 
     Parameters
     ----------
@@ -149,9 +155,32 @@ def randomise(project: Project, player_ids: Collection[str], spread: float) -> P
             value = middle + spread * parameter.spread * (step - mean)
             values[player.id][name] = round(parameter.held(value), 2)
     for player in chosen:
+        if spread:
+            values[player.id]["habits"] = _thrown_habits(player.id, roll, spread)
         values[player.id]["seed"] = next_seed(player.id, roll)
         project = set_parameters(project, (player.id,), **values[player.id])
     return project
+
+
+def _thrown_habits(player_id: str, roll: int, spread: float) -> str:
+    """None, one or two habits of those there are; the more players differ, the more have any."""
+    known = sorted(HABITS.now().items)
+    found = [
+        known[int(chance("habit", str(number), roll, player_id) * len(known))]
+        for number, most in enumerate(HABIT_CHANCES)
+        if known and chance("has habit", str(number), roll, player_id) < most * spread
+    ]
+    return as_text(tuple(found))
+
+
+def set_habit(project: Project, player_ids: Collection[str], habit: str, has: bool) -> Project:
+    """Let players have a habit or not; their other habits stay."""
+
+    def changed(player: Player) -> Player:
+        others = [name for name in names_in(player.parameters.habits) if name != habit]
+        return _with_parameters(player, {"habits": as_text((*others, *((habit,) if has else ())))})
+
+    return _each(project, musicians_of(project, player_ids), changed)
 
 
 def parameter_edit(parameter: str, count: int) -> Message:

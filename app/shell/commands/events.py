@@ -8,13 +8,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QCursor
 from PySide6.QtWidgets import QApplication, QMainWindow, QMenu
 
-from app.editor.additions import add_breaths, add_cues, add_expressions, add_gestures
+from app.editor.additions import add_breaths, add_cues, add_expressions, add_gestures, add_named_gestures
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import PlayerPlan
 from app.project.edit.events import (
-    GESTURE_KINDS,
+    OWN_KINDS,
     GestureKind,
     event_id_of,
     give_back,
@@ -27,7 +27,7 @@ from app.project.model import Project
 from app.shell.action import Action
 from app.shell.commands.chosen import events_by_player, has_player, has_something, notes_by_player
 from widgets.common.controls import named
-from widgets.common.event_names import expression_name
+from widgets.common.event_names import expression_name, gesture_name
 from widgets.common.plain import verbatim
 
 NEW_BEATS = 2
@@ -67,10 +67,15 @@ def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
 
 
 def choose_gesture(session: Session) -> None:
-    """Show the kinds of gestures where the mouse is."""
+    """Show the kinds of gestures where the mouse is, and below them those that are written in tables."""
     menu = _menu()
-    for kind in GESTURE_KINDS:
+    for kind in OWN_KINDS:
         menu.addAction(session.actions[f"gesture.{kind}"])
+    menu.addSeparator()
+    for name in sorted(session.performance.metadata.gestures.items, key=gesture_name):
+        entry = menu.addAction(verbatim(gesture_name(name)))
+        entry.setObjectName(f"gesture_{name}")
+        entry.triggered.connect(lambda _=False, name=name: add_named_gestures(session, name, _spans(session)))
     menu.popup(QCursor.pos())
 
 
@@ -238,5 +243,5 @@ ACTIONS: tuple[Action, ...] = (
         has_player,
         icon="expression",
     ),
-    *map(_kind, GESTURE_KINDS),
+    *map(_kind, OWN_KINDS),
 )

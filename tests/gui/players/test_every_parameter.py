@@ -13,8 +13,10 @@ from app.project.edit.body_dance import set_body_dance
 from app.project.edit.dancers import add_dancer
 from app.project.model import DANCER_PARAMETERS
 from app.shell.language import Texts
+from metadata.acting import names_in
 from tests.support.parameters import others
 from tests.support.windows import show_in_front
+from widgets.common.chip import Chip
 from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
 from widgets.common.text import sentence
@@ -28,6 +30,7 @@ def panel(session: Session, qtbot: QtBot) -> PlayersPanel:
     session.document.open(project)
     session.set_players(players)
     session.set_dancer(dancer)
+    session.set_folded("players_acting", False)
     made = PlayersPanel(session)
     qtbot.addWidget(made)
     show_in_front(made)
@@ -36,7 +39,12 @@ def panel(session: Session, qtbot: QtBot) -> PlayersPanel:
 
 def choose(control: QWidget, value: object) -> None:
     """Want a value, as the hand does."""
-    if isinstance(control, Combo):
+    if control.objectName() == "parameter_habits":
+        for habit in names_in(str(value)):
+            chip = control.findChild(Chip, f"habit_{habit}")
+            assert isinstance(chip, Chip)
+            chip.click()
+    elif isinstance(control, Combo):
         control.chosen.emit(str(value))
     else:
         assert isinstance(control, NumberSlider)
@@ -51,7 +59,8 @@ def test_every_parameter_is_changed_for_all_who_are_selected(
     assert isinstance(control, QWidget)
     assert control.isVisibleTo(panel)
     now = getattr(session.project.players[0].parameters, parameter.name)
-    value = "" if parameter.name == "choreography" else others(parameter, now)[-1]
+    values = {"choreography": "", "habits": "swayer"}
+    value = values[parameter.name] if parameter.name in values else others(parameter, now)[-1]
     choose(control, value)
     assert {getattr(player.parameters, parameter.name) for player in session.project.players} == {value}
     assert len(session.document.done) == 1

@@ -423,7 +423,7 @@ def test_many_players_are_few_widgets(session: Session, qtbot: QtBot) -> None:
     panel = PlayersPanel(session)
     qtbot.addWidget(panel)
     panel.show()
-    assert len(panel.findChildren(QWidget)) < 250
+    assert len(panel.findChildren(QWidget)) < 280
     assert isinstance(panel.list, PlayerList)
     session.set_players(tuple(ids(session)))
     assert len(panel.list.selectionModel().selectedIndexes()) == len(project.players)

@@ -29,11 +29,12 @@ from app.project.autosave import Autosave
 from app.project.casting import StagePosition
 from app.project.edit.notes import move
 from app.project.edit.piece import set_audio
-from app.project.edit.players import join, place
+from app.project.edit.players import join, place, set_parameters
 from app.project.edit.takes import add_takes, comp_whole, set_cleaning
 from app.project.grid import Grid
 from app.project.model import Project, map_choices
 from app.project.performers import Player
+from app.project.piece_metadata import load_metadata, metadata_of, save_metadata
 from app.project.presence import Presence
 from app.score.model import Note
 from app.score.read import read_midi
@@ -42,6 +43,7 @@ from app.shell.app import Program
 from app.shell.commands.timeline import LANES
 from app.shell.rows import rows
 from instrument_maps.load import bundled_maps
+from metadata.library import FOLDERS
 from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import Answers
 from tests.support.recorder import EWI, RunningClock, SpokenFor
@@ -55,8 +57,9 @@ from widgets.viewport.panel import ViewportPanel
 class Desk:
     """The editor, what was open before the action, and short words for what is there."""
 
-    def __init__(self, program: Program, answers: Answers, folder: Path) -> None:
+    def __init__(self, program: Program, answers: Answers, folder: Path, patch: pytest.MonkeyPatch) -> None:
         self.program = program
+        self.patch = patch
         self.session = program.session
         self.answers = answers
         self.folder = folder
@@ -478,6 +481,21 @@ def reads_back(desk: Desk, path: Path) -> bool:
 
 FELT = {"eighth": 0.5, "quarter": 1.0, "dotted_quarter": 1.5, "half": 2.0, "dotted_half": 3.0}
 
+
+def own_tables(desk: Desk) -> None:
+    """The user's tables are in a folder of the test's, and the file manager is one of the test's."""
+    desk.patch.setattr("app.shell.commands.piece_metadata.show_folder", lambda path: desk.seen.update(folder=path))
+    for folder in FOLDERS:
+        desk.patch.setenv(folder.variable, str(desk.folder / folder.name))
+
+
+def has_metadata(desk: Desk) -> None:
+    """A file says something else of the first player."""
+    project = set_parameters(desk.project, (desk.project.players[0].id,), style="jazz")
+    desk.answers.path = desk.folder / "jazz.toml"
+    save_metadata(metadata_of(project), desk.answers.path)
+
+
 CASES: dict[str, Case] = {
     # Files
     "file.new": Case(lambda d: not d.project.players and d.program.editor.files.is_open),
@@ -518,6 +536,24 @@ CASES: dict[str, Case] = {
     "file.export_midi": Case(
         lambda d: d.answers.asked == ["save"] and reads_back(d, d.folder / "piece.mid"),
         lambda d: setattr(d.answers, "path", d.folder / "piece"),
+    ),
+    "file.save_metadata": Case(
+        lambda d: (
+            d.answers.asked == ["save"]
+            and load_metadata(d.folder / "piece.toml") == metadata_of(d.project)
+            and d.project is d.before
+        ),
+        lambda d: setattr(d.answers, "path", d.folder / "piece"),
+    ),
+    "file.load_metadata": Case(
+        lambda d: [player.parameters.style for player in d.project.players] == ["jazz", *["section_player"] * 3],
+        lambda d: has_metadata(d),
+        edits=True,
+    ),
+    "file.compare_metadata": Case(lambda d: d.dialog("metadata_differences"), lambda d: has_metadata(d)),
+    "file.metadata_folder": Case(
+        lambda d: d.seen["folder"] == d.folder and all((d.folder / folder.name).is_dir() for folder in FOLDERS),
+        lambda d: own_tables(d),
     ),
     "file.close": Case(lambda d: not d.program.editor.files.is_open and d.program.window.start_page.isVisible()),
     "file.piece_settings": Case(lambda d: d.dialog("piece_settings")),
@@ -922,7 +958,14 @@ def quantise_asked(desk: Desk) -> bool:
 
 
 @pytest.fixture
-def desk(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answers, tmp_path: Path) -> Iterator[Desk]:
+def desk(
+    qtbot: QtBot,
+    qt_app: QApplication,
+    settings: Settings,
+    answers: Answers,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> Iterator[Desk]:
     """The whole editor, which plays without a sound."""
     settings.midi_port = EWI
     program = Program(
@@ -940,7 +983,7 @@ def desk(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answer
     # It plays in time, but no synthesiser works for it.
     program.session.playback = sound.playback
     show_in_front(program.window)
-    yield Desk(program, answers, tmp_path)
+    yield Desk(program, answers, tmp_path, monkeypatch)
     program.window.hide()
     program.end()
     program.generator.deleteLater()

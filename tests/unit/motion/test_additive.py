@@ -33,6 +33,8 @@ LIMITS = {
     "hips.left": (-0.09, 0.09),
     "hips.ahead": (-0.06, 0.06),
     "hips.up": (-0.1, 0.015),
+    "hips.tilt": (-6.0, 8.0),
+    "hips.roll": (-6.0, 6.0),
     "knees.bend": (-6.0, 45.0),
     "eyes.up": (-30.0, 25.0),
     "eyes.left": (-35.0, 35.0),
@@ -85,7 +87,8 @@ def test_contacts_hold(channel: str, side: int) -> None:
 
 @pytest.mark.parametrize("channel", LIMITS)
 def test_nothing_is_different_before_and_after(channel: str) -> None:
-    plain, other = made(), made(keyed(event(channel, 1.0)))
+    # Upwards hips go only where they have sunk.
+    plain, other = made(), made(keyed(event(channel, -1.0 if channel == "hips.up" else 1.0)))
     t = times(plain)
     # Help for far hands looks a little ahead and back.
     outside = (t < SPAN_S[0] - 0.25) | (t > SPAN_S[1] + 0.25)

@@ -115,9 +115,10 @@ def test_knees_do_not_pop(seed: int) -> None:
 
 def test_a_seated_player_dances_above_the_seat() -> None:
     motion, still = danced(1.0, posture="seated", amplitude=0.0), made(posture="seated", amplitude=0.0, frames=FRAMES)
-    assert np.array_equal(motion.hips_m, still.hips_m)
+    # A dance takes the place of the sway, of which the pelvis has a share: under a millimetre here.
+    assert np.abs(motion.hips_m - still.hips_m).max() < 1e-3
     legs = [CHARACTER.skeleton.index(f"left{name}") for name in ("UpperLeg", "LowerLeg", "Foot")]
-    assert np.abs(motion.rotations[:, legs] - still.rotations[:, legs]).max() < 1e-3
+    assert np.abs(motion.rotations[:, legs] - still.rotations[:, legs]).max() < 3e-3
     (_, chest), (_, before) = world(motion, "upperChest")[0], world(still, "upperChest")[0]
     turned = quaternion.to_rotation_vector(quaternion.multiply(chest, quaternion.conjugate(before)))
     assert np.rad2deg(np.ptp(turned[:, 1])) > 12.0

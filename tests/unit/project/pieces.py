@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from msgspec.structs import replace
+
 from app.errors import Message
+from app.plan.acting import AMOUNTS
 from app.plan.additive_curve import AdditiveCurve, CurveKey, Tangent
 from app.plan.corrections import (
     AddExpression,
@@ -88,6 +91,8 @@ def full_project(folder: str = "/music") -> Project:
     trumpet, trombone = small.players
     dance = (f"{folder}/dances/salsa.choreography", 0.75, 2**62 + 3)
     parameters = PlayerParameters(0.1, 0.6, 1.1, 2.1, 8.5, 0.9, 0.8, 0.7, 0.6, "seated", False, 7, 0.2, True, *dance)
+    amounts = {name: number / 10 for number, name in enumerate(AMOUNTS[3:], 4)}
+    parameters = replace(parameters, style="jazz", habits="nodder,my own", **amounts)
     corrections = {
         trumpet.id: (
             PinFingering("1:1", "1·3"),
@@ -97,6 +102,7 @@ def full_project(folder: str = "/music") -> Project:
             SetEmbouchure("1:3", 0.1, None, 0.3),
             ChangeGesture("sway:@0", 1, 2, 0.5),
             AddGesture("mine", "bell_height", 0, 480, 1.5),
+            AddGesture("theirs", "named", 480, 960, 0.5, "shrug"),
             ChangeExpression("expression:neutral", "angry", 0, 100, 0.7),
             AddExpression("yours", "angry", 10, 20, 0.4, 0.1, 0.1),
             PoseCorrection("pose", "bell", 480, 960, 5.0, 1.0, -1.0, 120, 60),
@@ -134,6 +140,7 @@ def full_project(folder: str = "/music") -> Project:
         corrections={"1.1.1": corrections["1.1.1"], "x": corrections["2.1.1"]},
         seed=2**63 - 1,
         preroll_beats=3.5,
+        section_intensity=0.75,
         felt_beat_quarters=1.5,
         fps=Fraction(30000, 1001),
         audio=AudioTrack(f"{folder}/録音.wav", -0.132, 0.94),

@@ -17,6 +17,8 @@ from app.encoding import shown
 from app.errors import FileError, Message
 from app.messages import error_text, text
 from app.plan.additive_curve import AdditiveCurve
+from app.plan.corrections import AddGesture
+from app.plan.parameters import PARAMETERS, PlayerParameters
 from app.project.edit.body_dance import set_body_dance
 from app.project.edit.piece import set_audio
 from app.project.migrations import CURRENT, MIGRATIONS, STRUCTURE, Raw, migrated
@@ -85,8 +87,8 @@ def test_every_version_that_ever_was_can_be_read(version: int) -> None:
     expected = full_project(str(SAMPLES))
     # What the MIDI file held is kept from version 2 on, how its parts were transposed from 3 on, takes from 4 on, its
     # markers from 5 on, how much air is used up before a breath and where unplayed parts sound from 6 on, what
-    # percussion strikes and dancers from 7 on, what players dance and dancers weigh from 8 on, additive curves from 10
-    # on: before, none had to be.
+    # percussion strikes and dancers from 7 on, what players dance and dancers weigh from 8 on, additive curves and how
+    # they act from 10 on: before, none had to be.
     if version < 3:
         parts = tuple(msgspec.structs.replace(part, transposed_semitones=0) for part in expected.score.parts)
         expected = replace(expected, score=msgspec.structs.replace(expected.score, parts=parts))
@@ -112,11 +114,21 @@ def test_every_version_that_ever_was_can_be_read(version: int) -> None:
         dancers = tuple(msgspec.structs.replace(dancer, weight=0.0) for dancer in expected.dancers)
         expected = replace(expected, players=players, dancers=dancers)
     if version < 10:
+        usual = PlayerParameters()
+        before = {name: getattr(usual, name) for name, one in PARAMETERS.items() if one.since == 10}
+        players = tuple(
+            msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, **before))
+            for player in expected.players
+        )
         corrections = {
-            player: tuple(item for item in items if not isinstance(item, AdditiveCurve))
+            player: tuple(
+                item
+                for item in items
+                if not isinstance(item, AdditiveCurve) and not (isinstance(item, AddGesture) and item.kind == "named")
+            )
             for player, items in expected.corrections.items()
         }
-        expected = replace(expected, corrections=corrections)
+        expected = replace(expected, players=players, corrections=corrections, section_intensity=1.0)
     later = {name: {} for name, first in (("read_notes", 2), ("takes", 4)) if version < first}
     assert load(path) == replace(expected, **later)
 

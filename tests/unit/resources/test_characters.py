@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from pygltflib import GLTF2
+from scipy.spatial import ConvexHull
 
 FOLDER = Path(__file__).resolve().parents[3] / "resources" / "characters"
 STATURE_M = {"woman_adult": 1.68, "man_adult": 1.80}
@@ -58,6 +59,8 @@ ARKIT = {
     "cheekPuff",
     "tongueOut",
 }
+
+BREATH = {"chestExpand", "bellyExpand"}
 
 # VRM 1.0, humanoid.md: the bones we promise and each one's parent.
 FINGERS = ("Thumb", "Index", "Middle", "Ring", "Little")
@@ -298,11 +301,43 @@ def test_no_one_is_undressed(character: Character) -> None:
 def test_the_52_face_shapes(character: Character) -> None:
     assert len(ARKIT) == 52
     for name in ("body", "teeth", "tongue", "brows", "lashes"):
-        assert set(character.meshes[name].morphs) == ARKIT
+        assert set(character.meshes[name].morphs) - BREATH == ARKIT
     for label, delta in character.meshes["body"].morphs.items():
-        if label != "tongueOut":
+        if label not in BREATH | {"tongueOut"}:
             assert np.linalg.norm(delta, axis=1).max() > 5e-4, label
     assert np.linalg.norm(character.meshes["tongue"].morphs["tongueOut"], axis=1).max() > 0.01
+
+
+def _girth_m(character: Character, height_m: float, weight: float) -> float:
+    """Round the trunk at a height, over the clothes: the hull of a slab of what neither arms nor hands carry."""
+    points = []
+    for name in ("body", "shirt", "trousers"):
+        mesh = character.meshes[name]
+        moved = mesh.positions + weight * sum(mesh.morphs.get(label, 0.0) for label in BREATH)
+        inside = (np.abs(mesh.positions[:, 1] - height_m) < 0.015) & (np.abs(mesh.positions[:, 0]) < 0.19)
+        points.append(moved[inside][:, [0, 2]])
+    hull = np.concatenate(points)
+    hull = hull[ConvexHull(hull).vertices]
+    return float(np.linalg.norm(hull - np.roll(hull, 1, axis=0), axis=1).sum())
+
+
+def test_a_full_breath_widens_chest_and_belly_clothes_and_all(character: Character) -> None:
+    low, high = character.joints["hips"][1], character.joints["neck"][1]
+    for share in (0.35, 0.45, 0.55):
+        height_m = low + share * (high - low)
+        assert 0.02 < _girth_m(character, height_m, 1.0) - _girth_m(character, height_m, 0.0) < 0.043
+    # What lies one over the other goes along with it: a shirt does not come through the belt.
+    shirt, trousers = character.meshes["shirt"], character.meshes["trousers"]
+    for point, delta in zip(trousers.positions, trousers.morphs["bellyExpand"], strict=True):
+        if np.linalg.norm(delta) > 1e-3:
+            near = np.argmin(np.linalg.norm(shirt.positions - point, axis=1))
+            if np.linalg.norm(shirt.positions[near] - point) < 0.01:
+                assert np.linalg.norm(shirt.morphs["bellyExpand"][near] - delta) < 3e-3
+    # Arms and head stay.
+    for name in ("body", "shirt"):
+        mesh = character.meshes[name]
+        far = (np.abs(mesh.positions[:, 0]) > 0.26) | (mesh.positions[:, 1] > high + 0.05)
+        assert max(np.abs(mesh.morphs[label][far]).max() for label in BREATH & set(mesh.morphs)) < 1e-3
 
 
 @pytest.mark.parametrize(("side", "sign"), [("Left", 1), ("Right", -1)])

@@ -11,16 +11,16 @@ from PySide6.QtCore import QPoint, QPointF, QRectF
 from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
-from app.editor.additions import add_cues, add_expressions, add_gestures
+from app.editor.additions import add_cues, add_expressions, add_gestures, add_named_gestures
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import GestureEvent, PlayerPlan
-from app.project.edit.events import GESTURE_KINDS, set_expression
+from app.project.edit.events import GESTURE_KINDS, OWN_KINDS, set_expression
 from app.project.edit.found_events import event_id_of
 from app.project.edit.generation import variations
 from app.project.model import Project
 from app.score.tempo import TempoMap
-from widgets.common.event_names import expression_name, kind_name, pose_name
+from widgets.common.event_names import expression_name, gesture_name, kind_name, pose_name
 from widgets.common.menus import passing_menu
 from widgets.common.plain import verbatim
 from widgets.timeline.axis import TimeAxis
@@ -57,7 +57,7 @@ CUE_REACH_PX = 10.0
 """A cue that is dragged this close to an entry belongs to it."""
 
 
-NAMES = Names(expression_name, kind_name, pose_name)
+NAMES = Names(expression_name, kind_name, pose_name, gesture_name)
 
 
 class ActingLane(RegionLane):
@@ -315,7 +315,7 @@ class ActingLane(RegionLane):
             self._expression_entries(menu, lambda name: add_expressions(self.session, name, self._spans(mouse)))
             menu.popup(QPoint(*mouse.screen_px))
         else:
-            for gesture in GESTURE_KINDS:
+            for gesture in OWN_KINDS:
                 if gesture == kind:
                     add_gestures(self.session, gesture, self._spans(mouse))
 
@@ -328,9 +328,15 @@ class ActingLane(RegionLane):
         adding = menu.addMenu(self.tr("acting_lane.add_expression_here"))
         self._expression_entries(adding, lambda name: add_expressions(self.session, name, self._spans(mouse)))
         gestures = menu.addMenu(self.tr("acting_lane.add_gesture_here"))
-        for kind in GESTURE_KINDS:
+        for kind in OWN_KINDS:
             entry = gestures.addAction(kind_name(kind))
             entry.triggered.connect(lambda _=False, kind=kind: add_gestures(self.session, kind, self._spans(mouse)))
+        gestures.addSeparator()
+        for name in sorted(self.session.performance.metadata.gestures.items, key=gesture_name):
+            entry = gestures.addAction(verbatim(gesture_name(name)))
+            entry.triggered.connect(
+                lambda _=False, name=name: add_named_gestures(self.session, name, self._spans(mouse))
+            )
         menu.addAction(self.tr("acting_lane.add_cue_here")).triggered.connect(lambda _=False: self._add_cue(mouse))
 
     def _expression_entries(self, menu: QMenu, chosen: Callable[[str], None], now: Region | None = None) -> None:

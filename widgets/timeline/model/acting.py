@@ -19,7 +19,7 @@ GROUPS: tuple[tuple[str, ...], ...] = (
     ("cue",),
     ("expression",),
     ("lower_instrument", "pose"),
-    CONCERT_KINDS,
+    (*CONCERT_KINDS, "named"),
     ("bell_height",),
     ("weight_shift",),
     ("step", "tap", "heel"),
@@ -44,6 +44,7 @@ class Names(NamedTuple):
     expression: Callable[[str], str]
     kind: Callable[[str], str]
     pose: Callable[[str], str]
+    gesture: Callable[[str], str]
 
 
 def packed_group(members: Sequence[Region], clock: TempoMap) -> tuple[list[int], int]:
@@ -105,9 +106,10 @@ def expression_region(player_id: str, event: ExpressionEvent, names: Names) -> R
 
 def gesture_region(player_id: str, event: GestureEvent, names: Names) -> Region:
     """A gesture."""
+    label = names.gesture(event.name) if event.kind == "named" else names.kind(event.kind)
     return Region(
         player_id, event.id, event.kind, event.start_tick, event.end_tick, event.start_s, event.end_s,
-        amount=event.amount, label=names.kind(event.kind), reason=event.reason, by_hand=event.corrected,
+        amount=event.amount, label=label, reason=event.reason, by_hand=event.corrected,
         signed=event.kind in SIGNED_KINDS,
     )  # fmt: skip
 

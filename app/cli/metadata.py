@@ -1,0 +1,135 @@
+"""``suisou metadata``: list styles, habits, expressions, gestures and rules; save, load and compare a piece's."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from app.cli.options import Commands
+from app.cli.summary import columns
+from app.cli.terminal import say, warn
+from app.encoding import shown
+from app.errors import AppError, UsageError
+from app.messages import text
+
+
+class InvalidMetadataError(AppError):
+    """A checked table has problems; they have been printed."""
+
+
+def add_command(commands: Commands) -> None:
+    """Declare the sub-command."""
+    command = commands.add_parser(
+        "metadata",
+        help="list styles, habits, expressions, gestures and rules; save, load and compare those of a piece",
+        description="Without a piece: lists the styles, habits, expressions, gestures and rules the program knows, "
+        "ours and your own, with your own folders and what is wrong in them. With a piece: saves what was said of its "
+        "acting to a file, loads that into it, or compares both.",
+    )
+    command.add_argument("piece", type=Path, nargs="?", metavar="PIECE", help="a project (.suisou)")
+    what = command.add_mutually_exclusive_group()
+    what.add_argument("--check", type=Path, metavar="FILE", help="validate a table in a folder of the kind's name")
+    what.add_argument("--save", type=Path, metavar="FILE", help="write the piece's; a file there is replaced")
+    what.add_argument("--load", type=Path, metavar="FILE", help="take a file's into the piece, and save the piece")
+    what.add_argument("--diff", type=Path, metavar="FILE", help="print where they differ; status 1 if they do")
+    command.set_defaults(run=run)
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Do what was asked.
+
+    Raises
+    ------
+    UsageError
+        ``metadata.no_piece``: something is asked of a piece, and there is none.
+    """
+    asked = arguments.save or arguments.load or arguments.diff
+    if asked and arguments.piece is None:
+        raise UsageError("metadata.no_piece")
+    if arguments.piece is not None and not asked:
+        raise UsageError("metadata.nothing_asked")
+    if arguments.check:
+        check(arguments.check)
+    elif arguments.save:
+        save(arguments.piece, arguments.save)
+    elif arguments.load:
+        load(arguments.piece, arguments.load)
+    elif arguments.diff:
+        diff(arguments.piece, arguments.diff)
+    else:
+        list_all()
+
+
+def list_all() -> None:
+    """Print every table: its name, its title, whether it is the user's own; then the folders and what is wrong."""
+    from app.formats.user_folder import Shelf
+    from metadata.library import FOLDERS, metadata_library
+
+    library = metadata_library()
+    rows = [("kind", "name", "is")]
+    shelves: tuple[Shelf[Any], ...] = library
+    for folder, shelf in zip(FOLDERS, shelves, strict=True):
+        for name, item in sorted(shelf.items.items()):
+            title = getattr(item, "title", None)
+            said = item.description if title is None else f"{title.en}: {item.description.en}"
+            rows.append((folder.name, f"{name}{'*' if name in shelf.files else ''}", said))
+    say(*columns(rows, of_numbers=False), "", "your own (*):")
+    for shelf in shelves:
+        say(f"  {shown(shelf.folder)}")
+        for problems in shelf.problems.values():
+            say(*(f"    {text(problem)}" for problem in problems))
+
+
+def check(file: Path) -> None:
+    """Validate one table by the folder that it is in.
+
+    Raises
+    ------
+    UsageError
+        ``metadata.no_kind``: the folder is called like no kind.
+    AppError
+        What is wrong with it.
+    """
+    from metadata.library import READERS
+
+    folder = file.absolute().parent.name
+    if folder not in READERS:
+        raise UsageError("metadata.no_kind", folder=folder, known=", ".join(READERS))
+    READERS[folder](file)
+    say(f"{shown(file.name)}: valid")
+
+
+def save(piece: Path, file: Path) -> None:
+    """Write a piece's metadata."""
+    from app.project.piece_metadata import metadata_of, save_metadata
+    from app.project.storage import load
+
+    save_metadata(metadata_of(load(piece)), file)
+    say(f"{shown(file)}: written")
+
+
+def load(piece: Path, file: Path) -> None:
+    """Take metadata into a piece."""
+    from app.project.piece_metadata import load_metadata, with_metadata
+    from app.project.storage import load as opened
+    from app.project.storage import save as written
+
+    project, problems = with_metadata(opened(piece), load_metadata(file))
+    for problem in problems:
+        warn(text(problem))
+    written(project, piece)
+    say(f"{shown(piece)}: written")
+
+
+def diff(piece: Path, file: Path) -> None:
+    """Print the differences. Raises InvalidMetadataError ``metadata.differ`` where there are any."""
+    from app.project.piece_metadata import differences, load_metadata, metadata_of
+    from app.project.storage import load
+
+    found = differences(metadata_of(load(piece)), load_metadata(file))
+    for place, one, other in found:
+        say(f"{place}: {one or '-'} -> {other or '-'}")
+    if found:
+        raise InvalidMetadataError("metadata.differ", piece=piece.name, file=file.name, count=len(found))
+    say(f"{shown(piece.name)} and {shown(file.name)} are the same")

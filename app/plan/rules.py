@@ -1,0 +1,330 @@
+"""What rules (`metadata.rules`) make players show and do: events whose ids name the rule and the note.
+
+Messages: ``rule.applied`` (rule), ``rule.unknown_expression``, ``rule.unknown_gesture`` (rule, name, known).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Final, NamedTuple, TypeVar
+
+import numpy as np
+
+from app.errors import Argument, Message
+from app.plan.dynamics import BoolArray, Dynamics
+from app.plan.line import IntArray, LineTimes, Piece, Seeds
+from app.plan.model import ExpressionEvent, FloatArray, GestureEvent, Problem, TimeFrame
+from app.plan.parameters import PlayerParameters
+from app.score.model import Note
+from app.score.tempo import TempoMap
+from instrument_maps.model import InstrumentMap
+from metadata.acting import names_in
+from metadata.gestures import Gesture
+from metadata.model import Expression
+from metadata.rules import Rule, When
+
+LEAST_SHARE: Final = 0.2
+"""Of its strength, where what it grows with is just enough."""
+HEIGHT_SEMITONES: Final = 12.0
+"""Above the easy range: nothing is higher."""
+MOST_ACCENT: Final = 0.3
+LEAST_S: Final = 0.2
+"""A shorter moment does not reach the face."""
+
+
+E = TypeVar("E", GestureEvent, ExpressionEvent)
+
+
+class Ruled(NamedTuple):
+    """What the rules make of a line, and what is wrong with them."""
+
+    expressions: tuple[ExpressionEvent, ...]
+    gestures: tuple[GestureEvent, ...]
+    problems: tuple[Problem, ...]
+
+
+class Facts(NamedTuple):
+    """What rules ask of the notes of a line: arrays (N,)."""
+
+    times: LineTimes
+    lasts_s: FloatArray
+    rest_s: FloatArray
+    rest_after_s: FloatArray
+    above_easy: FloatArray
+    below_easy: FloatArray
+    accents: FloatArray
+    leap: FloatArray
+    places: Mapping[str, BoolArray]
+
+
+def plan_by_rules(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    piece: Piece,
+    frame: TimeFrame,
+    instrument: InstrumentMap,
+    parameters: PlayerParameters,
+    dynamics: Dynamics,
+    lowered: tuple[tuple[float, float], ...],
+    seeds: Seeds,
+    rules: tuple[Rule, ...],
+    faces: Mapping[str, Expression],
+    gestures: Mapping[str, Gesture],
+) -> Ruled:
+    """All events that the rules ask for, ordered by start.
+
+    Parameters
+    ----------
+    lowered : tuple of (start, end)
+        Seconds in which the instrument is off the lips.
+    rules : tuple of Rule
+        In the order in which they are asked.
+    """
+    habits = names_in(parameters.habits)
+    facts: Facts | None = None
+    shown: list[ExpressionEvent] = []
+    made: list[GestureEvent] = []
+    problems: list[Problem] = []
+    for rule in rules:
+        if not notes or not _concerns(rule.when, parameters.style, habits):
+            continue
+        unknown = _unknown(rule, faces, gestures)
+        if unknown is not None:
+            problems.append(Problem(unknown, None, frame.first_frame_s, frame.first_frame_s))
+            continue
+        facts = facts_of(times, piece, instrument, dynamics) if facts is None else facts
+        found = np.flatnonzero(matches(rule.when, facts) & _by_chance(rule, times, seeds))
+        if not len(found):
+            continue
+        sizes = rule.do.strength * _growth(rule, facts)
+        if rule.do.expression:
+            shown += _faces(rule, faces[rule.do.expression], notes, times, found, sizes, piece.clock)
+        else:
+            gesture = gestures[rule.do.gesture]
+            made += _gestures(rule, gesture, notes, times, found, sizes, piece.clock, lowered)
+    return Ruled(
+        tuple(sorted(shown, key=lambda event: (event.start_s, event.id))),
+        tuple(sorted(made, key=lambda event: (event.start_s, event.id))),
+        tuple(problems),
+    )
+
+
+def facts_of(times: LineTimes, piece: Piece, instrument: InstrumentMap, dynamics: Dynamics) -> Facts:
+    """What rules ask of notes. The silence before the first and after the last has no end."""
+    rests_s = np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)
+    pitch = times.pitch.astype(np.float64)
+    apart = times.silence_tick >= piece.beat_ticks_at(times.onset_tick)
+    starts = np.flatnonzero(apart | (np.arange(len(pitch)) == 0))
+    ends = np.zeros(len(pitch), bool)
+    ends[np.append(starts[1:] - 1, len(pitch) - 1)] = True
+    climax = np.zeros(len(pitch), bool)
+    weight = pitch / 12.0 + 2.0 * times.loudness
+    for first, end in zip(starts.tolist(), np.append(starts[1:], len(pitch)).tolist(), strict=True):
+        if end - first > 2:
+            climax[first + int(np.argmax(weight[first:end]))] = True
+    number = np.arange(len(pitch))
+    return Facts(
+        times=times,
+        lasts_s=times.duration_s,
+        rest_s=np.concatenate(([np.inf], rests_s)),
+        rest_after_s=np.concatenate((rests_s, [np.inf])),
+        above_easy=pitch - instrument.range.easy_high,
+        below_easy=instrument.range.easy_low - pitch,
+        accents=dynamics.accents,
+        leap=np.concatenate(([0.0], np.diff(pitch))),
+        places={
+            "first": number == 0,
+            "after_rest": apart & (number > 0),
+            "climax": climax,
+            "phrase_end": ends,
+            "last": number == len(pitch) - 1,
+        },
+    )
+
+
+def matches(when: When, facts: Facts) -> BoolArray:
+    """(N,): of which notes everything holds but style, habits and chance."""
+    loudness, count = facts.times.loudness, len(facts.times.loudness)
+    least = (
+        (when.loudness_above, loudness),
+        (when.semitones_above_easy, facts.above_easy),
+        (when.semitones_below_easy, facts.below_easy),
+        (when.longer_s, facts.lasts_s),
+        (when.rest_longer_s, facts.rest_s),
+        (when.rest_after_longer_s, facts.rest_after_s),
+        (when.accent, facts.accents),
+        (when.leap_up, facts.leap),
+        (when.leap_down, -facts.leap),
+    )
+    most = ((when.loudness_below, loudness), (when.shorter_s, facts.lasts_s))
+    found = np.ones(count, bool)
+    for bound, values in least:
+        if bound is not None:
+            found &= values >= bound
+    for bound, values in most:
+        if bound is not None:
+            found &= values <= bound
+    if when.place:
+        found &= np.logical_or.reduce([facts.places[place] for place in when.place])
+    return found
+
+
+def _concerns(when: When, style: str, habits: Sequence[str]) -> bool:
+    if when.styles and style not in when.styles:
+        return False
+    return not when.habits or not set(when.habits).isdisjoint(habits)
+
+
+def _unknown(rule: Rule, faces: Mapping[str, Expression], gestures: Mapping[str, Gesture]) -> Message | None:
+    """Why a rule cannot do what it says."""
+    for kind, name, known in (("expression", rule.do.expression, faces), ("gesture", rule.do.gesture, gestures)):
+        if name and name not in known:
+            said: dict[str, Argument] = {"rule": rule.name, "name": name, "known": ", ".join(sorted(known))}
+            return Message(f"rule.unknown_{kind}", said)
+    return None
+
+
+def _by_chance(rule: Rule, times: LineTimes, seeds: Seeds) -> BoolArray:
+    if rule.when.chance >= 1.0:
+        return np.ones(len(times.onset_tick), bool)
+    return seeds.chances_at(f"rule {rule.name}", times.onset_tick) < rule.when.chance
+
+
+def _growth(rule: Rule, facts: Facts) -> FloatArray:
+    """(N,): 0.2 where a note just meets the condition, 1 where it could not meet it more."""
+    when, grows = rule.when, rule.do.grows_with
+    if grows is None:
+        return np.ones(len(facts.lasts_s))
+    if grows == "loudness":
+        least = when.loudness_above or 0.0
+        share = (facts.times.loudness - least) / max(1.0 - least, 1e-6)
+    elif grows == "height":
+        share = (facts.above_easy - (when.semitones_above_easy or 0.0)) / HEIGHT_SEMITONES
+    elif grows == "length":
+        longer_s = max(when.longer_s or 0.0, 1e-3)
+        share = (facts.lasts_s - longer_s) / (2.0 * longer_s)
+    else:
+        share = facts.accents / MOST_ACCENT
+    grown: FloatArray = LEAST_SHARE + (1.0 - LEAST_SHARE) * np.clip(share, 0.0, 1.0)
+    return grown
+
+
+def _spans_s(rule: Rule, times: LineTimes, found: IntArray, length_s: float | None) -> tuple[FloatArray, FloatArray]:
+    """Where it begins and ends, for each of some notes; ``length_s``: of what has a length of its own."""
+    anchors = {"onset": times.onset_s[found], "end": times.played_end_s[found]}
+    start_s = anchors[rule.do.start] + rule.do.start_s
+    if length_s is not None and rule.do.end_s is None:
+        return start_s, start_s + length_s
+    return start_s, anchors[rule.do.end] + (rule.do.end_s or 0.0)
+
+
+def _faces(
+    rule: Rule,
+    face: Expression,
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    found: IntArray,
+    sizes: FloatArray,
+    clock: TempoMap,
+) -> list[ExpressionEvent]:
+    """One expression for every run of notes with no more than `Rule.apart_s` between them."""
+    starts_s, ends_s = _spans_s(rule, times, found, None)
+    apart = starts_s[1:] - np.maximum.accumulate(ends_s)[:-1] > rule.apart_s
+    events = []
+    for run in np.split(np.arange(len(found)), np.flatnonzero(apart) + 1):
+        start_s, end_s = float(starts_s[run[0]]), float(ends_s[run].max())
+        if end_s - start_s < LEAST_S:
+            continue
+        events.append(
+            ExpressionEvent(
+                id=f"expression:rule:{rule.name}:{notes[found[run[0]]].id}",
+                expression=face.name,
+                start_tick=round(clock.ticks(start_s)),
+                end_tick=round(clock.ticks(end_s)),
+                start_s=start_s,
+                end_s=end_s,
+                strength=round(float(sizes[found[run]].max()), 4),
+                fade_in_s=rule.do.fade_in_s or face.fade_in_s,
+                fade_out_s=rule.do.fade_out_s or face.fade_out_s,
+                reason=Message("rule.applied", {"rule": rule.name}),
+            )
+        )
+    return events
+
+
+def _gestures(
+    rule: Rule,
+    gesture: Gesture,
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    found: IntArray,
+    sizes: FloatArray,
+    clock: TempoMap,
+    lowered: tuple[tuple[float, float], ...],
+) -> list[GestureEvent]:
+    """One gesture for every note, where it may start and the one before is `Rule.apart_s` away."""
+    starts_s, ends_s = _spans_s(rule, times, found, gesture.length_s)
+    events: list[GestureEvent] = []
+    free_s = -np.inf
+    for place, start_s, end_s in zip(found.tolist(), starts_s.tolist(), ends_s.tolist(), strict=True):
+        if start_s < free_s or end_s <= start_s or not may_start(gesture, start_s, end_s, times, lowered):
+            continue
+        free_s = end_s + rule.apart_s
+        events.append(
+            GestureEvent(
+                id=f"named:rule:{rule.name}:{notes[place].id}",
+                kind="named",
+                start_tick=round(clock.ticks(start_s)),
+                end_tick=round(clock.ticks(end_s)),
+                start_s=start_s,
+                end_s=end_s,
+                amount=round(float(sizes[place]), 4),
+                reason=Message("rule.applied", {"rule": rule.name}),
+                name=gesture.name,
+            )
+        )
+    return events
+
+
+def may_start(
+    gesture: Gesture, start_s: float, end_s: float, times: LineTimes, lowered: tuple[tuple[float, float], ...]
+) -> bool:
+    """Whether a gesture may be done from one time to another."""
+    if gesture.may_start == "resting":
+        first = int(np.searchsorted(times.played_end_s, start_s, side="right"))
+        return first == len(times.onset_s) or float(times.onset_s[first]) >= end_s
+    if gesture.may_start == "lowered":
+        return any(first_s <= start_s and end_s <= last_s for first_s, last_s in lowered)
+    return True
+
+
+def with_ruled(made: tuple[E, ...], ruled: tuple[E, ...]) -> tuple[E, ...]:
+    """Events with those that the rules ask for, ordered by start; the very same where they ask for none."""
+    both = list(made + ruled)
+    both.sort(key=lambda event: event.start_s)
+    return tuple(both) if ruled else made
+
+
+def without_overruled(events: tuple[E, ...]) -> tuple[E, ...]:
+    """Events without those of rules where the animator put one of the same kind: what is placed by hand wins. The very
+    same tuple where nothing is left out."""
+    placed = [event for event in events if event.corrected and ":rule:" not in event.id]
+    spans: dict[str, list[tuple[float, float]]] = {}
+    for event in placed:
+        spans.setdefault(event.id.split(":", 1)[0], []).append((event.start_s, event.end_s))
+    if not spans:
+        return events
+    kept = tuple(event for event in events if event.corrected or not _is_overruled(event, spans))
+    return kept if len(kept) < len(events) else events
+
+
+def _is_overruled(event: GestureEvent | ExpressionEvent, spans: Mapping[str, list[tuple[float, float]]]) -> bool:
+    kind, *rest = event.id.split(":", 2)
+    if rest[:1] != ["rule"]:
+        return False
+    return any(start_s < event.end_s and event.start_s < end_s for start_s, end_s in spans.get(kind, ()))
+
+
+def lowered_spans_s(gestures: tuple[GestureEvent, ...]) -> tuple[tuple[float, float], ...]:
+    """Where the instrument is off the lips."""
+    return tuple((event.start_s, event.end_s) for event in gestures if event.kind == "lower_instrument")

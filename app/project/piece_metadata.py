@@ -1,0 +1,246 @@
+"""What an animator said of the acting in a piece, apart from its notes: saved, loaded into it again, and compared.
+
+A TOML file: the section's intensity, of each player by name style, habits and amounts, and what was corrected of
+gestures, expressions and poses, anchored in ticks; and the piece's own expressions.
+
+Messages: ``metadata.newer``, ``metadata.no_player`` (players, known), ``table.invalid``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Final, NamedTuple
+
+import msgspec
+
+from app.errors import MapError, Message
+from app.formats.atomic import atomic_write
+from app.formats.toml import header, read_toml, shaped, toml
+from app.plan.acting import AMOUNTS
+from app.plan.corrections import Correction, RemoveEvent, kind
+from app.project import limits
+from app.project.check import expression_faults
+from app.project.edit.players import set_parameters
+from app.project.model import Project
+from app.project.parameters import is_possible, range_text
+from metadata.model import Expression
+
+VERSION: Final = 1
+SUFFIX: Final = ".toml"
+PARAMETER_NAMES: Final = ("amplitude", "style", "habits", *AMOUNTS)
+"""What of a player's parameters is acting."""
+KINDS: Final = frozenset(
+    {"add_gesture", "change_gesture", "add_expression", "change_expression", "pose", "vary", "additive"}
+)
+"""Tags of the corrections that are acting."""
+_NOT_ACTING: Final = frozenset({"breath", "preparation", "within", "cue"})
+"""Removed events of these kinds belong to the playing."""
+
+
+class PlayerMetadata(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Of one player."""
+
+    parameters: dict[str, Any] = {}
+    corrections: tuple[Correction, ...] = ()
+
+
+class PieceMetadata(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Of a piece.
+
+    Attributes
+    ----------
+    ticks_per_quarter : int
+        What the ticks of the corrections count in.
+    players : dict of str to PlayerMetadata
+        By name.
+    """
+
+    version: int
+    ticks_per_quarter: int
+    section_intensity: float = 1.0
+    players: dict[str, PlayerMetadata] = {}
+    expressions: tuple[Expression, ...] = ()
+
+
+class Loaded(NamedTuple):
+    """A piece with other metadata, and what of them found no place in it."""
+
+    project: Project
+    problems: tuple[Message, ...]
+
+
+class Difference(NamedTuple):
+    """A place at which two metadata are not the same; what has nothing there has an empty text."""
+
+    place: str
+    one: str
+    other: str
+
+
+def is_acting(correction: Correction) -> bool:
+    """Whether a correction is about gestures, expressions or poses."""
+    if isinstance(correction, RemoveEvent):
+        return correction.event_id.split(":", 1)[0] not in _NOT_ACTING
+    return kind(correction) in KINDS
+
+
+def metadata_of(project: Project) -> PieceMetadata:
+    """The metadata of a piece as it is. What one musician does is said once, of the player with the body."""
+    players = {}
+    for player in project.players:
+        parameters = {}
+        if project.musician(player) is player:
+            parameters = {name: getattr(player.parameters, name) for name in PARAMETER_NAMES}
+        corrections = tuple(filter(is_acting, project.corrections.get(player.id, ())))
+        players[player.name] = PlayerMetadata(parameters, corrections)
+    score = project.score
+    return PieceMetadata(VERSION, score.ticks_per_quarter, project.section_intensity, players, project.expressions)
+
+
+def with_metadata(project: Project, metadata: PieceMetadata) -> Loaded:
+    """The piece with these metadata in place of its own; players that are not named keep theirs."""
+    by_name = {player.name.casefold(): player for player in project.players}
+    corrections = dict(project.corrections)
+    lost = []
+    for name, said in metadata.players.items():
+        player = by_name.get(name.casefold())
+        if player is None:
+            lost.append(name)
+            continue
+        if said.parameters and project.musician(player) is player:
+            project = set_parameters(project, (player.id,), **said.parameters)
+        scale = project.score.ticks_per_quarter / metadata.ticks_per_quarter
+        corrections[player.id] = _merged(corrections.get(player.id, ()), said.corrections, scale)
+    kept = {id: items for id, items in corrections.items() if items}
+    project = replace(
+        project, corrections=kept, section_intensity=metadata.section_intensity, expressions=metadata.expressions
+    )
+    known = ", ".join(player.name for player in project.players)
+    problems = (Message("metadata.no_player", {"players": ", ".join(lost), "known": known}),) if lost else ()
+    return Loaded(project, problems)
+
+
+def _merged(before: tuple[Correction, ...], said: tuple[Correction, ...], scale: float) -> tuple[Correction, ...]:
+    others = tuple(correction for correction in before if not is_acting(correction))
+    if scale == 1.0:
+        return others + said
+    raw = _scaled(msgspec.to_builtins(said), scale)
+    return others + msgspec.convert(raw, tuple[Correction, ...])
+
+
+def _scaled(value: Any, scale: float, key: str = "") -> Any:
+    """Ticks of another division of the quarter."""
+    if isinstance(value, Mapping):
+        return {name: _scaled(item, scale, name) for name, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_scaled(item, scale, key) for item in value]
+    if isinstance(value, int) and key.endswith(("tick", "ticks")) and not isinstance(value, bool):
+        return round(value * scale)
+    return value
+
+
+def differences(one: PieceMetadata, other: PieceMetadata) -> tuple[Difference, ...]:
+    """Where two metadata are not the same, by place."""
+    mine, theirs = dict(_flat(_table(one), "")), dict(_flat(_table(other), ""))
+    return tuple(
+        Difference(place, mine.get(place, ""), theirs.get(place, ""))
+        for place in sorted({*mine, *theirs})
+        if mine.get(place, "") != theirs.get(place, "")
+    )
+
+
+def _flat(value: Any, place: str) -> Iterator[tuple[str, str]]:
+    if isinstance(value, Mapping) and value:
+        for key, item in value.items():
+            yield from _flat(item, f"{place}.{key}" if place else str(key))
+    elif isinstance(value, list | tuple):
+        for item in value:
+            # What was added is called by its name, whatever stands before it.
+            if isinstance(item, Mapping):
+                named = (str(item[key]) for key in ("correction", "name", "event_id") if key in item)
+                yield from _flat(item, f"{place}[{' '.join(named)}]")
+            else:
+                yield f"{place}[{item}]", str(item)
+    else:
+        yield place, str(value)
+
+
+def save_metadata(metadata: PieceMetadata, path: Path) -> None:
+    """Write metadata to a file. Raises FileError."""
+    with atomic_write(path) as stream:
+        stream.write(_text(_table(metadata)).encode())
+
+
+def _text(table: dict[str, Any]) -> str:
+    """The file: every correction and every expression is a table of its own, so that other programs compare them."""
+    text = toml({key: value for key, value in table.items() if key not in ("players", "expressions")})
+    for name, player in table["players"].items():
+        above = ("players", name)
+        text += toml({"parameters": player["parameters"]}, above) if player["parameters"] else ""
+        for correction in player["corrections"]:
+            text += f"\n[{header((*above, 'corrections'), many=True)}]\n{toml(correction)}"
+    for expression in table["expressions"]:
+        text += f"\n[{header(('expressions',), many=True)}]\n{toml(expression, ('expressions',))}"
+    return text
+
+
+def _table(metadata: PieceMetadata) -> dict[str, Any]:
+    table: dict[str, Any] = _without_none(msgspec.to_builtins(metadata))
+    return table
+
+
+def _without_none(value: Any) -> Any:
+    """What is not said is left out: TOML has no word for it."""
+    if isinstance(value, Mapping):
+        return {key: _without_none(item) for key, item in value.items() if item is not None}
+    return [_without_none(item) for item in value] if isinstance(value, list | tuple) else value
+
+
+def load_metadata(path: Path) -> PieceMetadata:
+    """Read and check metadata from a file. Raises FileError, MapError."""
+    table = read_toml(path, path.name)
+    version = table.get("version")
+    if isinstance(version, int) and version > VERSION:
+        raise MapError("metadata.newer", file=path.name, version=version, known=VERSION)
+    players = table.get("players", {})
+    metadata = shaped({**table, "players": {}}, PieceMetadata, path.name)
+    if not isinstance(players, dict):
+        raise MapError("table.invalid", file=path.name, place="players", detail="must be a table")
+    named = {name: _player(name, player, path.name) for name, player in players.items()}
+    metadata = msgspec.structs.replace(metadata, players=named)
+    for place, detail in _faults(metadata):
+        raise MapError("table.invalid", file=path.name, place=place, detail=detail)
+    return metadata
+
+
+def _player(name: str, table: object, file: str) -> PlayerMetadata:
+    """A player's part, whose faults name the player."""
+    try:
+        return shaped(table, PlayerMetadata, file)
+    except MapError as error:
+        said = error.message.arguments
+        place = f"players.{name}.{said['place']}"
+        raise MapError("table.invalid", file=file, place=place, detail=said["detail"]) from error
+
+
+def _faults(metadata: PieceMetadata) -> Iterator[tuple[str, str]]:
+    low, high = limits.TICKS_PER_QUARTER
+    if not low <= metadata.ticks_per_quarter <= high:
+        yield "ticks_per_quarter", f"must be from {low} to {high}"
+    least, most = limits.SECTION_INTENSITY
+    if not least <= metadata.section_intensity <= most:
+        yield "section_intensity", f"must be from {least:g} to {most:g}"
+    for name, player in metadata.players.items():
+        for parameter, value in player.parameters.items():
+            place = f"players.{name}.parameters.{parameter}"
+            if parameter not in PARAMETER_NAMES:
+                yield place, f"must be one of {', '.join(PARAMETER_NAMES)}"
+            elif not is_possible(parameter, value):
+                yield place, f"possible: {range_text(parameter)}"
+        for index, correction in enumerate(player.corrections):
+            if not is_acting(correction):
+                yield f"players.{name}.corrections[{index}]", f"{kind(correction)!r} is not about acting"
+    for index, expression in enumerate(metadata.expressions):
+        yield from expression_faults(expression, f"expressions[{index}]")

@@ -1,0 +1,100 @@
+"""What an animator may edit of how players act: styles and habits, factors of the amounts of a player's layers."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, TypeAlias, TypeVar
+
+import msgspec
+
+from metadata.tables import Title, check_name, check_title, decoded, invalid
+
+Factor: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=4.0)]
+SECTION_PLAYER = "section_player"
+"""The style in which every factor is 1."""
+SEPARATOR = ","
+"""Between the names of habits in a text; no name has one."""
+
+
+class Factors(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """By how much a style or habit multiplies the amounts of a player, by the names of the player's parameters."""
+
+    sway: Factor = 1.0
+    weight_shift: Factor = 1.0
+    bell_height: Factor = 1.0
+    phrase_motion: Factor = 1.0
+    stillness: Factor = 1.0
+    footwork: Factor = 1.0
+    toe_taps: Factor = 1.0
+    breath_motion: Factor = 1.0
+    cue_size: Factor = 1.0
+    face_intensity: Factor = 1.0
+    lip_motion: Factor = 1.0
+    gaze: Factor = 1.0
+    blinks: Factor = 1.0
+    gestures: Factor = 1.0
+
+
+class Style(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A kind of player.
+
+    Attributes
+    ----------
+    variation : float
+        How far the amounts of two players of this style may lie from the style's, as a share: 0.2 is 20 % to either
+        side.
+    """
+
+    name: str
+    title: Title
+    description: Title = Title("")
+    factors: Factors = Factors()
+    variation: Annotated[float, msgspec.Meta(ge=0.0, le=0.5)] = 0.2
+
+
+class Habit(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Something that a player does more, or less, than others of the same style."""
+
+    name: str
+    title: Title
+    factors: Factors
+    description: Title = Title("")
+
+
+T = TypeVar("T", Style, Habit)
+
+
+def read_style(path: Path) -> Style:
+    """Read and check a style. Raises FileError, MapError."""
+    return _checked(path, decoded(path, Style))
+
+
+def read_habit(path: Path) -> Habit:
+    """Read and check a habit. Raises FileError, MapError."""
+    habit = _checked(path, decoded(path, Habit))
+    if habit.factors == Factors():
+        raise invalid(path, "factors", "must have at least one factor other than 1")
+    return habit
+
+
+def names_in(habits: str) -> tuple[str, ...]:
+    """The habits that a text names, each once, in the order of their names."""
+    return tuple(sorted({name for part in habits.split(SEPARATOR) if (name := part.strip())}))
+
+
+def as_text(habits: tuple[str, ...]) -> str:
+    """The text that names these habits."""
+    return SEPARATOR.join(sorted(set(habits)))
+
+
+def _checked(path: Path, table: T) -> T:
+    check_name(path, table.name)
+    if SEPARATOR in table.name or not table.name.isprintable():
+        raise invalid(path, "name", "must be printable and without commas")
+    check_title(path, table.title)
+    return table
+
+
+# As in `metadata.load`: types are worked out under the import's lock.
+for _type in (Style, Habit):
+    msgspec.json.Decoder(_type)

@@ -1,0 +1,123 @@
+"""The styles, habits, expressions, gestures and rules the user has: ours, and beside them those of the user's folders.
+
+Each kind has a folder of its name beside the program's other data (see `app.formats.user_folder`); the user's own win
+over the bundled ones of the same name, and are read again when their files change.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any, Final, NamedTuple, TypeVar
+
+from app.errors import Message
+from app.formats.user_folder import Read, Shelf, UserFolder
+from metadata.acting import Habit, Style, read_habit, read_style
+from metadata.gestures import Gesture, read_gesture
+from metadata.load import ROOT, load_expressions, read_named_expression
+from metadata.model import Expression
+from metadata.rules import Rule, RuleSet, read_rules
+
+T = TypeVar("T")
+
+
+def _folder(name: str, read: Callable[[Path], T], bundled: Callable[[], Mapping[str, T]]) -> UserFolder[T, Shelf[T]]:
+    return UserFolder(name, (), Shelf, bundled, lambda path: Read(read(path)))
+
+
+def bundled(name: str, read: Callable[[Path], T]) -> Callable[[], Mapping[str, T]]:
+    """The tables of a folder of ours by name, read once."""
+
+    @cache
+    def found() -> Mapping[str, T]:
+        return {path.stem: read(path) for path in sorted((ROOT / name).glob("*.toml"))}
+
+    return found
+
+
+STYLES: Final = _folder("styles", read_style, bundled("styles", read_style))
+HABITS: Final = _folder("habits", read_habit, bundled("habits", read_habit))
+EXPRESSIONS: Final = _folder("expressions", read_named_expression, load_expressions)
+_OUR_GESTURES: Final = bundled("gestures", read_gesture)
+_OUR_RULES: Final = bundled("rules", read_rules)
+GESTURES: Final = _folder("gestures", read_gesture, _OUR_GESTURES)
+RULES: Final = _folder("rules", read_rules, _OUR_RULES)
+FOLDERS: Final[tuple[UserFolder[Any, Any], ...]] = (STYLES, HABITS, EXPRESSIONS, GESTURES, RULES)
+"""Every kind of which the user may have own ones beside ours."""
+
+
+READERS: Final[Mapping[str, Callable[[Path], object]]] = {
+    "styles": read_style,
+    "habits": read_habit,
+    "expressions": read_named_expression,
+    "gestures": read_gesture,
+    "rules": read_rules,
+}
+"""By folder what reads and checks a table of the kind."""
+
+
+class MetadataLibrary(NamedTuple):
+    """All of every kind, as they were when the folders were read; the shelves stay the same objects until then."""
+
+    styles: Shelf[Style]
+    habits: Shelf[Habit]
+    expressions: Shelf[Expression]
+    gestures: Shelf[Gesture]
+    rules: Shelf[RuleSet]
+
+    @property
+    def all_rules(self) -> tuple[Rule, ...]:
+        """The rules of every file; the same object as long as the files are."""
+        return _all_rules(self.rules.items)
+
+    @property
+    def expressions_by_name(self) -> dict[str, Expression]:
+        """Every expression; the user's own are called as is said in them, whatever their files are called."""
+        own = (self.expressions.items[id] for id in self.expressions.files)
+        return load_expressions() | {expression.name: expression for expression in own}
+
+    def is_still(self, other: MetadataLibrary) -> bool:
+        """Whether both are of the very same reading."""
+        return all(mine is others for mine, others in zip(self, other, strict=True))
+
+    @property
+    def problems(self) -> Mapping[Path, tuple[Message, ...]]:
+        """What is wrong with the user's files, by file."""
+        return {path: said for shelf in self for path, said in shelf.problems.items()}
+
+
+def bundled_gestures() -> Mapping[str, Gesture]:
+    """Our gestures by name."""
+    return _OUR_GESTURES()
+
+
+def bundled_rules() -> tuple[Rule, ...]:
+    """Our rules."""
+    return _all_rules(_OUR_RULES())
+
+
+@cache
+def _rules_of(sets: tuple[RuleSet, ...]) -> tuple[Rule, ...]:
+    return tuple({rule.name: rule for found in sets for rule in found.rules}.values())
+
+
+def _all_rules(sets: Mapping[str, RuleSet]) -> tuple[Rule, ...]:
+    """The rules of every file, in the order of the files' names; of two of the same name the later counts."""
+    return _rules_of(tuple(sets[name] for name in sorted(sets)))
+
+
+def metadata_library() -> MetadataLibrary:
+    """All as they were last read; the first who asks reads them."""
+    return MetadataLibrary(*(folder.now() for folder in FOLDERS))
+
+
+def begin_metadata() -> None:
+    """Have the bundled ones alone for now: for a program that reads the user's folders beside its window."""
+    for folder in FOLDERS:
+        folder.begin()
+
+
+def reload_metadata() -> MetadataLibrary:
+    """Read the user's folders again if something in them changed."""
+    return MetadataLibrary(*(folder.reload() for folder in FOLDERS))

@@ -1,0 +1,146 @@
+"""Rules as an animator writes them: when the music does this, a player shows that expression or makes that gesture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal, TypeAlias
+
+import msgspec
+
+from metadata.model import Fraction01, NotNegative, Positive
+from metadata.tables import check_name, decoded, invalid
+
+Offset: TypeAlias = Annotated[float, msgspec.Meta(ge=-60.0, le=60.0)]
+Place: TypeAlias = Literal["first", "after_rest", "climax", "phrase_end", "last"]
+Growth: TypeAlias = Literal["loudness", "height", "length", "accent"]
+Anchor: TypeAlias = Literal["onset", "end"]
+
+MOST_RULES = 200
+
+
+class When(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What must hold of a note, all of it; what is not said may be anything.
+
+    Attributes
+    ----------
+    loudness_above, loudness_below : float
+        0..1; mezzoforte is 0.63.
+    semitones_above_easy, semitones_below_easy : float
+        How far above or below the easy range of the instrument at least.
+    longer_s, shorter_s : float
+        How long the note lasts.
+    rest_longer_s, rest_after_longer_s : float
+        The silence before the note, and after it.
+    accent : float
+        How much louder than those around it, 0..1.
+    leap_up, leap_down : float
+        Semitones from the note before.
+    place : tuple of str
+        Where it is, any of these: ``"first"`` or ``"last"`` of the part, ``"after_rest"``, ``"climax"`` (highest and
+        loudest of its phrase), ``"phrase_end"``.
+    styles, habits : tuple of str
+        The player has any of these.
+    chance : float
+        In so many of the cases.
+    """
+
+    loudness_above: Fraction01 | None = None
+    loudness_below: Fraction01 | None = None
+    semitones_above_easy: float | None = None
+    semitones_below_easy: float | None = None
+    longer_s: NotNegative | None = None
+    shorter_s: NotNegative | None = None
+    rest_longer_s: NotNegative | None = None
+    rest_after_longer_s: NotNegative | None = None
+    accent: Fraction01 | None = None
+    leap_up: NotNegative | None = None
+    leap_down: NotNegative | None = None
+    place: tuple[Place, ...] = ()
+    styles: tuple[str, ...] = ()
+    habits: tuple[str, ...] = ()
+    chance: Fraction01 = 1.0
+
+
+class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What is done then.
+
+    Attributes
+    ----------
+    expression, gesture : str
+        Name of the one or the other.
+    strength : float
+        Of an expression, or the size of a gesture.
+    grows_with : str or None
+        The strength is reached only where this is at its most; where the condition is just met it is a fifth of it.
+    start, end : str
+        What the offsets count from: the onset or the end of the note.
+    start_s, end_s : float
+        Offsets. A gesture without an end lasts as long as it says itself.
+    fade_in_s, fade_out_s : float or None
+        Of an expression; None: its own.
+    """
+
+    expression: str = ""
+    gesture: str = ""
+    strength: Fraction01 = 1.0
+    grows_with: Growth | None = None
+    start: Anchor = "onset"
+    start_s: Offset = 0.0
+    end: Anchor = "end"
+    end_s: Offset | None = None
+    fade_in_s: Positive | None = None
+    fade_out_s: Positive | None = None
+
+
+class Rule(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A rule.
+
+    Attributes
+    ----------
+    apart_s : float
+        From one time that it does something to the next at least so long; expressions closer than this are one.
+    """
+
+    name: str
+    when: When
+    do: Do
+    apart_s: NotNegative = 0.35
+
+
+class RuleSet(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The rules of a file."""
+
+    name: str
+    description: str
+    rules: tuple[Rule, ...]
+
+
+def read_rules(path: Path) -> RuleSet:
+    """Read and check a file of rules. Raises FileError, MapError."""
+    found = decoded(path, RuleSet)
+    check_name(path, found.name)
+    if len(found.rules) > MOST_RULES:
+        raise invalid(path, "rules", f"at most {MOST_RULES}")
+    seen: set[str] = set()
+    for index, rule in enumerate(found.rules):
+        place = f"rules[{index}]"
+        if not rule.name.isidentifier():
+            raise invalid(path, f"{place}.name", f"{rule.name!r} must be letters, digits and underscores")
+        if rule.name in seen:
+            raise invalid(path, f"{place}.name", f"{rule.name!r} appears twice")
+        seen.add(rule.name)
+        if bool(rule.do.expression) == bool(rule.do.gesture):
+            raise invalid(path, f"{place}.do", "must have an expression or a gesture, and not both")
+        if rule.do.gesture and (rule.do.fade_in_s or rule.do.fade_out_s):
+            raise invalid(path, f"{place}.do.fade_in_s", "a gesture has its fades in its keys")
+        needed = {"loudness": "loudness_above", "height": "semitones_above_easy", "length": "longer_s"}
+        grows = rule.do.grows_with
+        if grows in needed and getattr(rule.when, needed[grows]) is None:
+            raise invalid(path, f"{place}.do.grows_with", f"{grows!r} needs when.{needed[grows]}")
+        if rule.when == When():
+            raise invalid(path, f"{place}.when", "must say when")
+    return found
+
+
+# As in `metadata.load`: types are worked out under the import's lock.
+msgspec.json.Decoder(RuleSet)

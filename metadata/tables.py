@@ -1,0 +1,54 @@
+"""How a table of `metadata` is read and checked, whatever its kind: exact messages with file and key."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TypeVar
+
+import msgspec
+
+from app.errors import MapError
+from app.formats.toml import read_toml, shaped
+
+T = TypeVar("T")
+
+
+class Title(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What something is called in the editor's languages; without a Japanese name the English one serves."""
+
+    en: str
+    ja: str = ""
+
+    def in_language(self, language: str) -> str:
+        """The name in ``"en"`` or ``"ja"``."""
+        return (self.ja or self.en) if language == "ja" else self.en
+
+
+def label(path: Path) -> str:
+    """What a file is called in messages: folders of several kinds hold files of the same name."""
+    return f"{path.parent.name}/{path.name}"
+
+
+def decoded(path: Path, kind: type[T], file: str | None = None) -> T:
+    """A table as a typed value. Raises FileError, MapError."""
+    file = label(path) if file is None else file
+    return shaped(read_toml(path, file), kind, file)
+
+
+def invalid(path: Path, key: str, detail: str, file: str | None = None) -> MapError:
+    """The error of a value that cannot be."""
+    return MapError("table.invalid", file=label(path) if file is None else file, place=key, detail=detail)
+
+
+def check_name(path: Path, name: str, file: str | None = None) -> None:
+    """A table is called as its file is. Raises MapError."""
+    if name != path.stem:
+        raise invalid(path, "name", f"{name!r} is not the file's name {path.stem!r}", file)
+
+
+def check_title(path: Path, title: Title) -> None:
+    """A title is a line that can be read. Raises MapError."""
+    for language in ("en", "ja"):
+        text = getattr(title, language)
+        if not text.isprintable() or (language == "en" and not text.strip()):
+            raise invalid(path, f"title.{language}", "must be a name on one line")

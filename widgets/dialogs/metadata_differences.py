@@ -1,0 +1,50 @@
+"""Where a piece's metadata and those of a file are not the same."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QTreeWidgetItem, QWidget
+
+from app.project.piece_metadata import Difference
+from widgets.common.controls import Button, ColumnList, Retranslated
+from widgets.common.layouts import in_column
+
+_NOTHING = "–"
+
+
+class MetadataDifferencesDialog(Retranslated, QDialog):
+    """A list of places with what the piece and the file have there."""
+
+    def __init__(self, differences: Sequence[Difference], file: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("metadata_differences")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._file = file
+        self._list = ColumnList(
+            "differences",
+            "metadata_differences_dialog.place",
+            "metadata_differences_dialog.in_piece",
+            "metadata_differences_dialog.in_file",
+        )
+        for place, one, other in differences:
+            row = QTreeWidgetItem([place, one or _NOTHING, other or _NOTHING])
+            for column in range(3):
+                row.setToolTip(column, row.text(column))
+            self._list.addTopLevelItem(row)
+        buttons = QDialogButtonBox()
+        close = Button("metadata_differences_dialog.close", self.reject, "differences_close")
+        buttons.addButton(close, QDialogButtonBox.ButtonRole.RejectRole)
+        in_column((self._list, 1), buttons, of=self)
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        title = self.tr("metadata_differences_dialog.metadata_of_piece_and_file")
+        self.setWindowTitle(title.format(file=self._file))
+
+    # Qt's own names
+
+    def sizeHint(self) -> QSize:
+        return QSize(760, 420)

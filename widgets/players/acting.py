@@ -1,0 +1,129 @@
+"""The style of the selected players, and their habits, as switches."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QWidget
+
+from app.editor.session import Session
+from app.plan.parameters import PARAMETERS
+from app.project.edit.players import parameter_edit, set_habit, set_parameters
+from app.project.performers import Player
+from metadata.acting import names_in
+from metadata.library import HABITS, STYLES
+from widgets.common.chip import Chip
+from widgets.common.combo import Combo, Option
+from widgets.common.controls import Retranslated, named
+from widgets.common.flow import FlowLayout
+from widgets.common.instrument_name import language
+from widgets.common.layouts import in_column, in_row
+from widgets.common.plain import Label
+from widgets.common.text import parameter_text
+
+_STYLE, _HABITS = PARAMETERS["style"], PARAMETERS["habits"]
+
+
+def style_name(name: str) -> str:
+    """What a style is called in the user's language; one that is not there, by its name."""
+    style = STYLES.now().items.get(name)
+    return name if style is None else style.title.in_language(language())
+
+
+def habit_name(name: str) -> str:
+    """What a habit is called in the user's language; one that is not there, by its name."""
+    habit = HABITS.now().items.get(name)
+    return name if habit is None else habit.title.in_language(language())
+
+
+class ActingRows(Retranslated, QWidget):
+    """A list of styles, and below it every habit as a switch.
+
+    Signals
+    -------
+    shown(str)
+        What the players' style and habits are in short, for the header of the section; empty where they differ.
+    """
+
+    shown = Signal(str)
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._players: tuple[Player, ...] = ()
+        self._style_label, self._style = Label(), named(Combo(), f"parameter_{_STYLE.name}")
+        self._style_label.setBuddy(self._style)
+        self._habit_label, self._habits = Label(), named(QWidget(), f"parameter_{_HABITS.name}")
+        self._flow = FlowLayout(self._habits)
+        self._chips: dict[str, Chip] = {}
+        choice = in_row(self._style_label, (self._style, 1), spacing=4)
+        in_column(choice, self._habit_label, self._habits, of=self, margins=0, spacing=4)
+        self._style.chosen.connect(self._choose)
+        session.metadata_changed.connect(self._show)
+        self.retranslate()
+
+    def show_players(self, players: Sequence[Player]) -> None:
+        """Show what these players are, of whom there is at least one."""
+        self._players = tuple(players)
+        self._show()
+
+    def _show(self) -> None:
+        known = STYLES.now().items
+        styles = list(dict.fromkeys(player.parameters.style for player in self._players))
+        names = sorted(known, key=lambda name: (name != _STYLE.default, style_name(name)))
+        self._style.set_options([Option(name, style_name(name)) for name in (*names, *set(styles) - set(known))])
+        self._style.show_option(styles[0] if len(styles) == 1 else None)
+        said = [parameter_text(_STYLE.tip)]
+        if len(styles) == 1 and styles[0] in known:
+            said.append(known[styles[0]].description.in_language(language()))
+        self._style.setToolTip("\n".join(said))
+        had = [names_in(player.parameters.habits) for player in self._players]
+        self._show_habits(had)
+        common = set(had[0]).intersection(*had[1:]) if had else set()
+        alike = len(styles) == 1 and all(set(each) == common for each in had)
+        more = f" +{len(common)}" if common else ""
+        self.shown.emit(style_name(styles[0]) + more if alike else "")
+
+    def _show_habits(self, had: Sequence[Sequence[str]]) -> None:
+        known = HABITS.now().items
+        names = sorted({*known, *(name for each in had for name in each)})
+        if list(self._chips) != names:
+            self._flow.clear()
+            self._chips = {name: self._chip(name) for name in names}
+        for name, chip in self._chips.items():
+            chip.setText(habit_name(name))
+            chip.setAccessibleName(chip.text())
+            count = sum(name in each for each in had)
+            chip.setChecked(bool(had) and count == len(had))
+            tip = known[name].description.in_language(language()) if name in known else ""
+            some = self.tr("acting_rows.some_of_the_selected").format(count=count) if 0 < count < len(had) else ""
+            chip.setToolTip("\n".join(filter(None, (tip, some))))
+
+    def _chip(self, name: str) -> Chip:
+        chip = named(Chip(self._session, habit_name(name), parent=self._habits), f"habit_{name}")
+        chip.clicked.connect(lambda on: self._switch(name, on))
+        self._flow.addWidget(chip)
+        chip.show()
+        return chip
+
+    # Editing
+
+    def _choose(self, style: str) -> None:
+        chosen = self._session.players
+        edit = parameter_edit(_STYLE.name, len(chosen))
+        self._session.attempt(edit, lambda project: set_parameters(project, chosen, style=style), None, self)
+
+    def _switch(self, habit: str, has: bool) -> None:
+        chosen = self._session.players
+        edit = parameter_edit(_HABITS.name, len(chosen))
+        self._session.attempt(edit, lambda project: set_habit(project, chosen, habit, has), None, self)
+
+    # Words
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        self._style_label.setText(parameter_text(_STYLE.label))
+        self._habit_label.setText(parameter_text(_HABITS.label))
+        self._habits.setToolTip(parameter_text(_HABITS.tip))
+        self._show()
