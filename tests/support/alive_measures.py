@@ -275,13 +275,15 @@ def head_mm_s(read: Read) -> float:
 
 
 def pairwise(reads: list[Read]) -> float:
-    """The greatest correlation of any two players' heads (sideways and fore-aft paths, 0.1 to 3 Hz)."""
+    """The greatest correlation of two players' heads (sideways and fore-aft paths, 0.1 to 3 Hz) while both play: all
+    come up before the first note together, and bow together after the last."""
     found = [0.0]
     for one, other in itertools.combinations(reads, 2):
+        both_play = one.playing & other.playing
         for axis in (0, 2):
-            both = [_bandpass(read.place_m("head")[:, axis], read.fps, 0.1, 3.0) for read in (one, other)]
-            count = min(len(values) for values in both)
-            found.append(abs(float(np.corrcoef(both[0][:count], both[1][:count])[0, 1])))
+            paths = [_bandpass(read.place_m("head")[:, axis], read.fps, 0.1, 3.0)[both_play] for read in (one, other)]
+            if both_play.sum() > 10.0 * one.fps:
+                found.append(abs(float(np.corrcoef(*paths)[0, 1])))
     return max(found)
 
 

@@ -41,6 +41,14 @@ _EXPRESSIONS: Final = {
     "puffed": "expression_name.puffed",
     "brows_up": "expression_name.brows_up",
     "smile": "expression_name.smile",
+    "bright": "expression_name.bright",
+    "eyes_closed": "expression_name.eyes_closed",
+    "fierce": "expression_name.fierce",
+    "focused": "expression_name.focused",
+    "mournful": "expression_name.mournful",
+    "proud": "expression_name.proud",
+    "surprised": "expression_name.surprised",
+    "tender": "expression_name.tender",
 }
 _TARGETS: Final = {
     "bell": "pose_name.bell",

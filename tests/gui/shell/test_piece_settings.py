@@ -20,7 +20,7 @@ from app.shell.app import Program
 from tests.gui.shell.conftest import Answers, trigger
 from widgets.dialogs.piece_settings import PieceSettingsDialog
 
-OTHER = PieceSettings("Fanfare & Co.", Fraction(24000, 1001), 2.5, 1.5, 7)
+OTHER = PieceSettings("Fanfare & Co.", Fraction(24000, 1001), 2.5, 1.5, 7, 0.8)
 
 
 @pytest.fixture
@@ -68,6 +68,7 @@ def fill_in(dialog: PieceSettingsDialog) -> None:
     beats = part(dialog, QComboBox, "felt_beat")
     for _ in range(beats.findData(OTHER.felt_beat_quarters)):
         QTest.keyClick(beats, Qt.Key.Key_Down)
+    type_into(part(dialog, QDoubleSpinBox, "section_intensity"), "0.8")
     type_into(part(dialog, QLineEdit, "seed"), "7")
 
 

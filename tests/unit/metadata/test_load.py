@@ -78,7 +78,8 @@ ANATOMY = [
 
 
 def test_every_bundled_table_loads() -> None:
-    assert set(load_expressions()) == {"neutral", "strained", "smile", "brows_up", "puffed"}
+    assert set(load_expressions()) == {"neutral", "strained", "smile", "brows_up", "puffed", "focused", "tender",
+        "eyes_closed", "mournful", "fierce", "bright", "surprised", "proud"}  # fmt: skip
     assert names("body") == ("adult",)
     assert names("skeleton") == ("vrm1",)
     for folder, reader in READERS.items():
