@@ -34,7 +34,7 @@ from app.plan.line import LineTimes, Piece, Rhythm, Seeds
 from app.plan.lowered import lowered_spans
 from app.plan.memo import Memo
 from app.plan.model import BreathEvent, CueEvent, FloatArray, GestureEvent, TimeFrame
-from app.plan.phrase import accents, felt_at, leans, phrases
+from app.plan.phrase import accents, leans, phrases
 from app.plan.swing import Pulse as Pulse
 from app.plan.swing import pulse as pulse
 from app.plan.swing import stirring, sways, swings_of
@@ -101,14 +101,13 @@ def plan_gestures(
     found = memo.step("phrases", phrases, rhythm, breaths)
     shifts = memo.step("weight shifts", weight_shifts, rhythm, pulse, frame, seeds, clock, dynamics)
     feet = memo.step("feet", footwork, rhythm, found, pulse, clock, shifts, seeds, acting.tap, alone)
-    at_notes = memo.step("felt beats", felt_at, times, piece)
     return memo.step(
         "gestures",
         _in_order,
         memo.step("sways", sways, swings, pulse),
         shifts,
         memo.step("leans", leans, found, times, clock, seeds, dynamics),
-        memo.step("accents", accents, times, pulse, at_notes, cues, breaths, clock, swings, seeds, dynamics),
+        memo.step("accents", accents, times, pulse, piece, cues, breaths, swings, seeds, dynamics),
         memo.step("bell heights", bell_heights, notes, times, piece, dynamics),
         lowered,
         memo.step("answering nods", answering_nods, notes, rhythm, answered, piece, seeds),

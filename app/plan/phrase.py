@@ -130,18 +130,12 @@ def leans(
     return events
 
 
-def felt_at(times: LineTimes, piece: Piece) -> IntArray:
-    """Ticks of the beat that is felt at each note."""
-    return piece.beat_ticks_at(times.onset_tick)
-
-
 def accents(
     times: LineTimes,
     pulse: Pulse,
-    lengths: IntArray,
+    piece: Piece,
     cues: Sequence[CueEvent],
     breaths: Sequence[BreathEvent],
-    clock: TempoMap,
     swings: Swings,
     seeds: Seeds,
     dynamics: Dynamics,
@@ -151,14 +145,15 @@ def accents(
 
     Parameters
     ----------
-    lengths : (N,) int64
-        Ticks of the beat that is felt at each note.
+    pulse : Pulse
+        With the beats of the piece.
     swings : Swings
         Where the body keeps still.
     """
     if not len(times.onset_tick):
         return []
-    bars, felt = pulse.bar_ticks, pulse.beat_ticks
+    bars, felt, clock = pulse.bar_ticks, pulse.beat_ticks, piece.clock
+    lengths = piece.beat_ticks_at(times.onset_tick)
     nearest = felt[np.clip(np.searchsorted(felt, times.onset_tick), 0, len(felt) - 1)]
     before = felt[np.clip(np.searchsorted(felt, times.onset_tick) - 1, 0, len(felt) - 1)]
     off = np.minimum(np.abs(nearest - times.onset_tick), np.abs(before - times.onset_tick))
