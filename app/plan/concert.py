@@ -88,14 +88,13 @@ def _rest(
         if start_s + SETTLE_S <= last_s:
             free_s = start_s + SETTLE_S
             events.append(_event("settle_grip", note_id, start_s, free_s, 1.0, piece, said))
-    until_s = last_s
     if seeds.chance_at("count", place) < COUNT_CHANCE:
         counted = _counted(free_s, last_s, piece, seeds.chance_at("count from", place))
         if counted is not None:
-            until_s, end_s, beats = counted
+            start_s, end_s, beats = counted
             amount = round(0.5 + 0.5 * seeds.chance_at("count size", place), 4)
-            events.append(_event("count", note_id, until_s, end_s, amount, piece, said | {"beats": beats}))
-    return events + _looks(place, (free_s, until_s), piece, seeds, said)
+            events.append(_event("count", note_id, start_s, end_s, amount, piece, said | {"beats": beats}))
+    return events + _looks(place, (free_s, last_s), piece, seeds, said)
 
 
 def _counted(first_s: float, last_s: float, piece: Piece, later: float) -> tuple[float, float, int] | None:
