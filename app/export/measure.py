@@ -182,7 +182,7 @@ def measure_player(
             np.zeros(0) if upper_lip_m is None else upper_lip_m[inhaling & ~notes.within(changing)], LIPS_MM
         ),
         feet={
-            name: Spread.of(_slid_m(traces.marks_m[name], times_s, plan, name, body), FEET_MM)
+            name: Spread.of(slid_m(traces.marks_m[name], times_s, plan, name, body), FEET_MM)
             for name in _SOLES
             if name in traces.marks_m
         },
@@ -278,7 +278,7 @@ def _read(
     return _Read(Traces(landmarks, nodes), torso, deviation_m, depth_m)
 
 
-def _slid_m(sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str, body: Body) -> FloatArray:
+def slid_m(sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str, body: Body) -> FloatArray:
     """How far a sole is from where it was put down last, in the frames in which it stands."""
     foot: Foot = "left" if name.startswith("left") else "right"
     steps = [event for event in plan.gestures if event.kind == "step" and foot_of(event) == foot]

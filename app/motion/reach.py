@@ -31,6 +31,8 @@ CLAVICLE_RAD = float(np.deg2rad(28.0))
 """Most the shoulder comes towards a far hand."""
 TURN_RAD = float(np.deg2rad(50.0))
 """Most hips and trunk turn for a far hand."""
+FOLLOWS_RAD, TURNS_ALONG_RAD = float(np.deg2rad(4.5)), float(np.deg2rad(2.5))
+"""Clavicle and trunk go along with a hand that its control takes out and back, long before its arm is stretched."""
 
 
 @dataclass(frozen=True)
@@ -65,9 +67,10 @@ def needed_help(
     controls: Mapping[str, FloatArray],
     placed: Mapping[str, Placed],
 ) -> Help:
-    """The help a body needs that has none yet; exactly 0 where the arms alone reach.
+    """The help a body needs that has none yet; exactly 0 where the arms alone reach, and where hands stay.
 
-    The shoulders help first, then the trunk turns; what is left is reported.
+    The shoulders help first, then the trunk turns; what is left is reported. Both follow a hand a little that goes out
+    and back.
     """
     turn, short_m = np.zeros(len(body.chest_m)), np.zeros(len(body.chest_m))
     protraction: dict[str, FloatArray] = {}
@@ -79,12 +82,17 @@ def needed_help(
         arm_m = arm(skeleton, hand.side).length_m
         distance_m = girdle.distance_m(0.0)
         asked = girdle.turn_for(distance_m - softly_over(distance_m - AT_EASE * arm_m, EASE_M))
+        out = np.zeros(len(turn))
+        if hand.motion is not None and hand.motion.control in controls:
+            out = np.asarray(controls[hand.motion.control], dtype=np.float64)
+        asked = asked + FOLLOWS_RAD * out
         protraction[hand.side] = softly_capped(asked, CLAVICLE_RAD, 0.15 * CLAVICLE_RAD)
         most_protraction[hand.side] = girdle.turn_for(np.full(len(turn), NEAREST * arm_m))
         waist = _waist(skeleton, hand.side, body, target_m)
         most_turn[hand.side] = waist.turn_for(np.full(len(turn), NEAREST * arm_m))
         distance_m = waist.distance_m(np.zeros(len(turn)))
         asked = waist.turn_for(distance_m - softly_over(distance_m - AT_EASE * arm_m, EASE_M))
+        asked = asked + TURNS_ALONG_RAD * out
         given = softly_capped(asked, TURN_RAD, 0.1 * TURN_RAD)
         turn += given if hand.side == "right" else -given
         short_m = np.maximum(short_m, softly_over(waist.distance_m(given) - STRETCHED * arm_m, EASE_M))
