@@ -229,6 +229,8 @@ class ConcertMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     ----------
     bow_trunk_deg, bow_head_deg : AmplitudeScale
         Forward, standing; ``bow_seated_share`` of it seated.
+    bow_hips_deg, bow_back_m : AmplitudeScale
+        The pelvis tilts forward and goes back, standing.
     look_up_deg : AmplitudeScale
         The head up to the audience.
     look_trunk_share : float
@@ -242,6 +244,8 @@ class ConcertMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """
 
     bow_trunk_deg: AmplitudeScale
+    bow_hips_deg: AmplitudeScale
+    bow_back_m: AmplitudeScale
     bow_head_deg: AmplitudeScale
     bow_seated_share: NotNegative
     look_up_deg: AmplitudeScale

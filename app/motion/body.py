@@ -377,15 +377,19 @@ def body_motion(
     total.forward(NECK_SHARES, 0.5 * look.head_pitch_rad)
     total.forward(TRUNK_SHARES, deg(body.bell.lowered_trunk_deg) * lowered)
 
+    feet = feet_moved(levels.feet, body, parameters.amplitude, acting.footwork, steps=steps)
+    hips_forward_rad, hips_ahead_m = angles.pelvis, _ahead_m(levels, sizes, acting, feet, times_s)
     shoulders, elbows = deg(body.breath.shoulder_lift_deg) * inhaled, deg(body.breath.elbow_out_deg) * inhaled
     if levels.concert is not None:
-        beside = beside_playing(levels.concert, body.concert, parameters.amplitude, acting.gestures, seated)
+        beside = beside_playing(
+            levels.concert, body.concert, parameters.amplitude, acting.gestures, seated or not steps
+        )
         total.forward(TRUNK_SHARES, beside.trunk_rad)
         total.forward(NECK_SHARES, beside.neck_rad)
         total.turn(TRUNK_SHARES, body.concert.look_trunk_share * lowered * 0.5 * look.head_yaw_rad)
         lowered = lowered * (1.0 - beside.up_share)
+        hips_forward_rad, hips_ahead_m = hips_forward_rad + beside.hips_rad, hips_ahead_m - beside.back_m
         shoulders, elbows = shoulders + beside.shoulders_rad, elbows + beside.elbows_rad
-    feet = feet_moved(levels.feet, body, parameters.amplitude, acting.footwork, steps=steps)
     forward_rad, left_rad, turn_rad = total.all()
     held = with_gestures(levels.held, levels.gestured, parameters.amplitude, acting.gestures)
     hold_body(held, body, forward_rad, left_rad, turn_rad)
@@ -404,11 +408,11 @@ def body_motion(
         left_rad=left_rad,
         turn_rad=turn_rad,
         hips_side_m=_aside_m(levels, sizes, acting, steps, times_s),
-        hips_ahead_m=_ahead_m(levels, sizes, acting, feet, times_s),
+        hips_ahead_m=hips_ahead_m,
         hips_bob_m=np.maximum(down, 0.0) * sizes.of(sway.bob_m),
         hips_roll_rad=angles.hips_roll_rad,
         hips_turn_rad=angles.hips_turn_rad,
-        hips_forward_rad=angles.pelvis,
+        hips_forward_rad=hips_forward_rad,
         # Knees give way on an accent, in a nod, and as they take the weight.
         knee_rad=np.maximum(down, -0.3) * sizes.rad(sway.knee_deg) + dip * sizes.rad(body.cue.knee_deg) + giving,
         bell_rad=0.5 * bell_up,

@@ -36,9 +36,11 @@ class ConcertSamples:
 
 @dataclass(frozen=True)
 class Beside:
-    """What is added to the body, each (F,) float64: trunk and neck forwards, shoulders up, elbows out, and how much of
-    the lowered instrument's way it comes up."""
+    """What is added to the body, each (F,) float64: hips, trunk and neck forwards, hips back, shoulders up, elbows out,
+    and how much of the lowered instrument's way it comes up."""
 
+    hips_rad: FloatArray
+    back_m: FloatArray
     trunk_rad: FloatArray
     neck_rad: FloatArray
     shoulders_rad: FloatArray
@@ -53,7 +55,10 @@ def beside_playing(done: ConcertSamples, sizes: ConcertMotion, amplitude: float,
         return amount * float(np.deg2rad(at_amplitude(scale, amplitude)))
 
     bow = done.bow * (sizes.bow_seated_share if seated else 1.0)
+    stands = 0.0 if seated else min(amount, 1.5)
     return Beside(
+        hips_rad=done.bow * stands * float(np.deg2rad(at_amplitude(sizes.bow_hips_deg, amplitude))),
+        back_m=done.bow * stands * at_amplitude(sizes.bow_back_m, amplitude),
         trunk_rad=bow * min(rad(sizes.bow_trunk_deg), MOST_BOW_RAD),
         neck_rad=bow * min(rad(sizes.bow_head_deg), 0.5 * MOST_BOW_RAD)
         + done.count * rad(sizes.count_head_deg)

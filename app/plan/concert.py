@@ -23,11 +23,13 @@ from app.score.model import Note
 LONG_REST_S: Final = 8.0
 """In a shorter rest there is time to lower the instrument, and no more."""
 SETTLE_S: Final = 1.3
-SETTLE_CHANCE: Final = 0.7
+SETTLE_CHANCE: Final = 0.8
+AGAIN_CHANCE: Final = 0.3
+"""Instead of a further look the hands settle again."""
 LOOK_S: Final = (2.2, 3.6)
-LOOK_EVERY_S: Final = 6.0
+LOOK_EVERY_S: Final = 3.5
 """About so much time lies between two looks about ..."""
-MOST_LOOKS: Final = 6
+MOST_LOOKS: Final = 8
 """... and no one does it more often in one rest."""
 COUNT_BARS: Final = 2
 COUNT_LEAST_BEATS: Final = 3
@@ -86,14 +88,13 @@ def _rest(
         if start_s + SETTLE_S <= last_s:
             free_s = start_s + SETTLE_S
             events.append(_event("settle_grip", note_id, start_s, free_s, 1.0, piece, said))
-    until_s = last_s
     if seeds.chance_at("count", place) < COUNT_CHANCE:
         counted = _counted(free_s, last_s, piece, seeds.chance_at("count from", place))
         if counted is not None:
-            until_s, end_s, beats = counted
+            start_s, end_s, beats = counted
             amount = round(0.5 + 0.5 * seeds.chance_at("count size", place), 4)
-            events.append(_event("count", note_id, until_s, end_s, amount, piece, said | {"beats": beats}))
-    return events + _looks(place, (free_s, until_s), piece, seeds, said)
+            events.append(_event("count", note_id, start_s, end_s, amount, piece, said | {"beats": beats}))
+    return events + _looks(place, (free_s, last_s), piece, seeds, said)
 
 
 def _counted(first_s: float, last_s: float, piece: Piece, later: float) -> tuple[float, float, int] | None:
@@ -126,9 +127,13 @@ def _looks(
         start_s = free_s + 0.3 + 1.2 * seeds.chance_at(f"look at {number}", place)
         if start_s + lasts_s > last_s:
             break
-        amount = round(0.5 + 0.5 * seeds.chance_at(f"look to {number}", place), 4)
+        amount = round(0.6 + 0.4 * seeds.chance_at(f"look to {number}", place), 4)
         name = f"@{round(piece.clock.ticks(start_s))}"
-        events.append(_event("look_about", name, start_s, start_s + lasts_s, amount, piece, said))
+        if number and seeds.chance_at(f"settle again {number}", place) < AGAIN_CHANCE:
+            lasts_s = SETTLE_S
+            events.append(_event("settle_grip", name, start_s, start_s + lasts_s, amount, piece, said))
+        else:
+            events.append(_event("look_about", name, start_s, start_s + lasts_s, amount, piece, said))
         free_s = start_s + lasts_s + LOOK_EVERY_S * (0.4 + seeds.chance_at(f"look again {number}", place))
     return events
 

@@ -17,6 +17,7 @@ FloatArray = npt.NDArray[np.float64]
 
 HALVINGS: Final = 40
 """After so many the place on a segment is known to the last bits that matter."""
+THIRD, EVEN = 1.0 / 3.0, 1e-9
 COLUMNS: Final = 9
 """Of a row: what `CurveSegment` has, in its order."""
 
@@ -57,7 +58,12 @@ def sampled_rows(table: FloatArray, times_s: FloatArray) -> FloatArray:
     if free.any():
         some = chosen[free]
         span_s = length_s[free]
-        place = _place(phase[free], (some[:, 4] - some[:, 0]) / span_s, (some[:, 6] - some[:, 0]) / span_s)
+        leave, arrive = (some[:, 4] - some[:, 0]) / span_s, (some[:, 6] - some[:, 0]) / span_s
+        place = phase[free]
+        # With handles at thirds of the way, as automatic ones are, a curve goes on evenly.
+        uneven = (np.abs(leave - THIRD) > EVEN) | (np.abs(arrive - 2.0 * THIRD) > EVEN)
+        if uneven.any():
+            place[uneven] = _place(place[uneven], leave[uneven], arrive[uneven])
         values[free] = _cubic(place, some[:, 2], some[:, 5], some[:, 7], some[:, 3])
     result[inside] = values
     return result

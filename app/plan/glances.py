@@ -35,7 +35,7 @@ LOOK_S: Final = (0.6, 0.95)
 """... for this time."""
 LEAST_S: Final = 0.5
 """A shorter glance is none."""
-SIDE_RAD: Final = (0.45, 0.95)
+SIDE_RAD: Final = (0.5, 1.0)
 
 
 class StagePlace(msgspec.Struct, frozen=True):
