@@ -21,7 +21,7 @@ from app.motion.concert import CONCERT_KINDS, Concert, ConcertSamples, beside_pl
 from app.motion.curve import Curve, Envelopes, FloatArray, moves
 from app.motion.feet import Feet, feet_moved
 from app.motion.follow import follow, path
-from app.motion.gaze import Look
+from app.motion.gaze import Look, with_instrument
 from app.motion.gestured import Gestured, Sums, with_gestures
 from app.motion.holding import held_still, holds_of
 from app.motion.lowering import lowering
@@ -347,7 +347,7 @@ def body_motion(
     inhaled, lean = levels.full, levels.leaning
     dip, lift = acting.cue * levels.dip, acting.cue * levels.lift
     frames, lowered, seated = len(times_s), levels.lowered, posture.seat_height_shank > 0.0
-    total = Sum(frames)
+    look, total = with_instrument(look, lowered), Sum(frames)
     aside_rad = _held(total, posture, lowered)
     angles = Angles.of(
         Part(levels.sway, acting.sway), Part(levels.lean, acting.phrase), Part(levels.accent, acting.phrase),

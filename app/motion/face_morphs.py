@@ -138,7 +138,8 @@ def _lips(
     times_s: FloatArray,
 ) -> list[Driver]:
     """The embouchure, and what it does within notes."""
-    alive = sizes.lips * formed
+    # In a breath the upper lip stays where the mouthpiece is.
+    alive = sizes.lips * formed * np.square(1.0 - face.mouth_open)
     wanders = 1.0 + TIRED_WANDERS * face.exertion.tired
     given = sizes.lips * embouchure.give * wandering.lips * wanders
     tension = np.clip(face.tension * (1.0 - EASES * face.eased) + given, 0.0, 1.0)

@@ -8,7 +8,7 @@ time, so that an edit changes only what is near it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -54,6 +54,8 @@ PLAYING_SHARE, RESTING_SHARE, READING_SHARE = 0.35, 0.6, 0.25
 HEAD_TURNS = 0.5
 """The head makes so much of the turn that a look lets it follow (`app.motion.body`)."""
 EYES_RAD: Final = 0.52
+PLAYING_TURN_RAD, FREE_TURN_RAD, LOW_ENOUGH = 0.2, 2.0, 0.7
+"""The head is given so much of a turn with the instrument at the lips, and more once it is nearly lowered."""
 """Eyes turn no further in the head: what is further aside comes in sight with the head."""
 
 
@@ -67,6 +69,22 @@ class Look:
     head_pitch_rad: FloatArray
     left_lid: FloatArray
     right_lid: FloatArray
+
+
+def with_instrument(look: Look, lowered: FloatArray) -> Look:
+    """The look of a head that has an instrument at its mouth: it turns little, since the hands cannot follow it far, and
+    the eyes do the rest as far as they go.
+
+    Parameters
+    ----------
+    lowered : (F,) float64
+        0 with the instrument at the lips, 1 with it lowered.
+    """
+    free = np.clip((lowered - LOW_ENOUGH) / (1.0 - LOW_ENOUGH), 0.0, 1.0)
+    most_rad = PLAYING_TURN_RAD + FREE_TURN_RAD * free * free * (3.0 - 2.0 * free)
+    turned_rad = most_rad * np.tanh(look.head_yaw_rad / most_rad)
+    eyes_rad = np.clip(look.yaw_rad - HEAD_TURNS * turned_rad, -EYES_RAD, EYES_RAD)
+    return replace(look, head_yaw_rad=turned_rad, yaw_rad=eyes_rad + HEAD_TURNS * turned_rad)
 
 
 @dataclass(frozen=True)
