@@ -32,7 +32,7 @@ from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
 from app.rig.stations import asked_together, only_at
 from instrument_maps.model import Control, InstrumentMap
-from metadata.model import Body
+from metadata.model import BREATH_MORPHS, Body
 
 MOST_BYTES = 2**22
 """Of a file; those that come with the program have a twentieth of it."""
@@ -60,6 +60,9 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
     for mesh in character.meshes:
         arrays += [mesh.positions_m, mesh.triangles, mesh.joints, mesh.weights]
         for morph in mesh.morphs:
+            if morph.name in BREATH_MORPHS:
+                # They move no hand and no lip.
+                continue
             digest.update(morph.name.encode())
             arrays += [morph.vertices, morph.deltas_m]
     for name, landmark in sorted(character.landmarks.items()):

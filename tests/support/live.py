@@ -78,6 +78,11 @@ class Played:
         """As of `PerformanceCurves`: none, for no one knows beforehand where they are asked to be."""
         return {}
 
+    def ankles_m(self, times_s: npt.NDArray[np.float64]) -> dict[str, npt.NDArray[np.float64]]:
+        """As of `PerformanceCurves`: the feet of a live player stay."""
+        place = self.playing.player.place
+        return {side: np.tile(ankle_m, (len(times_s), 1)) for side, ankle_m in place.ankles_m.items()}
+
     def placed(self, times_s: npt.NDArray[np.float64]) -> dict[str, Placed]:
         """Where the fingers were."""
         frames = np.round((times_s - self.motion.first_frame_s) * FPS).astype(int)
