@@ -72,7 +72,7 @@ class Look:
 
 
 def with_instrument(look: Look, lowered: FloatArray) -> Look:
-    """The look of a head that has an instrument at its mouth: it turns little, since the hands cannot follow it far, and
+    """The look of a head with an instrument at its mouth: it turns little, since the hands cannot follow it far, and
     the eyes do the rest as far as they go.
 
     Parameters

@@ -317,8 +317,18 @@ class Seeds(msgspec.Struct, frozen=True):
         digest.update(b"%d" % tick)
         return share_of(digest.digest())
 
-    def chances_at(self, purpose: str, ticks: IntArray, places: IntArray | None = None) -> FloatArray:
-        """The same at many places, (N,) float64, drawn for ``places`` (N,) in their stead where these are given."""
+    def chances_at(
+        self, purpose: str, ticks: IntArray, places: IntArray | None = None, ends: IntArray | None = None
+    ) -> FloatArray:
+        """The same at many places, (N,) float64.
+
+        Parameters
+        ----------
+        places : (N,) int64, optional
+            Drawn for in the stead of ``ticks``, but where chances fall differently.
+        ends : (N,) int64, optional
+            Up to where each has consequences: chances fall differently where these lie within the span too.
+        """
         head = begun((*self.names, purpose))
         digests = []
         for place in (ticks if places is None else places).tolist():
@@ -326,7 +336,8 @@ class Seeds(msgspec.Struct, frozen=True):
             digest.update(b"%d" % place)
             digests.append(digest.digest())
         shares: FloatArray = np.frombuffer(b"".join(digests), ">u8") / 2.0**64
-        for start_tick, end_tick, _ in self.varied:
-            for place in np.flatnonzero((ticks >= start_tick) & (ticks < end_tick)).tolist():
-                shares[place] = self.chance_at(purpose, int(ticks[place]))
+        last = ticks + 1 if ends is None else ends
+        for start_tick, end_tick, seed in self.varied:
+            for place in np.flatnonzero((ticks >= start_tick) & (last <= end_tick)).tolist():
+                shares[place] = chance(*self.names, "varied", seed, purpose, int(ticks[place]))
         return shares

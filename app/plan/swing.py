@@ -24,6 +24,8 @@ RESTING = 0.35
 """Size of the sway while not playing."""
 BLOCK = 4
 """Swings are chosen for so many of the shortest at once."""
+LEAST_SIZE = 0.75
+"""Each of the shortest is smaller than chosen by up to this factor, so that no two are alike."""
 FORMS: tuple[tuple[int, ...], ...] = ((4,), (2, 2), (2, 1, 1), (1, 1, 2), (1, 2, 1), (1, 1, 1, 1))
 """How a block is divided ..."""
 CALM, LIVELY = (0.34, 0.36, 0.1, 0.1, 0.08, 0.02), (0.06, 0.34, 0.18, 0.16, 0.14, 0.12)
@@ -131,7 +133,7 @@ def swings_of(
     places = stirring(times, frame, every_s)
     places = places[(every_s[places + 1] > frame.first_frame_s) & (every_s[places] < frame.end_s)]
     ticks, ends, starts_s, ends_s = every_tick[places], every_tick[places + 1], every_s[places], every_s[places + 1]
-    amounts, lasts = _shaped(places - origin, ticks, dynamics.at(starts_s), seeds, stillness)
+    amounts, lasts = _shaped(places - origin, ticks, ends, dynamics.at(starts_s), seeds, stillness)
     playing = _sounding_share(times, starts_s, ends_s)
     amounts = amounts * (RESTING + (1.0 - RESTING) * playing)
     amounts = grown(amounts, dynamics.at((starts_s + ends_s) / 2.0))
@@ -139,7 +141,7 @@ def swings_of(
 
 
 def _shaped(
-    units: IntArray, ticks: IntArray, vigours: FloatArray, seeds: Seeds, stillness: float
+    units: IntArray, ticks: IntArray, ends: IntArray, vigours: FloatArray, seeds: Seeds, stillness: float
 ) -> tuple[FloatArray, IntArray]:
     """Where the trunk is at the end of each unit, and how many units the swing has that it is part of (0: still).
 
@@ -150,27 +152,32 @@ def _shaped(
     firsts = np.concatenate(([True], np.diff(blocks) != 0))[: len(blocks)]
     own = np.cumsum(firsts) - 1
     block, at = blocks[firsts], ticks[firsts]
+    until = ends[np.append(np.flatnonzero(firsts)[1:], len(ends)) - 1] if len(ends) else ends
     flip = 1.0 if seeds.chance("side") < 0.5 else -1.0
 
-    def ended(number: IntArray, begun: IntArray) -> FloatArray:
-        """Where blocks end: mostly on the other side than the one before."""
-        size = 0.35 + 0.65 * seeds.chances_at("sway", begun, number)
-        stays = seeds.chances_at("sway held", begun, number) < 0.2
+    def ended(number: IntArray, begun: IntArray, reach: IntArray) -> FloatArray:
+        """Where blocks end: mostly on the other side than the one before. The block after it begins there, to whose end
+        it matters (``reach``)."""
+        size = 0.35 + 0.65 * seeds.chances_at("sway", begun, number, reach)
+        stays = seeds.chances_at("sway held", begun, number, reach) < 0.2
         side = np.where((number % 2 == 0) ^ stays, flip, -flip)
         return np.asarray(side * size)
 
-    one_before = np.where(np.diff(block, prepend=-2) == 1, np.roll(at, 1), at)
-    before, after = ended(block - 1, one_before), ended(block, at)
+    follows = np.concatenate(([False], np.diff(block) == 1))[: len(block)]
+    one_before = np.where(follows, np.roll(at, 1), at)
+    one_after = np.where(np.append(follows[1:], False)[: len(until)], np.roll(until, -1), until)
+    before, after = ended(block - 1, one_before, until), ended(block, at, one_after)
     lively = np.clip((vigours[firsts] - SOFT) / (LOUD - SOFT), 0.0, 1.0)
     often = np.multiply.outer(1.0 - lively, CALM) + np.multiply.outer(lively, LIVELY)
-    drawn = seeds.chances_at("sway form", at, block)
+    drawn = seeds.chances_at("sway form", at, block, until)
     form = np.minimum((np.cumsum(often, axis=1) < drawn[:, None]).sum(axis=1), len(FORMS) - 1)
-    still = seeds.chances_at("still", at, block) < stillness
-    between = 0.4 + 0.6 * seeds.chances_at("sway between", at, block)
+    still = seeds.chances_at("still", at, block, until) < stillness
+    between = 0.4 + 0.6 * seeds.chances_at("sway between", at, block, until)
     tables = _turns()
     share_before, share_after, share_between, parts = (table[form[own], inner] for table in tables)
     turned = between * np.where(before >= 0.0, -1.0, 1.0)
     amounts = share_before * before[own] + share_after * after[own] + share_between * turned[own]
+    amounts *= LEAST_SIZE + (1.0 - LEAST_SIZE) * seeds.chances_at("sway size", ticks, ends=ends)
     held = still[own]
     amounts = np.where(held & (inner < BLOCK - 1), before[own], np.where(held, after[own], amounts))
     return np.asarray(amounts), np.where(held & (inner < BLOCK - 1), 0, parts).astype(np.int64)
