@@ -14,7 +14,7 @@ from app.rig.character_library import bundled_characters, character_named
 from app.rig.skeleton import forward, rest_positions
 from app.rig.skinning import patch
 from metadata.load import load_skeleton
-from metadata.model import REQUIRED_JOINTS
+from metadata.model import ARKIT_MORPHS, BREATH_MORPHS, REQUIRED_JOINTS
 from tests.support.deformed import deform
 
 STILL = np.array([0.0, 0.0, 0.0, 1.0])
@@ -28,7 +28,8 @@ def test_a_bundled_character_has_what_playing_needs(id: str) -> None:
     assert all(0 <= parent < joint for joint, parent in enumerate(skeleton.parents) if joint)
     assert {joint.name for joint in load_skeleton().joints if joint.required} <= set(skeleton.names)
     body = next(mesh for mesh in character.meshes if mesh.name == "body")
-    assert len(body.morphs) == 52
+    assert {morph.name for morph in body.morphs} - set(BREATH_MORPHS) == set(ARKIT_MORPHS)
+    assert set(BREATH_MORPHS) <= {morph.name for mesh in character.meshes for morph in mesh.morphs}
     for mesh in character.meshes:
         np.testing.assert_allclose(mesh.weights.sum(axis=1), 1.0, atol=1e-5)
         assert mesh.triangles.max() < len(mesh.positions_m)
