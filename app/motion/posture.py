@@ -118,7 +118,8 @@ def footing(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: 
     for angle, pivot_m in ((heel, place.balls_m[side]), (None if toes is None else -toes, place.heels_m[side])):
         if angle is not None:
             turned = quaternion.multiply(foot, quaternion.from_axis_angle(X_AXIS, angle))
-            ankle_m = ankle_m + quaternion.rotate(foot, pivot_m) - quaternion.rotate(turned, pivot_m)
+            # The difference first: a foot that stands is then where it stands to the bit.
+            ankle_m = ankle_m + (quaternion.rotate(foot, pivot_m) - quaternion.rotate(turned, pivot_m))
             foot = turned
     if heel is not None and side in place.toes:
         bent = quaternion.from_axis_angle(X_AXIS, -heel)

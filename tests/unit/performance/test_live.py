@@ -62,8 +62,8 @@ def test_what_is_looked_at_is_made_first(performance: Performance) -> None:
     [
         ({"title": "Another"}, set(), False),
         ({"fps": Fraction(24)}, set(), True),
-        ({"seed": 5}, {"gestures", "problems"}, True),
-        ({"preroll_beats": 6.0}, {"breaths", "gestures", "expressions", "problems"}, True),
+        ({"seed": 5}, {"gestures", "glances", "problems"}, True),
+        ({"preroll_beats": 9.0}, {"breaths", "gestures", "glances", "expressions", "problems"}, True),
     ],
 )
 def test_a_setting_of_the_piece_costs_what_it_changes(

@@ -60,7 +60,8 @@ def test_every_target_has_one_handle_on_the_player() -> None:
 def test_the_bell_goes_up_with_the_pointer_from_every_side(row: int, side_deg: float) -> None:
     angles = dragged(handle("bell", row), from_side(side_deg, row), 0.0, -30.0, HEIGHT, lean=False)
     assert 1.0 < angles["up_deg"] < 40.0
-    assert abs(angles["left_deg"]) < 0.6 * angles["up_deg"]
+    # Seen from 60 degrees aside of a swaying player, up is a little aside too.
+    assert abs(angles["left_deg"]) < 0.8 * angles["up_deg"]
 
 
 @pytest.mark.parametrize("side_deg", range(-180, 180, 15))
