@@ -54,9 +54,9 @@ PLAYING_SHARE, RESTING_SHARE, READING_SHARE = 0.35, 0.6, 0.25
 HEAD_TURNS = 0.5
 """The head makes so much of the turn that a look lets it follow (`app.motion.body`)."""
 EYES_RAD: Final = 0.52
+"""Eyes turn no further in the head: what is further aside comes in sight with the head."""
 PLAYING_TURN_RAD, FREE_TURN_RAD, LOW_ENOUGH = 0.2, 2.0, 0.7
 """The head is given so much of a turn with the instrument at the lips, and more once it is nearly lowered."""
-"""Eyes turn no further in the head: what is further aside comes in sight with the head."""
 
 
 @dataclass(frozen=True)

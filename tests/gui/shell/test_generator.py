@@ -68,7 +68,7 @@ def test_memory_is_returned_once_much_was_made(session: Session, qtbot: QtBot, m
         threads.append(threading.current_thread())
 
     monkeypatch.setattr(module, "give_back", counting)
-    monkeypatch.setattr(module, "GIVE_BACK_CHUNKS", 5)
+    monkeypatch.setattr(module, "GIVE_BACK_CHUNKS", 10)
     made = Generator(session, session.tasks)
     try:
         qtbot.waitUntil(lambda: bool(returned))

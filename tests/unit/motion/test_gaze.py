@@ -7,7 +7,18 @@ import numpy as np
 import pytest
 
 from app.motion.blinks import BLINK_S, ENTRY_GUARD_S
-from app.motion.gaze import HEAD_TURNS, LINE_RAD, MUSIC_PITCH_RAD, Gaze, Watching, plan_gaze
+from app.motion.gaze import (
+    EYES_RAD,
+    HEAD_TURNS,
+    LINE_RAD,
+    MUSIC_PITCH_RAD,
+    PLAYING_TURN_RAD,
+    Gaze,
+    Look,
+    Watching,
+    plan_gaze,
+    with_instrument,
+)
 from app.motion.silences import Silences, holds
 from app.plan.model import GlanceEvent, PlayerPlan
 from tests.unit.motion.events import breath, fingerings, plan_of
@@ -213,3 +224,15 @@ def test_a_plan_without_notes_is_looked_through_too() -> None:
     frame = plan().time_frame
     made = PlayerPlan("player", frame, (), (), (), (), (), (), (), ())
     assert len(plan_gaze(made, Watching()).sample(TIMES_S).yaw_rad) == len(TIMES_S)
+
+
+def test_a_head_with_an_instrument_at_its_mouth_turns_little() -> None:
+    yaw = np.linspace(-1.4, 1.4, 57)
+    still = np.zeros(len(yaw))
+    look = Look(yaw_rad=yaw, pitch_rad=still, head_yaw_rad=yaw, head_pitch_rad=still, left_lid=still, right_lid=still)
+    playing, lowered = (with_instrument(look, np.full(len(yaw), low)) for low in (0.0, 1.0))
+    assert np.abs(playing.head_yaw_rad).max() < PLAYING_TURN_RAD
+    assert np.all(np.diff(playing.head_yaw_rad) > 0.0)
+    assert np.abs(lowered.head_yaw_rad - yaw).max() < 0.2
+    for held in (playing, lowered):
+        assert np.abs(held.yaw_rad - HEAD_TURNS * held.head_yaw_rad).max() <= EYES_RAD + 1e-12
