@@ -27,6 +27,7 @@ from tests.gui.shell.conftest import Studio, trigger
 from tests.unit.cli.test_main import ROOT
 from widgets.dialogs.character_draft import Draft
 from widgets.dialogs.instrument_map import InstrumentsDialog
+from widgets.dialogs.metadata_differences import MetadataDifferencesDialog
 
 FIGURE = ROOT / "tests" / "data" / "characters" / "toddler_vrm1.vrm"
 
@@ -52,6 +53,7 @@ def show_choreography(program: Program) -> None:
 OPENED: dict[str, Open] = {
     "AboutDialog": command("application.about"),
     "LicencesDialog": lambda program: LicencesDialog(program.window).open(),
+    "MetadataDifferencesDialog": lambda program: MetadataDifferencesDialog((), "x", program.window).open(),
     "PieceSettingsDialog": command("file.piece_settings"),
     "PreferencesDialog": command("application.preferences"),
     "InstrumentsDialog": command("application.instruments"),
