@@ -46,7 +46,7 @@ LEAST_DRAWN = 0.4
 """However soon breaths follow each other, each has this much room: no breath goes unseen, also where a bell sinks."""
 BREATH_LEAD_S = 0.03
 """The inhalation is complete this long before the breath's end."""
-LIFT_SHARE = 0.9
+LIFT_SHARE = 0.7
 STEP_IN_HIPS = 0.3
 """Hips go along with a foot that is put ahead."""
 _NONE_AT_REST = (*("protraction_rad", "elbow_held_rad", "bell_held_rad", "hips_danced", "elbows_late_rad", "feet"),)
