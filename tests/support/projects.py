@@ -8,6 +8,7 @@ import msgspec
 from hypothesis import strategies as st
 
 from app.errors import Message
+from app.plan.additive_curve import CHANNELS, INTERPOLATIONS, AdditiveCurve, CurveKey, Tangent
 from app.plan.corrections import Correction
 from app.plan.parameters import PARAMETERS, Bounds, PlayerParameters
 from app.project import limits
@@ -149,9 +150,40 @@ def players(draw: st.DrawFn, id: str, name: str, part_ids: list[str]) -> Player:
 
 
 @st.composite
+def additive_curves(draw: st.DrawFn) -> AdditiveCurve:
+    """A curve on any channel, with any handles."""
+    channel = draw(st.sampled_from([*CHANNELS]))
+    most = CHANNELS[channel].most
+    forward = st.integers(0, 100_000)
+    handles = st.none() | st.builds(Tangent, forward, st.floats(-10.0 * most, 10.0 * most))
+    keys = [
+        CurveKey(
+            tick,
+            draw(st.floats(-most, most)),
+            draw(st.sampled_from(INTERPOLATIONS)),
+            draw(handles),
+            draw(handles),
+        )
+        for tick in sorted(draw(st.sets(ticks, min_size=1, max_size=3)))
+    ]
+    return AdditiveCurve(
+        draw(texts),
+        channel,
+        tuple(keys),
+        draw(forward),
+        draw(forward),
+        draw(fractions01),
+        draw(st.booleans()),
+        draw(st.text("curve \u66f2", max_size=6)),
+    )
+
+
+@st.composite
 def corrections(draw: st.DrawFn) -> Correction:
     """A correction of any kind there is, also of kinds that come later: the fields say what they hold."""
     struct = draw(st.sampled_from(Correction.__args__))
+    if struct is AdditiveCurve:
+        return draw(additive_curves())
     values = {}
     for field in msgspec.structs.fields(struct):
         if field.type in (int, int | None, "int", "int | None"):
