@@ -1,4 +1,4 @@
-"""What those do who come in with somebody's cue: a smaller nod of their own, a little later.
+"""What players do who come in with another player's cue: a smaller nod, a little later.
 
 Messages: ``gesture.nod``.
 """

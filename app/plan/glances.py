@@ -39,7 +39,7 @@ SIDE_RAD: Final = (0.5, 1.0)
 
 
 class StagePlace(msgspec.Struct, frozen=True):
-    """Where somebody is: metres, the audience towards +Z, and the turn from +Z towards +X in radians."""
+    """Where a player is: metres, the audience towards +Z, and the turn from +Z towards +X in radians."""
 
     x_m: float
     z_m: float

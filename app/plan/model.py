@@ -197,7 +197,7 @@ ABOUT: Final = "about"
 
 
 class GlanceEvent(msgspec.Struct, frozen=True, gc=False):
-    """Eyes that leave the music for somebody.
+    """Eyes that leave the music for another player or the audience.
 
     Attributes
     ----------
