@@ -30,7 +30,7 @@ class DragKeys(Gesture):
         The key under the mouse: it is the one that goes to the grid.
     keys : frozenset of KeyRef
         All that move.
-    told : callable
+    moved : callable
         Gets the keys as they are called after each move.
     """
 
@@ -43,12 +43,12 @@ class DragKeys(Gesture):
         channel: str,
         grabbed: KeyRef,
         keys: frozenset[KeyRef],
-        told: Callable[[frozenset[KeyRef]], None],
+        moved: Callable[[frozenset[KeyRef]], None],
     ) -> None:
         super().__init__(at, either(DRAG_PX))
         self._session, self._step = session, Step(session, origin)
         self._player_id, self._channel, self._grabbed, self._keys = player_id, channel, grabbed, keys
-        self._told = told
+        self._moved = moved
 
     def follow(self, mouse: LaneMouse) -> None:
         share = FINE if mouse.shift else 1.0
@@ -68,7 +68,7 @@ class DragKeys(Gesture):
             lambda project: edit.move_keys(project, self._player_id, moved, by, up),
         )
         if done:
-            self._told(frozenset(KeyRef(key.name, key.tick + by) for key in self._keys))
+            self._moved(frozenset(KeyRef(key.name, key.tick + by) for key in self._keys))
 
     def finish(self, mouse: LaneMouse) -> None:
         self._step.end()
@@ -76,7 +76,7 @@ class DragKeys(Gesture):
     def cancel(self) -> None:
         if self.began:
             self._step.take_back()
-            self._told(self._keys)
+            self._moved(self._keys)
 
 
 class DragHandle(Gesture):
