@@ -386,7 +386,7 @@ def _takers(leader: int, players: tuple[tuple[int, int], ...], lines: tuple[Mono
 
 
 def _entering(tick: int, all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[tuple[int, int], ...]:
-    """Who begins to play with a cue that is given by hand: those who were silent before, or else all."""
+    """Players who begin with a cue placed by hand: those who were silent before, or else all."""
     found = _coming_in([(line, times) for line, times in enumerate(all_times)], tick, _together(piece, tick))
     least = _beat(piece, tick) / 2
     rested = tuple((line, index) for line, index in found if all_times[line].silence_tick[index] >= least)
