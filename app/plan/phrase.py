@@ -167,7 +167,9 @@ def accents(
     longer = np.minimum(times.duration_s[candidates] / np.maximum(beat_s[candidates], 1e-6), 3.0) / 3.0
     up = np.diff(times.pitch, prepend=times.pitch[:1])[candidates] >= 5
     chances, sizes = seeds.chances_at("accent", ticks), seeds.chances_at("accent size", ticks)
-    strength = LOUDER * dynamics.accents[candidates] + DOWNBEAT * np.isin(ticks, bars) + LONG * longer + LEAP * up
+    # Bars may be many and are in order: looked up, not compared as sets.
+    downbeat = bars[np.clip(np.searchsorted(bars, ticks), 0, len(bars) - 1)] == ticks
+    strength = LOUDER * dynamics.accents[candidates] + DOWNBEAT * downbeat + LONG * longer + LEAP * up
     still = swings.still_at(ticks)
     at_s = times.onset_s[candidates]
     nodded = np.zeros(len(at_s), np.bool_)
