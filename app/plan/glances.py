@@ -7,7 +7,9 @@ seen from the corner of the eye.
 
 from __future__ import annotations
 
+import itertools
 import math
+from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from typing import Final
 
@@ -64,7 +66,9 @@ def glances_of(
     places : mapping of str to StagePlace
         Where every player stands; without a place of the player's own or the other's no one is looked at.
     """
-    lowered = [(event.start_s, event.end_s) for event in gestures if event.kind == "lower_instrument"]
+    spans = sorted((event.start_s, event.end_s) for event in gestures if event.kind == "lower_instrument")
+    starts_s = [start_s for start_s, _ in spans]
+    latest_ends_s = list(itertools.accumulate((end_s for _, end_s in spans), max))
     found: list[GlanceEvent] = []
     for cue in cues:
         if cue.player_id == player_id:
@@ -77,7 +81,7 @@ def glances_of(
         elif event.kind == "look_up" and player_id in places:
             yaw_rad = _wrapped(-places[player_id].turn_rad)
             found.append(_glance(f"glance:{event.id}", AUDIENCE, event.start_s, event.end_s, yaw_rad))
-    return tuple(_in_turn([_turned(one, lowered) for one in found]))
+    return tuple(_in_turn([_turned(one, starts_s, latest_ends_s) for one in found]))
 
 
 def _to_giver(cue: CueEvent, player_id: str, places: Mapping[str, StagePlace], seeds: Seeds) -> list[GlanceEvent]:
@@ -137,9 +141,16 @@ def _glance(name: str, at: str, start_s: float, end_s: float, yaw_rad: float) ->
     return GlanceEvent(name, at, start_s, end_s, yaw_rad, LEVEL_RAD, PLAYING_HEAD)
 
 
-def _turned(glance: GlanceEvent, lowered: Sequence[tuple[float, float]]) -> GlanceEvent:
-    """With as much of the head as is free, and as far as eyes and head go."""
-    free = any(start_s + 0.5 <= glance.start_s and glance.end_s <= end_s - 0.5 for start_s, end_s in lowered)
+def _turned(glance: GlanceEvent, starts_s: list[float], latest_ends_s: list[float]) -> GlanceEvent:
+    """With as much of the head as is free, and as far as eyes and head go.
+
+    Parameters
+    ----------
+    starts_s, latest_ends_s : list of float
+        Where the instrument is lowered: starts in order, and the latest end of those up to each.
+    """
+    begun = bisect_right(starts_s, glance.start_s - 0.5)
+    free = begun > 0 and latest_ends_s[begun - 1] >= glance.end_s + 0.5
     share = FREE_HEAD if free else PLAYING_HEAD
     most_rad = min(EYES_RAD / (1.0 - share), MOST_RAD)
     yaw_rad = min(max(glance.yaw_rad, -most_rad), most_rad)
