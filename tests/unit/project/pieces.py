@@ -15,6 +15,7 @@ from app.plan.corrections import (
     ChangeExpression,
     ChangeGesture,
     PinFingering,
+    PlayStyle,
     PoseCorrection,
     RemoveEvent,
     SetBreath,
@@ -123,6 +124,7 @@ def full_project(folder: str = "/music") -> Project:
             ),
             AdditiveCurve("own-2", "face.browInnerUp", (CurveKey(0, 0.5),)),
             Vary("varied-1", 0, 480, 2**62 + 1),
+            PlayStyle("own-3", "soloist", 0, 960, 240, 120),
         ),
         trombone.id: (PinFingering("2:1", "1"),),
     }
