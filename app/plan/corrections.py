@@ -73,13 +73,14 @@ class SetCue(_Correction, frozen=True, tag="set_cue"):
     """Let this player give a cue to the entry of a note; ``beats`` is how long before it the preparatory beat is.
 
     ``note_id`` is ``"@"`` and a tick where the player gives an entry without playing in it. ``added`` and
-    ``moved_from`` as in `SetBreath`.
+    ``moved_from`` as in `SetBreath`. ``takers`` are ids of the players it brings in; None: who comes in there.
     """
 
     note_id: str
     beats: float = 1.0
     added: bool = False
     moved_from: str | None = None
+    takers: tuple[str, ...] | None = None
 
     @property
     def tick(self) -> int | None:
@@ -185,6 +186,18 @@ class Vary(_Correction, frozen=True, tag="vary"):
     seed: int
 
 
+class PlayStyle(_Correction, frozen=True, tag="play_style"):
+    """Play these bars in another style. ``name`` distinguishes them; it comes and goes within the region, in so many
+    ticks."""
+
+    name: str
+    style: str
+    start_tick: int
+    end_tick: int
+    fade_in_ticks: int = 0
+    fade_out_ticks: int = 0
+
+
 Correction: TypeAlias = (
     PinFingering
     | RemoveEvent
@@ -198,6 +211,7 @@ Correction: TypeAlias = (
     | PoseCorrection
     | AdditiveCurve
     | Vary
+    | PlayStyle
 )
 
 E = TypeVar("E", BreathEvent, CueEvent, GestureEvent, ExpressionEvent)
@@ -246,7 +260,9 @@ def _is_empty(item: Correction) -> bool:
         return item.beats <= 0.0
     if isinstance(item, AdditiveCurve):
         return not item.keys or any(key.tick >= following.tick for key, following in pairwise(item.keys))
-    if isinstance(item, AddGesture | AddExpression | ChangeGesture | ChangeExpression | PoseCorrection | Vary):
+    if isinstance(
+        item, AddGesture | AddExpression | ChangeGesture | ChangeExpression | PoseCorrection | Vary | PlayStyle
+    ):
         return item.start_tick is not None and item.end_tick is not None and item.start_tick >= item.end_tick
     return False
 
@@ -260,7 +276,7 @@ def anchor(item: Correction) -> str:
     """What a correction is tied to: a note, an event, or the name the animator gave."""
     if isinstance(item, PinFingering | SetBreath | SetCue | SetEmbouchure):
         return item.note_id
-    if isinstance(item, AddGesture | AddExpression | PoseCorrection | AdditiveCurve | Vary):
+    if isinstance(item, AddGesture | AddExpression | PoseCorrection | AdditiveCurve | Vary | PlayStyle):
         return item.name
     return item.event_id
 

@@ -23,6 +23,7 @@ from app.plan.corrections import (
     ChangeGesture,
     Correction,
     PinFingering,
+    PlayStyle,
     PoseCorrection,
     RemoveEvent,
     SetBreath,
@@ -39,18 +40,20 @@ from app.plan.cue import entries, plan_cues
 from app.plan.dynamics import dynamics_of
 from app.plan.embouchure import plan_embouchures, plan_tongues
 from app.plan.ending import Ending, ending_of
-from app.plan.expression import SMILE_ID, plan_expressions
+from app.plan.expression import SMILE_ID, all_shown, neutral_face
 from app.plan.fingering import plan_fingerings
 from app.plan.gesture import Pulse, plan_gestures, pulse
 from app.plan.glances import StagePlace, glances_of
 from app.plan.line import LineTimes, MonophonicPart, Piece, Seeds, note_times, without_sound
 from app.plan.memo import Memo
 from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, Problem, TimeFrame
+from app.plan.moments import Around, plan_moments
 from app.plan.named_gestures import with_definitions
 from app.plan.parameters import restricted
 from app.plan.pose import plan_poses
 from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled, without_overruled
 from app.plan.stagger import Breathed, Shared, SharedLine, breathed_of, shared_line, shared_with
+from app.plan.styles import plan_styles
 from app.plan.together import one_at_a_time
 from app.plan.traces import plan_traces
 from app.score.model import Note
@@ -336,6 +339,10 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     embouchures = memo.step("embouchures", correct_embouchures, made_lips, by_hand)
     traces = memo.step("traces", plan_traces, notes, times, clock, instrument, lips, line.controller, envelope, by_hand)
     dynamics = memo.step("dynamics", dynamics_of, times, envelope)
+    usual, styled = acting_of(parameters), _of(corrections, PlayStyle)
+    styles, style_problems = memo.step(
+        "styles", plan_styles, styled, line.actings, usual, line.styles_known, line.name, clock
+    )
     made_gestures = plan_gestures(
         notes,
         times,
@@ -347,7 +354,8 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         given.pulse,
         dynamics,
         memo,
-        acting_of(parameters),
+        usual,
+        styles,
         given.alone,
         answered=given.answered,
         last_s=given.last_s,
@@ -362,12 +370,14 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         frame,
         instrument,
         restricted(parameters, "rules"),
+        styles,
         dynamics,
         lowered,
         seeds,
         given.rules,
         given.faces,
         given.named,
+        embouchures,
     )
     made_gestures = memo.step("gestures and rules", with_ruled, made_gestures, ruled.gestures)
     moved = _of(corrections, ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
@@ -381,22 +391,24 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     # Who corrected the smile after the last note keeps it, whatever the ending is.
     named = any(item.event_id == SMILE_ID for item in corrections if isinstance(item, ChangeExpression | RemoveEvent))
     ending = msgspec.structs.replace(given.ending, bright=True) if named else given.ending
-    made_expressions = memo.step(
-        "expressions",
-        plan_expressions,
+    at_moments = memo.step(
+        "moments",
+        plan_moments,
         notes,
         times,
-        clock,
-        instrument,
+        piece,
         frame,
-        embouchures,
-        events,
-        given.cues,
-        gestures,
-        ending,
+        instrument,
+        restricted(parameters, "rules"),
+        dynamics,
+        seeds,
+        given.rules,
         given.faces,
+        embouchures,
+        Around(events, given.cues, gestures, ending, styles),
     )
-    made_expressions = memo.step("expressions and rules", with_ruled, made_expressions, ruled.expressions)
+    neutral = memo.step("neutral", neutral_face, clock, frame, given.faces["neutral"])
+    made_expressions = memo.step("expressions", all_shown, neutral, at_moments, ruled.expressions)
     faced = _of(corrections, ChangeExpression, AddExpression, RemoveEvent, SetBreath, SetCue)
     expressions = memo.step("corrected expressions", correct_expressions, made_expressions, faced, clock)
     expressions = memo.step("expressions by hand", without_overruled, expressions)
@@ -419,7 +431,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     )
     problems = (
         *(*fingering_problems, *breaths.problems, *pose_problems, *key_problems, *given.reported, *lost),
-        *(*ruled.problems, *defined.problems),
+        *(*ruled.problems, *defined.problems, *style_problems),
     )
     plan = PlayerPlan(
         player_id=line.player_id,
@@ -436,6 +448,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         additive=additive,
         traces=traces,
         glances=glances,
+        styles=styles,
     )
     return plan, breathed_of(given.shared_line, notes, breaths.catches, events)
 

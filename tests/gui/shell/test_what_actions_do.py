@@ -551,6 +551,7 @@ CASES: dict[str, Case] = {
         edits=True,
     ),
     "file.compare_metadata": Case(lambda d: d.dialog("metadata_differences"), lambda d: has_metadata(d)),
+    "file.rules": Case(lambda d: d.dialog("rules")),
     "file.metadata_folder": Case(
         lambda d: d.seen["folder"] == d.folder and all((d.folder / folder.name).is_dir() for folder in FOLDERS),
         lambda d: own_tables(d),
@@ -652,6 +653,7 @@ CASES: dict[str, Case] = {
     "events.preparation": Case(lambda d: bool(d.made(SetBreath) or d.made(RemoveEvent)), a_breath, edits=True),
     "events.cue": Case(lambda d: bool(d.made(SetCue)), edits=True),
     "events.gesture": Case(lambda d: d.menu("gesture.sway", "gesture.bell_height")),
+    "events.style": Case(lambda d: d.menu("style_soloist")),
     "events.expression": Case(lambda d: d.menu("expression_strained")),
     "gesture.sway": gesture_case("sway"),
     "gesture.weight_shift": gesture_case("weight_shift"),
