@@ -11,7 +11,7 @@ chord: what only one of the two has (applause, a cut, a repeat) is put there ins
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Final, TypeAlias
 
@@ -62,6 +62,10 @@ _SILENT, _LOUD = 0.15, 0.4
 """Size of a frame's shape, 1 at the typical level: below the one nothing sounds, above the other something does."""
 _LOCAL_S: Final = 2.5
 """Half the width over which a beat's confidence is measured."""
+_EVEN_BEATS: Final = 4
+_USUAL_UNEVEN: Final = 0.4
+"""Natural logarithm of the tempo against that of the whole, over so many beats: 1.5 times as fast or slow."""
+_SQUEEZED: Final = -0.6
 RECOGNISED: Final = 0.3
 """Mean confidence below which it is rather a recording of another piece."""
 
@@ -119,7 +123,8 @@ def follow(
     beat_s = score.tempo_map.seconds(beat_ticks.astype(np.float64))
     recording_s = _beats(beat_s, times, found, warped)
     likely = _confidence(beat_s, recording_s, shapes, recorded, times, found)
-    missing = tuple(_ticks(score, span) for span in warped.missing)
+    squeezed = _squeezed(beat_s, _lengths(beat_s, recording_s))
+    missing = tuple(_ticks(score, span) for span in _joined((*warped.missing, *squeezed)))
     result = Following(beat_ticks, recording_s + EARLY_S, likely, missing, warped.added)
     if result.mean_confidence < RECOGNISED:
         raise AppError("audio.not_followed", percent=round(100 * result.mean_confidence))
@@ -310,8 +315,10 @@ def _beats(beat_s: Floats, times: Floats, found: Floats, warped: _Warped) -> Flo
             result[place] += float((weights**2 * aside[inside]).sum() / (weights**2).sum())
         else:
             result[place] += float(np.interp(at_s, times, aside))
-    steps = np.maximum(np.diff(result), _LEAST_GAP_S)
-    rising: Floats = np.concatenate([result[:1], result[0] + np.cumsum(steps)])
+    from sklearn.isotonic import isotonic_regression  # heavy, and only here
+
+    gaps_s = _LEAST_GAP_S * np.arange(len(result))
+    rising: Floats = isotonic_regression(result - gaps_s) + gaps_s
     return rising
 
 
@@ -339,7 +346,39 @@ def _confidence(
         onset = float(strength[first:last].mean()) if last > first else 0.0
         frame = min(max(int(at_s / CHROMA_S), 0), len(alike) - 1)
         result[place] = confidence_of(float(alike[frame]), onset)
+    uneven = np.maximum(np.abs(_lengths(beat_s, recording_s)) - _USUAL_UNEVEN, 0.0)
+    return result * np.exp(-((uneven / _USUAL_UNEVEN) ** 2))
+
+
+def _lengths(beat_s: Floats, recording_s: Floats) -> Floats:
+    """Around each beat the natural logarithm of how long beats last, against the score and the whole recording."""
+    wide = min(_EVEN_BEATS, len(beat_s) - 1)
+    lengths = (recording_s[wide:] - recording_s[:-wide]) / np.maximum(beat_s[wide:] - beat_s[:-wide], 1e-6)
+    places = np.clip(np.arange(len(beat_s)) - wide // 2, 0, len(lengths) - 1)
+    result: Floats = np.log(lengths / np.median(lengths))[places]
     return result
+
+
+def _squeezed(beat_s: Floats, lengths: Floats) -> tuple[Span, ...]:
+    """Seconds of the score that the recording hardly has time for: it leaves them out, whatever sounds there."""
+    places = np.flatnonzero(lengths < _SQUEEZED)
+    if not len(places):
+        return ()
+    breaks = np.flatnonzero(np.diff(places) > _EVEN_BEATS)
+    starts, ends = np.concatenate(([0], breaks + 1)), np.concatenate((breaks, [len(places) - 1]))
+    spans = [Span(float(beat_s[places[a]]), float(beat_s[places[b]])) for a, b in zip(starts, ends, strict=True)]
+    return tuple(span for span in spans if span.end - span.start >= _MISSING_S)
+
+
+def _joined(spans: Iterable[Span]) -> tuple[Span, ...]:
+    """In order, those that touch as one."""
+    result: list[Span] = []
+    for span in sorted(spans, key=lambda one: one.start):
+        if result and span.start <= result[-1].end + _MISSING_S:
+            result[-1] = Span(result[-1].start, max(result[-1].end, span.end))
+        else:
+            result.append(span)
+    return tuple(result)
 
 
 def _ticks(score: Score, span: Span) -> Span:

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from app.project.model import Project
     from app.score.following import Following
 
-_SURE: Final = 0.5
-"""Bars with less confidence are listed."""
 _MIDI: Final = (".mid", ".midi")
 _PROJECT: Final = ".suisou"
 
@@ -138,28 +136,10 @@ def _report(project: Project, following: Following, target: Path) -> None:
         warn(text(Message("align.bars_outside", {"first": first, "last": last})))
     for span in following.added:
         warn(text(Message("align.only_recorded", {"start_s": span.start, "end_s": span.end})))
-    for first, last, percent in doubtful_bars(project, following):
+    for first, last, percent in following.doubtful_bars(project.metre_map):
         warn(text(Message("align.doubtful", {"first": first, "last": last, "percent": percent})))
 
 
 def _second_of_bar(project: Project, following: Following, bar: int) -> float:
     tick = project.metre_map.tick_of_bar(bar)
     return float(project.score.tempo_map.seconds(float(tick)) + following.recording_s[0])
-
-
-def doubtful_bars(project: Project, following: Following) -> list[tuple[int, int, int]]:
-    """Runs of bars with little confidence: first and last bar, and the mean confidence in per cent."""
-    bars: dict[int, list[float]] = {}
-    for tick, confidence in zip(following.ticks.tolist(), following.confidence.tolist(), strict=True):
-        if not any(span.start <= tick < span.end for span in following.missing):
-            bars.setdefault(project.metre_map.bar_of_tick(tick), []).append(confidence)
-    runs: list[list[tuple[int, float]]] = []
-    for bar, values in bars.items():
-        mean = sum(values) / len(values)
-        if mean >= _SURE:
-            continue
-        if runs and runs[-1][-1][0] == bar - 1:
-            runs[-1].append((bar, mean))
-        else:
-            runs.append([(bar, mean)])
-    return [(run[0][0], run[-1][0], round(100 * sum(mean for _, mean in run) / len(run))) for run in runs]

@@ -49,6 +49,14 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the offset cannot be estimated because the audio file or the score is silent",
         "音源または楽譜が無音のため、オフセットを推定できません",
     ),
+    "audio.followed": (
+        "the beats lie where the recording has them (confidence {percent} %)",
+        "拍を録音に合わせました（信頼度 {percent} %）",
+    ),
+    "audio.followed_but": (
+        "the beats lie where the recording has them (confidence {percent} %); check bars {bars} by ear",
+        "拍を録音に合わせました（信頼度 {percent} %）。第 {bars} 小節は耳で確認してください",
+    ),
     "audio.not_followed": (
         (
             "the piece was not recognised in the recording (confidence {percent} %): check that it is a recording of "

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+from app.score.metre_map import MetreMap
+
 Floats: TypeAlias = npt.NDArray[np.float64]
 Integers: TypeAlias = npt.NDArray[np.int64]
+
+SURE: Final = 0.5
+"""Bars with less confidence are to be checked by ear."""
 
 
 @dataclass(frozen=True)
@@ -56,3 +61,19 @@ class Following:
         """The same in a recording that begins so much earlier."""
         added = tuple(Span(span.start + seconds, span.end + seconds) for span in self.added)
         return replace(self, recording_s=self.recording_s + seconds, added=added)
+
+    def doubtful_bars(self, metre_map: MetreMap) -> list[tuple[int, int, int]]:
+        """Runs of bars whose confidence is below `SURE`: first and last bar, and the mean confidence in per cent."""
+        there = np.ones(len(self.ticks), np.bool_)
+        for span in self.missing:
+            there &= (self.ticks < span.start) | (self.ticks >= span.end)
+        bars = metre_map.bar_of_tick(self.ticks[there])
+        numbers, places = np.unique(bars, return_inverse=True)
+        means = np.bincount(places, self.confidence[there]) / np.bincount(places)
+        low = np.flatnonzero(means < SURE)
+        runs = np.split(low, np.flatnonzero(np.diff(numbers[low]) > 1) + 1)
+        return [
+            (int(numbers[run[0]]), int(numbers[run[-1]]), round(100 * float(means[run].mean())))
+            for run in runs
+            if len(run)
+        ]
