@@ -13,6 +13,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Final, NoReturn
 
+import app.cli.align
 import app.cli.characters
 import app.cli.choreography
 import app.cli.edit
@@ -46,6 +47,7 @@ examples:
   suisou film quartet.mid --to hands.mp4 --view hands --player "Trumpet 1" --from-bar 1 --to-bar 4
   suisou film quartet.mid --sheet hands.png --every 0.1 --view hands --to-bar 2
   suisou midi session.suisou --to session.mid
+  suisou align quartet.mid concert.flac --to concert.suisou
   suisou stream quartet.mid --player horn --loop
   suisou instruments
   suisou instruments scale INSTRUMENT
@@ -78,6 +80,7 @@ def parser() -> argparse.ArgumentParser:
     app.cli.export.add_command(commands)
     app.cli.film.add_command(commands)
     app.cli.midi.add_command(commands)
+    app.cli.align.add_command(commands)
     app.cli.instruments.add_command(commands)
     app.cli.metadata.add_command(commands)
     app.cli.characters.add_command(commands)

@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Qt, QTimer
 
 from app.audio.click import click_track
 from app.audio.decode import Recording, decode
+from app.audio.follow import beats_of, follow
 from app.audio.mix import recording_track
 from app.audio.offset import Estimate, estimate_offset
 from app.audio.peaks import Peaks
@@ -24,11 +25,13 @@ from app.errors import AppError, Message
 from app.plan.generate import frame_around
 from app.plan.model import TimeFrame
 from app.project.document import Change
+from app.project.edit.follow import follow_recording
 from app.project.edit.piece import set_offset
 from app.project.edit.players import change as change_players
 from app.project.edit.takes import comp_whole
 from app.project.edit.tempo import scale_tempo
 from app.project.model import Project
+from app.score.following import Following
 
 _FRAME_MS = 16
 _TAKE_WAIT_MS = 1000
@@ -336,6 +339,43 @@ class Sound(QObject):
             self._take_estimate(estimate, unasked, with_tempo)
 
         self._session.tasks.run(Message("work.estimate_offset"), work, done, key="estimate")
+
+    def follow(self) -> None:
+        """Put every beat where the recording has it, as an edit; what is doubtful is reported."""
+        recording, project = self._recording, self._session.project
+        if recording is None or project.audio is None:
+            return
+
+        def work(progress: Progress, stop_requested: StopRequested) -> Following:
+            beats = beats_of(project.metre_map, project.score.end_tick)
+            return follow(recording.samples, RATE_HZ, project.score, beats, progress, stop_requested)
+
+        def done(following: Following) -> None:
+            audio, score = self._session.project.audio, self._session.project.score
+            if audio is None or audio.path != recording.path or score is not project.score:
+                return
+            self._take_following(following, recording.path)
+
+        self._session.tasks.run(Message("work.follow_recording"), work, done, key="estimate")
+
+    def _take_following(self, following: Following, path: str) -> None:
+        session = self._session
+        if not session.attempt(
+            Message("edit.follow_recording"), lambda project: follow_recording(project, following, path)
+        ):
+            return
+        metre_map = session.project.metre_map
+        doubtful = following.doubtful_bars(metre_map)
+        bars = ", ".join(f"{first}" if first == last else f"{first}-{last}" for first, last, _ in doubtful)
+        percent = round(100 * following.mean_confidence)
+        id = "audio.followed_but" if doubtful else "audio.followed"
+        severity = Severity.WARNING if doubtful else Severity.INFORMATION
+        session.notice(Message(id, {"percent": percent, **({"bars": bars} if doubtful else {})}), severity)
+        for span in following.missing:
+            first, last = metre_map.bar_of_tick(int(span.start)), metre_map.bar_of_tick(max(int(span.end) - 1, 0))
+            session.notice(Message("align.bars_outside", {"first": first, "last": last}), Severity.WARNING)
+        for span in following.added:
+            session.notice(Message("align.only_recorded", {"start_s": span.start, "end_s": span.end}), Severity.WARNING)
 
     def _take_estimate(self, estimate: Estimate, unasked: bool, with_tempo: bool) -> None:
         session = self._session

@@ -49,6 +49,58 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the offset cannot be estimated because the audio file or the score is silent",
         "音源または楽譜が無音のため、オフセットを推定できません",
     ),
+    "audio.followed": (
+        "the beats lie where the recording has them (confidence {percent} %)",
+        "拍を録音に合わせました（信頼度 {percent} %）",
+    ),
+    "audio.followed_but": (
+        "the beats lie where the recording has them (confidence {percent} %); check bars {bars} by ear",
+        "拍を録音に合わせました（信頼度 {percent} %）。第 {bars} 小節は耳で確認してください",
+    ),
+    "audio.not_followed": (
+        (
+            "the piece was not recognised in the recording (confidence {percent} %): check that it is a recording of "
+            "this piece, in this key; nothing was changed"
+        ),
+        (
+            "録音の中に曲が見つかりませんでした（信頼度 {percent} %）。この曲の、同じ調の録音か確認してください。"
+            "何も変更していません"
+        ),
+    ),
+    "align.kind": (
+        "{file} is neither a project (.suisou) nor a MIDI file (.mid): name one of these with --to",
+        "{file} はプロジェクト（.suisou）でも MIDI ファイル（.mid）でもありません。--to にはどちらかを指定してください",
+    ),
+    "align.onto_itself": (
+        "{file} is the piece or the recording itself: write to another file",
+        "{file} は入力の曲または録音そのものです。別のファイルに書き出してください",
+    ),
+    "align.nothing_between": (
+        "{file} has {seconds:.1f} s: nothing lies between --from and --until",
+        "{file} の長さは {seconds:.1f} 秒です。--from と --until の間に音がありません",
+    ),
+    "align.bars_missing": (
+        (
+            "the recording leaves out bars {first} to {last}, which cannot sound in no time: take them out of the "
+            "score, or use another recording; nothing was changed"
+        ),
+        (
+            "録音には第 {first}～{last} 小節がありません。楽譜からその小節を取り除くか、別の録音を使ってください。"
+            "何も変更していません"
+        ),
+    ),
+    "align.bars_outside": (
+        "bars {first} to {last} are not in the recording; they keep the tempo beside them",
+        "第 {first}～{last} 小節は録音にありません。隣の小節のテンポのままです",
+    ),
+    "align.only_recorded": (
+        "what is recorded from {start_s:.1f} s to {end_s:.1f} s is not in the score: a repeat or a cadenza?",
+        "録音の {start_s:.1f} 秒から {end_s:.1f} 秒は楽譜にありません（繰り返しまたはカデンツァの可能性があります）",
+    ),
+    "align.doubtful": (
+        "bars {first} to {last}: confidence {percent} %; check them by ear",
+        "第 {first}～{last} 小節: 信頼度 {percent} %。耳で確認してください",
+    ),
     "audio.not_recognised": (
         (
             "the piece was not recognised in the audio file (confidence {percent} %); nothing was changed; drag "

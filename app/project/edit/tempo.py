@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import msgspec
+import numpy as np
+import numpy.typing as npt
 
 from app.errors import UsageError
 from app.project import limits
@@ -71,6 +73,30 @@ def scale_tempo(project: Project, ratio: float) -> Project:
     if not changes or not all(fastest <= change.microseconds_per_quarter <= slowest for change in changes):
         raise UsageError("tempo.outside", low=limits.BPM[0], high=limits.BPM[1])
     return _with_tempi(project, changes)
+
+
+def set_beats(project: Project, ticks: npt.NDArray[np.int64], seconds: npt.NDArray[np.float64]) -> Project:
+    """Let beats lie these seconds from one another; between them the tempo is constant, and after the last it goes on.
+
+    Parameters
+    ----------
+    ticks : (N,) int64
+        Rising, the first is 0; N at least 2.
+    seconds : (N,) float64
+        Rising, from any moment.
+
+    Raises
+    ------
+    UsageError
+        ``tempo.outside``: a beat would be impossibly long or short.
+    """
+    quarters = np.diff(ticks) / project.score.ticks_per_quarter
+    lengths_us = 1e6 * np.diff(seconds) / quarters
+    low, high = limits.MICROSECONDS_PER_QUARTER
+    if ticks[0] != 0 or not np.all((lengths_us >= low) & (lengths_us <= high)):
+        raise UsageError("tempo.outside", low=limits.BPM[0], high=limits.BPM[1])
+    tempi = zip(ticks[:-1].tolist(), lengths_us.tolist(), strict=True)
+    return _with_tempi(project, [TempoChange(tick, length_us) for tick, length_us in tempi])
 
 
 def set_metre(project: Project, tick: int, numerator: int, denominator: int) -> Project:

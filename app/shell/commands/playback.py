@@ -227,5 +227,12 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         enabled=_recording_ready,
         icon="tempo",
     ),
+    EditorAction(
+        "play.follow_recording",
+        lambda editor: editor.sound.follow(),
+        "play/recording",
+        enabled=_recording_ready,
+        icon="tempo",
+    ),
     Action("play.remove_recording", remove_recording, "play/recording", enabled=_has_recording, icon="remove"),
 )

@@ -26,7 +26,9 @@ from tests.gui.transport.conftest import Elapse
 from tests.gui.transport.devices import FakeDevices
 from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
-from tests.unit.audio.pieces import melody, piece, with_players
+from tests.unit.audio.pieces import melody, piece, quartet, with_players
+from tests.unit.audio.test_follow import recorded as bent_sound
+from tests.unit.audio.test_follow import truth
 
 NAME = Message("edit.set_offset")
 
@@ -255,6 +257,42 @@ def test_a_faster_recording_gives_its_tempo_when_asked(
     assert session.project.audio.offset_s == pytest.approx(-1.0, abs=0.02)
     session.document.undo()
     assert session.project.score.tempo_map is before
+
+
+def test_the_beats_follow_a_recording_with_a_tempo_of_its_own(
+    sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path
+) -> None:
+    reported: list[tuple[Message, Severity]] = []
+    session.noticed.connect(lambda message, severity: reported.append((message, severity)))
+    before = session.project
+    assert before.score.tempo_map == quartet().score.tempo_map
+    soundfile.write(tmp_path / "rubato.flac", np.concatenate([np.zeros((2 * RATE_HZ, 2)), bent_sound()]), RATE_HZ)
+    add(session, tmp_path / "rubato.flac", qtbot)
+    qtbot.waitUntil(lambda: bool(reported))
+    session.playback.stop()
+    count = len(session.document.done)
+    sound.follow()
+    qtbot.waitUntil(lambda: len(session.document.done) > count)
+    assert session.document.done[-1].name.id == "edit.follow_recording"
+    assert reported[-1][0].id.startswith("audio.followed") or reported[-1][0].id.startswith("align.")
+    project = session.project
+    assert project.audio is not None
+    assert [part.notes for part in project.score.parts] == [part.notes for part in before.score.parts]
+    notes = np.array([note.onset_tick for part in before.score.parts for note in part.notes], np.float64)
+    true_s = truth().score.tempo_map.seconds(notes) + 2.0
+    errors_s = np.abs(project.score.tempo_map.seconds(notes) - project.audio.offset_s - true_s)
+    assert np.median(errors_s) < 0.015
+    session.document.undo()
+    assert session.project.score.tempo_map is before.score.tempo_map
+    # Rain is another piece: refused, and nothing is changed.
+    noise = np.random.default_rng(1).normal(scale=0.1, size=(20 * RATE_HZ, 2))
+    soundfile.write(tmp_path / "rain.wav", noise, RATE_HZ)
+    add(session, tmp_path / "rain.wav", qtbot)
+    qtbot.waitUntil(lambda: session.listening.waveform is not None)
+    count = len(session.document.done)
+    sound.follow()
+    qtbot.waitUntil(lambda: reported[-1][0].id == "audio.not_followed")
+    assert len(session.document.done) == count
 
 
 def test_a_missing_recording_is_reported_once(sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:

@@ -190,7 +190,11 @@ class WaveformLane(Lane):
             menu.addAction(self.tr("waveform_lane.type_offset")).triggered.connect(
                 lambda _=False: self.double_click(mouse)
             )
-        add_actions(menu, self.session, ("file.add_audio", "play.estimate_offset", "play.remove_recording"))
+        add_actions(
+            menu,
+            self.session,
+            ("file.add_audio", "play.estimate_offset", "play.follow_recording", "play.remove_recording"),
+        )
         return menu
 
     def _typed(self, offset_s: float) -> None:

@@ -1,0 +1,144 @@
+"""What a score should sound like and what a recording does, frame by frame: the two that are laid on one another."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+import soxr
+
+from app.audio.features import chroma, onset_strength, tuning
+from app.audio.track import Samples
+from app.score.model import Score
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+
+ANALYSIS_RATE_HZ: Final = 22050
+_CHROMA_HOP: Final = 2048
+CHROMA_S: Final = _CHROMA_HOP / ANALYSIS_RATE_HZ
+_ONSET_HOP: Final = 220
+ONSET_S: Final = _ONSET_HOP / ANALYSIS_RATE_HZ
+_LEAST_SAMPLES: Final = 4 * ANALYSIS_RATE_HZ
+"""Shorter recordings are filled up with silence: what surrounds an onset must be there."""
+_HARMONICS: Final = ((0, 1.0), (7, 0.25), (4, 0.08))
+"""Pitch classes above a note's own that its overtones sound in (the third and the fifth harmonic), and how loud."""
+EARLY_S: Final = 0.007
+"""How much earlier than the note its onset is found, by windows that reach ahead: mean over seven pieces by the
+built-in synthesiser."""
+
+
+@dataclass(frozen=True)
+class RecordedSound:
+    """What a recording sounds like: chroma (12, frames), onset strength (frames,)."""
+
+    chroma: Floats
+    onsets: Floats
+
+
+@dataclass(frozen=True)
+class ExpectedSound:
+    """What a score asks for: notes' onsets and ends in seconds, pitches, weights."""
+
+    onset_s: Floats
+    end_s: Floats
+    pitch: npt.NDArray[np.int64]
+    loudness: Floats
+
+
+def expected_sound(score: Score) -> ExpectedSound:
+    """What a score asks for, note by note in the order of its parts."""
+    notes = [note for part in score.parts for note in part.notes]
+    seconds = score.tempo_map.seconds
+    return ExpectedSound(
+        seconds(np.array([note.onset_tick for note in notes], np.float64)),
+        seconds(np.array([note.end_tick for note in notes], np.float64)),
+        np.array([note.pitch for note in notes], np.int64),
+        np.array([0.3 + 0.7 * note.velocity / 127 for note in notes], np.float64),
+    )
+
+
+def recorded_sound(samples: Samples, rate_hz: int, progress: Callable[[float], None]) -> RecordedSound:
+    """What a recording sounds like, whatever it is tuned to.
+
+    Parameters
+    ----------
+    samples : int16 array, shape (n, channels)
+    progress : callable
+        Called with the share 0..1 that is done.
+    """
+    sound = soxr.resample(samples.astype(np.float32).mean(axis=1) / 32768.0, rate_hz, ANALYSIS_RATE_HZ)
+    sound = np.pad(sound, (0, max(_LEAST_SAMPLES - len(sound), 0)))
+    progress(0.2)
+    sounding = np.flatnonzero(np.abs(sound) > 1e-3)
+    middle = int(sounding[len(sounding) // 2]) if len(sounding) else 0
+    part = sound[max(middle - 30 * ANALYSIS_RATE_HZ, 0) : middle + 30 * ANALYSIS_RATE_HZ]
+    tuned = tuning(part, ANALYSIS_RATE_HZ)
+    progress(0.3)
+    classes = chroma(sound, ANALYSIS_RATE_HZ, 2 * _CHROMA_HOP, _CHROMA_HOP, tuned)
+    progress(0.5)
+    onsets = onset_strength(sound, ANALYSIS_RATE_HZ, 1024, _ONSET_HOP)
+    progress(1.0)
+    return RecordedSound(shape(classes), evened(onsets))
+
+
+def shape(chroma: Floats) -> Floats:
+    """Each frame as a direction: which pitch classes stand out, however loud; near silence counts less."""
+    level = np.sqrt(chroma.sum(axis=0))
+    chroma = np.sqrt(chroma)
+    chroma = chroma - chroma.mean(axis=0)
+    size = np.sqrt((chroma**2).sum(axis=0))
+    typical = np.median(level[level > 0]) if (level > 0).any() else 1.0
+    result: Floats = chroma / np.maximum(size, 1e-9) * np.minimum(level / typical, 1.0)
+    return result
+
+
+def evened(onsets: Floats) -> Floats:
+    """Onset strength above its surroundings, in units of its own spread."""
+    width = round(1.5 / ONSET_S)
+    around = np.convolve(onsets, np.ones(width) / width, "same")
+    spread = np.sqrt(np.convolve((onsets - around) ** 2, np.ones(width) / width, "same"))
+    result: Floats = np.clip((onsets - around) / np.maximum(spread, 0.3 * spread.max() + 1e-9), -1.0, 4.0)
+    return result
+
+
+def score_chroma(expected: ExpectedSound, ratio: float) -> Floats:
+    """The score's chroma at a tempo, from second 0 of the score."""
+    begin, end = expected.onset_s / ratio / CHROMA_S, expected.end_s / ratio / CHROMA_S
+    frames = int(np.ceil(end.max())) + 1
+    steps = np.zeros((12, frames + 2))
+    first, last = np.floor(begin).astype(int), np.floor(end).astype(int)
+    for above, loudness in _HARMONICS:
+        row = (expected.pitch + above) % 12
+        amount = expected.loudness * loudness
+        # A note fills its frames; the first and the last in part: written as differences, summed afterwards.
+        for place, share, sign in ((first, begin - first, 1.0), (last, end - last, -1.0)):
+            np.add.at(steps, (row, place), sign * amount * (1.0 - share))
+            np.add.at(steps, (row, place + 1), sign * amount * share)
+    return shape(np.maximum(np.cumsum(steps, axis=1)[:, :frames], 0.0) ** 2)
+
+
+def onset_edges(onsets: Floats, width_s: float) -> Floats:
+    """How much more of an onset comes after a moment than before it.
+
+    A tone's strength rises at once and goes on rising for a while, the longer the slower it speaks: its beginning is
+    where the strength sets in, not where it is greatest.
+    """
+    reach = max(round(3 * width_s / ONSET_S), 1)
+    decay = np.exp(-(np.arange(reach) + 0.5) * ONSET_S / width_s)
+    # np.convolve turns its kernel round: what comes after a moment stands first.
+    kernel = np.concatenate([decay[::-1], -decay]) / decay.sum()
+    result: Floats = np.convolve(onsets, kernel, "full")[reach - 1 : reach - 1 + len(onsets)]
+    return result
+
+
+def confidence_of(likeness: float, onsets: float) -> float:
+    """0..1. Right places of test pieces, with noise, reverberation and applause, had likeness 0.38 and onsets 0.36 or
+    more; wrong pieces and transposed ones at most 0.29, and where it was more than 0.2, onsets of 0.3."""
+    return float(_rising(12.0 * (likeness - 0.34)) * _rising(8.0 * (onsets - 0.28)))
+
+
+def _rising(x: float) -> float:
+    return float(1.0 / (1.0 + np.exp(-np.clip(x, -30.0, 30.0))))

@@ -1,0 +1,145 @@
+"""``suisou align``: the piece at the tempo of a recording of it."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from app.cli.options import LONGEST_S, Commands, add_file_options, open_project, within
+from app.cli.progress import Progress
+from app.cli.terminal import say, warn
+from app.errors import FileError, Message, UsageError
+from app.messages import filled, text
+from app.project.edit.follow import follow_recording
+
+if TYPE_CHECKING:
+    from app.project.model import Project
+    from app.score.following import Following
+
+_MIDI: Final = (".mid", ".midi")
+_PROJECT: Final = ".suisou"
+
+_seconds = within(0.0, LONGEST_S, "a number of seconds", float)
+
+
+def add_command(commands: Commands) -> None:
+    """Declare the sub-command."""
+    command = commands.add_parser(
+        "align",
+        help="put the notes where a recording of the piece has them",
+        description="Finds when every beat sounds in a recording of the piece and rewrites the tempo so that the notes "
+        "lie there. The tempo moves from beat to beat, not from note to note. Bars that are doubtful, and what only "
+        "the recording has, are listed; where the recording leaves bars out, or is of another piece, nothing is "
+        "written.",
+    )
+    add_file_options(command)
+    command.add_argument(
+        "recording", type=Path, metavar="RECORDING", help="a recording of the piece: WAV, FLAC, OGG or MP3"
+    )
+    command.add_argument(
+        "--from", dest="from_s", type=_seconds, metavar="S", help="only what is recorded from this second on"
+    )
+    command.add_argument(
+        "--until", dest="until_s", type=_seconds, metavar="S", help="only what is recorded before this second"
+    )
+    command.add_argument(
+        "--to",
+        type=Path,
+        required=True,
+        metavar="OUT",
+        help="a project with the recording (OUT.suisou), or a MIDI file (OUT.mid); one there is replaced",
+    )
+    command.set_defaults(run=align, settings=[])
+
+
+def align(arguments: argparse.Namespace) -> None:
+    """Find the beats, write the piece, and say what it is like.
+
+    Raises
+    ------
+    AppError
+        Those of reading and writing, of `app.audio.follow` and of `follow_recording`; ``align.kind``,
+        ``align.onto_itself``, ``align.nothing_between``.
+    """
+    from app.project.midi_out import export_midi
+    from app.project.storage import save
+    from instrument_maps.library import library
+
+    target: Path = arguments.to
+    kind = target.suffix.lower()
+    if kind not in (_PROJECT, *_MIDI):
+        raise UsageError("align.kind", file=str(target))
+    if target.exists() and any(target.samefile(one) for one in (arguments.file, arguments.recording) if one.exists()):
+        raise FileError("align.onto_itself", file=str(target))
+    project = open_project(arguments)
+    following = _follow(project, arguments)
+    aligned = follow_recording(project, following, arguments.recording)
+    if kind == _PROJECT:
+        save(aligned, target)
+    else:
+        for warning in export_midi(aligned, target, library().maps):
+            warn(text(warning))
+    _report(aligned, following, target)
+
+
+def _follow(project: Project, arguments: argparse.Namespace) -> Following:
+    """The beats in seconds of the whole recording, whatever part of it was asked for."""
+    from app.audio.decode import decode
+    from app.audio.follow import beats_of, follow
+    from app.audio.track import RATE_HZ
+
+    progress = Progress(sys.stderr)
+    label = filled("listening to {file}", {"file": arguments.recording.name})
+    try:
+        recording = decode(str(arguments.recording), lambda share: progress(0.2 * share, label))
+        for warning in recording.warnings:
+            warn(text(warning))
+        first = round((arguments.from_s or 0.0) * RATE_HZ)
+        last = len(recording.samples) if arguments.until_s is None else round(arguments.until_s * RATE_HZ)
+        samples = recording.samples[first:last]
+        if not len(samples):
+            raise UsageError("align.nothing_between", file=str(arguments.recording), seconds=recording.duration_s)
+        found = follow(
+            samples,
+            RATE_HZ,
+            project.score,
+            beats_of(project.metre_map, project.score.end_tick),
+            lambda share: progress(0.2 + 0.8 * share, label),
+        )
+    finally:
+        progress.clear()
+    return found.later(first / RATE_HZ)
+
+
+def _report(project: Project, following: Following, target: Path) -> None:
+    """What was written, bars that are doubtful, and what only one of the two has."""
+    changes = project.score.tempo_map.bpm
+    say(
+        filled(
+            "{file}: {beats} {beats:beat|beats}, {slowest:.0f} to {fastest:.0f} quarters per minute, bar 1 at "
+            "{start_s:.3f} s of the recording, confidence {percent} %",
+            {
+                "file": target,
+                "beats": len(following.ticks),
+                "slowest": min(bpm for _, bpm in changes),
+                "fastest": max(bpm for _, bpm in changes),
+                "start_s": _second_of_bar(project, following, 1),
+                "percent": round(100 * following.mean_confidence),
+            },
+        )
+    )
+    bar_of_tick = project.metre_map.bar_of_tick
+    for span in following.missing:
+        first, last = bar_of_tick(int(span.start)), bar_of_tick(max(int(span.end) - 1, int(span.start)))
+        warn(text(Message("align.bars_outside", {"first": first, "last": last})))
+    for span in following.added:
+        warn(text(Message("align.only_recorded", {"start_s": span.start, "end_s": span.end})))
+    for first, last, percent in following.doubtful_bars(project.metre_map):
+        warn(text(Message("align.doubtful", {"first": first, "last": last, "percent": percent})))
+
+
+def _second_of_bar(project: Project, following: Following, bar: int) -> float:
+    tick = project.metre_map.tick_of_bar(bar)
+    return float(project.score.tempo_map.seconds(float(tick)) + following.recording_s[0])

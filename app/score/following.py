@@ -1,0 +1,79 @@
+"""When the beats of a score sound in a recording of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from app.score.metre_map import MetreMap
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+Integers: TypeAlias = npt.NDArray[np.int64]
+
+SURE: Final = 0.5
+"""Bars with less confidence are to be checked by ear."""
+
+
+@dataclass(frozen=True)
+class Span:
+    """Something that only one of the two has: ticks of the score, or seconds of the recording."""
+
+    start: float
+    end: float
+
+
+@dataclass(frozen=True)
+class Following:
+    """How a recording follows a score.
+
+    Attributes
+    ----------
+    ticks : (N,) int64
+        The beats, in order.
+    recording_s : (N,) float64
+        When each sounds in the recording, rising; before 0 or behind the end where it is not in it.
+    confidence : (N,) float64
+        0..1.
+    missing : tuple of Span
+        Ticks of the score that the recording does not have.
+    added : tuple of Span
+        Seconds of the recording, between its first and its last note, that the score does not have.
+    """
+
+    ticks: Integers
+    recording_s: Floats
+    confidence: Floats
+    missing: tuple[Span, ...] = ()
+    added: tuple[Span, ...] = ()
+
+    @property
+    def mean_confidence(self) -> float:
+        """Over all beats that the recording has."""
+        there = np.ones(len(self.ticks), np.bool_)
+        for span in self.missing:
+            there &= (self.ticks < span.start) | (self.ticks >= span.end)
+        return float(self.confidence[there].mean()) if there.any() else 0.0
+
+    def later(self, seconds: float) -> Following:
+        """The same in a recording that begins so much earlier."""
+        added = tuple(Span(span.start + seconds, span.end + seconds) for span in self.added)
+        return replace(self, recording_s=self.recording_s + seconds, added=added)
+
+    def doubtful_bars(self, metre_map: MetreMap) -> list[tuple[int, int, int]]:
+        """Runs of bars whose confidence is below `SURE`: first and last bar, and the mean confidence in per cent."""
+        there = np.ones(len(self.ticks), np.bool_)
+        for span in self.missing:
+            there &= (self.ticks < span.start) | (self.ticks >= span.end)
+        bars = metre_map.bar_of_tick(self.ticks[there])
+        numbers, places = np.unique(bars, return_inverse=True)
+        means = np.bincount(places, self.confidence[there]) / np.bincount(places)
+        low = np.flatnonzero(means < SURE)
+        runs = np.split(low, np.flatnonzero(np.diff(numbers[low]) > 1) + 1)
+        return [
+            (int(numbers[run[0]]), int(numbers[run[-1]]), round(100 * float(means[run].mean())))
+            for run in runs
+            if len(run)
+        ]

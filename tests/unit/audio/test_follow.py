@@ -1,0 +1,179 @@
+"""A recording that keeps its own time: renders whose tempo bends, spoiled in the ways recordings are."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import msgspec
+import numpy as np
+import pytest
+import soxr
+from scipy.signal import fftconvolve
+
+from app.audio.follow import beats_of, follow
+from app.audio.mix import mixdown
+from app.audio.track import RATE_HZ
+from app.errors import AppError, Cancelled, UsageError
+from app.project.edit.follow import follow_recording
+from app.project.model import Project
+from app.score.following import Following
+from app.score.tempo import TempoChange, TempoMap
+from tests.unit.audio.pieces import quartet
+from tests.unit.audio.test_offset import as_samples, end_s, other_piece
+
+MEDIAN_S, NINETEEN_OF_TWENTY_S = 0.015, 0.05
+
+
+def bent(project: Project, depth: float = 0.1, period_s: float = 8.0, seed: int = 3) -> Project:
+    """Played faster and slower in waves, and a little otherwise at every quarter."""
+    before = project.score.tempo_map
+    ticks = np.arange(0, project.score.end_tick + before.ticks_per_quarter, before.ticks_per_quarter)
+    seconds = before.seconds(ticks.astype(np.float64))
+    waves = 1.0 + depth * np.sin(2.0 * np.pi * seconds[:-1] / period_s)
+    waves += 0.03 * np.random.default_rng(seed).normal(size=len(waves))
+    changes = [
+        TempoChange(tick, 1e6 * length_s)
+        for tick, length_s in zip(ticks[:-1].tolist(), (np.diff(seconds) * waves).tolist(), strict=True)
+    ]
+    score = msgspec.structs.replace(project.score, tempo_map=TempoMap(before.ticks_per_quarter, tuple(changes)))
+    return replace(project, score=score)
+
+
+@cache
+def truth() -> Project:
+    return bent(quartet())
+
+
+@cache
+def recorded() -> np.ndarray:
+    return mixdown(truth(), 0.0, end_s(truth()) + 2.0)
+
+
+def followed(sound: np.ndarray, project: Project | None = None) -> Following:
+    project = project or quartet()
+    return follow(as_samples(sound), RATE_HZ, project.score, beats_of(project.metre_map, project.score.end_tick))
+
+
+def onset_errors_s(found: Following, earlier_s: float = 0.0, from_s: float = 0.0) -> np.ndarray:
+    """Of every note that is in the recording, which begins so much earlier than the music."""
+    notes = np.array([note.onset_tick for part in quartet().score.parts for note in part.notes], np.float64)
+    true_s = truth().score.tempo_map.seconds(notes) + earlier_s
+    there = true_s > from_s
+    return np.asarray(np.interp(notes[there], found.ticks, found.recording_s) - true_s[there])
+
+
+def check(name: str, found: Following, earlier_s: float = 0.0, from_s: float = 0.0) -> None:
+    sizes_s = np.abs(onset_errors_s(found, earlier_s, from_s))
+    median_s, most_s = np.percentile(sizes_s, [50, 95])
+    print(f"{name}: median {1000 * median_s:.1f} ms, 95 % {1000 * most_s:.1f} ms, {found.mean_confidence:.2f}")
+    assert median_s <= MEDIAN_S
+    assert most_s <= NINETEEN_OF_TWENTY_S
+    assert found.mean_confidence > 0.5
+
+
+def spoiled(sound: np.ndarray) -> np.ndarray:
+    """In a hall (1.2 s, as loud as the direct sound), with noise at 20 dB, 30 cents higher."""
+    rng = np.random.default_rng(8)
+    times_s = np.arange(round(1.2 * RATE_HZ)) / RATE_HZ
+    response = rng.normal(size=len(times_s)) * np.exp(-6.9 * times_s / 1.2)
+    response /= np.sqrt((response**2).sum())
+    response[0] += 1.0
+    wet = fftconvolve(sound, response[:, None], axes=0)
+    return wet + rng.normal(size=wet.shape) * np.sqrt((wet**2).mean()) * 10 ** (-20 / 20)
+
+
+def test_a_bent_tempo() -> None:
+    found = followed(recorded())
+    check("plain", found)
+    assert not found.missing
+    assert not found.added
+
+
+def test_a_hall_with_noise() -> None:
+    check("hall, 20 dB", followed(spoiled(recorded())))
+
+
+def test_another_tuning() -> None:
+    # 30 cents higher is also 1.7 % faster: the truth is scaled with it.
+    ratio = 2 ** (30 / 1200)
+    sound = soxr.resample(recorded(), RATE_HZ * ratio, RATE_HZ)
+    found = followed(sound)
+    check("30 cents", replace(found, recording_s=found.recording_s * ratio))
+
+
+def test_first_bars_missing_after_applause() -> None:
+    cut_s, applause_s = 9.0, 12.0
+    applause = np.random.default_rng(2).normal(scale=0.05, size=(round(applause_s * RATE_HZ), 2))
+    found = followed(np.concatenate([applause, recorded()[round(cut_s * RATE_HZ) :]]))
+    check("cut", found, applause_s - cut_s, from_s=applause_s + 0.5)
+    assert len(found.missing) == 1
+    assert found.missing[0].start < quartet().score.ticks_per_quarter
+
+
+def test_bars_left_out_in_the_middle_are_reported_and_nothing_is_changed() -> None:
+    sound = recorded()
+    found = followed(np.concatenate([sound[: 30 * RATE_HZ], sound[50 * RATE_HZ :]]))
+    with pytest.raises(UsageError) as raised:
+        follow_recording(quartet(), found, "concert.wav")
+    assert raised.value.message.id == "align.bars_missing"
+    bar_of_tick, tick_at = truth().metre_map.bar_of_tick, truth().score.tempo_map.ticks
+    first, last = raised.value.message.arguments["first"], raised.value.message.arguments["last"]
+    assert abs(first - bar_of_tick(int(tick_at(30.0)))) <= 2
+    assert abs(last - bar_of_tick(int(tick_at(50.0)))) <= 2
+
+
+def test_confidence_is_low_where_it_is_wrong() -> None:
+    """Over three recordings with a cut and one with a repeat: the area under the curve of who is wrong by 0.1 s."""
+    wrong, confidence = list[np.ndarray](), list[np.ndarray]()
+    sound = recorded()
+    for first_s, end_s_ in ((40, 62), (30, 50), (50, 60), (50, 28)):
+        found = followed(np.concatenate([sound[: first_s * RATE_HZ], sound[end_s_ * RATE_HZ :]]))
+        true_s = truth().score.tempo_map.seconds(found.ticks.astype(np.float64))
+        there = (true_s < min(first_s, end_s_)) | (true_s > max(first_s, end_s_))
+        shift_s = np.where(true_s > first_s, first_s - end_s_, 0.0)
+        wrong.append(~there | (np.abs(found.recording_s - true_s - shift_s) > 0.1))
+        confidence.append(found.confidence)
+    bad, sure = np.concatenate(wrong), np.concatenate(confidence)
+    area = (sure[~bad][:, None] > sure[bad][None, :]).mean() + 0.5 * (sure[~bad][:, None] == sure[bad][None, :]).mean()
+    print(f"area under the curve {area:.3f}, {bad.sum()} of {len(bad)} beats wrong")
+    assert 0.05 < bad.mean() < 0.6
+    assert area >= 0.9
+
+
+def test_a_repeat_that_the_score_has_not_is_reported() -> None:
+    sound = recorded()
+    found = followed(np.concatenate([sound[: 50 * RATE_HZ], sound[28 * RATE_HZ :]]))
+    assert sum(span.end - span.start for span in found.added) > 11.0
+    late = onset_errors_s(found, 22.0, from_s=80.0)
+    assert np.percentile(np.abs(late), 90) < NINETEEN_OF_TWENTY_S
+
+
+def test_the_notes_lie_where_they_sound_and_keep_their_ticks() -> None:
+    project = follow_recording(quartet(), followed(recorded()), "concert.wav")
+    assert [part.notes for part in project.score.parts] == [part.notes for part in quartet().score.parts]
+    assert project.audio is not None
+    notes = np.array([note.onset_tick for note in project.score.parts[0].notes], np.float64)
+    seconds = project.score.tempo_map.seconds(notes) - project.audio.offset_s
+    assert np.median(np.abs(seconds - truth().score.tempo_map.seconds(notes))) <= MEDIAN_S
+
+
+def test_another_piece_is_refused() -> None:
+    other = other_piece()
+    for sound, project in ((mixdown(other, 0.0, end_s(other)), quartet()), (recorded(), other)):
+        with pytest.raises(AppError) as raised:
+            followed(sound, project)
+        assert raised.value.message.id == "audio.not_followed"
+
+
+def test_silence_and_scores_without_notes_are_refused() -> None:
+    with pytest.raises(AppError) as raised:
+        followed(np.zeros((RATE_HZ, 2)))
+    assert raised.value.message.id == "audio.nothing_to_compare"
+
+
+def test_it_can_be_stopped() -> None:
+    project = quartet()
+    beats = beats_of(project.metre_map, project.score.end_tick)
+    with pytest.raises(Cancelled):
+        follow(as_samples(recorded()), RATE_HZ, project.score, beats, stop_requested=lambda: True)
