@@ -199,6 +199,9 @@ class PerformanceCurves:
             moved = with_added(moved, added, self.body, self.player.place.knee_rad)
         if frames.stowed is not None and self.player.put_aside is not None:
             moved = self.player.put_aside.watched(moved, frames.stowed)
+            # A hand that has put its instrument aside has left it already.
+            there = 1.0 - frames.stowed
+            moved = replace(moved, hands={name: (there * values.T).T for name, values in moved.hands.items()})
         morphs = face_morphs(
             frames.face,
             self.body.embouchure[self.instrument_map.embouchure.kind],
@@ -408,6 +411,7 @@ def _player(
         still=still,
         base=trunk(character.skeleton, *hips_path(place, character.skeleton, still), still),
         grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
+        water=instrument_map.water,
     ).standing_on(instrument_map.endpin)
 
 

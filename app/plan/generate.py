@@ -46,7 +46,7 @@ from app.plan.glances import StagePlace, glances_of
 from app.plan.line import LineTimes, MonophonicPart, Piece, Seeds, note_times, without_sound
 from app.plan.memo import Memo
 from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, Problem, TimeFrame
-from app.plan.named_gestures import with_definitions
+from app.plan.named_gestures import undisturbed, with_definitions
 from app.plan.parameters import restricted
 from app.plan.pose import plan_poses
 from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled, without_overruled
@@ -375,8 +375,8 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     corrected = memo.step("gestures by hand", without_overruled, corrected)
     held = restricted(parameters, "poses")
     defined = memo.step("named gestures", with_definitions, corrected, given.named, instrument, held, times, lowered)
-    gestures = defined.gestures
-    looked = memo.step("looked at", _of_kinds, gestures, ("lower_instrument", "look_about", "look_up"))
+    gestures = memo.step("undisturbed", undisturbed, defined.gestures)
+    looked = memo.step("looked at", _looking, gestures)
     glances = memo.step("glances", glances_of, line.player_id, given.cues + given.answered, looked, given.seen, seeds)
     # Who corrected the smile after the last note keeps it, whatever the ending is.
     named = any(item.event_id == SMILE_ID for item in corrections if isinstance(item, ChangeExpression | RemoveEvent))
@@ -440,9 +440,14 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     return plan, breathed_of(given.shared_line, notes, breaths.catches, events)
 
 
-def _of_kinds(gestures: tuple[GestureEvent, ...], kinds: tuple[str, ...]) -> tuple[GestureEvent, ...]:
-    """The gestures of some kinds."""
-    return tuple(event for event in gestures if event.kind in kinds)
+def _looking(gestures: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
+    """The gestures that eyes depend on."""
+    kinds = ("lower_instrument", "look_about", "look_up")
+    return tuple(
+        event
+        for event in gestures
+        if event.kind in kinds or (event.gesture is not None and event.gesture.gaze is not None)
+    )
 
 
 def _lost(

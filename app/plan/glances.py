@@ -15,6 +15,7 @@ import msgspec
 
 from app.plan.line import Seeds
 from app.plan.model import ABOUT, AUDIENCE, CueEvent, GestureEvent, GlanceEvent
+from metadata.gestures import GazeTrack
 
 EYES_RAD: Final = math.radians(35.0)
 PLAYING_HEAD: Final = 0.3
@@ -77,6 +78,8 @@ def glances_of(
         elif event.kind == "look_up" and player_id in places:
             yaw_rad = _wrapped(-places[player_id].turn_rad)
             found.append(_glance(f"glance:{event.id}", AUDIENCE, event.start_s, event.end_s, yaw_rad))
+        elif event.gesture is not None and event.gesture.gaze is not None and event.amount > 0.0:
+            found.append(_at_own_hands(event, event.gesture.gaze))
     return tuple(_in_turn([_turned(one, lowered) for one in found]))
 
 
@@ -119,6 +122,20 @@ def _about(event: GestureEvent, seeds: Seeds) -> list[GlanceEvent]:
         _glance(f"glance:{event.id}:0", ABOUT, event.start_s, turn_s, side * wide),
         _glance(f"glance:{event.id}:1", ABOUT, turn_s, event.end_s, -side * back),
     ]
+
+
+def _at_own_hands(event: GestureEvent, gaze: GazeTrack) -> GlanceEvent:
+    """Where a gesture says that the eyes go."""
+    length_s = event.end_s - event.start_s
+    return GlanceEvent(
+        f"glance:{event.id}",
+        ABOUT,
+        event.start_s + gaze.start * length_s,
+        event.start_s + gaze.end * length_s,
+        math.radians(gaze.left_deg),
+        -math.radians(gaze.up_deg),
+        FREE_HEAD,
+    )
 
 
 def bearing_rad(own: StagePlace, other: StagePlace) -> float:

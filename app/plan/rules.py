@@ -13,6 +13,7 @@ import numpy as np
 from app.errors import Argument, Message
 from app.plan.dynamics import BoolArray, Dynamics
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
+from app.plan.lowered import LOWER_S, RAISE_S
 from app.plan.model import ExpressionEvent, FloatArray, GestureEvent, Problem, TimeFrame
 from app.plan.parameters import PlayerParameters
 from app.score.model import Note
@@ -32,6 +33,8 @@ LEAST_S: Final = 0.2
 """A shorter moment does not reach the face."""
 
 
+BETWEEN_S: Final = 0.5
+"""From one gesture of a rest to the next."""
 E = TypeVar("E", GestureEvent, ExpressionEvent)
 
 
@@ -54,6 +57,7 @@ class Facts(NamedTuple):
     below_easy: FloatArray
     accents: FloatArray
     leap: FloatArray
+    played_s: FloatArray
     places: Mapping[str, BoolArray]
 
 
@@ -101,7 +105,9 @@ def plan_by_rules(
             shown += _faces(rule, faces[rule.do.expression], notes, times, found, sizes, piece.clock)
         else:
             gesture = gestures[rule.do.gesture]
-            made += _gestures(rule, gesture, notes, times, found, sizes, piece.clock, lowered)
+            if not _concerns_instrument(gesture, instrument):
+                continue
+            made += _gestures(rule, gesture, notes, times, found, sizes, piece.clock, lowered, seeds, made)
     return Ruled(
         tuple(sorted(shown, key=lambda event: (event.start_s, event.id))),
         tuple(sorted(made, key=lambda event: (event.start_s, event.id))),
@@ -132,11 +138,13 @@ def facts_of(times: LineTimes, piece: Piece, instrument: InstrumentMap, dynamics
         below_easy=instrument.range.easy_low - pitch,
         accents=dynamics.accents,
         leap=np.concatenate(([0.0], np.diff(pitch))),
+        played_s=np.cumsum(times.duration_s),
         places={
             "first": number == 0,
             "after_rest": apart & (number > 0),
             "climax": climax,
             "phrase_end": ends,
+            "before_rest": ends & (number < len(pitch) - 1),
             "last": number == len(pitch) - 1,
         },
     )
@@ -152,6 +160,7 @@ def matches(when: When, facts: Facts) -> BoolArray:
         (when.longer_s, facts.lasts_s),
         (when.rest_longer_s, facts.rest_s),
         (when.rest_after_longer_s, facts.rest_after_s),
+        (when.played_longer_s, facts.played_s),
         (when.accent, facts.accents),
         (when.leap_up, facts.leap),
         (when.leap_down, -facts.leap),
@@ -173,6 +182,11 @@ def _concerns(when: When, style: str, habits: Sequence[str]) -> bool:
     if when.styles and style not in when.styles:
         return False
     return not when.habits or not set(when.habits).isdisjoint(habits)
+
+
+def _concerns_instrument(gesture: Gesture, instrument: InstrumentMap) -> bool:
+    """Water is let out as the instrument's map says, and of no other."""
+    return not gesture.lets_out_water or (instrument.water is not None and instrument.water.gesture == gesture.name)
 
 
 def _unknown(rule: Rule, faces: Mapping[str, Expression], gestures: Mapping[str, Gesture]) -> Message | None:
@@ -261,12 +275,23 @@ def _gestures(
     sizes: FloatArray,
     clock: TempoMap,
     lowered: tuple[tuple[float, float], ...],
+    seeds: Seeds,
+    others: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
-    """One gesture for every note, where it may start and the one before is `Rule.apart_s` away."""
+    """One gesture for every note, where it may start and the one before is `Rule.apart_s` away; ``others`` are there
+    already."""
     starts_s, ends_s = _spans_s(rule, times, found, gesture.length_s)
+    if rule.do.spread_s:
+        later_s = rule.do.spread_s * seeds.chances_at(f"rule {rule.name} later", times.onset_tick[found])
+        starts_s, ends_s = starts_s + later_s, ends_s + later_s
+    taken = sorted((one.start_s, one.end_s) for one in others) if gesture.may_start == "lowered" else []
     events: list[GestureEvent] = []
     free_s = -np.inf
     for place, start_s, end_s in zip(found.tolist(), starts_s.tolist(), ends_s.tolist(), strict=True):
+        for first_s, last_s in taken:
+            # One thing after another, as long as the rest has room for it.
+            if first_s < end_s + BETWEEN_S and start_s < last_s + BETWEEN_S:
+                start_s, end_s = last_s + BETWEEN_S, end_s + last_s + BETWEEN_S - start_s
         if start_s < free_s or end_s <= start_s or not may_start(gesture, start_s, end_s, times, lowered):
             continue
         free_s = end_s + rule.apart_s
@@ -294,7 +319,8 @@ def may_start(
         first = int(np.searchsorted(times.played_end_s, start_s, side="right"))
         return first == len(times.onset_s) or float(times.onset_s[first]) >= end_s
     if gesture.may_start == "lowered":
-        return any(first_s <= start_s and end_s <= last_s for first_s, last_s in lowered)
+        down_s, up_s = (LOWER_S, RAISE_S) if gesture.needs_lowered else (0.0, 0.0)
+        return any(first_s + down_s <= start_s and end_s <= last_s - up_s for first_s, last_s in lowered)
     return True
 
 
