@@ -393,7 +393,8 @@ class Hold(_Table, frozen=True):
     tables are for long rests. An instrument that is only played seated has no tables for standing, and the other way
     round.
 
-    ``free_hand``: which hand can leave the instrument while it is lowered; None: the one that does not bear its weight.
+    ``free_hand``: which hand can leave the instrument while it is lowered, and comes past it to the music; None: the
+    one that does not bear its weight.
 
     ``size_range``: a player with small hands or short arms gets it smaller, one with large hands larger, but never
     beyond these multiples of the model's size.
@@ -405,12 +406,14 @@ class Hold(_Table, frozen=True):
     lowered_standing: Lowered | None = None
     lowered_seated: Lowered | None = None
     size_range: tuple[float, float] = (0.5, 1.25)
-    free_hand: Hand | None = None
+    free_hand: Literal["left", "right", "none"] | None = None
 
     @property
-    def leaving_hand(self) -> Hand:
-        """The hand that can leave the lowered instrument: what else holds it bears it meanwhile."""
-        return self.free_hand or ("left" if self.support_hand == "right" else "right")
+    def leaving_hand(self) -> Hand | None:
+        """The hand that can leave the lowered instrument: what else holds it bears it meanwhile. None: neither."""
+        if self.free_hand is None:
+            return "left" if self.support_hand == "right" else "right"
+        return None if self.free_hand == "none" else self.free_hand
 
     @property
     def postures(self) -> tuple[Posture, ...]:

@@ -347,8 +347,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "ジェスチャー {name!r} は、表の may_start = {start!r} の場所で行うものです。移動してください",
     ),
     "gesture.hand_holds": (
-        "the gesture {name!r} would take the {hand} hand, which holds the instrument; no hand leaves it",
-        "ジェスチャー {name!r} の手（{hand}）は楽器を持っています。手は楽器を離れません",
+        "the gesture {name!r} would take a hand that this instrument needs; no hand leaves it",
+        "ジェスチャー {name!r} の手は、この楽器を持つのに必要です。手は楽器を離れません",
     ),
     "gesture.no_water_key": (
         "the gesture {name!r} presses a water key, and the instrument has none; no hand leaves it",

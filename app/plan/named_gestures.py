@@ -1,7 +1,6 @@
 """Gestures that stand in tables (`metadata.gestures`), as one body with one instrument can make them.
 
-Messages: ``gesture.unknown`` (name, known), ``gesture.not_here`` (name, start), ``gesture.hand_holds`` (name, hand),
-``gesture.no_water_key``, ``gesture.hand_busy`` (name).
+Messages: ``gesture.unknown`` (name, known), ``gesture.not_here`` (name, start), ``gesture.hand_busy`` (name).
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from app.plan.line import LineTimes
 from app.plan.model import GestureEvent, Problem
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import GENTLE_RAD_S2, pose_limits
-from app.plan.rules import may_start
+from app.plan.possible import impossible, may_start
 from instrument_maps.model import InstrumentMap
 from metadata.gestures import Gesture, HandTrack, Key, Track
 from metadata.load import load_body
@@ -70,7 +69,7 @@ def with_definitions(
         if not may_start(definition, event.start_s, event.end_s, times, lowered):
             wrong = Message("gesture.not_here", {"name": event.name, "start": definition.may_start})
         elif definition.needs_lowered:
-            wrong = _impossible(definition, instrument)
+            wrong = impossible(definition, instrument)
             if wrong is None and event.start_s < busy_s:
                 wrong = Message("gesture.hand_busy", {"name": event.name})
         if wrong is not None:
@@ -109,23 +108,11 @@ def fitted(gesture: Gesture, length_s: float, limits: Mapping[str, Mapping[str, 
     return msgspec.structs.replace(gesture, tracks=tuple(tracks))
 
 
-def _impossible(gesture: Gesture, instrument: InstrumentMap) -> Message | None:
-    """Why no hand can do it with this instrument."""
-    track, water = gesture.hand, instrument.water
-    if track is None:
-        return None
-    if track.which not in ("free", instrument.hold.leaving_hand):
-        return Message("gesture.hand_holds", {"name": gesture.name, "hand": track.which})
-    if any(key.place == "key" for key in track.keys) and (water is None or water.position_m is None):
-        return Message("gesture.no_water_key", {"name": gesture.name})
-    return None
-
-
 def _in_hand(gesture: Gesture, instrument: InstrumentMap) -> Gesture:
     """With the hand that can leave this instrument."""
     if gesture.hand is None:
         return gesture
-    return msgspec.structs.replace(gesture, hand=HandTrack(gesture.hand.keys, instrument.hold.leaving_hand))
+    return msgspec.structs.replace(gesture, hand=HandTrack(gesture.hand.keys, instrument.hold.leaving_hand or "free"))
 
 
 def undisturbed(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:

@@ -13,9 +13,9 @@ import numpy as np
 from app.errors import Argument, Message
 from app.plan.dynamics import BoolArray, Dynamics
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
-from app.plan.lowered import LOWER_S, RAISE_S
 from app.plan.model import ExpressionEvent, FloatArray, GestureEvent, Problem, TimeFrame
 from app.plan.parameters import PlayerParameters
+from app.plan.possible import belongs, may_start
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
@@ -105,7 +105,7 @@ def plan_by_rules(
             shown += _faces(rule, faces[rule.do.expression], notes, times, found, sizes, piece.clock)
         else:
             gesture = gestures[rule.do.gesture]
-            if not _concerns_instrument(gesture, instrument):
+            if not belongs(gesture, instrument):
                 continue
             made += _gestures(rule, gesture, notes, times, found, sizes, piece.clock, lowered, seeds, made)
     return Ruled(
@@ -182,11 +182,6 @@ def _concerns(when: When, style: str, habits: Sequence[str]) -> bool:
     if when.styles and style not in when.styles:
         return False
     return not when.habits or not set(when.habits).isdisjoint(habits)
-
-
-def _concerns_instrument(gesture: Gesture, instrument: InstrumentMap) -> bool:
-    """Water is let out as the instrument's map says, and of no other."""
-    return not gesture.lets_out_water or (instrument.water is not None and instrument.water.gesture == gesture.name)
 
 
 def _unknown(rule: Rule, faces: Mapping[str, Expression], gestures: Mapping[str, Gesture]) -> Message | None:
@@ -309,19 +304,6 @@ def _gestures(
             )
         )
     return events
-
-
-def may_start(
-    gesture: Gesture, start_s: float, end_s: float, times: LineTimes, lowered: tuple[tuple[float, float], ...]
-) -> bool:
-    """Whether a gesture may be done from one time to another."""
-    if gesture.may_start == "resting":
-        first = int(np.searchsorted(times.played_end_s, start_s, side="right"))
-        return first == len(times.onset_s) or float(times.onset_s[first]) >= end_s
-    if gesture.may_start == "lowered":
-        down_s, up_s = (LOWER_S, RAISE_S) if gesture.needs_lowered else (0.0, 0.0)
-        return any(first_s + down_s <= start_s and end_s <= last_s - up_s for first_s, last_s in lowered)
-    return True
 
 
 def with_ruled(made: tuple[E, ...], ruled: tuple[E, ...]) -> tuple[E, ...]:
