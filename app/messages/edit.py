@@ -23,6 +23,12 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "edit.pin_fingerings": ("Pin Fingering of {count} {count:Note|Notes}", "運指を固定（音符 {count} 個）"),
     "edit.add_breath": ("Add Breath", "ブレスを追加"),
     "edit.set_giver": ("Let {player} Give the Entry", "{player}が入りの合図を出す"),
+    "edit.set_taker": ("Bring In {player}", "合図で{player}を入らせる"),
+    "edit.set_takers": ("Change Who Comes In", "合図で入る奏者を変更"),
+    "edit.no_note_to_take": (
+        "this player has no note from there on; choose an earlier entry or another player",
+        "この奏者には、その位置より後に音符がありません。もっと前の入りか、別の奏者を選んでください",
+    ),
     "edit.add_cue": ("Add Cue", "合図を追加"),
     "edit.add_gesture": ("Add Gesture", "ジェスチャーを追加"),
     "edit.add_expression": ("Add Expression", "表情を追加"),

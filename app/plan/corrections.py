@@ -73,13 +73,14 @@ class SetCue(_Correction, frozen=True, tag="set_cue"):
     """Let this player give a cue to the entry of a note; ``beats`` is how long before it the preparatory beat is.
 
     ``note_id`` is ``"@"`` and a tick where the player gives an entry without playing in it. ``added`` and
-    ``moved_from`` as in `SetBreath`.
+    ``moved_from`` as in `SetBreath`. ``takers`` are ids of the players it brings in; None: who comes in there.
     """
 
     note_id: str
     beats: float = 1.0
     added: bool = False
     moved_from: str | None = None
+    takers: tuple[str, ...] | None = None
 
     @property
     def tick(self) -> int | None:

@@ -371,7 +371,8 @@ def plan_cues(
                 tick = onsets.get(item.note_id, item.tick)
                 if tick is None:
                     continue
-                takers = _takers(place, _entering(tick, all_times, piece), lines)
+                entering = _entering(tick, all_times, piece) if item.takers is None else _chosen(item.takers, lines)
+                takers = _takers(place, entering, lines)
                 event = _cue_by_hand(line.player_id, item.note_id, tick, item.beats, piece, frame, takers)
                 events[event.id + event.player_id] = event
     ordered = sorted(events.values(), key=lambda event: (event.start_s, event.player_id))
@@ -383,6 +384,11 @@ def _takers(leader: int, players: tuple[tuple[int, int], ...], lines: tuple[Mono
     own = lines[leader].musician or lines[leader].player_id
     entering = [lines[line] for line, _ in players if line != leader]
     return tuple(line.player_id for line in entering if (line.musician or line.player_id) != own)
+
+
+def _chosen(takers: tuple[str, ...], lines: tuple[MonophonicPart, ...]) -> tuple[tuple[int, int], ...]:
+    """Players who were chosen by hand, as `_takers` has them; who is gone is left out."""
+    return tuple((index, 0) for index, line in enumerate(lines) if line.player_id in takers)
 
 
 def _entering(tick: int, all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[tuple[int, int], ...]:

@@ -48,6 +48,15 @@ def _with_section_intensity(raw: Raw) -> Raw:
     return {**raw, "section_intensity": 1.0, "corrections": corrections}
 
 
+def _with_takers(raw: Raw) -> Raw:
+    """10 to 11: a cue may say whom it brings in; before, it was who comes in there. There may be regions of a style."""
+    corrections = {
+        player: [{**item, "takers": None} if item["correction"] == "set_cue" else item for item in items]
+        for player, items in raw["corrections"].items()
+    }
+    return {**raw, "corrections": corrections}
+
+
 def _with_parameters(raw: Raw, version: int) -> Raw:
     """What players and dancers could not be set to before this version."""
     of_players, of_dancers = (
@@ -73,6 +82,7 @@ STRUCTURE: Final[Mapping[int, Migration]] = {
     9: lambda raw: {**raw, "players": [{**player, "doubles": ""} for player in raw["players"]]},
     # There may be curves of the animator's among the corrections; an older file has none.
     10: _with_section_intensity,
+    11: _with_takers,
 }
 """By the version that they lead to. New parameters say themselves since which version they are there."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
 from app.editor.tokens import LEAST_TEXT_PT
 from app.errors import AppError, Message
+from app.plan.model import PlayerPlan
 from app.project.document import Change
 from app.project.edit import notes
 from app.score.model import Note
@@ -27,6 +29,7 @@ from widgets.timeline.drawing import rect
 from widgets.timeline.entry_arrows import EntryArrows
 from widgets.timeline.keyboard import KEYBOARD_PX, Keyboard
 from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
+from widgets.timeline.model.entries import EntryDrag
 from widgets.timeline.model.gestures import Gesture
 from widgets.timeline.model.note_table import Behind, Floats, Sounding
 from widgets.timeline.model.roll import (
@@ -148,6 +151,11 @@ class PianoRoll(Lane):
             return None
 
     @property
+    def plans(self) -> Mapping[str, PlayerPlan]:
+        """What the players do, by player id."""
+        return self.session.plans
+
+    @property
     def row_px(self) -> float:
         """Height of a pitch."""
         bottom, top = self.y_range
@@ -215,6 +223,9 @@ class PianoRoll(Lane):
         self._gesture = self._begin(mouse)
 
     def _begin(self, mouse: LaneMouse) -> Gesture | None:
+        entry = self.entries.end_at(mouse) if self._tool is Tool.SELECT else None
+        if entry is not None:
+            return EntryDrag(self, mouse, *entry)
         hit = self.model.note_at(mouse)
         player = self.session.player
         if self._tool is Tool.ERASE:
@@ -266,6 +277,10 @@ class PianoRoll(Lane):
         """Draw what it encloses, or say what it has made of a note."""
         if isinstance(gesture, LassoNotes):
             self.lasso.show(rect(gesture.box) if gesture.box is not None else None)
+        elif isinstance(gesture, EntryDrag):
+            self.entries.show(gesture)
+            if gesture.began:
+                QToolTip.showText(QCursor.pos(), self.entries.drag_text(gesture), self.plot)
         elif isinstance(gesture, RollGesture) and gesture.began:
             if gesture.copies:
                 self.plot.setCursor(Qt.CursorShape.DragCopyCursor)
@@ -276,6 +291,7 @@ class PianoRoll(Lane):
         gesture, self._gesture = self._gesture, None
         if gesture is not None:
             gesture.release(mouse)
+        self.entries.show(None)
         self.set_tool(self._tool)
         QToolTip.hideText()
 
@@ -283,6 +299,7 @@ class PianoRoll(Lane):
         gesture, self._gesture = self._gesture, None
         if gesture is not None:
             gesture.cancel()
+        self.entries.show(None)
         self.set_tool(self._tool)
         QToolTip.hideText()
 
@@ -294,6 +311,7 @@ class PianoRoll(Lane):
 
     def hover(self, mouse: LaneMouse | None) -> None:
         self.keyboard.show_pitch(None if mouse is None else int(mouse.value // 1))
+        over_entry = self.entries.hover(mouse if self._tool is Tool.SELECT else None)
         if mouse is None:
             self.lasso.show(None)
             self.reported.emit("")
@@ -306,7 +324,9 @@ class PianoRoll(Lane):
             self.lasso.show(None, QLineF(x, top - 3, x, top + self.row_px + 3) if hit is not None else None)
         elif self._tool in (Tool.SELECT, Tool.DRAW):
             edge = self.model.edge_at(hit, mouse) if hit is not None and not mouse.ctrl else None
-            if edge is not None:
+            if over_entry:
+                self.plot.setCursor(Qt.CursorShape.OpenHandCursor)
+            elif edge is not None:
                 self.plot.setCursor(Qt.CursorShape.SizeHorCursor)
             else:
                 self.set_tool(self._tool)

@@ -17,6 +17,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     ),
     "acting_lane.beside": ("Beside playing", "演奏以外"),
     "acting_lane.given_by": ("Given by", "合図を出す人"),
+    "acting_lane.brings_in": ("Brings in", "合図で入る人"),
+    "acting_lane.who_enters": ("Who comes in there", "そこで入る奏者（自動）"),
     "acting_lane.feet": ("Feet", "足"),
     "acting_lane.pose": ("Pose", "ポーズ"),
     "acting_lane.these_bars_are_performed_anew": (
@@ -147,6 +149,11 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "piano_roll.click_to_select_all_its": (
         "{pitch}: click to select all notes of this pitch",
         "{pitch}: クリックでこの音高の音符をすべて選択",
+    ),
+    "piano_roll.entry_to": ("{giver} → {taker}: {place}", "{giver} → {taker}: {place}"),
+    "piano_roll.entry_unchanged": (
+        "Drag to another player's note",
+        "別の奏者の音符までドラッグ",
     ),
     "piano_roll.no_notes_yet_take_pencil": (
         "No notes. Draw with the pencil, double-click, or paste.",

@@ -1,18 +1,28 @@
-"""Who gives an entry: a cue that another player takes over."""
+"""Who gives an entry and who takes it: a cue that another player takes over, or that brings in others.
+
+Messages: ``edit.no_note_to_take``.
+"""
 
 from __future__ import annotations
 
 from bisect import bisect_left
+from collections.abc import Collection
 
+import msgspec
+
+from app.errors import AppError
 from app.plan.corrections import RemoveEvent, SetCue
 from app.plan.cue import LEAD_BEATS
 from app.plan.model import CueEvent, PlayerPlan
 from app.project.edit.corrections import put, take_back
-from app.project.edit.events import Edited, corrections_of, event_id_of, is_there, remove
+from app.project.edit.events import Edited, corrections_of, event_id_of, is_there, move, remove
 from app.project.model import Project
 
+LEAST_BEATS, MOST_BEATS = 0.05, 8.0
+"""Of the preparatory beat, in felt beats."""
 
-def set_giver(project: Project, plan: PlayerPlan, cue_id: str, giver_id: str) -> Edited:
+
+def set_giver(project: Project, plan: PlayerPlan, cue_id: str, giver_id: str, peak_tick: float | None = None) -> Edited:
     """Let another player give an entry; it is marked as that player's, with a preparatory beat as long as before.
 
     Parameters
@@ -21,24 +31,94 @@ def set_giver(project: Project, plan: PlayerPlan, cue_id: str, giver_id: str) ->
         Of who gives it in the plan that the user saw.
     giver_id : str
         Who gives it from now on. Who had it taken away before by the user and gets it back is as generated again.
+    peak_tick : float, optional
+        Where the preparatory beat begins from now on.
     """
-    cue = next((event for event in plan.cues if event.id == cue_id), None)
-    if cue is None or giver_id == plan.player_id or not is_there(project, plan.player_id, cue_id):
+    cue = _cue(project, plan, cue_id)
+    if cue is None:
         return Edited(project, (cue_id,))
+    beats = _beats(project, cue) if peak_tick is None else _beats_from(project, cue, peak_tick)
+    if giver_id == plan.player_id:
+        if peak_tick is None:
+            return Edited(project, (cue_id,))
+        changed = msgspec.structs.replace(_said(project, plan.player_id, cue), beats=beats)
+        return Edited(put(project, plan.player_id, (changed,)), (cue_id,))
     notes = project.part(project.player(giver_id)).notes
     at = bisect_left(notes, cue.end_tick, key=lambda note: note.onset_tick)
     plays = at < len(notes) and notes[at].onset_tick == cue.end_tick
     note = notes[at].id if plays else f"@{cue.end_tick}"
-    given = SetCue(note, _beats(project, cue), added=True)
+    chosen = _said(project, plan.player_id, cue).takers
+    if chosen is not None:
+        chosen = tuple(plan.player_id if taker == giver_id else taker for taker in chosen)
+    given = SetCue(note, beats, added=True, takers=chosen)
     project = remove(project, plan, (cue_id,))
     said = corrections_of(project, giver_id, (event_id_of(given),))
     project = take_back(project, giver_id, said)
-    if not any(isinstance(item, RemoveEvent) for item in said):
+    if peak_tick is not None or chosen is not None or not any(isinstance(item, RemoveEvent) for item in said):
         project = put(project, giver_id, (given,))
     return Edited(project, (event_id_of(given),))
+
+
+def set_takers(project: Project, plan: PlayerPlan, cue_id: str, takers: Collection[str] | None) -> Project:
+    """Let a cue bring in these players (ids); None: who comes in there."""
+    cue = _cue(project, plan, cue_id)
+    if cue is None:
+        return project
+    ordered = None if takers is None else tuple(player.id for player in project.players if player.id in takers)
+    changed = msgspec.structs.replace(_said(project, plan.player_id, cue), takers=ordered)
+    return put(project, plan.player_id, (changed,))
+
+
+def hand_over(project: Project, plan: PlayerPlan, cue_id: str, taker_id: str, other_id: str, entry_tick: int) -> Edited:
+    """Let a cue bring in another player in place of one, and at another place.
+
+    Parameters
+    ----------
+    taker_id, other_id : str
+        Who took it, and who does from now on; the same player where only the place is another.
+    entry_tick : int
+        Where the entry is from now on.
+
+    Raises
+    ------
+    AppError
+        ``edit.no_note_to_take``: the player plays nothing from there on.
+    """
+    cue = _cue(project, plan, cue_id)
+    if cue is None:
+        return Edited(project, (cue_id,))
+    if not any(note.onset_tick >= entry_tick for note in project.part(project.player(other_id)).notes):
+        raise AppError("edit.no_note_to_take")
+    if other_id != taker_id:
+        takers = {other_id if taker == taker_id else taker for taker in cue.takers}
+        project = set_takers(project, plan, cue_id, takers)
+    return move(project, plan, (cue_id,), entry_tick - cue.end_tick)
+
+
+def _cue(project: Project, plan: PlayerPlan, cue_id: str) -> CueEvent | None:
+    """The cue of a plan, where it is still there."""
+    there = is_there(project, plan.player_id, cue_id)
+    return next((event for event in plan.cues if event.id == cue_id), None) if there else None
+
+
+def _said(project: Project, player_id: str, cue: CueEvent) -> SetCue:
+    """The correction that speaks of a cue already, or one that repeats the generated one."""
+    said = corrections_of(project, player_id, (cue.id,))
+    found = next((item for item in said if isinstance(item, SetCue)), None)
+    return found or SetCue(cue.id.split(":", 1)[1], _beats_from(project, cue, _peak_tick(project, cue)))
+
+
+def _peak_tick(project: Project, cue: CueEvent) -> float:
+    return project.score.tempo_map.ticks(cue.peak_s)
+
+
+def _beats_from(project: Project, cue: CueEvent, peak_tick: float) -> float:
+    """How long a preparatory beat from a tick is, in felt beats."""
+    beats = (cue.end_tick - peak_tick) / project.metre_map.felt_ticks_at(cue.end_tick)
+    return min(max(round(beats, 4), LEAST_BEATS), MOST_BEATS)
 
 
 def _beats(project: Project, cue: CueEvent) -> float:
     """How long its preparatory beat is, in beats of the score."""
     beat = LEAD_BEATS * project.metre_map.felt_ticks_at(cue.end_tick)
-    return max(round((cue.end_tick - cue.start_tick) / beat, 4), 0.05) if cue.corrected else 1.0
+    return max(round((cue.end_tick - cue.start_tick) / beat, 4), LEAST_BEATS) if cue.corrected else 1.0

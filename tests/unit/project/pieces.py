@@ -98,7 +98,7 @@ def full_project(folder: str = "/music") -> Project:
             PinFingering("1:1", "1·3"),
             RemoveEvent("breath:1:1", "1:1"),
             SetBreath("1:2", -120, -10, 0.3),
-            SetCue("1:1", 2.0),
+            SetCue("1:1", 2.0, takers=("x",)),
             SetEmbouchure("1:3", 0.1, None, 0.3),
             ChangeGesture("sway:@0", 1, 2, 0.5),
             AddGesture("mine", "bell_height", 0, 480, 1.5),

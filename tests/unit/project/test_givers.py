@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import pytest
+
+from app.errors import AppError
 from app.performance.ensemble import Performance
 from app.plan.corrections import RemoveEvent, SetCue
-from app.project.edit.givers import set_giver
+from app.project.edit.givers import hand_over, set_giver, set_takers
 from app.project.model import Project
 from tests.unit.project.pieces import small_project
 from widgets.timeline.model.entries import entry_arrows
@@ -53,3 +56,42 @@ def test_arrows_go_from_who_gives_an_entry_to_who_takes_it() -> None:
     assert arrow.to_s == 0.0
     assert entry_arrows(project, plans, TROMBONE) == (arrow,)
     assert entry_arrows(project, plans, "nobody") == ()
+
+
+def test_a_cue_brings_in_whom_the_user_chose() -> None:
+    project = small_project()
+    plan = Performance(project).plans[TRUMPET]
+    alone = set_takers(project, plan, "cue:1:1", ())
+    assert alone.corrections == {TRUMPET: (SetCue("1:1", 1.0, takers=()),)}
+    assert given(alone) == {TRUMPET: ("cue:1:1", ())}
+    again = set_takers(alone, Performance(alone).plans[TRUMPET], "cue:1:1", (TROMBONE, TRUMPET, "nobody"))
+    assert given(again) == {TRUMPET: ("cue:1:1", (TROMBONE,))}
+    assert set_takers(project, plan, "cue:1:9", ()) is project
+
+
+def test_an_entry_is_handed_over_to_another_note() -> None:
+    project = small_project()
+    plan = Performance(project).plans[TRUMPET]
+    later = next(note for note in project.score.parts[1].notes if note.onset_tick > 0)
+    edited = hand_over(project, plan, "cue:1:1", TROMBONE, TROMBONE, later.onset_tick)
+    (cue,) = Performance(edited.project).plans[TRUMPET].cues
+    assert cue.end_tick == later.onset_tick
+    assert edited.event_ids == (cue.id,)
+    with pytest.raises(AppError, match=r"edit\.no_note_to_take"):
+        hand_over(project, plan, "cue:1:1", TROMBONE, TROMBONE, 10**6)
+
+
+def test_a_chosen_taker_who_becomes_the_giver_changes_places_with_the_giver() -> None:
+    project = small_project()
+    chosen = set_takers(project, Performance(project).plans[TRUMPET], "cue:1:1", (TROMBONE,))
+    edited = set_giver(chosen, Performance(chosen).plans[TRUMPET], "cue:1:1", TROMBONE)
+    assert given(edited.project) == {TROMBONE: ("cue:2:1", (TRUMPET,))}
+
+
+def test_the_preparatory_beat_begins_where_it_is_put() -> None:
+    project = small_project()
+    plan = Performance(project).plans[TRUMPET]
+    edited = set_giver(project, plan, "cue:1:1", TRUMPET, peak_tick=-960.0)
+    (cue,) = Performance(edited.project).plans[TRUMPET].cues
+    assert round(project.score.tempo_map.ticks(cue.peak_s)) == -960
+    assert edited.project.corrections == {TRUMPET: (SetCue("1:1", 2.0),)}

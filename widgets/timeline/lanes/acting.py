@@ -26,7 +26,7 @@ from widgets.common.plain import verbatim
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_columns, draw_mark, draw_rects, shade
 from widgets.timeline.lanes.acting_drawing import ActingPainter
-from widgets.timeline.lanes.giver_menu import add_givers
+from widgets.timeline.lanes.giver_menu import add_givers, add_takers
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.model.acting import (
@@ -325,6 +325,8 @@ class ActingLane(RegionLane):
             self._expression_entries(other, self._choose_expression, region)
         if region is not None and region.kind == "cue" and not region.removed:
             add_givers(menu, self.session, region, self.tr("acting_lane.given_by"))
+            takers = self.tr("acting_lane.brings_in"), self.tr("acting_lane.who_enters")
+            add_takers(menu, self.session, region, *takers)
         adding = menu.addMenu(self.tr("acting_lane.add_expression_here"))
         self._expression_entries(adding, lambda name: add_expressions(self.session, name, self._spans(mouse)))
         gestures = menu.addMenu(self.tr("acting_lane.add_gesture_here"))

@@ -1,4 +1,4 @@
-"""The menu from which the giver of an entry is chosen."""
+"""The menus from which the giver of an entry and those who take it are chosen."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QMenu
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.project.edit.givers import set_giver
+from app.project.edit.givers import set_giver, set_takers
 from app.project.model import Project
 from widgets.common.plain import verbatim
 from widgets.timeline.model.region import Region
@@ -22,6 +22,33 @@ def add_givers(menu: QMenu, session: Session, cue: Region, title: str) -> None:
         entry.setCheckable(True)
         entry.setChecked(player.id == cue.player_id)
         entry.triggered.connect(lambda _=False, giver_id=player.id: _give(session, cue, giver_id))
+
+
+def add_takers(menu: QMenu, session: Session, cue: Region, title: str, automatic: str) -> None:
+    """Every player whom a cue may bring in; those whom it does are checked. ``automatic`` names who comes in there."""
+    plan = session.plans.get(cue.player_id)
+    event = next((one for one in plan.cues if one.id == cue.event_id), None) if plan is not None else None
+    if event is None:
+        return
+    project, taking = session.project, frozenset(event.takers)
+    own = {player.id for player in project.played_by(project.player(cue.player_id))}
+    takers = menu.addMenu(title)
+    takers.setObjectName("takers")
+    for player in project.players:
+        if player.id in own:
+            continue
+        entry = takers.addAction(verbatim(player.name))
+        entry.setCheckable(True)
+        entry.setChecked(player.id in taking)
+        entry.triggered.connect(lambda _=False, other=player.id: _take(session, cue, taking ^ {other}))
+    takers.addSeparator()
+    takers.addAction(automatic).triggered.connect(lambda _=False: _take(session, cue, None))
+
+
+def _take(session: Session, cue: Region, takers: frozenset[str] | None) -> None:
+    plan = session.plans.get(cue.player_id)
+    if plan is not None:
+        session.attempt(Message("edit.set_takers"), lambda project: set_takers(project, plan, cue.event_id, takers))
 
 
 def _give(session: Session, cue: Region, giver_id: str) -> None:
