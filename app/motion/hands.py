@@ -161,7 +161,8 @@ def _hand(side: Side, fingers: FloatArray, palm: FloatArray) -> FloatArray:
 
 
 def _sided(vector: FloatArray, side: Side) -> FloatArray:
-    return vector * np.array([1.0 if side == "left" else -1.0, 1.0, 1.0])
+    outwards: FloatArray = vector * np.array([1.0 if side == "left" else -1.0, 1.0, 1.0])
+    return outwards
 
 
 def _shoulder_m(skeleton: Skeleton, side: Side, base: Trunk) -> FloatArray:

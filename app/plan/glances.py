@@ -14,7 +14,7 @@ from typing import Final
 import msgspec
 
 from app.plan.line import Seeds
-from app.plan.model import ABOUT, AUDIENCE, CueEvent, GestureEvent, GlanceEvent
+from app.plan.model import ABOUT, AUDIENCE, CONDUCTOR, CueEvent, GestureEvent, GlanceEvent
 from metadata.gestures import GazeTrack
 
 EYES_RAD: Final = math.radians(35.0)
@@ -24,6 +24,7 @@ FREE_HEAD: Final = 0.65
 """... and one that has not."""
 MOST_RAD: Final = 1.1
 """No one looks further aside for it."""
+MOST_UP_RAD: Final = 0.35
 LEVEL_RAD: Final = 0.02
 """Others' faces, below the player's own eyes."""
 TO_GIVER_S: Final = (0.25, 0.6)
@@ -40,11 +41,13 @@ SIDE_RAD: Final = (0.5, 1.0)
 
 
 class StagePlace(msgspec.Struct, frozen=True):
-    """Where a player is: metres, the audience towards +Z, and the turn from +Z towards +X in radians."""
+    """Where a player is: metres, the audience towards +Z, and the turn from +Z towards +X in radians; ``eyes_m`` above
+    the floor."""
 
     x_m: float
     z_m: float
     turn_rad: float
+    eyes_m: float = 0.0
 
 
 def glances_of(
@@ -53,6 +56,7 @@ def glances_of(
     gestures: Sequence[GestureEvent],
     places: Mapping[str, StagePlace],
     seeds: Seeds,
+    up: tuple[GlanceEvent, ...] = (),
 ) -> tuple[GlanceEvent, ...]:
     """All glances of a player, in order, one at a time.
 
@@ -63,7 +67,10 @@ def glances_of(
     gestures : sequence of GestureEvent
         The player's own, corrections applied.
     places : mapping of str to StagePlace
-        Where every player stands; without a place of the player's own or the other's no one is looked at.
+        Where every player stands, and the conductor; without a place of the player's own or the other's no one is
+        looked at.
+    up : tuple of GlanceEvent
+        Looks up to the conductor while playing (`app.plan.conducted`).
     """
     lowered = [(event.start_s, event.end_s) for event in gestures if event.kind == "lower_instrument"]
     found: list[GlanceEvent] = []
@@ -80,6 +87,9 @@ def glances_of(
             found.append(_glance(f"glance:{event.id}", AUDIENCE, event.start_s, event.end_s, yaw_rad))
         elif event.gesture is not None and event.gesture.gaze is not None and event.amount > 0.0:
             found.append(_at_own_hands(event, event.gesture.gaze))
+    taken = [(one.start_s, one.end_s) for one in found]
+    # What is asked for anyway is more than a look up from the music.
+    found += [one for one in up if not any(start_s < one.end_s and one.start_s < end_s for start_s, end_s in taken)]
     return tuple(_in_turn([_turned(one, lowered) for one in found]))
 
 
@@ -89,7 +99,10 @@ def _to_giver(cue: CueEvent, player_id: str, places: Mapping[str, StagePlace], s
     before_s = _between(TO_GIVER_S, seeds.chance_at("glance before", cue.end_tick))
     after_s = _between(STAYS_S, seeds.chance_at("glance after", cue.end_tick))
     yaw_rad = bearing_rad(places[player_id], places[cue.player_id])
-    return [_glance(f"glance:{cue.id}", cue.player_id, cue.start_s - before_s, cue.downbeat_s + after_s, yaw_rad)]
+    glance = _glance(f"glance:{cue.id}", cue.player_id, cue.start_s - before_s, cue.downbeat_s + after_s, yaw_rad)
+    if cue.player_id == CONDUCTOR:
+        glance = msgspec.structs.replace(glance, pitch_rad=pitch_rad(places[player_id], places[CONDUCTOR]))
+    return [glance]
 
 
 def _to_takers(cue: CueEvent, places: Mapping[str, StagePlace], seeds: Seeds) -> list[GlanceEvent]:
@@ -144,6 +157,12 @@ def bearing_rad(own: StagePlace, other: StagePlace) -> float:
     if across_m == 0.0 and ahead_m == 0.0:
         return 0.0
     return _wrapped(math.atan2(across_m, ahead_m) - own.turn_rad)
+
+
+def pitch_rad(own: StagePlace, other: StagePlace) -> float:
+    """How far down another's eyes are from a player's own."""
+    away_m = max(math.hypot(other.x_m - own.x_m, other.z_m - own.z_m), 0.5)
+    return round(min(max(math.atan2(own.eyes_m - other.eyes_m, away_m), -MOST_UP_RAD), MOST_UP_RAD), 4)
 
 
 def _wrapped(angle_rad: float) -> float:

@@ -21,7 +21,6 @@ from instrument_maps.model import InstrumentMap
 from metadata.gestures import Gesture, HandTrack, Key, Track
 from metadata.load import load_body
 
-
 IDLE_KINDS: Final = frozenset({"look_about", "count", "settle_grip"})
 """What a player does with nothing else to do."""
 
