@@ -1,8 +1,9 @@
 """Who gives the entries, and when.
 
-A conductor gives all of them; the players look there and breathe together. Without one the players give the entries themselves, by body and instrument, with a preparatory beat: the start,
-and the new start after a rest or a general pause of all; going on after a fermata; a new tempo, in which that beat is
-given; and a player or a section that comes in after a long rest, or as the next voice of a canon, while others play.
+A conductor gives all of them; the players look there and breathe together. Without one the players give the entries
+themselves, by body and instrument, with a preparatory beat: the start, and the new start after a rest or a general
+pause of all; going on after a fermata; a new tempo, in which that beat is given; and a player or a section that comes
+in after a long rest, or as the next voice of a canon, while others play.
 What an accompaniment plays that is not on stage sounds too: an entry with it needs no cue.
 
 Head and instrument rise on the preparatory beat, with the inhalation, and drop onto the next one: there lies the nod's
