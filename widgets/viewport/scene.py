@@ -29,6 +29,9 @@ from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.renderer import Shapes
 from widgets.viewport.worn_face import WornFaces
 
+PODIUM_NAME_M = 0.5
+"""So high over the conductor's place it says what it is."""
+
 Floats = npt.NDArray[np.float64]
 
 
@@ -187,6 +190,11 @@ class Scene(QObject):
         rows = {own: stage.index(own) for own in selected}
         return {row: rgb(self._session.colour(selected[own])) for own, row in rows.items() if row is not None}
 
+    def podium(self) -> tuple[float, float, Color] | None:
+        """Where the conductor stands, and the colour that marks it."""
+        place = self._session.project.conductor
+        return None if place is None else (place.x_m, place.z_m, rgb(self._session.tokens.text_dim))
+
     def _is_selected(self, performer: Player | Dancer) -> bool:
         if isinstance(performer, Player):
             played = self._session.project.played_by(performer)
@@ -217,6 +225,9 @@ class Scene(QObject):
             for (_, player), over_m in zip(known, places_m, strict=True):
                 selected = self._is_selected(player)
                 names.append(Name(player.name, session.colour(player) if selected else "", over_m, selected))
+            if project.conductor is not None:
+                over_m = np.array([project.conductor.x_m, PODIUM_NAME_M, project.conductor.z_m])
+                names.append(Name(self.tr("scene.conductor"), "", over_m, False))
         if state.shows("skeleton"):
             skeletons = [(row, session.colour(player)) for row, player in known]
         touched = state.shows("contacts") and bool(rows) and rows[0] in visible
