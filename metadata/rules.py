@@ -42,6 +42,8 @@ class When(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         loudest of its phrase), ``"phrase_end"``, ``"before_rest"`` (the same, and more is to come).
     styles, habits : tuple of str
         The player has any of these.
+    not_styles : tuple of str
+        The player has none of these.
     chance : float
         In so many of the cases.
     """
@@ -60,6 +62,7 @@ class When(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     leap_down: NotNegative | None = None
     place: tuple[Place, ...] = ()
     styles: tuple[str, ...] = ()
+    not_styles: tuple[str, ...] = ()
     habits: tuple[str, ...] = ()
     chance: Fraction01 = 1.0
 

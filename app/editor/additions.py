@@ -22,6 +22,10 @@ Spans: TypeAlias = Iterable[tuple[PlayerPlan, int, int]]
 """Whose event it is, and its ticks."""
 
 
+STYLE_BARS = 2
+"""Length of a new region of a style."""
+
+
 def add_breaths(session: Session, places: Places) -> None:
     """Add a breath before the first note from each place on."""
     _add(session, "edit.add_breath", [(plan, partial(edit.add_breath, plan=plan, tick=tick)) for plan, tick in places])
@@ -63,6 +67,39 @@ def add_expressions(session: Session, name: str, spans: Spans) -> None:
         (plan, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end)) for plan, start, end in spans
     ]
     _add(session, "edit.add_expression", made)
+
+
+def add_styles(session: Session, style: str, spans: Spans) -> None:
+    """Let players play in a style over each span."""
+    add = partial(edit.add_style, style=style)
+    made = [
+        (plan, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end)) for plan, start, end in spans
+    ]
+    _add(session, "edit.add_style", made)
+
+
+def change_styles(session: Session, style: str) -> None:
+    """Play in another style in the selected regions."""
+    plans, selected = session.plans, session.selection.events
+
+    def edited(project: Project) -> Project:
+        for player_id in sorted({key.player_id for key in selected} & set(plans)):
+            ids = [key.event_id for key in selected if key.player_id == player_id]
+            project = edit.set_style(project, plans[player_id], ids, style)
+        return project
+
+    session.attempt(Message("edit.set_style"), edited)
+
+
+def bars_of(session: Session, player_ids: Iterable[str], tick: float) -> list[tuple[PlayerPlan, int, int]]:
+    """The selected range where a place lies in it, else the bar there and the next one, for each of some players."""
+    metres, span = session.project.metre_map, session.selection.span
+    if span is None or not span[0] <= tick < span[1]:
+        at = max(round(tick), 0)
+        bar_ticks = metres.bar_ticks_at(at)
+        start = int(metres.bars(at - bar_ticks, at + 1)[-1])
+        span = (start, start + STYLE_BARS * bar_ticks)
+    return [(plan, *span) for player_id in player_ids if (plan := session.plans.get(player_id)) is not None]
 
 
 def _add(session: Session, id: str, additions: Sequence[Addition]) -> None:

@@ -32,6 +32,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "edit.add_cue": ("Add Cue", "合図を追加"),
     "edit.add_gesture": ("Add Gesture", "ジェスチャーを追加"),
     "edit.add_expression": ("Add Expression", "表情を追加"),
+    "edit.add_style": ("Play in Another Style", "演奏スタイルの区間を追加"),
+    "edit.set_style": ("Change Style", "演奏スタイルを変更"),
     "edit.add_curve_key": ("Add Curve Key", "カーブのキーを追加"),
     "edit.move_curve_keys": ("Move {count} Curve {count:Key|Keys}", "カーブのキーを移動（{count} 個）"),
     "edit.set_curve_values": ("Change {count} Curve {count:Key|Keys}", "カーブのキーの値を変更（{count} 個）"),

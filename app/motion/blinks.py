@@ -14,6 +14,7 @@ from app.motion.curve import Envelopes, FloatArray
 from app.motion.seed import generator
 from app.motion.silences import Silences, holds, overlaps
 from app.plan.model import PlayerPlan
+from app.plan.styles import share_at
 
 BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S = 0.08, 0.03, 0.16
 BLINK_S = BLINK_DOWN_S + BLINK_SHUT_S + BLINK_UP_S
@@ -61,13 +62,14 @@ def _starts(
     drawn = table[(ticks * 2654435761 >> 7) % len(table)]
     phrase_s = breaths_s[:, 0] - BREATH_LEAD_S + BREATH_SPREAD_S * drawn[:, 0]
     phrase_s = np.minimum(phrase_s, breaths_s[:, 1] - BLINK_S - 0.02)
-    phrase_s, drawn = phrase_s[drawn[:, 1] < AT_BREATH * amount], drawn[drawn[:, 1] < AT_BREATH * amount]
+    often = drawn[:, 1] < AT_BREATH * amount * share_at(plan.styles, "blink", phrase_s)
+    phrase_s, drawn = phrase_s[often], drawn[often]
     slots = int(np.ceil((frame.end_s - frame.first_frame_s) / SLOT_S))
     chances = random.random((slots, 3))
     other_s = frame.first_frame_s + (np.arange(slots) + 0.2 + 0.6 * chances[:, 0]) * SLOT_S
     likely = np.where(holds(silences.rests_s, other_s), IN_REST, IN_PHRASE)
     apart = ~overlaps(np.stack((phrase_s - APART_S, phrase_s + APART_S), axis=1), other_s, other_s)
-    kept = (chances[:, 1] < likely * amount) & apart
+    kept = (chances[:, 1] < likely * amount * share_at(plan.styles, "blink", other_s)) & apart
     starts_s = np.concatenate((phrase_s, other_s[kept]))
     depth = np.concatenate((drawn[:, 2], chances[kept, 2]))
     order = np.argsort(starts_s, kind="stable")

@@ -350,11 +350,12 @@ def body_motion(
     times_s: FloatArray,
     *,
     steps: bool = True,
+    beside: FloatArray | float = 1.0,
 ) -> BodyMotion:
     """Sum of all layers at ascending ``times_s`` (F,), on top of the posture's own angles; without ``steps`` feet only
-    tap."""
+    tap. ``beside`` is the share that is shown of keyed gestures and of what is done beside playing."""
     sizes, sway, deg = Sizes(body, parameters, player_id), body.sway, np.deg2rad
-    inhaled, lean = levels.full, levels.leaning
+    inhaled, lean, shown = levels.full, levels.leaning, acting.gestures * beside
     dip, lift = acting.cue * levels.dip, acting.cue * levels.lift
     frames, lowered, seated = len(times_s), levels.lowered, posture.seat_height_shank > 0.0
     hands, raised = reached(levels.reached or {}, parameters.amplitude, acting.gestures)
@@ -394,17 +395,15 @@ def body_motion(
     hips_forward_rad, hips_ahead_m = angles.pelvis, _ahead_m(levels, sizes, acting, feet, times_s)
     shoulders, elbows = deg(body.breath.shoulder_lift_deg) * inhaled, deg(body.breath.elbow_out_deg) * inhaled
     if levels.concert is not None:
-        beside = beside_playing(
-            levels.concert, body.concert, parameters.amplitude, acting.gestures, seated or not steps
-        )
-        total.forward(TRUNK_SHARES, beside.trunk_rad)
-        total.forward(NECK_SHARES, beside.neck_rad)
+        done = beside_playing(levels.concert, body.concert, parameters.amplitude, shown, seated or not steps)
+        total.forward(TRUNK_SHARES, done.trunk_rad)
+        total.forward(NECK_SHARES, done.neck_rad)
         total.turn(TRUNK_SHARES, body.concert.look_trunk_share * lowered * 0.5 * look.head_yaw_rad)
-        lowered = lowered * (1.0 - beside.up_share)
-        hips_forward_rad, hips_ahead_m = hips_forward_rad + beside.hips_rad, hips_ahead_m - beside.back_m
-        shoulders, elbows = shoulders + beside.shoulders_rad, elbows + beside.elbows_rad
+        lowered = lowered * (1.0 - done.up_share)
+        hips_forward_rad, hips_ahead_m = hips_forward_rad + done.hips_rad, hips_ahead_m - done.back_m
+        shoulders, elbows = shoulders + done.shoulders_rad, elbows + done.elbows_rad
     forward_rad, left_rad, turn_rad = total.all()
-    held = with_gestures(levels.held, levels.gestured, parameters.amplitude, acting.gestures)
+    held = with_gestures(levels.held, levels.gestured, parameters.amplitude, shown)
     hold_body(held, body, forward_rad, left_rad, turn_rad)
     bell_held, elbows_held = {}, {}
     if "bell" in held:

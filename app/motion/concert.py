@@ -48,24 +48,26 @@ class Beside:
     up_share: FloatArray
 
 
-def beside_playing(done: ConcertSamples, sizes: ConcertMotion, amplitude: float, amount: float, seated: bool) -> Beside:
+def beside_playing(
+    done: ConcertSamples, sizes: ConcertMotion, amplitude: float, amount: FloatArray | float, seated: bool
+) -> Beside:
     """What the body adds at some frames; ``amount`` is times as usual."""
 
-    def rad(scale: AmplitudeScale) -> float:
+    def rad(scale: AmplitudeScale) -> FloatArray | float:
         return amount * float(np.deg2rad(at_amplitude(scale, amplitude)))
 
     bow = done.bow * (sizes.bow_seated_share if seated else 1.0)
-    stands = 0.0 if seated else min(amount, 1.5)
+    stands = 0.0 if seated else np.minimum(amount, 1.5)
     return Beside(
         hips_rad=done.bow * stands * float(np.deg2rad(at_amplitude(sizes.bow_hips_deg, amplitude))),
         back_m=done.bow * stands * at_amplitude(sizes.bow_back_m, amplitude),
-        trunk_rad=bow * min(rad(sizes.bow_trunk_deg), MOST_BOW_RAD),
-        neck_rad=bow * min(rad(sizes.bow_head_deg), 0.5 * MOST_BOW_RAD)
+        trunk_rad=bow * np.minimum(rad(sizes.bow_trunk_deg), MOST_BOW_RAD),
+        neck_rad=bow * np.minimum(rad(sizes.bow_head_deg), 0.5 * MOST_BOW_RAD)
         + done.count * rad(sizes.count_head_deg)
         - done.up * (1.0 - done.bow) * rad(sizes.look_up_deg),
         shoulders_rad=done.settle * rad(sizes.settle_shoulders_deg),
         elbows_rad=done.settle * rad(sizes.settle_elbows_deg),
-        up_share=done.settle * min(amount * sizes.settle_share, 0.3),
+        up_share=done.settle * np.minimum(amount * sizes.settle_share, 0.3),
     )
 
 

@@ -8,7 +8,7 @@ character's own morphs move its lips, last of all, so that whatever the lips do 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -39,15 +39,21 @@ class FaceSizes:
 
     Attributes
     ----------
-    upper, lips, vibrato : float
+    upper, lips, vibrato : float or (F,) float64
         Size of what is above the mouth, of what the lips do within notes, and of a full vibrato.
     """
 
     own: OwnFace
     motion: FaceMotion
-    upper: float
-    lips: float
-    vibrato: float
+    upper: FloatArray | float
+    lips: FloatArray | float
+    vibrato: FloatArray | float
+
+    def shared(self, upper: FloatArray | float, lips: FloatArray | float) -> FaceSizes:
+        """Shares of them, at some frames where they are not the same throughout."""
+        if isinstance(upper, float) and isinstance(lips, float):
+            return self
+        return replace(self, upper=upper * self.upper, lips=lips * self.lips, vibrato=lips * self.vibrato)
 
 
 def face_sizes(
@@ -154,7 +160,7 @@ def _lips(
         (alive * wandering.chin * wanders, embouchure.chin),
         (alive * face.exertion.tired, embouchure.tired),
     ]
-    if sizes.vibrato and embouchure.vibrato and np.any(face.vibrato):
+    if np.any(sizes.vibrato) and embouchure.vibrato and np.any(face.vibrato):
         swing = sizes.own.vibrato(times_s, wandering)
         drivers.append((sizes.vibrato * formed * face.vibrato * swing, embouchure.vibrato))
     return drivers

@@ -19,6 +19,7 @@ from app.motion.seed import generator
 from app.motion.silences import Silences, holds, overlaps, same_silences
 from app.motion.spline import Spline
 from app.plan.model import PlayerPlan
+from app.plan.styles import share_at
 
 __all__ = ["BLINK_DOWN_S", "BLINK_SHUT_S", "BLINK_UP_S", "ENTRY_GUARD_S", "Gaze", "Look", "Watching", "plan_gaze"]
 
@@ -222,7 +223,8 @@ def _about(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
     end_s = start_s + np.where(resting, LOOK_S * (0.35 + 0.2 * chances[:, 1]), 0.5 + 0.3 * chances[:, 1])
     ready_s = np.append(silences.entries_s - BACK_S, np.inf)
     end_s = np.where(resting, np.minimum(end_s, ready_s[np.searchsorted(silences.entries_s, start_s, "right")]), end_s)
-    kept = chances[:, 2] < watching.gaze * np.where(resting, ABOUT_IN_REST, UP_IN_PHRASE)
+    gaze = watching.gaze * share_at(plan.styles, "gaze", start_s)
+    kept = chances[:, 2] < gaze * np.where(resting, ABOUT_IN_REST, UP_IN_PHRASE)
     # Hands and eyes are busy while the instrument goes down or comes up.
     kept &= (end_s - start_s > 2.0 * CLOSE_S) & ~overlaps(silences.carried_s, start_s, end_s + HEAD_TURN_S)
     yaw = np.clip(np.where(resting, wide, 0.4 * wide), -MOST_YAW_RAD, MOST_YAW_RAD)

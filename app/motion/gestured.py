@@ -123,16 +123,15 @@ class Gestured:
 
 
 def with_gestures(
-    held: dict[PoseTarget, Offset], gestured: Sums | None, amplitude: float, amount: float
+    held: dict[PoseTarget, Offset], gestured: Sums | None, amplitude: float, amount: FloatArray | float
 ) -> dict[PoseTarget, Offset]:
     """What the animator holds differently, with the gestures: as large as each is at the player's amplitude, times the
     player's amount, at most as it is at full amplitude, and no further than hands follow."""
-    if not gestured or amount == 0.0:
+    if not gestured or not np.any(amount):
         return held
     sums: dict[PoseTarget, FloatArray] = {}
-    size: float
     for scale, targets in sorted(gestured.items()):
-        size = min(amount * at_amplitude(scale, amplitude), scale[2])
+        size = np.minimum(amount * at_amplitude(scale, amplitude), scale[2])
         for target, angles in targets.items():
             sums[target] = sums.get(target, 0.0) + size * angles
     both = dict(held)

@@ -29,9 +29,10 @@ from app.motion.settled import settled, shown_by
 from app.motion.solve import Curves, Player, padding, solve
 from app.motion.splice import changed_stretch, spliced
 from app.motion.stations import raised_curve, sampled, station_curves
-from app.plan.acting import Acting
+from app.plan.acting import Acting, acting_of
 from app.plan.model import PlayerPlan, TimeFrame, same_events
 from app.plan.parameters import PlayerParameters, deciding
+from app.plan.styles import differing_s, most_shown, share_at, shown_in_style
 from app.rig.carriage import carrying
 from app.rig.hold import GripPose, Lips, Placed, giving_for
 from app.rig.model import Character
@@ -178,7 +179,7 @@ class PerformanceCurves:
 
     def curves(self, frames: Frames) -> Curves:
         """What the contacts are solved from, of frames wherever they come from."""
-        levels, added = frames.levels, frames.added
+        levels, added, styles = self._breathing(frames), frames.added, self.plan.styles
         if added:
             levels = replace(levels, held=with_held(levels.held, added))
         moved = body_motion(
@@ -191,6 +192,7 @@ class PerformanceCurves:
             frames.look,
             frames.times_s,
             steps=_steps(self.player),
+            beside=share_at(styles, "gestures", frames.times_s),
         )
         if frames.danced is not None:
             amount, free = self.parameters.dance_amount, _stands_free(self.player)
@@ -209,15 +211,23 @@ class PerformanceCurves:
             self.expressions,
             frames.look,
             moved.lowered,
-            self._face_sizes,
+            self._face_sizes.shared(share_at(styles, "face", frames.times_s), share_at(styles, "lips", frames.times_s)),
             frames.times_s,
         )
-        morphs |= widened(frames.levels.air, self.body.breath, self.acting.breath)
+        morphs |= widened(levels.air, self.body.breath, self.acting.breath)
         if added:
             morphs = with_added_morphs(morphs, added, frames.face.at_lips)
         return Curves(
             moved, frames.controls, morphs, frames.face.mouth_open, frames.placed, frames.raised, frames.stowed
         )
+
+    def _breathing(self, frames: Frames) -> LayerSamples:
+        """The layers with as much of the breath as regions of a style show."""
+        share = share_at(self.plan.styles, "breath", frames.times_s)
+        levels = frames.levels
+        if isinstance(share, float):
+            return levels
+        return replace(levels, full=share * levels.full, air=share * levels.air)
 
     def placed(self, times_s: FloatArray) -> dict[str, Placed]:
         """Where the fingers are, and the hands that give way for some of them, at ascending times."""
@@ -244,6 +254,7 @@ class PerformanceCurves:
         spans.append(self.raised.changed_s(other.raised))
         spans.append(self.inhaling.changed_s(other.inhaling))
         spans.append(self.additive.changed_s(other.additive))
+        spans.append(differing_s(self.plan.styles, other.plan.styles))
         if self.stowed is not None and other.stowed is not None:
             spans.append(self.stowed.changed_s(other.stowed))
         spans += self.layers.changed_s(other.layers)
@@ -316,21 +327,22 @@ def prepare(
     carriage = instrument_map.hold.carriage(parameters.posture)
     if parameters.dance_amount == 0.0:
         dance = None
-    acting = shown_by(parameters, carriage, dancing=dance is not None)
+    most = most_shown(plan.styles, acting_of(parameters))
+    acting = shown_by(parameters, carriage, most, dancing=dance is not None)
     parameters = settled(parameters, carriage)
     posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
     asked = Asked(plan, parameters.embouchure_tension, body.face, Lungs.of(parameters, instrument_map.air))
     watching = Watching(parameters.seed, acting.gaze, acting.blink)
     player = _player(parameters, instrument_map, character, hold, body, posture, before)
     if before is None:
-        face, layers = Face.of(asked), Layers.of(plan, body, felt_beats)
+        face, layers = Face.of(asked), Layers.of(shown_in_style(plan), body, felt_beats)
         gaze = plan_gaze(plan, watching)
         fingers = _fingers(plan, instrument_map, felt_beats, player)
     else:
         old = before.plan
         face = Face.of(asked, (before.face, before.asked))
-        layers = Layers.of(plan, body, felt_beats, (before.layers, old))
-        looks_same = watching == before.watching and looks_alike(plan, old)
+        layers = Layers.of(shown_in_style(plan), body, felt_beats, (before.layers, shown_in_style(old)))
+        looks_same = watching == before.watching and looks_alike(plan, old) and plan.styles == old.styles
         gaze = before.gaze if looks_same else plan_gaze(plan, watching)
         fingers = (before.controls, before.stations, before.raised)
         if before.player.farthest != player.farthest:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import msgspec
 
 from app.motion.contact import freedom
-from app.plan.acting import Acting, acting_of
+from app.plan.acting import Acting
 from app.plan.parameters import PlayerParameters
 from instrument_maps.model import Carriage
 
@@ -30,12 +30,11 @@ def _settling(carriage: Carriage) -> float:
     return SETTLED + (1.0 - SETTLED) * freedom(carriage)
 
 
-def shown_by(parameters: PlayerParameters, carriage: Carriage, *, dancing: bool) -> Acting:
-    """What parameters show: less of the trunk with an instrument that lies still, and of all that moves the body as far
-    as a dance takes its place."""
+def shown_by(parameters: PlayerParameters, carriage: Carriage, acting: Acting, *, dancing: bool) -> Acting:
+    """What is left of what a player shows: less of the trunk with an instrument that lies still, and of all that moves
+    the body as far as a dance takes its place."""
     share = _settling(carriage)
     left = 1.0 - share * share * parameters.dance_amount if dancing else 1.0
-    acting = acting_of(parameters)
     return msgspec.structs.replace(
         acting,
         sway=left * share * acting.sway,

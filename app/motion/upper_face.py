@@ -20,7 +20,7 @@ def upper_face(
     wandering: Wandering,
     looking_down_rad: FloatArray,
     face: FaceMotion,
-    size: float,
+    size: FloatArray | float,
 ) -> list[Driver]:
     """Drivers and their weights, at the size of a player."""
     up, down = np.maximum(exertion.contour, 0.0), np.maximum(-exertion.contour, 0.0)

@@ -23,8 +23,8 @@ from app.performance.acting_problems import unknown_acting
 from app.performance.bodies import hold_now, is_held, suited_to
 from app.performance.body_problems import body_problems
 from app.performance.loudness import controller_input, note_loudness
-from app.plan.acting import with_style
-from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
+from app.plan.acting import Acting, acting_of, with_style
+from app.plan.corrections import PlayStyle, RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.doubling import Change, changes, first_played, held_plan
 from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
 from app.plan.glances import StagePlace
@@ -118,8 +118,25 @@ class Performance:
         corrections = self.project.corrections.get(player.id, ())
         loudness = self._memo.step(f"loudness:{player.id}", note_loudness, part)
         blown = self._memo.step(f"controller:{player.id}", controller_input, part)
-        said = (self.parameters(player), corrections, loudness, blown, player.doubles)
+        named = tuple(sorted({item.style for item in corrections if isinstance(item, PlayStyle)}))
+        # Only regions name styles: without them a new name or style leaves the line as it was.
+        shown = (self._actings(player, named), player.name, ", ".join(sorted(self.metadata.styles.items)))
+        said = (
+            *(self.parameters(player), corrections, loudness, blown, player.doubles),
+            *(shown if named else ((), "", "")),
+        )
         return self._memo.step(f"line:{player.id}", MonophonicPart, player.id, part.notes, instrument, *said)
+
+    def _actings(self, player: Player, names: tuple[str, ...]) -> tuple[tuple[str, Acting], ...]:
+        """What a player shows in other styles, by style; those that are not there are left out."""
+        styles, habits = self.metadata.styles.items, self.metadata.habits.items
+        musician, found = self.project.musician(player).id, []
+        for name in names:
+            if name in styles:
+                other = msgspec.structs.replace(player.parameters, style=name)
+                said = (other, musician, self.project.section_intensity, styles, habits)
+                found.append((name, acting_of(self._memo.step(f"acting:{player.id}:{name}", with_style, *said))))
+        return tuple(found)
 
     def parameters(self, player: Player) -> PlayerParameters:
         """What a player's plan and motion are made with: the player's parameters, with what style and habits make of

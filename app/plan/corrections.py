@@ -186,6 +186,18 @@ class Vary(_Correction, frozen=True, tag="vary"):
     seed: int
 
 
+class PlayStyle(_Correction, frozen=True, tag="play_style"):
+    """Play these bars in another style. ``name`` distinguishes them; it comes and goes within the region, in so many
+    ticks."""
+
+    name: str
+    style: str
+    start_tick: int
+    end_tick: int
+    fade_in_ticks: int = 0
+    fade_out_ticks: int = 0
+
+
 Correction: TypeAlias = (
     PinFingering
     | RemoveEvent
@@ -199,6 +211,7 @@ Correction: TypeAlias = (
     | PoseCorrection
     | AdditiveCurve
     | Vary
+    | PlayStyle
 )
 
 E = TypeVar("E", BreathEvent, CueEvent, GestureEvent, ExpressionEvent)
@@ -247,7 +260,9 @@ def _is_empty(item: Correction) -> bool:
         return item.beats <= 0.0
     if isinstance(item, AdditiveCurve):
         return not item.keys or any(key.tick >= following.tick for key, following in pairwise(item.keys))
-    if isinstance(item, AddGesture | AddExpression | ChangeGesture | ChangeExpression | PoseCorrection | Vary):
+    if isinstance(
+        item, AddGesture | AddExpression | ChangeGesture | ChangeExpression | PoseCorrection | Vary | PlayStyle
+    ):
         return item.start_tick is not None and item.end_tick is not None and item.start_tick >= item.end_tick
     return False
 
@@ -261,7 +276,7 @@ def anchor(item: Correction) -> str:
     """What a correction is tied to: a note, an event, or the name the animator gave."""
     if isinstance(item, PinFingering | SetBreath | SetCue | SetEmbouchure):
         return item.note_id
-    if isinstance(item, AddGesture | AddExpression | PoseCorrection | AdditiveCurve | Vary):
+    if isinstance(item, AddGesture | AddExpression | PoseCorrection | AdditiveCurve | Vary | PlayStyle):
         return item.name
     return item.event_id
 

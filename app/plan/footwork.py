@@ -16,8 +16,9 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.line import Rhythm, Seeds
-from app.plan.model import FloatArray, GestureEvent, GestureKind
+from app.plan.model import FloatArray, GestureEvent, GestureKind, StyleEvent
 from app.plan.phrase import Phrase
+from app.plan.styles import amount_at
 from app.plan.swing import Pulse
 from app.score.tempo import TempoMap
 
@@ -73,6 +74,7 @@ def footwork(
     seeds: Seeds,
     tap: float,
     alone: bool,
+    styles: tuple[StyleEvent, ...] = (),
 ) -> list[GestureEvent]:
     """Steps, taps and heels of a player, ordered by start.
 
@@ -85,11 +87,15 @@ def footwork(
         How often toes tap; 1 is usual.
     alone : bool
         False: another line moves the same body, and feet only tap.
+    styles : tuple of StyleEvent
+        Where toes tap more or less often.
     """
     if not found:
         return []
     steps = _steps(times, found, clock, seeds) if alone else []
-    taps = _taps(times, found, pulse, clock, seeds, tap, steps)
+    begins_s = times.onset_s[np.array([phrase.first for phrase in found])]
+    often = amount_at(styles, "tap", tap, begins_s)
+    taps = _taps(times, found, pulse, clock, seeds, often, steps)
     heels = _heels(shifts, clock, seeds, steps, taps) if alone else []
     return sorted((*steps, *taps, *heels), key=lambda event: (event.start_s, event.id))
 
@@ -125,7 +131,7 @@ def _taps(
     pulse: Pulse,
     clock: TempoMap,
     seeds: Seeds,
-    tap: float,
+    tap: FloatArray | float,
     steps: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
     """With the beats of some phrases, always with the same foot."""

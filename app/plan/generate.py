@@ -24,6 +24,7 @@ from app.plan.corrections import (
     ChangeGesture,
     Correction,
     PinFingering,
+    PlayStyle,
     PoseCorrection,
     RemoveEvent,
     SetBreath,
@@ -52,6 +53,7 @@ from app.plan.parameters import restricted
 from app.plan.pose import plan_poses
 from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled, without_overruled
 from app.plan.stagger import Breathed, Shared, SharedLine, breathed_of, shared_line, shared_with
+from app.plan.styles import plan_styles
 from app.plan.together import one_at_a_time
 from app.plan.traces import plan_traces
 from app.score.model import Note
@@ -338,6 +340,10 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     embouchures = memo.step("embouchures", correct_embouchures, made_lips, by_hand)
     traces = memo.step("traces", plan_traces, notes, times, clock, instrument, lips, line.controller, envelope, by_hand)
     dynamics = memo.step("dynamics", dynamics_of, times, envelope)
+    usual, styled = acting_of(parameters), _of(corrections, PlayStyle)
+    styles, style_problems = memo.step(
+        "styles", plan_styles, styled, line.actings, usual, line.styles_known, line.name, clock
+    )
     made_gestures = plan_gestures(
         notes,
         times,
@@ -349,7 +355,8 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         given.pulse,
         dynamics,
         memo,
-        acting_of(parameters),
+        usual,
+        styles,
         given.alone,
         answered=given.answered,
         last_s=given.last_s,
@@ -364,6 +371,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         frame,
         instrument,
         restricted(parameters, "rules"),
+        styles,
         dynamics,
         lowered,
         seeds,
@@ -424,7 +432,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     )
     problems = (
         *(*fingering_problems, *breaths.problems, *pose_problems, *key_problems, *given.reported, *lost),
-        *(*ruled.problems, *defined.problems),
+        *(*ruled.problems, *defined.problems, *style_problems),
     )
     plan = PlayerPlan(
         player_id=line.player_id,
@@ -441,6 +449,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         additive=additive,
         traces=traces,
         glances=glances,
+        styles=styles,
     )
     return plan, breathed_of(given.shared_line, notes, breaths.catches, events)
 

@@ -33,7 +33,7 @@ from app.plan.footwork import footwork
 from app.plan.line import LineTimes, Piece, Rhythm, Seeds
 from app.plan.lowered import lowered_spans
 from app.plan.memo import Memo
-from app.plan.model import BreathEvent, CueEvent, FloatArray, GestureEvent, TimeFrame
+from app.plan.model import BreathEvent, CueEvent, FloatArray, GestureEvent, StyleEvent, TimeFrame
 from app.plan.phrase import accents, leans, phrases
 from app.plan.swing import Pulse as Pulse
 from app.plan.swing import pulse as pulse
@@ -69,6 +69,7 @@ def plan_gestures(
     dynamics: Dynamics,
     memo: Memo,
     acting: Acting,
+    styles: tuple[StyleEvent, ...],
     alone: bool,
     *,
     answered: tuple[CueEvent, ...] = (),
@@ -88,6 +89,8 @@ def plan_gestures(
         Each kind is a step of its own: a pitch that changes moves the bell, and no swing.
     acting : Acting
         How much the player keeps still, and taps.
+    styles : tuple of StyleEvent
+        Where it is another.
     alone : bool
         The body plays this line only: its feet may leave their place.
     answered : tuple of CueEvent
@@ -97,10 +100,10 @@ def plan_gestures(
     """
     rhythm, clock = times.rhythm, piece.clock
     lowered = memo.step("lowered", lowered_spans, notes, rhythm, piece, frame, breaths, cues + answered, seeds)
-    swings = memo.step("swings", swings_of, rhythm, pulse, frame, seeds, dynamics, acting.stillness)
+    swings = memo.step("swings", swings_of, rhythm, pulse, frame, seeds, dynamics, acting.stillness, styles)
     found = memo.step("phrases", phrases, rhythm, breaths)
     shifts = memo.step("weight shifts", weight_shifts, rhythm, pulse, frame, seeds, clock, dynamics)
-    feet = memo.step("feet", footwork, rhythm, found, pulse, clock, shifts, seeds, acting.tap, alone)
+    feet = memo.step("feet", footwork, rhythm, found, pulse, clock, shifts, seeds, acting.tap, alone, styles)
     return memo.step(
         "gestures",
         _in_order,

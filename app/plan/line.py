@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.chance import begun, chance, share_of
+from app.plan.acting import Acting
 from app.plan.corrections import Correction
 from app.plan.model import FloatArray
 from app.plan.parameters import PlayerParameters
@@ -98,6 +99,10 @@ class MonophonicPart(msgspec.Struct, frozen=True):
         Those curves, and the other input for the lips.
     musician : str
         Id of the player whose body plays it; empty: one of its own.
+    actings : tuple of (str, Acting)
+        By style that a region names, what the player shows in it.
+    name, styles_known : str
+        What the player and the styles there are are called, for what is reported.
     """
 
     player_id: str
@@ -108,6 +113,9 @@ class MonophonicPart(msgspec.Struct, frozen=True):
     loudness: tuple[float, ...] = ()
     controller: ControllerInput | None = None
     musician: str = ""
+    actings: tuple[tuple[str, Acting], ...] = ()
+    name: str = ""
+    styles_known: str = ""
 
 
 class Piece(msgspec.Struct, frozen=True):

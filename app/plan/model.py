@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from app.errors import Message
 from app.identity_cache import IdentityCache
+from app.plan.acting import Acting
 from metadata.gestures import Gesture
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
@@ -243,6 +244,24 @@ class PoseEvent(msgspec.Struct, frozen=True, gc=False):
     corrected: bool = True
 
 
+class StyleEvent(msgspec.Struct, frozen=True, gc=False):
+    """A region in which the player plays in another style: ``acting`` is what is shown in it, ``usual`` what elsewhere.
+    It comes and goes within the region."""
+
+    id: str
+    style: str
+    start_tick: int
+    end_tick: int
+    start_s: float
+    end_s: float
+    fade_in_s: float
+    fade_out_s: float
+    acting: Acting
+    usual: Acting
+    reason: Message
+    corrected: bool = True
+
+
 class CurveSegment(msgspec.Struct, frozen=True, gc=False):
     """A stretch of a curve: a cubic with two handles between both ends, or (``eased``) a minimum-jerk move. Handles are
     places: a time within the stretch, and a value."""
@@ -275,7 +294,15 @@ class AdditiveEvent(msgspec.Struct, frozen=True, gc=False):
 
 
 Event: TypeAlias = (
-    FingeringEvent | BreathEvent | TongueEvent | EmbouchureEvent | CueEvent | GestureEvent | ExpressionEvent | PoseEvent
+    FingeringEvent
+    | BreathEvent
+    | TongueEvent
+    | EmbouchureEvent
+    | CueEvent
+    | GestureEvent
+    | ExpressionEvent
+    | PoseEvent
+    | StyleEvent
 )
 
 
@@ -352,6 +379,7 @@ class PlayerPlan(msgspec.Struct, frozen=True):
     additive: tuple[AdditiveEvent, ...] = ()
     traces: SampledCurves | None = None
     glances: tuple[GlanceEvent, ...] = ()
+    styles: tuple[StyleEvent, ...] = ()
 
     @property
     def grips(self) -> tuple[FingeringEvent, ...]:

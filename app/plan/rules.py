@@ -5,7 +5,7 @@ Messages: ``rule.applied`` (rule), ``rule.unknown_expression``, ``rule.unknown_g
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Final, NamedTuple, TypeVar
 
 import numpy as np
@@ -13,9 +13,10 @@ import numpy as np
 from app.errors import Argument, Message
 from app.plan.dynamics import BoolArray, Dynamics
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
-from app.plan.model import ExpressionEvent, FloatArray, GestureEvent, Problem, TimeFrame
+from app.plan.model import ExpressionEvent, FloatArray, GestureEvent, Problem, StyleEvent, TimeFrame
 from app.plan.parameters import PlayerParameters
 from app.plan.possible import belongs, may_start
+from app.plan.styles import styles_at
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
@@ -68,6 +69,7 @@ def plan_by_rules(
     frame: TimeFrame,
     instrument: InstrumentMap,
     parameters: PlayerParameters,
+    styles: tuple[StyleEvent, ...],
     dynamics: Dynamics,
     lowered: tuple[tuple[float, float], ...],
     seeds: Seeds,
@@ -79,6 +81,8 @@ def plan_by_rules(
 
     Parameters
     ----------
+    styles : tuple of StyleEvent
+        Where the player plays in another style.
     lowered : tuple of (start, end)
         Seconds in which the instrument is off the lips.
     rules : tuple of Rule
@@ -86,18 +90,25 @@ def plan_by_rules(
     """
     habits = names_in(parameters.habits)
     facts: Facts | None = None
+    played_in = styles_at(styles, parameters.style, times.onset_s)
+    in_styles = frozenset((parameters.style, *played_in))
     shown: list[ExpressionEvent] = []
     made: list[GestureEvent] = []
     problems: list[Problem] = []
     for rule in rules:
-        if not notes or not _concerns(rule.when, parameters.style, habits):
+        if not notes or not _concerns(rule.when, in_styles, habits):
             continue
         unknown = _unknown(rule, faces, gestures)
         if unknown is not None:
             problems.append(Problem(unknown, None, frame.first_frame_s, frame.first_frame_s))
             continue
         facts = facts_of(times, piece, instrument, dynamics) if facts is None else facts
-        found = np.flatnonzero(matches(rule.when, facts) & _by_chance(rule, times, seeds))
+        here = matches(rule.when, facts) & _by_chance(rule, times, seeds)
+        if styles and rule.when.styles:
+            here &= np.array([style in rule.when.styles for style in played_in])
+        if styles and rule.when.not_styles:
+            here &= np.array([style not in rule.when.not_styles for style in played_in])
+        found = np.flatnonzero(here)
         if not len(found):
             continue
         sizes = rule.do.strength * _growth(rule, facts)
@@ -178,8 +189,10 @@ def matches(when: When, facts: Facts) -> BoolArray:
     return found
 
 
-def _concerns(when: When, style: str, habits: Sequence[str]) -> bool:
-    if when.styles and style not in when.styles:
+def _concerns(when: When, styles: Collection[str], habits: Sequence[str]) -> bool:
+    if when.styles and set(when.styles).isdisjoint(styles):
+        return False
+    if when.not_styles and set(styles) <= set(when.not_styles):
         return False
     return not when.habits or not set(when.habits).isdisjoint(habits)
 

@@ -14,7 +14,8 @@ import numpy.typing as npt
 from app.errors import Message
 from app.plan.dynamics import Dynamics, grown
 from app.plan.line import IntArray, Piece, Rhythm, Seeds
-from app.plan.model import FloatArray, GestureEvent, TimeFrame
+from app.plan.model import FloatArray, GestureEvent, StyleEvent, TimeFrame
+from app.plan.styles import amount_at
 
 SWING_S = 1.1
 """The shortest half swing takes about this long, whatever the tempo: 1, 2, 4 ... beats of it."""
@@ -113,7 +114,13 @@ class Swings:
 
 
 def swings_of(
-    times: Rhythm, pulse: Pulse, frame: TimeFrame, seeds: Seeds, dynamics: Dynamics, stillness: float
+    times: Rhythm,
+    pulse: Pulse,
+    frame: TimeFrame,
+    seeds: Seeds,
+    dynamics: Dynamics,
+    stillness: float,
+    styles: tuple[StyleEvent, ...] = (),
 ) -> Swings:
     """Swings from beat to beat, left and right in turn, each of its own size; small where the player rests.
 
@@ -121,6 +128,8 @@ def swings_of(
     ----------
     stillness : float
         Share 0..1 of the blocks in which the body keeps still, but for their end.
+    styles : tuple of StyleEvent
+        Where it is another share.
     """
     beats, beat_s = pulse.swing_beats, pulse.beat_s
     if seeds.chance("swing") < 0.3 and beats * beat_s < 1.5 * SWING_S:
@@ -133,7 +142,8 @@ def swings_of(
     places = stirring(times, frame, every_s)
     places = places[(every_s[places + 1] > frame.first_frame_s) & (every_s[places] < frame.end_s)]
     ticks, ends, starts_s, ends_s = every_tick[places], every_tick[places + 1], every_s[places], every_s[places + 1]
-    amounts, lasts = _shaped(places - origin, ticks, ends, dynamics.at(starts_s), seeds, stillness)
+    still = np.broadcast_to(amount_at(styles, "stillness", stillness, starts_s), len(starts_s))
+    amounts, lasts = _shaped(places - origin, ticks, ends, dynamics.at(starts_s), seeds, still)
     playing = _sounding_share(times, starts_s, ends_s)
     amounts = amounts * (RESTING + (1.0 - RESTING) * playing)
     amounts = grown(amounts, dynamics.at((starts_s + ends_s) / 2.0))
@@ -141,7 +151,7 @@ def swings_of(
 
 
 def _shaped(
-    units: IntArray, ticks: IntArray, ends: IntArray, vigours: FloatArray, seeds: Seeds, stillness: float
+    units: IntArray, ticks: IntArray, ends: IntArray, vigours: FloatArray, seeds: Seeds, stillness: FloatArray
 ) -> tuple[FloatArray, IntArray]:
     """Where the trunk is at the end of each unit, and how many units the swing has that it is part of (0: still).
 
@@ -171,7 +181,7 @@ def _shaped(
     often = np.multiply.outer(1.0 - lively, CALM) + np.multiply.outer(lively, LIVELY)
     drawn = seeds.chances_at("sway form", at, block, until)
     form = np.minimum((np.cumsum(often, axis=1) < drawn[:, None]).sum(axis=1), len(FORMS) - 1)
-    still = seeds.chances_at("still", at, block, until) < stillness
+    still = seeds.chances_at("still", at, block, until) < stillness[firsts]
     between = 0.4 + 0.6 * seeds.chances_at("sway between", at, block, until)
     tables = _turns()
     share_before, share_after, share_between, parts = (table[form[own], inner] for table in tables)

@@ -32,7 +32,7 @@ SUFFIX: Final = ".toml"
 PARAMETER_NAMES: Final = ("amplitude", "style", "habits", *AMOUNTS)
 """What of a player's parameters is acting."""
 KINDS: Final = frozenset(
-    {"add_gesture", "change_gesture", "add_expression", "change_expression", "pose", "vary", "additive"}
+    {"add_gesture", "change_gesture", "add_expression", "change_expression", "pose", "vary", "additive", "play_style"}
 )
 """Tags of the corrections that are acting."""
 _NOT_ACTING: Final = frozenset({"breath", "preparation", "within", "cue"})

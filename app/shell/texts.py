@@ -44,6 +44,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.events.cue": ("Add Cue", "合図を追加"),
     "action.events.expression": ("Add Expression...", "表情を追加..."),
     "action.events.gesture": ("Add Gesture...", "ジェスチャーを追加..."),
+    "action.events.style": ("Play in Style...", "演奏スタイルの区間..."),
     "action.events.give_back": ("Revert to Generated", "自動生成に戻す"),
     "action.events.give_back_player": ("Revert All Player Corrections", "奏者の手動修正をすべて自動生成に戻す"),
     "action.events.preparation": ("Toggle Breath Preparation", "ブレスの準備動作を切り替え"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from app.editor.translated import tr
-from metadata.library import GESTURES
+from metadata.library import GESTURES, STYLES
 from widgets.common.instrument_name import language
 
 _KINDS: Final = {
@@ -34,6 +34,7 @@ _KINDS: Final = {
     "pose": "event.pose",
     "additive": "event.additive_curve",
     "vary": "event.performed_anew",
+    "style": "event.style",
 }
 _EXPRESSIONS: Final = {
     "neutral": "expression_name.neutral",
@@ -73,6 +74,12 @@ def gesture_name(name: str) -> str:
     """The name of a gesture that is written in a table; one that is not there, by its own name."""
     gesture = GESTURES.now().items.get(name)
     return name if gesture is None else gesture.title.in_language(language())
+
+
+def style_name(name: str) -> str:
+    """What a style is called in the user's language; one that is not there, by its name."""
+    style = STYLES.now().items.get(name)
+    return name if style is None else style.title.in_language(language())
 
 
 def pose_name(target: str) -> str:

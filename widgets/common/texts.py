@@ -53,6 +53,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "event.heel": ("Heel lift", "かかと上げ"),
     "event.instrument_lowered": ("Instrument lowered", "楽器を下ろす"),
     "event.lean": ("Lean", "前後の傾き"),
+    "event.style": ("Style", "演奏スタイル"),
     "event.performed_anew": ("Regenerated", "再生成"),
     "event.bow": ("Bow", "お辞儀"),
     "event.count": ("Counts the bars", "小節を数える"),

@@ -12,14 +12,14 @@ from app.editor.session import Session
 from app.errors import Message
 from app.plan.corrections import PoseCorrection, SetBreath, SetCue
 from app.plan.cue import LEAD_BEATS
-from app.plan.model import SIGNED_KINDS, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.plan.model import SIGNED_KINDS, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent, StyleEvent
 from app.project.edit import events as edit
 from app.project.edit.corrections import put
 from app.project.edit.events import Placed
 from app.project.model import Project
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Retranslated, named
-from widgets.common.event_names import expression_name, kind_name
+from widgets.common.event_names import expression_name, kind_name, style_name
 from widgets.common.layouts import in_column
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
@@ -168,8 +168,9 @@ class EventSection(Retranslated, QWidget):
         if field is not None:
             self._numbers["amount"].set_texts(self._amount_word(field))
         is_pose, is_face = isinstance(first, PoseEvent), isinstance(first, ExpressionEvent)
+        is_style = isinstance(first, StyleEvent)
         for name in ("fade_in_s", "fade_out_s"):
-            self._show_number(name, name if is_pose or is_face else None, made)
+            self._show_number(name, name if is_pose or is_face or is_style else None, made)
         for angle in ANGLES:
             # An elbow turns about one axis only.
             has = is_pose and (angle == "up_deg" or "elbow" not in getattr(first, "target", ""))
@@ -179,7 +180,12 @@ class EventSection(Retranslated, QWidget):
         if isinstance(first, CueEvent):
             usual = _cue_beats(made, self._session.project) if isinstance(made, CueEvent) else 1.0
             beats.show_value(_cue_beats(first, self._session.project), default=usual)
-        self._expression.setVisible(is_face)
+        self._expression.setVisible(is_face or is_style)
+        if is_style:
+            names = {event.style for event in self._events if isinstance(event, StyleEvent)}
+            known = sorted(self._session.performance.metadata.styles.items, key=style_name)
+            self._expression.set_options([Option(name, style_name(name)) for name in dict.fromkeys((*known, *names))])
+            self._expression.show_option(names.pop() if len(names) == 1 else None)
         if is_face:
             faces = self._session.performance.expressions
             self._expression.set_options([Option(name, expression_name(name)) for name in faces])
@@ -293,6 +299,9 @@ class EventSection(Retranslated, QWidget):
 
     def _set_expression(self, name: str) -> None:
         ids = self._ids()
+        if any(isinstance(event, StyleEvent) for event in self._events):
+            self._edit("edit.set_style", lambda project, plan: edit.set_style(project, plan, ids, name))
+            return
         self._edit("edit.set_expression", lambda project, plan: edit.set_expression(project, plan, ids, name))
 
     def _revert(self) -> None:

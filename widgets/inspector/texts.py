@@ -118,6 +118,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "inspector.expression": ("Expression: {name}", "表情: {name}"),
     "inspector.fingering": ("Fingering {label}", "運指 {label}"),
     "inspector.additive_curve": ("Curve: {name}", "カーブ: {name}"),
+    "inspector.style": ("Style: {name}", "演奏スタイル: {name}"),
     "inspector.pose": ("Pose: {name}", "ポーズ: {name}"),
     "inspector.removed": ("{what} removed", "{what}を削除"),
     "inspector.tension": ("tension", "唇の緊張"),

@@ -11,6 +11,7 @@ from app.plan.corrections import (
     ChangeGesture,
     Correction,
     PinFingering,
+    PlayStyle,
     PoseCorrection,
     RemoveEvent,
     SetBreath,
@@ -18,12 +19,21 @@ from app.plan.corrections import (
     SetEmbouchure,
     Vary,
 )
-from app.plan.model import BreathEvent, CueEvent, EmbouchureEvent, Event, ExpressionEvent, GestureEvent, PoseEvent
+from app.plan.model import (
+    BreathEvent,
+    CueEvent,
+    EmbouchureEvent,
+    Event,
+    ExpressionEvent,
+    GestureEvent,
+    PoseEvent,
+    StyleEvent,
+)
 from app.plan.model import FingeringEvent as Fingered
 from app.project.edit.events import Placed
 from app.score.model import Score
 from widgets.common.channel_names import channel_name
-from widgets.common.event_names import expression_name, kind_name, pose_name
+from widgets.common.event_names import expression_name, kind_name, pose_name, style_name
 
 
 def amount_field(event: Placed) -> str | None:
@@ -41,6 +51,8 @@ def event_title(event: Event) -> str:
         return tr("inspector.expression").format(name=expression_name(event.expression))
     if isinstance(event, PoseEvent):
         return tr("inspector.pose").format(name=pose_name(event.target))
+    if isinstance(event, StyleEvent):
+        return tr("inspector.style").format(name=style_name(event.style))
     return kind_name(event.id.split(":")[0])
 
 
@@ -57,11 +69,13 @@ def event_text(score: Score, event: Event | None) -> str:
             return tr("inspector.entry_beat_s").format(
                 place=score.metre_map.label(event.end_tick), seconds=f"{event.beat_s:.2f}"
             )
-        case BreathEvent() | GestureEvent() | ExpressionEvent() | PoseEvent():
+        case BreathEvent() | GestureEvent() | ExpressionEvent() | PoseEvent() | StyleEvent():
             span = f"{score.metre_map.label(event.start_tick)}–{score.metre_map.label(event.end_tick)}"
             if isinstance(event, PoseEvent):
                 angles = [f"{value:g}°".replace("-", "−") for value in (event.up_deg, event.left_deg, event.roll_deg)]
                 return f"{span}, {' '.join(angles)}"
+            if isinstance(event, StyleEvent):
+                return f"{span}, {style_name(event.style)}"
             field = amount_field(event)
             amount = f"{getattr(event, field):.2f}".replace("-", "−") if field is not None else ""
             face = f"{expression_name(event.expression)} " if isinstance(event, ExpressionEvent) else ""
@@ -103,6 +117,8 @@ def correction_title(item: Correction) -> str:
             return expression_name(item.expression)
         case Vary():
             return kind_name("vary")
+        case PlayStyle():
+            return tr("inspector.style").format(name=style_name(item.style))
         case AdditiveCurve():
             name = channel_name(item.channel)
             return f"{item.title} ({name})" if item.title else tr("inspector.additive_curve").format(name=name)

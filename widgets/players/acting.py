@@ -16,6 +16,7 @@ from metadata.library import HABITS, STYLES
 from widgets.common.chip import Chip
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Retranslated, named
+from widgets.common.event_names import style_name
 from widgets.common.flow import FlowLayout
 from widgets.common.instrument_name import language
 from widgets.common.layouts import in_column, in_row
@@ -23,12 +24,6 @@ from widgets.common.plain import Label
 from widgets.common.text import parameter_text
 
 _STYLE, _HABITS = PARAMETERS["style"], PARAMETERS["habits"]
-
-
-def style_name(name: str) -> str:
-    """What a style is called in the user's language; one that is not there, by its name."""
-    style = STYLES.now().items.get(name)
-    return name if style is None else style.title.in_language(language())
 
 
 def habit_name(name: str) -> str:

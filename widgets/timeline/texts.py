@@ -19,6 +19,9 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "acting_lane.given_by": ("Given by", "合図を出す人"),
     "acting_lane.brings_in": ("Brings in", "合図で入る人"),
     "acting_lane.who_enters": ("Who comes in there", "そこで入る奏者（自動）"),
+    "acting_lane.style_here": ("Play in style here", "ここの演奏スタイル"),
+    "acting_lane.style_of_all_here": ("Everyone in style here", "ここの全員の演奏スタイル"),
+    "acting_lane.another_style": ("Change style", "別の演奏スタイルに変更"),
     "acting_lane.feet": ("Feet", "足"),
     "acting_lane.pose": ("Pose", "ポーズ"),
     "acting_lane.these_bars_are_performed_anew": (

@@ -24,6 +24,7 @@ from app.plan.corrections import (
     ChangeGesture,
     Correction,
     PinFingering,
+    PlayStyle,
     PoseCorrection,
     RemoveEvent,
     SetBreath,
@@ -34,7 +35,7 @@ from app.plan.corrections import (
 from app.plan.cue import LEAD_BEATS
 from app.plan.model import GESTURE_KINDS as GESTURE_KINDS
 from app.plan.model import OWN_KINDS as OWN_KINDS
-from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent, StyleEvent
 from app.plan.model import GestureKind as GestureKind
 from app.project.edit.corrections import put, take_back
 from app.project.edit.found_events import OWN as OWN
@@ -98,7 +99,7 @@ def set_fades(
     fade_in_s: float | None = None,
     fade_out_s: float | None = None,
 ) -> Project:
-    """How long expressions and poses take to come and to go, seconds; None leaves it."""
+    """How long expressions, poses and styles take to come and to go, seconds; None leaves it."""
     clock = project.score.tempo_map
     corrections: list[Correction] = []
     for event in _current(project, plan, event_ids):
@@ -113,6 +114,13 @@ def set_fades(
             if fade_out_s is not None:
                 ticks["fade_out_ticks"] = round(clock.ticks(event.end_s + max(fade_out_s, 0.0))) - event.end_tick
             corrections += [_with(pose, **ticks) for pose in _poses(project, plan.player_id, event)]
+        elif isinstance(event, StyleEvent):
+            ticks = {}
+            if fade_in_s is not None:
+                ticks["fade_in_ticks"] = round(clock.ticks(event.start_s + max(fade_in_s, 0.0))) - event.start_tick
+            if fade_out_s is not None:
+                ticks["fade_out_ticks"] = event.end_tick - round(clock.ticks(event.end_s - max(fade_out_s, 0.0)))
+            corrections += [_with(item, **ticks) for item in _styles(project, plan.player_id, event)]
     return put(project, plan.player_id, corrections)
 
 
@@ -125,6 +133,20 @@ def set_expression(project: Project, plan: PlayerPlan, event_ids: Iterable[str],
             _with(_expression(project, plan.player_id, event), expression=expression)
             for event in _current(project, plan, event_ids)
             if isinstance(event, ExpressionEvent)
+        ],
+    )
+
+
+def set_style(project: Project, plan: PlayerPlan, event_ids: Iterable[str], style: str) -> Project:
+    """Play in another style there."""
+    return put(
+        project,
+        plan.player_id,
+        [
+            _with(item, style=style)
+            for event in _current(project, plan, event_ids)
+            if isinstance(event, StyleEvent)
+            for item in _styles(project, plan.player_id, event)
         ],
     )
 
@@ -240,6 +262,14 @@ def add_expression(
     return Edited(put(project, player_id, (added,)), (event_id_of(added),))
 
 
+def add_style(project: Project, player_id: str, style: str, start_tick: int, end_tick: int) -> Edited:
+    """A region in which the player plays in a style; it comes and goes within a felt beat, or a quarter of it."""
+    end_tick = max(end_tick, start_tick + 1)
+    fade = min(project.metre_map.felt_ticks_at(start_tick), (end_tick - start_tick) // 4)
+    added = PlayStyle(_new_name(project, player_id), style, start_tick, end_tick, fade, fade)
+    return Edited(put(project, player_id, (added,)), (event_id_of(added),))
+
+
 # Taking away
 
 
@@ -329,6 +359,8 @@ def _placed(project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_
                 made = (_with(_gesture(project, player_id, event), **ends),)
             elif isinstance(event, ExpressionEvent):
                 made = (_with(_expression(project, player_id, event), **ends),)
+            elif isinstance(event, StyleEvent):
+                made = [_with(item, **ends) for item in _styles(project, player_id, event)]
             else:
                 made = [_with(pose, **ends) for pose in _poses(project, player_id, event)]
         fresh += made
@@ -350,7 +382,7 @@ def _notes(project: Project, player_id: str) -> tuple[Note, ...]:
 def _is_added(item: Correction) -> bool:
     if isinstance(item, SetBreath | SetCue):
         return item.added
-    return isinstance(item, AddGesture | AddExpression | PoseCorrection)
+    return isinstance(item, AddGesture | AddExpression | PoseCorrection | PlayStyle)
 
 
 def _with(item: Correction, **values: object) -> Correction:
@@ -371,7 +403,7 @@ def _new_name(project: Project, player_id: str) -> str:
     taken = {
         item.name
         for item in project.corrections.get(player_id, ())
-        if isinstance(item, AddGesture | AddExpression | PoseCorrection)
+        if isinstance(item, AddGesture | AddExpression | PoseCorrection | PlayStyle)
     }
     number = 1
     while f"{OWN}{number}" in taken:
@@ -395,6 +427,11 @@ def _expression(project: Project, player_id: str, event: ExpressionEvent) -> Cor
 def _poses(project: Project, player_id: str, event: PoseEvent) -> list[Correction]:
     said = corrections_of(project, player_id, (event.id,))
     return [item for item in said if isinstance(item, PoseCorrection)]
+
+
+def _styles(project: Project, player_id: str, event: StyleEvent) -> list[Correction]:
+    said = corrections_of(project, player_id, (event.id,))
+    return [item for item in said if isinstance(item, PlayStyle)]
 
 
 def _breath(project: Project, player_id: str, event: BreathEvent) -> SetBreath:

@@ -12,16 +12,26 @@ from app.plan.corrections import (
     AddGesture,
     Correction,
     PinFingering,
+    PlayStyle,
     PoseCorrection,
     SetBreath,
     SetCue,
     SetEmbouchure,
     Vary,
 )
-from app.plan.model import BreathEvent, CueEvent, Event, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.plan.model import (
+    BreathEvent,
+    CueEvent,
+    Event,
+    ExpressionEvent,
+    GestureEvent,
+    PlayerPlan,
+    PoseEvent,
+    StyleEvent,
+)
 from app.project.model import Project
 
-Placed: TypeAlias = BreathEvent | CueEvent | GestureEvent | ExpressionEvent | PoseEvent
+Placed: TypeAlias = BreathEvent | CueEvent | GestureEvent | ExpressionEvent | PoseEvent | StyleEvent
 """What has a place that the user may change."""
 
 OWN: Final = "own-"
@@ -49,6 +59,8 @@ def event_id_of(correction: Correction) -> str:
             return f"pose:{correction.name}"
         case AdditiveCurve():
             return f"additive:{correction.name}"
+        case PlayStyle():
+            return f"style:{correction.name}"
         case Vary():
             return f"vary:{correction.name}"
         case _:
@@ -65,6 +77,7 @@ def events_of(plan: PlayerPlan) -> dict[str, Event]:
     """Every event of a plan that the user may select, by id."""
     groups: tuple[Sequence[Event], ...] = (
         plan.fingerings, plan.breaths, plan.embouchures, plan.cues, plan.gestures, plan.expressions, plan.poses,
+        plan.styles,
     )  # fmt: skip
     return {event.id: event for group in groups for event in group}
 
@@ -77,7 +90,7 @@ def is_there(project: Project, player_id: str, event_id: str) -> bool:
     except KeyError:
         return False
     kind, _, of = event_id.partition(":")
-    if kind in ("pose", "additive", "vary") or of.startswith(OWN):
+    if kind in ("pose", "additive", "vary", "style") or of.startswith(OWN):
         return bool(corrections_of(project, player_id, (event_id,)))
     return kind not in _OF_NOTES or of.startswith("@") or of in project.part(player).note_ids
 
@@ -86,6 +99,8 @@ def placed_events(plan: PlayerPlan, event_ids: Iterable[str]) -> list[Placed]:
     """The events of these ids that have a place of their own, in the order of the ids."""
     requested = tuple(event_ids)
     among = frozenset(requested)
-    groups: tuple[Sequence[Placed], ...] = (plan.breaths, plan.cues, plan.gestures, plan.expressions, plan.poses)
+    groups: tuple[Sequence[Placed], ...] = (
+        *(plan.breaths, plan.cues, plan.gestures, plan.expressions, plan.poses, plan.styles),
+    )
     found = {event.id: event for group in groups for event in group if event.id in among}
     return [found[event_id] for event_id in requested if event_id in found]

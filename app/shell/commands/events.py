@@ -8,7 +8,16 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QCursor
 from PySide6.QtWidgets import QApplication, QMainWindow, QMenu
 
-from app.editor.additions import add_breaths, add_cues, add_expressions, add_gestures, add_named_gestures
+from app.editor.additions import (
+    add_breaths,
+    add_cues,
+    add_expressions,
+    add_gestures,
+    add_named_gestures,
+    add_styles,
+    bars_of,
+    change_styles,
+)
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
@@ -27,9 +36,11 @@ from app.project.model import Project
 from app.shell.action import Action
 from app.shell.commands.chosen import events_by_player, has_player, has_something, notes_by_player
 from widgets.common.controls import named
-from widgets.common.event_names import expression_name, gesture_name
+from widgets.common.event_names import expression_name, gesture_name, style_name
 from widgets.common.plain import verbatim
 
+STYLE = "style"
+"""The first part of the ids of regions of a style."""
 NEW_BEATS = 2
 """Length of an added gesture or expression at the playhead."""
 
@@ -88,6 +99,27 @@ def choose_expression(session: Session) -> None:
         entry.setObjectName(f"expression_{name}")
         entry.triggered.connect(lambda _=False, name=name: add_expressions(session, name, _spans(session)))
     menu.popup(QCursor.pos())
+
+
+def choose_style(session: Session) -> None:
+    """Show the styles where the mouse is: of the selected players in the selected range, or from the playhead's bar on;
+    with selected regions, another one for them."""
+    menu = _menu()
+    regions = any(key.event_id.startswith(f"{STYLE}:") for key in session.selection.events)
+    for name in sorted(session.performance.metadata.styles.items, key=style_name):
+        entry = menu.addAction(verbatim(style_name(name)))
+        entry.setObjectName(f"style_{name}")
+        entry.triggered.connect(lambda _=False, name=name: _choose_style(session, name, regions))
+    menu.popup(QCursor.pos())
+
+
+def _choose_style(session: Session, name: str, regions: bool) -> None:
+    if regions:
+        change_styles(session, name)
+        return
+    span = session.selection.span
+    tick = float(span[0]) if span is not None else float(_playhead_tick(session))
+    add_styles(session, name, bars_of(session, session.players, tick))
 
 
 def _menu() -> QMenu:
@@ -243,5 +275,6 @@ ACTIONS: tuple[Action, ...] = (
         has_player,
         icon="expression",
     ),
+    Action("events.style", choose_style, "edit/breaths_and_acting", "Y", "timeline", has_player),
     *map(_kind, OWN_KINDS),
 )

@@ -652,6 +652,7 @@ CASES: dict[str, Case] = {
     "events.preparation": Case(lambda d: bool(d.made(SetBreath) or d.made(RemoveEvent)), a_breath, edits=True),
     "events.cue": Case(lambda d: bool(d.made(SetCue)), edits=True),
     "events.gesture": Case(lambda d: d.menu("gesture.sway", "gesture.bell_height")),
+    "events.style": Case(lambda d: d.menu("style_soloist")),
     "events.expression": Case(lambda d: d.menu("expression_strained")),
     "gesture.sway": gesture_case("sway"),
     "gesture.weight_shift": gesture_case("weight_shift"),

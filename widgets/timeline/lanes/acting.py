@@ -20,7 +20,7 @@ from app.project.edit.found_events import event_id_of
 from app.project.edit.generation import variations
 from app.project.model import Project
 from app.score.tempo import TempoMap
-from widgets.common.event_names import expression_name, gesture_name, kind_name, pose_name
+from widgets.common.event_names import expression_name, gesture_name, kind_name, pose_name, style_name
 from widgets.common.menus import passing_menu
 from widgets.common.plain import verbatim
 from widgets.timeline.axis import TimeAxis
@@ -29,12 +29,14 @@ from widgets.timeline.lanes.acting_drawing import ActingPainter
 from widgets.timeline.lanes.giver_menu import add_givers, add_takers
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.lanes.row_names import RowNames
+from widgets.timeline.lanes.style_menu import add_styles_menus
 from widgets.timeline.model.acting import (
     BASE,
     CONCERT_KINDS,
     CURVES,
     GROUPS,
     STRIPS,
+    STYLE,
     VARIED,
     Names,
     cue_region,
@@ -45,6 +47,7 @@ from widgets.timeline.model.acting import (
     packed_group,
     pose_region,
     strip,
+    style_region,
 )
 from widgets.timeline.model.geometry import Floats
 from widgets.timeline.model.hand import Box, LaneMouse
@@ -57,7 +60,7 @@ CUE_REACH_PX = 10.0
 """A cue that is dragged this close to an entry belongs to it."""
 
 
-NAMES = Names(expression_name, kind_name, pose_name, gesture_name)
+NAMES = Names(expression_name, kind_name, pose_name, gesture_name, style_name)
 
 
 class ActingLane(RegionLane):
@@ -114,11 +117,13 @@ class ActingLane(RegionLane):
             *(expression_region(plan.player_id, event, NAMES) for event in plan.expressions),
             *self._gestures(plan),
             *(pose_region(plan.player_id, event, NAMES) for event in plan.poses),
+            *(style_region(plan.player_id, event, NAMES) for event in plan.styles),
         ):
             by_kind.setdefault(region.kind, []).append(region)
         result: list[Region] = []
         self.groups, row, first = [], 0, dict[str, int]()
-        for kinds in ((VARIED,), *GROUPS) if varied else GROUPS:
+        above = tuple((kind,) for kind in (VARIED, STYLE) if kind in by_kind)
+        for kinds in (*above, *GROUPS):
             members = [region for kind in kinds for region in by_kind.get(kind, ())]
             rows, count = self._packed(kinds, members, project.score.tempo_map)
             for region, own in zip(members, rows, strict=True):
@@ -339,6 +344,7 @@ class ActingLane(RegionLane):
             entry.triggered.connect(
                 lambda _=False, name=name: add_named_gestures(self.session, name, self._spans(mouse))
             )
+        add_styles_menus(menu, self.session, region, mouse.tick)
         menu.addAction(self.tr("acting_lane.add_cue_here")).triggered.connect(lambda _=False: self._add_cue(mouse))
 
     def _expression_entries(self, menu: QMenu, chosen: Callable[[str], None], now: Region | None = None) -> None:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.plan.model import SIGNED_KINDS, CueEvent, ExpressionEvent, GestureEvent, PoseEvent
+from app.plan.model import SIGNED_KINDS, CueEvent, ExpressionEvent, GestureEvent, PoseEvent, StyleEvent
 from app.project.edit.events import OWN
 from app.score.tempo import TempoMap
 from widgets.timeline.model.geometry import Floats, packed_rows
@@ -30,6 +30,8 @@ GROUPS: tuple[tuple[str, ...], ...] = (
 """Kinds that share rows, from the top."""
 VARIED = "vary"
 """Bars performed anew: not an event, but the user chose it; its row is there only with them, above all others."""
+STYLE = "style"
+"""Bars played in another style: their row too is there only with them."""
 STRIPS = ("bell_height", "weight_shift", "sway", "lean", "accent")
 """Kinds of which there are so many that what is generated is drawn as one calm strip."""
 CURVES = ("sway", "lean")
@@ -45,6 +47,7 @@ class Names(NamedTuple):
     kind: Callable[[str], str]
     pose: Callable[[str], str]
     gesture: Callable[[str], str]
+    style: Callable[[str], str]
 
 
 def packed_group(members: Sequence[Region], clock: TempoMap) -> tuple[list[int], int]:
@@ -120,6 +123,15 @@ def pose_region(player_id: str, event: PoseEvent, names: Names) -> Region:
         player_id, event.id, "pose", event.start_tick, event.end_tick, event.start_s, event.end_s,
         label=names.pose(event.target), reason=event.reason, by_hand=event.corrected, steady=True,
         fade_in_s=event.fade_in_s, fade_out_s=event.fade_out_s, fades=True, fades_outside=True,
+    )  # fmt: skip
+
+
+def style_region(player_id: str, event: StyleEvent, names: Names) -> Region:
+    """Bars in another style."""
+    return Region(
+        player_id, event.id, STYLE, event.start_tick, event.end_tick, event.start_s, event.end_s,
+        label=names.style(event.style), reason=event.reason, by_hand=event.corrected, steady=True,
+        fade_in_s=event.fade_in_s, fade_out_s=event.fade_out_s, fades=True,
     )  # fmt: skip
 
 

@@ -1,0 +1,181 @@
+"""Regions in which a player plays in another style: how much of each layer is shown at any time.
+
+What such a region names is what the player would show with that style throughout; at its edges both are blended.
+
+Messages: ``project.style_missing`` (player, name, known).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Final, overload
+
+import msgspec
+import numpy as np
+
+from app.errors import Message
+from app.identity_cache import IdentityCache
+from app.plan.acting import Acting
+from app.plan.corrections import BY_HAND, Correction, PlayStyle
+from app.plan.model import CueEvent, FloatArray, GestureEvent, PlayerPlan, Problem, StyleEvent
+from app.score.tempo import TempoMap
+
+LAYER_OF: Final[Mapping[str, str]] = {
+    "sway": "sway",
+    "weight_shift": "weight_shift",
+    "bell_height": "bell_height",
+    "lean": "phrase",
+    "accent": "phrase",
+    "step": "footwork",
+    "tap": "footwork",
+    "heel": "footwork",
+    "nod": "cue",
+}
+"""By kind of gesture the field of `Acting` that says how much of it is shown, where one gesture has one size."""
+
+
+def plan_styles(
+    corrections: tuple[Correction, ...],
+    actings: tuple[tuple[str, Acting], ...],
+    usual: Acting,
+    known: str,
+    player: str,
+    clock: TempoMap,
+) -> tuple[tuple[StyleEvent, ...], tuple[Problem, ...]]:
+    """The regions of a player, ordered by start, and a problem for each whose style is not there.
+
+    Parameters
+    ----------
+    actings : tuple of (str, Acting)
+        By style what the player shows in it.
+    usual : Acting
+        What the player shows elsewhere.
+    known, player : str
+        Names of the styles there are, and of the player, for what is reported.
+    """
+    by_name = dict(actings)
+    events, problems = [], []
+    for item in corrections:
+        if not isinstance(item, PlayStyle):
+            continue
+        start_s, end_s = clock.seconds(float(item.start_tick)), clock.seconds(float(item.end_tick))
+        acting = by_name.get(item.style)
+        if acting is None:
+            message = Message("project.style_missing", {"player": player, "name": item.style, "known": known})
+            problems.append(Problem(message, None, start_s, end_s))
+        events.append(
+            StyleEvent(
+                id=f"style:{item.name}",
+                style=item.style,
+                start_tick=item.start_tick,
+                end_tick=item.end_tick,
+                start_s=start_s,
+                end_s=end_s,
+                fade_in_s=max(clock.seconds(float(item.start_tick + item.fade_in_ticks)) - start_s, 0.0),
+                fade_out_s=max(end_s - clock.seconds(float(item.end_tick - item.fade_out_ticks)), 0.0),
+                acting=usual if acting is None else acting,
+                usual=usual,
+                reason=BY_HAND,
+            )
+        )
+    return tuple(sorted(events, key=lambda event: (event.start_s, event.id))), tuple(problems)
+
+
+@overload
+def amount_at(styles: Sequence[StyleEvent], layer: str, usual: float, times_s: float) -> float: ...
+@overload
+def amount_at(styles: Sequence[StyleEvent], layer: str, usual: float, times_s: FloatArray) -> FloatArray | float: ...
+def amount_at(
+    styles: Sequence[StyleEvent], layer: str, usual: float, times_s: FloatArray | float
+) -> FloatArray | float:
+    """How much of a layer (a field of `Acting`) is shown at some times; ``usual`` itself where there are no regions.
+
+    Where regions overlap, the one that begins later goes over the others.
+    """
+    shown: FloatArray | float = usual
+    for event in styles:
+        shown = shown + (getattr(event.acting, layer) - shown) * _presence(event, times_s)
+    return shown
+
+
+def most_shown(styles: Sequence[StyleEvent], usual: Acting) -> Acting:
+    """The most that is shown of each layer at any time."""
+    if not styles:
+        return usual
+    shown = (usual, *(event.acting for event in styles))
+    return Acting(**{name: max(getattr(one, name) for one in shown) for name in Acting.__struct_fields__})
+
+
+def share_at(styles: Sequence[StyleEvent], layer: str, times_s: FloatArray) -> FloatArray | float:
+    """What is shown of a layer at some times, as a share of `most_shown`: 1.0 where there are no regions."""
+    if not styles:
+        return 1.0
+    usual = styles[0].usual
+    most = getattr(most_shown(styles, usual), layer)
+    return amount_at(styles, layer, getattr(usual, layer), times_s) / most if most > 0.0 else 1.0
+
+
+def shown_in_style(plan: PlayerPlan) -> PlayerPlan:
+    """The plan with cues and gestures as large as the regions let them be, as shares of `most_shown`; the very same
+    plan where there are no regions. The same tuples give the same tuples."""
+    if not plan.styles:
+        return plan
+    return msgspec.structs.replace(
+        plan,
+        gestures=_SHOWN_GESTURES.step(_shown_gestures, plan.gestures, plan.styles),
+        cues=_SHOWN_CUES.step(_shown_cues, plan.cues, plan.styles),
+    )
+
+
+def differing_s(styles: Sequence[StyleEvent], others: Sequence[StyleEvent]) -> FloatArray:
+    """Spans (K, 2) of seconds outside of which two players whose `most_shown` is the same show the same."""
+    if tuple(styles) == tuple(others):
+        return np.zeros((0, 2))
+    different = [event for event in (*styles, *others) if event not in styles or event not in others]
+    return np.array([(event.start_s, event.end_s) for event in different]).reshape(-1, 2)
+
+
+def styles_at(styles: Sequence[StyleEvent], usual: str, times_s: FloatArray) -> list[str]:
+    """The style in which a player plays at some times."""
+    found = [usual] * len(times_s)
+    for event in styles:
+        for place in np.flatnonzero((times_s >= event.start_s) & (times_s < event.end_s)).tolist():
+            found[place] = event.style
+    return found
+
+
+def _shown_gestures(gestures: tuple[GestureEvent, ...], styles: tuple[StyleEvent, ...]) -> tuple[GestureEvent, ...]:
+    middles_s = np.array([0.5 * (event.start_s + event.end_s) for event in gestures])
+    shares = {layer: np.broadcast_to(share_at(styles, layer, middles_s), len(gestures)) for layer in _LAYERS}
+    return tuple(
+        msgspec.structs.replace(event, amount=event.amount * float(shares[LAYER_OF[event.kind]][place]))
+        if event.kind in LAYER_OF
+        else event
+        for place, event in enumerate(gestures)
+    )
+
+
+def _shown_cues(cues: tuple[CueEvent, ...], styles: tuple[StyleEvent, ...]) -> tuple[CueEvent, ...]:
+    shares = np.broadcast_to(share_at(styles, "cue", np.array([cue.end_s for cue in cues])), len(cues))
+    return tuple(
+        msgspec.structs.replace(cue, amount=cue.amount * float(share)) for cue, share in zip(cues, shares, strict=True)
+    )
+
+
+def _presence(event: StyleEvent, times_s: FloatArray | float) -> FloatArray | float:
+    """How far a region holds, 0..1: eased at its edges."""
+    rising = _eased((times_s - event.start_s) / max(event.fade_in_s, 1e-9))
+    falling = _eased((event.end_s - times_s) / max(event.fade_out_s, 1e-9))
+    return np.minimum(rising, falling)
+
+
+def _eased(phase: FloatArray | float) -> FloatArray | float:
+    """A minimum-jerk move over phases 0..1."""
+    u = np.clip(phase, 0.0, 1.0)
+    eased: FloatArray | float = u * u * u * (10.0 + u * (6.0 * u - 15.0))
+    return eased
+
+
+_LAYERS: Final = tuple(dict.fromkeys(LAYER_OF.values()))
+_SHOWN_GESTURES: Final[IdentityCache[tuple[GestureEvent, ...]]] = IdentityCache(64)
+_SHOWN_CUES: Final[IdentityCache[tuple[CueEvent, ...]]] = IdentityCache(64)

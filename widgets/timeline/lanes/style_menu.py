@@ -1,0 +1,37 @@
+"""The menus from which the style of some bars is chosen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtWidgets import QMenu
+
+from app.editor.additions import add_styles, bars_of, change_styles
+from app.editor.session import Session
+from app.editor.translated import tr
+from widgets.common.event_names import style_name
+from widgets.common.plain import verbatim
+from widgets.timeline.model.acting import STYLE
+from widgets.timeline.model.region import Region
+
+
+def add_styles_menus(menu: QMenu, session: Session, region: Region | None, tick: float) -> None:
+    """Another style for the selected regions, and a new region at a place for the selected players or for everyone."""
+    if region is not None and region.kind == STYLE:
+        other = _add(menu, "another_style", session, lambda name: change_styles(session, name))
+        for entry in other.actions():
+            entry.setCheckable(True)
+            entry.setChecked(entry.text() == verbatim(region.label))
+    everyone = tuple(player.id for player in session.project.players)
+    _add(menu, "style_here", session, lambda name: add_styles(session, name, bars_of(session, session.players, tick)))
+    _add(menu, "style_of_all_here", session, lambda name: add_styles(session, name, bars_of(session, everyone, tick)))
+
+
+def _add(menu: QMenu, name: str, session: Session, chosen: Callable[[str], None]) -> QMenu:
+    styles = menu.addMenu(tr(f"acting_lane.{name}"))
+    styles.setObjectName(name)
+    for style in sorted(session.performance.metadata.styles.items, key=style_name):
+        entry = styles.addAction(verbatim(style_name(style)))
+        entry.setObjectName(f"style_{style}")
+        entry.triggered.connect(lambda _=False, style=style: chosen(style))
+    return styles
