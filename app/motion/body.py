@@ -29,6 +29,7 @@ from app.motion.nods import Nods
 from app.motion.overlap import Leads, Overlapped
 from app.motion.path import Path
 from app.motion.pose import Offset, Poses, hold_body
+from app.motion.quiet import quiet_breaths
 from app.motion.reaching import Reaches, Reaching, reached
 from app.motion.ribs import air
 from app.plan.acting import Acting
@@ -43,6 +44,8 @@ EYES_BACK = 0.6
 """Share of the head's turn to the instrument that the eyes turn back, to the music and to the others."""
 EXHALE_S = 3.0
 FULLEST = 1.4
+QUIET, QUIET_AIR = 0.45, 0.3
+"""How full a quiet breath makes the lungs look, and how much air it is, beside a full one."""
 LEAST_DRAWN = 0.4
 """However soon breaths follow each other, each has this much room: no breath goes unseen, also where a bell sinks."""
 BREATH_LEAD_S = 0.03
@@ -207,6 +210,7 @@ class LayerSamples:
     gestured: Sums | None = None
     concert: ConcertSamples | None = None
     reached: Reaches | None = None
+    quiet: FloatArray | float = 0.0
 
 
 @dataclass(frozen=True)
@@ -237,6 +241,7 @@ class Layers:
     weight: Curve
     height: Curve
     lowered: Curve
+    quiet: Curve
     feet: Feet
     poses: Poses
     gestured: Gestured
@@ -286,6 +291,7 @@ class Layers:
             lowered=low.lowered
             if low
             else lowering(gestures["lower_instrument"], body.bell.lower_s, body.bell.raise_s),
+            quiet=low.quiet if low else quiet_breaths(gestures["lower_instrument"]),
             feet=stepped.feet if stepped else Feet.of(gestures["feet"], body.footwork.step_s),
             poses=Poses.of(plan.poses),
             gestured=Gestured.of(plan.gestures),
@@ -316,6 +322,7 @@ class Layers:
             giving=2.0 * share * (1.0 - share) * np.abs(after - before),
             height=self.height.sample(times_s),
             lowered=self.lowered.sample(times_s),
+            quiet=self.quiet.sample(times_s),
             feet=self.feet.sample(times_s),
             held=self.poses.sample(times_s),
             gestured=self.gestured.sample(times_s),
