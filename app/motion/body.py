@@ -362,7 +362,7 @@ def body_motion(
     """Sum of all layers at ascending ``times_s`` (F,), on top of the posture's own angles; without ``steps`` feet only
     tap. ``beside`` is the share that is shown of keyed gestures and of what is done beside playing."""
     sizes, sway, deg = Sizes(body, parameters, player_id), body.sway, np.deg2rad
-    inhaled, lean, shown = levels.full, levels.leaning, acting.gestures * beside
+    inhaled, lean, shown = levels.full + QUIET * levels.quiet, levels.leaning, acting.gestures * beside
     dip, lift = acting.cue * levels.dip, acting.cue * levels.lift
     frames, lowered, seated = len(times_s), levels.lowered, posture.seat_height_shank > 0.0
     hands, raised = reached(levels.reached or {}, parameters.amplitude, acting.gestures)

@@ -11,7 +11,7 @@ import numpy as np
 
 from app.motion.additive import NOTHING, Added, Additive, with_added, with_added_morphs, with_held
 from app.motion.aside import Aside
-from app.motion.body import BodyMotion, Layers, LayerSamples, body_motion
+from app.motion.body import QUIET_AIR, BodyMotion, Layers, LayerSamples, body_motion
 from app.motion.contact import Carried
 from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
@@ -214,7 +214,8 @@ class PerformanceCurves:
             self._face_sizes.shared(share_at(styles, "face", frames.times_s), share_at(styles, "lips", frames.times_s)),
             frames.times_s,
         )
-        morphs |= widened(levels.air, self.body.breath, self.acting.breath)
+        air = levels.air + QUIET_AIR * levels.quiet
+        morphs |= widened(air, self.body.breath, self.acting.breath)
         if added:
             morphs = with_added_morphs(morphs, added, frames.face.at_lips)
         return Curves(
