@@ -23,7 +23,7 @@ USUAL_ARM_M: Final = 0.5
 """Upper and lower arm of an adult: places are farther from longer arms."""
 PAGE_M: Final = np.array([0.0, -0.02, 0.54])
 """The middle of the music from between the shoulders, which is where the eyes read (`app.motion.gaze`)."""
-ELBOW_M: Final = np.array([0.07, -0.24, 0.08])
+ELBOW_M: Final = np.array([0.01, -0.22, 0.07])
 """About where an elbow is that reaches ahead, from its shoulder; outwards, up and ahead."""
 PAGE_PALM: Final = np.array([-0.6, -0.75, 0.25])
 """Where the palm looks at the music; outwards, up and ahead."""
