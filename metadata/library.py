@@ -6,7 +6,7 @@ over the bundled ones of the same name, and are read again when their files chan
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, Final, NamedTuple, TypeVar
@@ -68,8 +68,8 @@ class MetadataLibrary(NamedTuple):
 
     @property
     def all_rules(self) -> tuple[Rule, ...]:
-        """The rules of every file; the same object as long as the files are."""
-        return _all_rules(self.rules.items)
+        """The rules of every file, the user's own after ours; the same object as long as the files are."""
+        return _all_rules(self.rules.items, self.rules.files)
 
     @property
     def expressions_by_name(self) -> dict[str, Expression]:
@@ -102,9 +102,10 @@ def _rules_of(sets: tuple[RuleSet, ...]) -> tuple[Rule, ...]:
     return tuple({rule.name: rule for found in sets for rule in found.rules}.values())
 
 
-def _all_rules(sets: Mapping[str, RuleSet]) -> tuple[Rule, ...]:
-    """The rules of every file, in the order of the files' names; of two of the same name the later counts."""
-    return _rules_of(tuple(sets[name] for name in sorted(sets)))
+def _all_rules(sets: Mapping[str, RuleSet], own: Collection[str] = ()) -> tuple[Rule, ...]:
+    """The rules of every file, in the order of the files' names, ``own`` ones last; of two of the same name the later
+    counts, in the place of the earlier."""
+    return _rules_of(tuple(sets[name] for name in sorted(sets, key=lambda name: (name in own, name))))
 
 
 def metadata_library() -> MetadataLibrary:

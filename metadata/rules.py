@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Final, Literal, TypeAlias
 
 import msgspec
 
 from metadata.model import Fraction01, NotNegative, Positive
-from metadata.tables import check_name, decoded, invalid
+from metadata.tables import Title, check_name, decoded, invalid
 
 Offset: TypeAlias = Annotated[float, msgspec.Meta(ge=-60.0, le=60.0)]
 Place: TypeAlias = Literal["first", "after_rest", "climax", "phrase_end", "before_rest", "last"]
-Growth: TypeAlias = Literal["loudness", "height", "length", "accent"]
+Growth: TypeAlias = Literal["loudness", "height", "depth", "length", "accent", "effort"]
+Moment: TypeAlias = Literal["gives_entry", "takes_entry", "ending"]
 Anchor: TypeAlias = Literal["onset", "end"]
 
 MOST_RULES = 200
@@ -46,6 +48,12 @@ class When(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         The player has none of these.
     chance : float
         In so many of the cases.
+    effort_above : float
+        How hard the note is to play, 0..1: by height, loudness and length.
+    moment : str or None
+        Not a note but a moment: ``"gives_entry"``, the cue of who gives one; ``"takes_entry"``, the breath before the
+        entry of others, after a rest; ``"ending"``, from when the instrument is lowered after a bright end. What else
+        is said must hold of the note that begins there.
     """
 
     loudness_above: Fraction01 | None = None
@@ -65,6 +73,8 @@ class When(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     not_styles: tuple[str, ...] = ()
     habits: tuple[str, ...] = ()
     chance: Fraction01 = 1.0
+    effort_above: Fraction01 | None = None
+    moment: Moment | None = None
 
 
 class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -76,8 +86,12 @@ class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         Name of the one or the other.
     strength : float
         Of an expression, or the size of a gesture.
-    grows_with : str or None
-        The strength is reached only where this is at its most; where the condition is just met it is a fifth of it.
+    grows_with : str, tuple of str or None
+        The strength is reached only where this is at its most; of several it goes with their geometric mean.
+    grows_from : float
+        Share of the strength where the condition is just met.
+    scaled_by : str or None
+        ``"puff"``: times how much air the instrument lets into the cheeks.
     start, end : str
         What the offsets count from: the onset or the end of the note.
     start_s, end_s : float
@@ -86,12 +100,16 @@ class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         A gesture begins up to so much later, by player, place and seed: no two do it at once.
     fade_in_s, fade_out_s : float or None
         Of an expression; None: its own.
+    stays_s : float
+        An expression stays so much longer, but not beyond where the next one of the rule begins.
     """
 
     expression: str = ""
     gesture: str = ""
     strength: Fraction01 = 1.0
-    grows_with: Growth | None = None
+    grows_with: Growth | tuple[Growth, ...] | None = None
+    grows_from: Fraction01 = 0.2
+    scaled_by: Literal["puff"] | None = None
     start: Anchor = "onset"
     start_s: Offset = 0.0
     end: Anchor = "end"
@@ -99,6 +117,14 @@ class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     spread_s: NotNegative = 0.0
     fade_in_s: Positive | None = None
     fade_out_s: Positive | None = None
+    stays_s: NotNegative = 0.0
+
+    @property
+    def growth(self) -> tuple[Growth, ...]:
+        """All that the strength grows with."""
+        if self.grows_with is None:
+            return ()
+        return (self.grows_with,) if isinstance(self.grows_with, str) else self.grows_with
 
 
 class Rule(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -108,12 +134,27 @@ class Rule(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     ----------
     apart_s : float
         From one time that it does something to the next at least so long; expressions closer than this are one.
+    title : Title
+        What it is called in lists; without one, its name.
+    enabled : bool
+        False: it does nothing.
+    events : str
+        What its events are called in the corrections of a piece; empty: ``rule:`` and its name. An event that is
+        called otherwise stays beside what is placed by hand.
     """
 
     name: str
     when: When
     do: Do
     apart_s: NotNegative = 0.35
+    title: Title = Title("")
+    enabled: bool = True
+    events: str = ""
+
+    @property
+    def prefix(self) -> str:
+        """What the ids of its events have after their kind."""
+        return self.events or f"rule:{self.name}"
 
 
 class RuleSet(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -133,22 +174,45 @@ def read_rules(path: Path) -> RuleSet:
     seen: set[str] = set()
     for index, rule in enumerate(found.rules):
         place = f"rules[{index}]"
-        if not rule.name.isidentifier():
-            raise invalid(path, f"{place}.name", f"{rule.name!r} must be letters, digits and underscores")
         if rule.name in seen:
             raise invalid(path, f"{place}.name", f"{rule.name!r} appears twice")
         seen.add(rule.name)
-        if bool(rule.do.expression) == bool(rule.do.gesture):
-            raise invalid(path, f"{place}.do", "must have an expression or a gesture, and not both")
-        if rule.do.gesture and (rule.do.fade_in_s or rule.do.fade_out_s):
-            raise invalid(path, f"{place}.do.fade_in_s", "a gesture has its fades in its keys")
-        needed = {"loudness": "loudness_above", "height": "semitones_above_easy", "length": "longer_s"}
-        grows = rule.do.grows_with
-        if grows in needed and getattr(rule.when, needed[grows]) is None:
-            raise invalid(path, f"{place}.do.grows_with", f"{grows!r} needs when.{needed[grows]}")
-        if rule.when == When():
-            raise invalid(path, f"{place}.when", "must say when")
+        for key, detail in rule_faults(rule):
+            raise invalid(path, f"{place}.{key}", detail)
     return found
+
+
+def rule_faults(rule: Rule) -> Iterator[tuple[str, str]]:
+    """What is wrong with a rule: the key, and what it must be."""
+    if not rule.name.isidentifier():
+        yield "name", f"{rule.name!r} must be letters, digits and underscores"
+    if rule.events and not rule.events.isidentifier():
+        yield "events", f"{rule.events!r} must be letters, digits and underscores"
+    if bool(rule.do.expression) == bool(rule.do.gesture):
+        yield "do", "must have an expression or a gesture, and not both"
+    if rule.do.gesture and (rule.do.fade_in_s or rule.do.fade_out_s):
+        yield "do.fade_in_s", "a gesture has its fades in its keys"
+    if rule.do.gesture and rule.do.stays_s:
+        yield "do.stays_s", "a gesture ends when it is done"
+    if rule.do.gesture and rule.when.moment is not None:
+        yield "when.moment", "is for expressions; say of a gesture where the note is"
+    if rule.when.moment is not None and rule.do.growth:
+        yield "do.grows_with", "has nothing to grow with at a moment"
+    for grows in rule.do.growth:
+        if grows in GROWS_FROM and getattr(rule.when, GROWS_FROM[grows]) is None:
+            yield "do.grows_with", f"{grows!r} needs when.{GROWS_FROM[grows]}"
+    if rule.when == When():
+        yield "when", "must say when"
+
+
+GROWS_FROM: Final[Mapping[Growth, str]] = {
+    "loudness": "loudness_above",
+    "height": "semitones_above_easy",
+    "depth": "semitones_below_easy",
+    "length": "longer_s",
+    "effort": "effort_above",
+}
+"""By what a strength grows with the condition that it grows from."""
 
 
 # As in `metadata.load`: types are worked out under the import's lock.

@@ -16,10 +16,10 @@ from app.messages import text as worded
 from app.plan.generate import COME_UP_S, PREROLL_BEATS, PREROLL_LEAST_S
 from app.project import limits
 from app.project.casting import MOST_IN_ARC, ConductorPlace, conductor_place
-from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings
+from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_preroll
 from app.project.frame_rate import exact_number
 from app.project.frame_rate import frame_rate as typed_rate
-from app.project.model import Project, map_choices, project_from_score, with_settings
+from app.project.model import Project, map_choices, preroll_of_new, project_from_score, with_settings
 from app.project.names import unique_names
 from app.project.parameters import parameter_names, parse_settings, select_players
 from app.project.storage import is_project_file, load
@@ -257,7 +257,11 @@ def open_project(arguments: argparse.Namespace) -> Project:
     settings = parse_settings(
         arguments.settings, [player.name for player in project.players], maps, tuple(characters())
     )
-    return with_settings(set_piece_settings(project, _piece(arguments, project)), settings, maps)
+    found = set_piece_settings(project, _piece(arguments, project))
+    if getattr(arguments, "preroll", None) is None and not is_project_file(arguments.file):
+        # Of a new piece it is as long as it takes to come up from rest, in whatever beat is felt.
+        found = set_preroll(found, preroll_of_new(found))
+    return with_settings(found, settings, maps)
 
 
 def _piece(arguments: argparse.Namespace, project: Project) -> PieceSettings:

@@ -78,14 +78,21 @@ class LivePlayer(QObject):
         if player is None or player.id not in performance.plans or player.id in performance.waiting:
             return None
         plan = performance.plans[player.id]
-        of = (player.id, player.instrument_id, player.character_id, performance.parameters(player))
+        of = (
+            player.id,
+            player.instrument_id,
+            player.character_id,
+            performance.parameters(player),
+            performance.metadata.all_rules,
+        )
         if of != self._of:
             if self._play_along is not None:
                 self._session.live_players.end(self._play_along.player_id)
             # Who cannot be seen is among the problems.
             self._play_along = None
             for performer in performers_of(performance, (player,)).made.values():
-                self._play_along = PlayAlong(playing_of(performance, performer, danced=False))
+                playing, rules = playing_of(performance, performer, danced=False), performance.metadata.all_rules
+                self._play_along = PlayAlong(playing, rules=rules)
                 self._session.live_players.begin(self._play_along)
             self._of = of
         held = (plan.poses, plan.additive)

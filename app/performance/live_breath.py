@@ -19,11 +19,13 @@ from app.motion.perform import PerformanceCurves
 from app.motion.seed import generator
 from app.performance.live_hands import FRAMES
 from app.plan.embouchure import strain_of, tension_of
-from app.plan.expression import puffed, strained
 from app.plan.line import MEZZOFORTE
+from app.plan.live_faces import faces_now, live_rules
 from app.plan.lungs import FULL_BREATH_S, air_rate, lungful_s
 from app.plan.traces import pressed_by
+from metadata.library import bundled_rules
 from metadata.model import Expression
+from metadata.rules import Rule
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -70,10 +72,15 @@ class LiveBreath:
     Parameters
     ----------
     expressions : dict of str to Expression
-        What ``neutral``, ``strained`` and ``puffed`` look like is seen.
+        What faces look like: ``neutral``, and those that rules show.
+    rules : tuple of Rule, optional
+        Ours without it.
     """
 
-    def __init__(self, playing: PerformanceCurves, expressions: dict[str, Expression]) -> None:
+    def __init__(
+        self, playing: PerformanceCurves, expressions: dict[str, Expression], rules: tuple[Rule, ...] | None = None
+    ) -> None:
+        rules = bundled_rules() if rules is None else rules
         self._instrument, self._parameters = playing.instrument_map, playing.parameters
         self._lung_s = lungful_s(playing.parameters, playing.instrument_map.air)
         self._breath: float | None = None
@@ -97,8 +104,10 @@ class LiveBreath:
         self._load = playing.body.face.load
         self._working, self._strain = Spring(0.0, WORKS_S), Spring(0.0, STRAINS_S)
         self._pressed, self._usual_bite = Spring(0.0, PRESSED_S), Spring(0.0, USUAL_BITE_S)
+        self._rules = live_rules(rules, expressions)
         self._shown = {
-            name: Spring(0.0, expressions[name].fade_in_s) for name in ("strained", "puffed") if name in expressions
+            name: Spring(0.0, expressions[name].fade_in_s)
+            for name in dict.fromkeys(rule.do.expression for rule in self._rules)
         }
         self._neutral = "neutral" in expressions
 
@@ -222,9 +231,9 @@ class LiveBreath:
         self._strain.follow(max(load - LIGHT, 0.0) / (1.0 - LIGHT), elapsed_s)
         height = float(np.clip((loud[0] - MEZZOFORTE) / (1.0 - MEZZOFORTE), -1.0, 1.0)) if self._blown else 0.0
         self._bell.follow(BELL_RISES * height, elapsed_s)
-        strengths = {"strained": strained(effort), "puffed": puffed(pitch, loud, self._instrument)}
+        strengths = faces_now(self._rules, pitch, loud, effort, self._instrument)
         for name, spring in self._shown.items():
-            spring.follow(float(strengths[name][0]), elapsed_s)
+            spring.follow(strengths[name], elapsed_s)
 
     def at(self, now_s: float) -> Breathing:
         """Body and face now."""

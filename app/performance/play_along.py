@@ -29,6 +29,7 @@ from app.score.take import SILENCING, ControllerMapping, decoded, is_wired, said
 from instrument_maps.model import Fingering
 from metadata.load import load_expressions
 from metadata.model import Expression
+from metadata.rules import Rule
 
 LEGATO_S = 0.012
 """A note that begins so soon after the last one ended is not tongued: controllers send both at once."""
@@ -48,14 +49,21 @@ class PlayAlong:
         Who plays, on what and in which posture (`app.performance.motion.playing_of`); its notes are not looked at.
     expressions : mapping of str to Expression, optional
         What the faces look like; the bundled ones without it.
+    rules : tuple of Rule, optional
+        When faces show; the bundled ones without it.
     """
 
-    def __init__(self, playing: PerformanceCurves, expressions: Mapping[str, Expression] | None = None) -> None:
+    def __init__(
+        self,
+        playing: PerformanceCurves,
+        expressions: Mapping[str, Expression] | None = None,
+        rules: tuple[Rule, ...] | None = None,
+    ) -> None:
         known = dict(load_expressions() if expressions is None else expressions)
         self._whole = playing
         self._playing = replace(playing, expressions=known)
         self._hands = LiveHands(playing)
-        self._breath = LiveBreath(playing, known)
+        self._breath = LiveBreath(playing, known, rules)
         self._look = LiveLook(playing)
         self._help = LiveHelp()
         self._poses, self._at_s = playing.layers.poses, -math.inf

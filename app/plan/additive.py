@@ -224,7 +224,9 @@ def _reported(item: AdditiveCurve, shape: tuple[CurveSegment, ...], limits: Limi
             "most": round(shown * held, 1),
             "unit": "°" if unit == "deg" else " cm",
         }
-        found.append(Problem(Message("additive.beyond_reach", arguments), None, start_s, end_s))
+        beyond_s = times_s[(values < low) | (values > high)]
+        span_s = float(beyond_s[0]), min(float(beyond_s[-1]) + STEP_S, end_s)
+        found.append(Problem(Message("additive.beyond_reach", arguments), None, *span_s))
     if item.channel in BODY_CHANNELS and not item.channel.startswith("eyes.") and len(values) > 2:
         peak = float(np.abs(np.diff(values, 2)).max()) / STEP_S**2
         if peak > FASTEST[unit]:

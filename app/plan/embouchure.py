@@ -92,6 +92,11 @@ def plan_embouchures(
     return tuple(events)
 
 
+def efforts_of(embouchures: tuple[EmbouchureEvent, ...]) -> FloatArray:
+    """How hard each note is to play, 0..1 (N,) float64."""
+    return np.array([event.effort for event in embouchures], np.float64)
+
+
 def plan_tongues(
     notes: tuple[Note, ...], times: LineTimes, instrument: InstrumentMap, fingerings: tuple[FingeringEvent, ...]
 ) -> tuple[TongueEvent, ...]:

@@ -41,13 +41,14 @@ from app.plan.cue import entries, plan_cues
 from app.plan.dynamics import dynamics_of
 from app.plan.embouchure import plan_embouchures, plan_tongues
 from app.plan.ending import Ending, ending_of
-from app.plan.expression import SMILE_ID, plan_expressions
+from app.plan.expression import SMILE_ID, all_shown, neutral_face
 from app.plan.fingering import plan_fingerings
 from app.plan.gesture import Pulse, plan_gestures, pulse
 from app.plan.glances import StagePlace, glances_of
 from app.plan.line import LineTimes, MonophonicPart, Piece, Seeds, note_times, without_sound
 from app.plan.memo import Memo
 from app.plan.model import CONDUCTOR, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, Problem, TimeFrame
+from app.plan.moments import Around, plan_moments
 from app.plan.named_gestures import undisturbed, with_definitions
 from app.plan.parameters import restricted
 from app.plan.pose import plan_poses
@@ -378,6 +379,7 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
         given.rules,
         given.faces,
         given.named,
+        embouchures,
     )
     made_gestures = memo.step("gestures and rules", with_ruled, made_gestures, ruled.gestures)
     moved = _of(corrections, ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
@@ -394,22 +396,24 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     # Who corrected the smile after the last note keeps it, whatever the ending is.
     named = any(item.event_id == SMILE_ID for item in corrections if isinstance(item, ChangeExpression | RemoveEvent))
     ending = msgspec.structs.replace(given.ending, bright=True) if named else given.ending
-    made_expressions = memo.step(
-        "expressions",
-        plan_expressions,
+    at_moments = memo.step(
+        "moments",
+        plan_moments,
         notes,
         times,
-        clock,
-        instrument,
+        piece,
         frame,
-        embouchures,
-        events,
-        given.cues,
-        gestures,
-        ending,
+        instrument,
+        restricted(parameters, "rules"),
+        dynamics,
+        seeds,
+        given.rules,
         given.faces,
+        embouchures,
+        Around(events, given.cues, gestures, ending, styles),
     )
-    made_expressions = memo.step("expressions and rules", with_ruled, made_expressions, ruled.expressions)
+    neutral = memo.step("neutral", neutral_face, clock, frame, given.faces["neutral"])
+    made_expressions = memo.step("expressions", all_shown, neutral, at_moments, ruled.expressions)
     faced = _of(corrections, ChangeExpression, AddExpression, RemoveEvent, SetBreath, SetCue)
     expressions = memo.step("corrected expressions", correct_expressions, made_expressions, faced, clock)
     expressions = memo.step("expressions by hand", without_overruled, expressions)

@@ -7,8 +7,8 @@ the body goes: at the end of a sway or lean, and for as long as it lasts for the
 Amounts follow the dynamics (`app.plan.dynamics`); sizes belong to the motion, which scales by the
 player's amplitude.
 
-In a rest longer than twice `app.plan.swing.STIR_S` the body moves with the beat at its edges only, and its weight shifts
-a few times: what is made is in proportion to the notes, however long the silence between them.
+In a rest longer than twice `app.plan.swing.STIR_S` the body moves with the beat at its edges only, and the weight is
+shifted a few times: what is made is in proportion to the notes, however long the silence between them.
 
 Everything random is drawn from player and score position (tick), so the same place repeats in every run, however the
 rest of the piece is edited (Wanderley: players repeat the same bell movement at the same place).

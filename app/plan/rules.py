@@ -1,6 +1,7 @@
 """What rules (`metadata.rules`) make players show and do: events whose ids name the rule and the note.
 
-Messages: ``rule.applied`` (rule), ``rule.unknown_expression``, ``rule.unknown_gesture`` (rule, name, known).
+Messages: ``rule.applied`` (rule), ``expression.effort``, ``expression.low_loud``, ``rule.unknown_expression``,
+``rule.unknown_gesture`` (rule, name, known).
 """
 
 from __future__ import annotations
@@ -12,8 +13,9 @@ import numpy as np
 
 from app.errors import Argument, Message
 from app.plan.dynamics import BoolArray, Dynamics
+from app.plan.embouchure import efforts_of
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
-from app.plan.model import ExpressionEvent, FloatArray, GestureEvent, Problem, StyleEvent, TimeFrame
+from app.plan.model import EmbouchureEvent, ExpressionEvent, FloatArray, GestureEvent, Problem, StyleEvent, TimeFrame
 from app.plan.parameters import PlayerParameters
 from app.plan.possible import belongs, may_start
 from app.plan.styles import styles_at
@@ -23,13 +25,13 @@ from instrument_maps.model import InstrumentMap
 from metadata.acting import names_in
 from metadata.gestures import Gesture
 from metadata.model import Expression
-from metadata.rules import Rule, When
+from metadata.rules import Growth, Rule, When
 
-LEAST_SHARE: Final = 0.2
-"""Of its strength, where what it grows with is just enough."""
 HEIGHT_SEMITONES: Final = 12.0
 """Above the easy range: nothing is higher."""
 MOST_ACCENT: Final = 0.3
+DEPTH_SEMITONES: Final = 6.0
+"""Below where the condition is just met: nothing is lower."""
 LEAST_S: Final = 0.2
 """A shorter moment does not reach the face."""
 
@@ -50,7 +52,8 @@ class Ruled(NamedTuple):
 class Facts(NamedTuple):
     """What rules ask of the notes of a line: arrays (N,)."""
 
-    times: LineTimes
+    loudness: FloatArray
+    pitch: FloatArray
     lasts_s: FloatArray
     rest_s: FloatArray
     rest_after_s: FloatArray
@@ -59,6 +62,7 @@ class Facts(NamedTuple):
     accents: FloatArray
     leap: FloatArray
     played_s: FloatArray
+    effort: FloatArray
     places: Mapping[str, BoolArray]
 
 
@@ -76,8 +80,9 @@ def plan_by_rules(
     rules: tuple[Rule, ...],
     faces: Mapping[str, Expression],
     gestures: Mapping[str, Gesture],
+    embouchures: tuple[EmbouchureEvent, ...] = (),
 ) -> Ruled:
-    """All events that the rules ask for, ordered by start.
+    """All events that the rules ask for at notes, ordered by start; those of moments are of `app.plan.moments`.
 
     Parameters
     ----------
@@ -87,6 +92,8 @@ def plan_by_rules(
         Seconds in which the instrument is off the lips.
     rules : tuple of Rule
         In the order in which they are asked.
+    embouchures : tuple of EmbouchureEvent
+        Of the notes: how hard they are to play.
     """
     habits = names_in(parameters.habits)
     facts: Facts | None = None
@@ -96,37 +103,52 @@ def plan_by_rules(
     made: list[GestureEvent] = []
     problems: list[Problem] = []
     for rule in rules:
-        if not notes or not _concerns(rule.when, in_styles, habits):
+        if not notes or not rule.enabled or not concerns(rule.when, in_styles, habits):
             continue
         unknown = _unknown(rule, faces, gestures)
         if unknown is not None:
             problems.append(Problem(unknown, None, frame.first_frame_s, frame.first_frame_s))
             continue
-        facts = facts_of(times, piece, instrument, dynamics) if facts is None else facts
-        here = matches(rule.when, facts) & _by_chance(rule, times, seeds)
+        if rule.when.moment is not None:
+            continue
+        facts = facts_of(times, piece, instrument, dynamics, embouchures) if facts is None else facts
+        here = matches(rule.when, facts) & by_chance(rule, times.onset_tick, seeds)
         if styles and rule.when.styles:
             here &= np.array([style in rule.when.styles for style in played_in])
         if styles and rule.when.not_styles:
             here &= np.array([style not in rule.when.not_styles for style in played_in])
-        found = np.flatnonzero(here)
+        sizes = rule.do.strength * growth_of(rule, facts)
+        if rule.do.scaled_by == "puff":
+            sizes = sizes * instrument.embouchure.puff
+        found = np.flatnonzero(here & (sizes > 0.0))
         if not len(found):
             continue
-        sizes = rule.do.strength * _growth(rule, facts)
         if rule.do.expression:
-            shown += _faces(rule, faces[rule.do.expression], notes, times, found, sizes, piece.clock)
+            shown += _faces(rule, faces[rule.do.expression], notes, times, facts, found, sizes, piece.clock, instrument)
         else:
             gesture = gestures[rule.do.gesture]
             if not belongs(gesture, instrument):
                 continue
             made += _gestures(rule, gesture, notes, times, found, sizes, piece.clock, lowered, seeds, made)
     return Ruled(
-        tuple(sorted(shown, key=lambda event: (event.start_s, event.id))),
+        tuple(sorted(shown, key=in_order)),
         tuple(sorted(made, key=lambda event: (event.start_s, event.id))),
         tuple(problems),
     )
 
 
-def facts_of(times: LineTimes, piece: Piece, instrument: InstrumentMap, dynamics: Dynamics) -> Facts:
+def in_order(event: ExpressionEvent) -> tuple[float, bool, str]:
+    """By start; at the same time first what is not the rule's own."""
+    return event.start_s, ":rule:" in event.id, event.id
+
+
+def facts_of(
+    times: LineTimes,
+    piece: Piece,
+    instrument: InstrumentMap,
+    dynamics: Dynamics,
+    embouchures: tuple[EmbouchureEvent, ...] = (),
+) -> Facts:
     """What rules ask of notes. The silence before the first and after the last has no end."""
     rests_s = np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)
     pitch = times.pitch.astype(np.float64)
@@ -141,7 +163,8 @@ def facts_of(times: LineTimes, piece: Piece, instrument: InstrumentMap, dynamics
             climax[first + int(np.argmax(weight[first:end]))] = True
     number = np.arange(len(pitch))
     return Facts(
-        times=times,
+        loudness=times.loudness,
+        pitch=pitch,
         lasts_s=times.duration_s,
         rest_s=np.concatenate(([np.inf], rests_s)),
         rest_after_s=np.concatenate((rests_s, [np.inf])),
@@ -150,6 +173,7 @@ def facts_of(times: LineTimes, piece: Piece, instrument: InstrumentMap, dynamics
         accents=dynamics.accents,
         leap=np.concatenate(([0.0], np.diff(pitch))),
         played_s=np.cumsum(times.duration_s),
+        effort=efforts_of(embouchures) if embouchures else np.zeros(len(pitch)),
         places={
             "first": number == 0,
             "after_rest": apart & (number > 0),
@@ -163,7 +187,7 @@ def facts_of(times: LineTimes, piece: Piece, instrument: InstrumentMap, dynamics
 
 def matches(when: When, facts: Facts) -> BoolArray:
     """(N,): of which notes everything holds but style, habits and chance."""
-    loudness, count = facts.times.loudness, len(facts.times.loudness)
+    loudness, count = facts.loudness, len(facts.loudness)
     least = (
         (when.loudness_above, loudness),
         (when.semitones_above_easy, facts.above_easy),
@@ -175,6 +199,7 @@ def matches(when: When, facts: Facts) -> BoolArray:
         (when.accent, facts.accents),
         (when.leap_up, facts.leap),
         (when.leap_down, -facts.leap),
+        (when.effort_above, facts.effort),
     )
     most = ((when.loudness_below, loudness), (when.shorter_s, facts.lasts_s))
     found = np.ones(count, bool)
@@ -189,7 +214,8 @@ def matches(when: When, facts: Facts) -> BoolArray:
     return found
 
 
-def _concerns(when: When, styles: Collection[str], habits: Sequence[str]) -> bool:
+def concerns(when: When, styles: Collection[str], habits: Sequence[str]) -> bool:
+    """Whether a player of some styles and habits is meant."""
     if when.styles and set(when.styles).isdisjoint(styles):
         return False
     if when.not_styles and set(styles) <= set(when.not_styles):
@@ -206,29 +232,47 @@ def _unknown(rule: Rule, faces: Mapping[str, Expression], gestures: Mapping[str,
     return None
 
 
-def _by_chance(rule: Rule, times: LineTimes, seeds: Seeds) -> BoolArray:
+def by_chance(rule: Rule, ticks: IntArray, seeds: Seeds) -> BoolArray:
+    """(N,): at which of some places chance lets a rule do something."""
     if rule.when.chance >= 1.0:
-        return np.ones(len(times.onset_tick), bool)
-    return seeds.chances_at(f"rule {rule.name}", times.onset_tick) < rule.when.chance
+        return np.ones(len(ticks), bool)
+    return seeds.chances_at(f"rule {rule.name}", ticks) < rule.when.chance
 
 
-def _growth(rule: Rule, facts: Facts) -> FloatArray:
-    """(N,): 0.2 where a note just meets the condition, 1 where it could not meet it more."""
-    when, grows = rule.when, rule.do.grows_with
-    if grows is None:
+def growth_of(rule: Rule, facts: Facts) -> FloatArray:
+    """(N,): `Do.grows_from` where a note just meets the condition, 1 where it could not meet it more."""
+    grows = rule.do.growth
+    if not grows:
         return np.ones(len(facts.lasts_s))
+    shares = [np.clip(_share(one, rule.when, facts), 0.0, 1.0) for one in grows]
+    share = shares[0]
+    for other in shares[1:]:
+        share = share * other
+    if len(shares) == 2:
+        share = np.sqrt(share)
+    elif len(shares) > 2:
+        share = share ** (1.0 / len(shares))
+    grown: FloatArray = rule.do.grows_from + (1.0 - rule.do.grows_from) * share
+    # Of several, one that is just met leaves nothing.
+    return np.where(share > 0.0, grown, rule.do.grows_from if len(shares) == 1 else 0.0)
+
+
+def _share(grows: Growth, when: When, facts: Facts) -> FloatArray:
+    """(N,): how far beyond the condition, 0..1 and less or more."""
     if grows == "loudness":
         least = when.loudness_above or 0.0
-        share = (facts.times.loudness - least) / max(1.0 - least, 1e-6)
-    elif grows == "height":
-        share = (facts.above_easy - (when.semitones_above_easy or 0.0)) / HEIGHT_SEMITONES
-    elif grows == "length":
+        return (facts.loudness - least) / max(1.0 - least, 1e-6)
+    if grows == "height":
+        return (facts.above_easy - (when.semitones_above_easy or 0.0)) / HEIGHT_SEMITONES
+    if grows == "depth":
+        return (facts.below_easy - (when.semitones_below_easy or 0.0)) / DEPTH_SEMITONES
+    if grows == "length":
         longer_s = max(when.longer_s or 0.0, 1e-3)
-        share = (facts.lasts_s - longer_s) / (2.0 * longer_s)
-    else:
-        share = facts.accents / MOST_ACCENT
-    grown: FloatArray = LEAST_SHARE + (1.0 - LEAST_SHARE) * np.clip(share, 0.0, 1.0)
-    return grown
+        return (facts.lasts_s - longer_s) / (2.0 * longer_s)
+    if grows == "effort":
+        least = when.effort_above or 0.0
+        return (facts.effort - least) / max(1.0 - least, 1e-6)
+    return facts.accents / MOST_ACCENT
 
 
 def _spans_s(rule: Rule, times: LineTimes, found: IntArray, length_s: float | None) -> tuple[FloatArray, FloatArray]:
@@ -245,33 +289,66 @@ def _faces(
     face: Expression,
     notes: tuple[Note, ...],
     times: LineTimes,
+    facts: Facts,
     found: IntArray,
     sizes: FloatArray,
     clock: TempoMap,
+    instrument: InstrumentMap,
 ) -> list[ExpressionEvent]:
     """One expression for every run of notes with no more than `Rule.apart_s` between them."""
     starts_s, ends_s = _spans_s(rule, times, found, None)
     apart = starts_s[1:] - np.maximum.accumulate(ends_s)[:-1] > rule.apart_s
     events = []
-    for run in np.split(np.arange(len(found)), np.flatnonzero(apart) + 1):
+    runs = np.split(np.arange(len(found)), np.flatnonzero(apart) + 1)
+    next_s = [float(starts_s[run[0]]) for run in runs[1:]] + [np.inf]
+    for run, until_s in zip(runs, next_s, strict=True):
         start_s, end_s = float(starts_s[run[0]]), float(ends_s[run].max())
         if end_s - start_s < LEAST_S:
             continue
-        events.append(
-            ExpressionEvent(
-                id=f"expression:rule:{rule.name}:{notes[found[run[0]]].id}",
-                expression=face.name,
-                start_tick=round(clock.ticks(start_s)),
-                end_tick=round(clock.ticks(end_s)),
-                start_s=start_s,
-                end_s=end_s,
-                strength=round(float(sizes[found[run]].max()), 4),
-                fade_in_s=rule.do.fade_in_s or face.fade_in_s,
-                fade_out_s=rule.do.fade_out_s or face.fade_out_s,
-                reason=Message("rule.applied", {"rule": rule.name}),
-            )
-        )
+        if rule.do.stays_s:
+            end_s = max(end_s, min(end_s + rule.do.stays_s, until_s))
+        peak = int(found[run[np.argmax(sizes[found[run]])]])
+        note, size = notes[found[run[0]]].id, round(float(sizes[peak]), 4)
+        events.append(shown_by(rule, face, note, (start_s, end_s), size, clock, _why(rule, facts, peak, instrument)))
     return events
+
+
+def shown_by(
+    rule: Rule,
+    face: Expression,
+    of: str,
+    span_s: tuple[float, float],
+    strength: float,
+    clock: TempoMap,
+    reason: Message,
+) -> ExpressionEvent:
+    """The expression of a rule; ``of`` is what its id ends with, if anything."""
+    start_s, end_s = span_s
+    return ExpressionEvent(
+        id=":".join(("expression", rule.prefix, *((of,) if of else ()))),
+        expression=face.name,
+        start_tick=round(clock.ticks(start_s)),
+        end_tick=round(clock.ticks(end_s)),
+        start_s=start_s,
+        end_s=end_s,
+        strength=strength,
+        fade_in_s=rule.do.fade_in_s or face.fade_in_s,
+        fade_out_s=rule.do.fade_out_s or face.fade_out_s,
+        reason=reason,
+    )
+
+
+def _why(rule: Rule, facts: Facts, note: int, instrument: InstrumentMap) -> Message:
+    """Why an expression is shown: what the music does there, or else the rule's name."""
+    when, loudness, effort = rule.when, round(float(facts.loudness[note]), 2), round(float(facts.effort[note]), 2)
+    if when == When(effort_above=when.effort_above):
+        said: dict[str, Argument] = {"effort": effort, "threshold": when.effort_above or 0.0}
+        return Message("expression.effort", said)
+    bounds = When(semitones_below_easy=when.semitones_below_easy, loudness_above=when.loudness_above)
+    if when == bounds and None not in (when.semitones_below_easy, when.loudness_above):
+        pitch, easy_low = int(facts.pitch[note]), instrument.range.easy_low
+        return Message("expression.low_loud", {"pitch": pitch, "easy_low": easy_low, "loudness": loudness})
+    return Message("rule.applied", {"rule": rule.name})
 
 
 def _gestures(
@@ -305,7 +382,7 @@ def _gestures(
         free_s = end_s + rule.apart_s
         events.append(
             GestureEvent(
-                id=f"named:rule:{rule.name}:{notes[place].id}",
+                id=f"named:{rule.prefix}:{notes[place].id}",
                 kind="named",
                 start_tick=round(clock.ticks(start_s)),
                 end_tick=round(clock.ticks(end_s)),

@@ -394,3 +394,33 @@ def test_the_lane_s_keys_come_before_the_program_s_while_it_has_them(stage: Stag
     assert [tick for tick, _ in values(one(lane))] == [QUARTER, 2 * QUARTER]
     assert stage.session.project.score.parts[0].notes is notes
     QGuiApplication.clipboard().clear()
+
+
+def test_what_a_body_cannot_do_is_marked_where_it_is(lane: AdditiveLane, session: Session) -> None:
+    player = player_of(lane)
+    low, high = lane.limits
+    keys = (CurveKey(0, 0.0), CurveKey(4 * QUARTER, high + 20.0), CurveKey(8 * QUARTER, 0.0))
+    session.attempt(
+        Message("edit.add_curve_key"),
+        lambda project: put(project, player, (AdditiveCurve("own-1", lane.channel, keys),)),
+    )
+    clock = session.project.score.tempo_map
+    ((start_s, end_s),) = lane.curves[0].beyond_s(lane.limits)
+    assert clock.seconds(0.0) < start_s < clock.seconds(4.0 * QUARTER) < end_s < clock.seconds(8.0 * QUARTER)
+    (problem,) = [one for one in session.plans[player].problems if one.message.id == "additive.beyond_reach"]
+    assert (problem.start_s, problem.end_s) == pytest.approx((start_s, end_s), abs=0.2)
+    lane.fit()
+    warning = lane.session.tokens.warning
+    at_s = start_s + 0.3 * (end_s - start_s)
+    x_px = lane.axis.x_px(at_s)
+    y_px = lane.y_px(float(lane.curves[0].values(np.array([at_s]))[0]))
+    image = lane.plot.grab().toImage()
+    near = {image.pixelColor(round(x_px), round(y_px) + dy).name() for dy in (-1, 0, 1)}
+    assert warning in near
+    lane.hover(lane.mouse_at(QPointF(x_px, y_px)))
+    assert len(lane.plot.toolTip().splitlines()) == 3
+    lane.hover(lane.mouse_at(QPointF(lane.axis.x_px(clock.seconds(0.0)) + 1.0, lane.y_px(0.0))))
+    assert len(lane.plot.toolTip().splitlines()) == 2
+    quiet = AdditiveCurve("own-1", lane.channel, keys, weight=0.5 * high / (high + 20.0))
+    session.attempt(Message("edit.change_curve"), lambda project: put(project, player, (quiet,)))
+    assert lane.curves[0].beyond_s(lane.limits) == []

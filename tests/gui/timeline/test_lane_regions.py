@@ -440,3 +440,19 @@ def test_names_of_neighbouring_cues_do_not_overlap(
             lane._painter.paint_cue(painter, cue, box, "#ffffff", lane._name_room_px(cue))
             if following.row == cue.row and rooms:
                 assert lane.box(cue).right() + 4.0 + max(rooms[0].width(), 0.0) <= lane.box(following).left()
+
+
+def test_the_wheel_and_the_middle_button_show_the_rows_that_do_not_fit(panel: TimelinePanel) -> None:
+    lane = acting_lane(panel)
+    assert lane.row_box(lane.rows - 1)[0] > lane.plot_rect.height(), "there are more rows than fit"
+    mouse = lane.mouse_at(QPointF(100.0, 30.0))
+    start_s = lane.axis.start_s
+    assert lane.wheel(mouse, -1.0)
+    assert lane.row_box(0)[0] == -lane.row_box(0)[1]
+    for _ in range(30):
+        lane.wheel(mouse, -1.0)
+    top, height = lane.row_box(lane.rows - 1)
+    assert top + height == pytest.approx(lane.plot_rect.height())
+    lane.pan_y(1e4)
+    assert lane.row_box(0)[0] == 0.0
+    assert lane.axis.start_s == start_s

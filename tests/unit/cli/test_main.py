@@ -119,10 +119,12 @@ def test_the_felt_beat_counts_in_pre_roll_cue_and_breaths(run: Run) -> None:
     beat_s = 60.0 / quarters["tempo"][0]["bpm"]
     first_s = min(note["onset_s"] for player in quarters["players"] for note in player["notes"])
     # A bar of four, or as many beats as give time to come up from rest.
-    beats = max(4, math.ceil(3.0 / beat_s))
-    assert quarters["preroll_beats"] == halves["preroll_beats"] == beats
-    assert quarters["first_frame_s"] == pytest.approx(first_s - beats * beat_s)
-    assert halves["first_frame_s"] == pytest.approx(first_s - 2 * beats * beat_s)
+    for found, felt_s in ((quarters, beat_s), (halves, 2 * beat_s)):
+        beats = max(4, math.ceil(3.0 / felt_s))
+        assert found["preroll_beats"] == beats
+        assert found["first_frame_s"] == pytest.approx(first_s - beats * felt_s)
+    given = json.loads(run("inspect", LUTKIN, "--json", "--no-contacts", "--felt-beat", "2", "--preroll", "5")[1])
+    assert given["preroll_beats"] == 5.0
     for found, beats in ((quarters, 1), (halves, 2)):
         (cue,) = [
             cue for player in found["players"] for cue in player["cues"] if cue["end_s"] == pytest.approx(first_s)

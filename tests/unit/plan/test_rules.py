@@ -15,8 +15,8 @@ from app.plan.named_gestures import fitted
 from app.plan.parameters import PlayerParameters
 from app.plan.rules import facts_of, matches
 from metadata.gestures import Gesture, Key, Track
-from metadata.library import bundled_gestures
-from metadata.rules import Do, Rule, When
+from metadata.library import _all_rules, bundled_gestures, bundled_rules
+from metadata.rules import Do, Rule, RuleSet, When, rule_faults
 from metadata.tables import Title
 from tests.support.plan import PlainClock, line_of, piece_of, valves
 
@@ -213,3 +213,70 @@ def test_bundled_rules_leave_a_usual_player_alone() -> None:
     made = [event for event in ruled.gestures if event.kind == "named"]
     assert made
     assert {event.name for event in made} <= set(bundled_gestures())
+
+
+def shown(*rules: Rule, line: MonophonicPart = LINE) -> list[tuple[str, float]]:
+    """Ids and strengths of what is shown beside the neutral face."""
+    return [(event.id, event.strength) for event in plan(*rules, line=line).expressions[1:]]
+
+
+def test_effort_shows_from_its_bound_on_and_stays_until_the_next() -> None:
+    face = Do(expression="strained", grows_with="effort", grows_from=0.0, stays_s=0.5)
+    rule = Rule("work", When(effort_above=0.3), face)
+    made = plan(rule)
+    efforts = [event.effort for event in made.embouchures]
+    events = made.expressions[1:]
+    assert events
+    hard = [index for index, effort in enumerate(efforts) if effort > 0.3]
+    assert events[0].strength == pytest.approx((efforts[hard[0]] - 0.3) / 0.7, abs=1e-4)
+    ends = [made.fingerings[index].end_s for index in hard]
+    assert min(abs(events[0].end_s - 0.5 - end) for end in ends) < 0.06
+    assert not shown(replace(rule, enabled=False))
+
+
+def test_of_two_growths_the_strength_is_the_mean_and_nothing_where_one_is_just_met() -> None:
+    do = Do(expression="puffed", grows_with=("depth", "loudness"), grows_from=0.0)
+    when = When(semitones_below_easy=-30, loudness_above=0.5)
+    both = dict(shown(Rule("both", when, do)))
+    deep = dict(shown(Rule("both", when, replace(do, grows_with="depth"))))
+    assert both
+    assert deep
+    assert max(both.values()) <= 1.0
+    assert not shown(Rule("both", when, replace(do, scaled_by="puff")), line=_unpuffed())
+
+
+def _unpuffed() -> MonophonicPart:
+    instrument = LINE.instrument_map
+    return replace(LINE, instrument_map=replace(instrument, embouchure=replace(instrument.embouchure, puff=0.0)))
+
+
+def test_moments_are_those_of_cues_breaths_and_the_end() -> None:
+    def of(moment: str, **more: float) -> list[tuple[str, float]]:
+        return shown(Rule("here", When(moment=moment, **more), Do(expression="brows_up", strength=0.5)))  # type: ignore[arg-type]
+
+    assert [id for id, _ in of("gives_entry")] == [f"expression:rule:here:{cue.id}" for cue in plan().cues]
+    assert of("takes_entry", rest_longer_s=60.0) == []
+    assert [id for id, _ in of("ending")] in ([], ["expression:rule:here"])
+
+
+def test_the_users_rule_takes_the_place_of_ours_whatever_its_file_is_called() -> None:
+    ours = RuleSet("faces", "", (Rule("strained", When(effort_above=0.5), Do(expression="strained")),))
+    own = RuleSet("aaa", "", (replace(ours.rules[0], enabled=False),))
+    assert _all_rules({"faces": ours, "aaa": own}, {"aaa"}) == own.rules
+    assert _all_rules({"faces": ours, "aaa": own}) == ours.rules
+    names = [rule.name for rule in bundled_rules()]
+    assert {"strained", "puffed", "gives_entry", "takes_entry", "smile"} <= set(names)
+
+
+@pytest.mark.parametrize(
+    ("when", "do", "key"),
+    [
+        (When(moment="ending"), Do(gesture="shrug"), "when.moment"),
+        (When(moment="ending"), Do(expression="smile", grows_with="length"), "do.grows_with"),
+        (When(loudness_above=0.5), Do(expression="smile", grows_with=("loudness", "effort")), "do.grows_with"),
+        (When(loudness_above=0.5), Do(gesture="shrug", stays_s=1.0), "do.stays_s"),
+        (When(), Do(expression="smile"), "when"),
+    ],
+)
+def test_what_a_rule_cannot_say_is_named(when: When, do: Do, key: str) -> None:
+    assert key in [fault for fault, _ in rule_faults(Rule("r", when, do))]

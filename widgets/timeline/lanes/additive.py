@@ -22,6 +22,7 @@ from metadata.load import load_body
 from widgets.common.channel_names import channel_name, value_text
 from widgets.common.controls import named
 from widgets.common.plain import verbatim
+from widgets.common.text import sentence
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import LaneMouse
 from widgets.timeline.lanes.additive_drawing import CurvesItem
@@ -33,6 +34,9 @@ from widgets.timeline.model.additive_gestures import DragBlend, DragHandle, Drag
 from widgets.timeline.model.geometry import Floats
 from widgets.timeline.model.gestures import Band, Gesture, either
 from widgets.timeline.model.hand import Box
+
+REACH_PX = 6.0
+"""So near to a stretch beyond the body's range the mouse shows what is wrong."""
 
 
 class AdditiveLane(CurveEditing):
@@ -230,7 +234,24 @@ class AdditiveLane(CurveEditing):
             return
         shapes = {"blend_in": Qt.CursorShape.SizeHorCursor, "blend_out": Qt.CursorShape.SizeHorCursor}
         self.plot.setCursor(shapes.get(found.what, Qt.CursorShape.PointingHandCursor))
-        self.plot.setToolTip(self.tip(found))
+        self.plot.setToolTip("\n".join((self.tip(found), *self.problems_at(found.name, mouse))))
+
+    def problems_at(self, name: str, mouse: LaneMouse | None) -> list[str]:
+        """What is wrong with a curve at a place, in words."""
+        plan = self.session.plan
+        if mouse is None or plan is None:
+            return []
+        reach_s = REACH_PX / self.axis.px_per_s
+        beyond = self.shown(name).beyond_s(self.limits)
+        if not any(start_s - reach_s <= mouse.time_s <= end_s + reach_s for start_s, end_s in beyond):
+            return []
+        return [
+            sentence(problem.message, self.session)
+            for problem in plan.problems
+            if problem.message.id == "additive.beyond_reach"
+            and problem.message.arguments["moved"] == self.channel
+            and problem.start_s - reach_s <= mouse.time_s <= problem.end_s + reach_s
+        ]
 
     def tip(self, found: Hit) -> str:
         """What is at a place, in words."""

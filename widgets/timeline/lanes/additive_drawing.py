@@ -10,7 +10,7 @@ from PySide6.QtGui import QColor, QPainter, QPen
 
 from app.plan.additive_curve import Interpolation
 from widgets.common.channel_names import value_text
-from widgets.timeline.drawing import draw_path, draw_text, polygon, shade, small_font
+from widgets.timeline.drawing import MARK_PX, draw_path, draw_text, polygon, shade, small_font
 from widgets.timeline.model.additive import KeyRef, ShownCurve
 from widgets.timeline.model.geometry import Floats
 from widgets.timeline.model.hand import Box
@@ -103,6 +103,7 @@ class CurvesItem(LaneItem[Shown]):
             self._paint_line(painter, x, curve.weight * values, pen)
             pen = QPen(shade(tone, 170), 1.4, Qt.PenStyle.DashLine)
         self._paint_line(painter, x, values, pen)
+        self._paint_beyond(painter, shown, x)
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(shade(tone, 220))
         zero = lane.y_px(0.0)
@@ -115,6 +116,23 @@ class CurvesItem(LaneItem[Shown]):
             painter.setPen(QColor(lane.session.tokens.text_dim))
             begins = max(left, SCALE_PX) + 2.0
             draw_text(painter, QRectF(begins, 1.0, right - begins, 14.0), curve.title)
+
+    def _paint_beyond(self, painter: QPainter, shown: ShownCurve, x: Floats) -> None:
+        """Where it asks for more than the body does: in the colour of problems, with a mark at its beginning."""
+        lane, axis, warning = self.lane, self.lane.axis, QColor(self.lane.session.tokens.warning)
+        for start_s, end_s in shown.beyond_s(lane.limits):
+            left, right = axis.x_px(start_s), axis.x_px(end_s)
+            here = x[(x >= left) & (x <= right)]
+            if not len(here):
+                continue
+            values = shown.curve.weight * shown.values(axis.seconds(0.0) + here / axis.px_per_s)
+            self._paint_line(painter, here, values, QPen(warning, 2.6))
+            half = MARK_PX / 2.0
+            at = min(max(float(self._y(values[:1])[0]), half + 1.0), lane.plot_rect.height() - half - 1.0)
+            painter.setPen(QPen(warning, 1.2))
+            painter.setBrush(warning)
+            corners = ((0.0, -half), (half, half), (-half, half))
+            painter.drawPolygon([QPointF(left + dx, at + dy) for dx, dy in corners])
 
     def _paint_line(self, painter: QPainter, x: Floats, values: Floats, pen: QPen) -> None:
         """As one line, so that dots and dashes go on along it."""

@@ -142,15 +142,24 @@ class RegionLane(Lane):
         return row_box(row, self._row_count, self.plot_rect.height(), self.least_row_px, self._scrolled_px)
 
     def wheel(self, mouse: LaneMouse, steps: float) -> bool:
-        """With Alt the rows scroll, where they are more than fit."""
+        """The rows scroll, where they are more than fit."""
         height = self.row_box(0)[1]
-        most = most_scrolled(self._row_count, height, self.plot_rect.height())
-        if not mouse.alt or most <= 0.0:
+        if most_scrolled(self._row_count, height, self.plot_rect.height()) <= 0.5:
             return False
-        self._scrolled_px = min(max(min(self._scrolled_px, most) - steps * height, 0.0), most)
-        self.rows_scrolled()
-        self.update_items()
+        self._scroll_to(self._scrolled_px - steps * height)
         return True
+
+    def pan_y(self, by_px: float) -> None:
+        """The rows go along with a drag of the middle button."""
+        self._scroll_to(self._scrolled_px - by_px)
+
+    def _scroll_to(self, top_px: float) -> None:
+        most = most_scrolled(self._row_count, self.row_box(0)[1], self.plot_rect.height())
+        kept = min(max(top_px, 0.0), most)
+        if kept != self._scrolled_px:
+            self._scrolled_px = kept
+            self.rows_scrolled()
+            self.update_items()
 
     def rows_scrolled(self) -> None:
         """The rows are in other places."""

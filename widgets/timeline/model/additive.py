@@ -68,6 +68,10 @@ class Hit(NamedTuple):
         return KeyRef(self.name, self.tick)
 
 
+BEYOND_STEP_S, BEYOND_SHARE = 0.01, 0.01
+"""A curve is looked at so often; less of a channel's range than this beyond it is not worth a mark."""
+
+
 @dataclass(frozen=True, eq=False)
 class ShownCurve:
     """A curve as it is drawn, with all of its weight.
@@ -107,6 +111,17 @@ class ShownCurve:
     def values(self, times_s: Floats) -> Floats:
         """Values at ascending times."""
         return sampled_rows(self.table, times_s)
+
+    def beyond_s(self, limits: tuple[float, float]) -> list[tuple[float, float]]:
+        """Where what is added goes further than the body, by more than rounding: spans of seconds, in order."""
+        if not self.curve.enabled or not self.shape:
+            return []
+        times_s = np.arange(self.start_s, self.end_s + BEYOND_STEP_S, BEYOND_STEP_S)
+        values, (low, high) = self.curve.weight * self.values(times_s), limits
+        slack = 1e-6 + BEYOND_SHARE * (high - low)
+        outside = np.concatenate(([False], (values < low - slack) | (values > high + slack), [False]))
+        turns = np.flatnonzero(outside[1:] != outside[:-1]).reshape(-1, 2)
+        return [(float(times_s[first]), float(times_s[last - 1]) + BEYOND_STEP_S) for first, last in turns.tolist()]
 
     def handles(self, at: int) -> Iterable[tuple[Side, float, float]]:
         """Side, time and value of the handles that a key has: where its curve is a Bézier there."""
