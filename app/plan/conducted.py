@@ -31,6 +31,9 @@ BAR_S: Final = (0.5, 0.18)
 QUICK_S: Final = 0.2
 """From onset to onset: who has so much to read does not look up."""
 LEAST_APART_S: Final = 1.4
+LONGEST_S: Final = 3.5
+PAGE_S: Final = 0.7
+"""No one looks up longer, but into the last note: the page is read for so long in between."""
 
 
 def looks_up(
@@ -56,11 +59,17 @@ def looks_up(
         return ()
     own, there = places[player_id], places[CONDUCTOR]
     yaw, pitch = bearing_rad(own, there), pitch_rad(own, there)
-    spans: list[tuple[float, float]] = []
-    for start_s, end_s in (*_certain(times, piece, last_s), *_by_chance(times.rhythm, piece, amount, seeds)):
-        near = any(start_s < last + LEAST_APART_S and first < end_s + LEAST_APART_S for first, last in spans[-64:])
-        if amount > 0.0 and not near and start_s >= frame.first_frame_s and end_s <= frame.end_s:
+    if amount <= 0.0:
+        return ()
+    spans = _certain(times, piece, last_s)
+    taken = np.array(spans).reshape(-1, 2)
+    free_s = -np.inf
+    for start_s, end_s in _by_chance(times.rhythm, piece, amount, seeds):
+        near = np.any((start_s < taken[:, 1] + LEAST_APART_S) & (taken[:, 0] < end_s + LEAST_APART_S))
+        if not near and start_s >= free_s:
             spans.append((start_s, end_s))
+            free_s = end_s + LEAST_APART_S
+    spans = [(start_s, end_s) for start_s, end_s in spans if frame.first_frame_s <= start_s and end_s <= frame.end_s]
     return tuple(
         GlanceEvent(f"glance:conductor:{round(piece.clock.ticks(start_s))}", CONDUCTOR, start_s, end_s, yaw, pitch,
                     PLAYING_HEAD)
@@ -69,23 +78,26 @@ def looks_up(
 
 
 def _certain(times: LineTimes, piece: Piece, last_s: float) -> list[tuple[float, float]]:
-    """The last note, and changes of tempo, those that follow one another as one."""
-    found: list[tuple[float, float]] = []
+    """Changes of tempo, and the last note. What follows soon is one look, but none lasts long."""
+    asked: list[tuple[float, float]] = []
+    beats = piece.metre_map.felt_between(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
+    if len(beats) > 2:
+        beats_s = piece.clock.seconds(beats.astype(np.float64))
+        lasts = np.diff(beats_s) / np.maximum(np.diff(beats), 1)
+        changes = np.flatnonzero(np.abs(np.diff(np.log(np.maximum(lasts, 1e-12)))) >= CHANGING) + 1
+        asked += [(at_s - CHANGE_S[0], at_s + CHANGE_S[1]) for at_s in beats_s[changes].tolist()]
     ends_s = float(times.played_end_s[-1])
     if ends_s > last_s - 1.0:
-        found.append((float(times.onset_s[-1]) - LAST_S[0], ends_s + LAST_S[1]))
-    beats = piece.metre_map.felt_between(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
-    if len(beats) < 3:
-        return found
-    beats_s = piece.clock.seconds(beats.astype(np.float64))
-    lasts = np.diff(beats_s) / np.maximum(np.diff(beats), 1)
-    changes = np.flatnonzero(np.abs(np.diff(np.log(np.maximum(lasts, 1e-12)))) >= CHANGING) + 1
-    for at_s in beats_s[changes].tolist():
-        start_s, end_s = at_s - CHANGE_S[0], at_s + CHANGE_S[1]
-        if len(found) and found[-1][0] <= start_s <= found[-1][1] + LEAST_APART_S:
-            found[-1] = (found[-1][0], end_s)
-        else:
+        asked.append((float(times.onset_s[-1]) - LAST_S[0], ends_s + LAST_S[1]))
+    found: list[tuple[float, float]] = []
+    for start_s, end_s in asked:
+        if not found or start_s > found[-1][1] + LEAST_APART_S:
             found.append((start_s, end_s))
+        elif found[-1][1] - found[-1][0] < LONGEST_S:
+            found[-1] = (found[-1][0], max(end_s, found[-1][1]))
+        elif start_s > found[-1][1]:
+            # A glance at the page, and up again.
+            found.append((max(start_s, found[-1][1] + PAGE_S), max(end_s, found[-1][1] + PAGE_S + CHANGE_S[1])))
     return found
 
 
