@@ -346,6 +346,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the gesture {name!r} is meant for where its table says may_start = {start!r}; move it there",
         "ジェスチャー {name!r} は、表の may_start = {start!r} の場所で行うものです。移動してください",
     ),
+    "stage.conductor": ("Conductor", "指揮者"),
     "gesture.hand_holds": (
         "the gesture {name!r} would take a hand that this instrument needs; no hand leaves it",
         "ジェスチャー {name!r} の手は、この楽器を持つのに必要です。手は楽器を離れません",

@@ -41,7 +41,6 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "header.view": ("View", "ビュー"),
     "header.viewport_alone_on_whole_screen": ("Toggle full-screen viewport", "ビューポートの全画面表示を切り替え"),
     "header.wireframe": ("Wireframe", "ワイヤーフレーム"),
-    "scene.conductor": ("Conductor", "指揮者"),
     "scene.down": ("down {degrees}°", "下 {degrees}°"),
     "scene.lean_left": ("lean left {degrees}°", "左へ傾き {degrees}°"),
     "scene.lean_right": ("lean right {degrees}°", "右へ傾き {degrees}°"),
