@@ -27,6 +27,11 @@ def may_start(
     return True
 
 
+def comes_up(start_s: float, end_s: float, lowered: tuple[tuple[float, float], ...]) -> bool:
+    """Whether the instrument that is down at one time is on its way up before another."""
+    return any(first_s <= start_s < last_s < end_s + RAISE_S for first_s, last_s in lowered)
+
+
 def impossible(gesture: Gesture, instrument: InstrumentMap) -> Message | None:
     """Why no hand can do it with this instrument."""
     track, water = gesture.hand, instrument.water

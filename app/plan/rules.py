@@ -17,7 +17,7 @@ from app.plan.embouchure import efforts_of
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.model import EmbouchureEvent, ExpressionEvent, FloatArray, GestureEvent, Problem, StyleEvent, TimeFrame
 from app.plan.parameters import PlayerParameters
-from app.plan.possible import belongs, may_start
+from app.plan.possible import belongs, comes_up, may_start
 from app.plan.styles import styles_at
 from app.score.model import Note
 from app.score.tempo import TempoMap
@@ -369,7 +369,7 @@ def _gestures(
     if rule.do.spread_s:
         later_s = rule.do.spread_s * seeds.chances_at(f"rule {rule.name} later", times.onset_tick[found])
         starts_s, ends_s = starts_s + later_s, ends_s + later_s
-    taken = sorted((one.start_s, one.end_s) for one in others) if gesture.may_start == "lowered" else []
+    taken = sorted((one.start_s, one.end_s) for one in others) if gesture.may_start != "anytime" else []
     events: list[GestureEvent] = []
     free_s = -np.inf
     for place, start_s, end_s in zip(found.tolist(), starts_s.tolist(), ends_s.tolist(), strict=True):
@@ -378,6 +378,8 @@ def _gestures(
             if first_s < end_s + BETWEEN_S and start_s < last_s + BETWEEN_S:
                 start_s, end_s = last_s + BETWEEN_S, end_s + last_s + BETWEEN_S - start_s
         if start_s < free_s or end_s <= start_s or not may_start(gesture, start_s, end_s, times, lowered):
+            continue
+        if gesture.may_start != "anytime" and comes_up(start_s, end_s, lowered):
             continue
         free_s = end_s + rule.apart_s
         events.append(
