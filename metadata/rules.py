@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Annotated, Final, Literal, TypeAlias
+from typing import Annotated, Final, Literal, NamedTuple, TypeAlias
 
 import msgspec
 
@@ -177,32 +177,42 @@ def read_rules(path: Path) -> RuleSet:
         if rule.name in seen:
             raise invalid(path, f"{place}.name", f"{rule.name!r} appears twice")
         seen.add(rule.name)
-        for key, detail in rule_faults(rule):
-            raise invalid(path, f"{place}.{key}", detail)
+        for fault in rule_faults(rule):
+            raise invalid(path, f"{place}.{fault.key}", fault.detail)
     return found
 
 
-def rule_faults(rule: Rule) -> Iterator[tuple[str, str]]:
-    """What is wrong with a rule: the key, and what it must be."""
+class RuleFault(NamedTuple):
+    """What is wrong with a rule: the key, a short name of the kind of fault, what it must be, of which growth it is."""
+
+    key: str
+    code: str
+    detail: str
+    growth: str = ""
+
+
+def rule_faults(rule: Rule) -> Iterator[RuleFault]:
+    """What is wrong with a rule."""
     if not rule.name.isidentifier():
-        yield "name", f"{rule.name!r} must be letters, digits and underscores"
+        yield RuleFault("name", "name", f"{rule.name!r} must be letters, digits and underscores")
     if rule.events and not rule.events.isidentifier():
-        yield "events", f"{rule.events!r} must be letters, digits and underscores"
+        yield RuleFault("events", "name", f"{rule.events!r} must be letters, digits and underscores")
     if bool(rule.do.expression) == bool(rule.do.gesture):
-        yield "do", "must have an expression or a gesture, and not both"
+        yield RuleFault("do", "do", "must have an expression or a gesture, and not both")
     if rule.do.gesture and (rule.do.fade_in_s or rule.do.fade_out_s):
-        yield "do.fade_in_s", "a gesture has its fades in its keys"
+        yield RuleFault("do.fade_in_s", "fades", "a gesture has its fades in its keys")
     if rule.do.gesture and rule.do.stays_s:
-        yield "do.stays_s", "a gesture ends when it is done"
+        yield RuleFault("do.stays_s", "stays", "a gesture ends when it is done")
     if rule.do.gesture and rule.when.moment is not None:
-        yield "when.moment", "is for expressions; say of a gesture where the note is"
+        yield RuleFault("when.moment", "moment", "is for expressions; say of a gesture where the note is")
     if rule.when.moment is not None and rule.do.growth:
-        yield "do.grows_with", "has nothing to grow with at a moment"
+        yield RuleFault("do.grows_with", "growth_at_moment", "has nothing to grow with at a moment")
     for grows in rule.do.growth:
-        if grows in GROWS_FROM and getattr(rule.when, GROWS_FROM[grows]) is None:
-            yield "do.grows_with", f"{grows!r} needs when.{GROWS_FROM[grows]}"
+        needed = GROWS_FROM.get(grows)
+        if needed is not None and getattr(rule.when, needed) is None:
+            yield RuleFault("do.grows_with", "growth", f"{grows!r} needs when.{needed}", grows)
     if rule.when == When():
-        yield "when", "must say when"
+        yield RuleFault("when", "when", "must say when")
 
 
 GROWS_FROM: Final[Mapping[Growth, str]] = {

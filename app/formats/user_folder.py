@@ -10,7 +10,7 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from threading import RLock
 from typing import Any, Generic, TypeAlias, TypeVar
@@ -123,6 +123,19 @@ class UserFolder(Generic[V, S]):
         with self.lock:
             self.last = self.read(self.folder(), self.last)
             return self.last
+
+    def preview(self, items: Mapping[str, V], own: Collection[str]) -> None:
+        """Hand out other values until `put_back`, or until something in the folder changes; ``own`` are the user's."""
+        with self.lock:
+            shelf = self.now()
+            files = {id: shelf.files.get(id, self.folder() / f"{id}{TABLE}") for id in own}
+            self.last = replace(shelf, items=items, files=files)
+
+    def put_back(self, shelf: S) -> None:
+        """Hand out again what was handed out before `preview`, unless the folder has been read anew since."""
+        with self.lock:
+            if self.last is not None and self.last.stamp == shelf.stamp:
+                self.last = shelf
 
     def read(self, folder: Path, before: S | None = None) -> S:
         """Read the user's folder; one that is not there holds nothing.

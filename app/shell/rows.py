@@ -44,6 +44,7 @@ FILE_ORDER: Final = (
     "file.save_metadata",
     "file.load_metadata",
     "file.compare_metadata",
+    "file.rules",
     "file.metadata_folder",
     "file.piece_settings",
     "file.close",

@@ -57,6 +57,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.file.import_midi": ("Import MIDI...", "MIDI を読み込む..."),
     "action.file.compare_metadata": ("Compare Acting Metadata...", "演技のメタデータを比較..."),
     "action.file.load_metadata": ("Load Acting Metadata...", "演技のメタデータを読み込む..."),
+    "action.file.rules": ("Acting Rules...", "演技のルール..."),
     "action.file.metadata_folder": ("Open My Metadata Folder", "自分のメタデータのフォルダーを開く"),
     "action.file.save_metadata": ("Save Acting Metadata...", "演技のメタデータを保存..."),
     "action.file.new": ("New Project", "新規プロジェクト"),

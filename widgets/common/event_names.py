@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from app.editor.translated import tr
-from metadata.library import GESTURES, STYLES
+from metadata.library import GESTURES, HABITS, STYLES
 from widgets.common.instrument_name import language
 
 _KINDS: Final = {
@@ -80,6 +80,12 @@ def style_name(name: str) -> str:
     """What a style is called in the user's language; one that is not there, by its name."""
     style = STYLES.now().items.get(name)
     return name if style is None else style.title.in_language(language())
+
+
+def habit_name(name: str) -> str:
+    """What a habit is called in the user's language; one that is not there, by its name."""
+    habit = HABITS.now().items.get(name)
+    return name if habit is None else habit.title.in_language(language())
 
 
 def pose_name(target: str) -> str:

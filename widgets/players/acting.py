@@ -16,7 +16,7 @@ from metadata.library import HABITS, STYLES
 from widgets.common.chip import Chip
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Retranslated, named
-from widgets.common.event_names import style_name
+from widgets.common.event_names import habit_name, style_name
 from widgets.common.flow import FlowLayout
 from widgets.common.instrument_name import language
 from widgets.common.layouts import in_column, in_row
@@ -24,12 +24,6 @@ from widgets.common.plain import Label
 from widgets.common.text import parameter_text
 
 _STYLE, _HABITS = PARAMETERS["style"], PARAMETERS["habits"]
-
-
-def habit_name(name: str) -> str:
-    """What a habit is called in the user's language; one that is not there, by its name."""
-    habit = HABITS.now().items.get(name)
-    return name if habit is None else habit.title.in_language(language())
 
 
 class ActingRows(Retranslated, QWidget):

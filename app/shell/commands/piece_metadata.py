@@ -70,6 +70,19 @@ def compare(editor: Editor) -> None:
         session.notice(Message("metadata.same", {"file": path.name}))
 
 
+def show_rules(editor: Editor) -> None:
+    """Show the rules by which players act, to be changed."""
+    from widgets.dialogs.rules import RulesDialog
+
+    for there in editor.window.findChildren(RulesDialog):
+        if there.isVisible():
+            there.raise_()
+            there.activateWindow()
+            return
+    # Beside the window: what is previewed is looked at there.
+    RulesDialog(editor.session, editor.window).show()
+
+
 def open_folder(editor: Editor) -> None:
     """Show the folder of the user's own tables, with a folder for each kind, in the file manager; what is wrong in them
     is said once more."""
@@ -99,5 +112,6 @@ ACTIONS: tuple[EditorAction, ...] = (
     EditorAction("file.save_metadata", save, "file/metadata", enabled=is_open),
     EditorAction("file.load_metadata", load, "file/metadata", enabled=is_open),
     EditorAction("file.compare_metadata", compare, "file/metadata", enabled=is_open),
+    EditorAction("file.rules", show_rules, "file/metadata"),
     EditorAction("file.metadata_folder", open_folder, "file/metadata"),
 )

@@ -54,6 +54,7 @@ OPENED: dict[str, Open] = {
     "AboutDialog": command("application.about"),
     "LicencesDialog": lambda program: LicencesDialog(program.window).open(),
     "MetadataDifferencesDialog": lambda program: MetadataDifferencesDialog((), "x", program.window).open(),
+    "RulesDialog": command("file.rules"),
     "PieceSettingsDialog": command("file.piece_settings"),
     "PreferencesDialog": command("application.preferences"),
     "InstrumentsDialog": command("application.instruments"),

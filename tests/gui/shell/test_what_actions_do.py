@@ -551,6 +551,7 @@ CASES: dict[str, Case] = {
         edits=True,
     ),
     "file.compare_metadata": Case(lambda d: d.dialog("metadata_differences"), lambda d: has_metadata(d)),
+    "file.rules": Case(lambda d: d.dialog("rules")),
     "file.metadata_folder": Case(
         lambda d: d.seen["folder"] == d.folder and all((d.folder / folder.name).is_dir() for folder in FOLDERS),
         lambda d: own_tables(d),

@@ -398,7 +398,7 @@ def test_the_lane_s_keys_come_before_the_program_s_while_it_has_them(stage: Stag
 
 def test_what_a_body_cannot_do_is_marked_where_it_is(lane: AdditiveLane, session: Session) -> None:
     player = player_of(lane)
-    low, high = lane.limits
+    _, high = lane.limits
     keys = (CurveKey(0, 0.0), CurveKey(4 * QUARTER, high + 20.0), CurveKey(8 * QUARTER, 0.0))
     session.attempt(
         Message("edit.add_curve_key"),

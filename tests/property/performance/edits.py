@@ -18,6 +18,7 @@ from app.plan.corrections import (
     ChangeGesture,
     Correction,
     PinFingering,
+    PlayStyle,
     PoseCorrection,
     RemoveEvent,
     SetBreath,
@@ -99,6 +100,7 @@ def _corrections(draw: st.DrawFn, project: Project, player: Player) -> Correctio
         RemoveEvent(gesture),
         SetBreath(note, -draw(st.integers(1, 480)), depth=0.5),
         SetCue(note),
+        SetCue(note, takers=tuple(other.id for other in project.players if other is not player)),
         SetEmbouchure(note, effort=0.9),
         ChangeGesture(gesture, amount=amount),
         AddGesture("mine", "bell_height", tick, end, amount),
@@ -108,6 +110,7 @@ def _corrections(draw: st.DrawFn, project: Project, player: Player) -> Correctio
         PoseCorrection("mine", "bell", tick, end, up_deg=10.0 * amount, fade_in_ticks=240),
         PoseCorrection("other", "left_elbow", tick, end, up_deg=40.0 * amount),
         Vary("mine", tick, end, 5),
+        PlayStyle("mine", draw(st.sampled_from(["soloist", "reserved", "gone"])), tick, end, 240, 240),
     ]
     return draw(st.sampled_from(choices))
 

@@ -18,6 +18,7 @@ from app.plan.corrections import (
     ChangeExpression,
     ChangeGesture,
     PinFingering,
+    PlayStyle,
     PoseCorrection,
     RemoveEvent,
     SetBreath,
@@ -121,6 +122,7 @@ def performed() -> Project:
         RemoveEvent(f"breath:{at[4]}"),
         PoseCorrection("pose-1", "bell", 6 * QUARTER, 9 * QUARTER, 5.0, 2.0, 0.0, 100, 100),
         Vary("varied-1", 10 * QUARTER, 20 * QUARTER, 3),
+        PlayStyle("own-1", "soloist", 12 * QUARTER, 24 * QUARTER, QUARTER, QUARTER),
     )
     curve = ControllerCurve(
         "breath", tuple(range(0, 60 * QUARTER, 200)), tuple(0.2 + 0.1 * (k % 7) for k in range(144))

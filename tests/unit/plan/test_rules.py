@@ -279,4 +279,4 @@ def test_the_users_rule_takes_the_place_of_ours_whatever_its_file_is_called() ->
     ],
 )
 def test_what_a_rule_cannot_say_is_named(when: When, do: Do, key: str) -> None:
-    assert key in [fault for fault, _ in rule_faults(Rule("r", when, do))]
+    assert key in [fault.key for fault in rule_faults(Rule("r", when, do))]

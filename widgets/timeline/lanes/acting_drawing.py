@@ -91,7 +91,7 @@ class ActingPainter:
         """A trapezoid as high as it is strong, with its fades as slopes."""
         tokens, scale = self._lane.session.tokens, self._lane.axis.px_per_s
         if box.width() < LEAST_SHAPE_PX:
-            top = box.bottom() - max(box.height() * region.amount, 3.0)
+            top = box.bottom() - max(box.height() * abs(region.amount), 3.0)
             painter.fillRect(QRectF(QPointF(box.left(), top), box.bottomRight()), shade(colour, 140))
             return
         if region.event_id == BASE:
@@ -102,7 +102,7 @@ class ActingPainter:
             left, right = left - region.fade_in_s * scale, right + region.fade_out_s * scale
         fade_in = min(region.fade_in_s * scale, right - left)
         fade_out = min(region.fade_out_s * scale, right - left - fade_in)
-        top = box.bottom() - max(box.height() * region.amount, 3.0)
+        top = box.bottom() - max(box.height() * abs(region.amount), 3.0)
         corners = np.array(
             [(left, box.bottom()), (left + fade_in, top), (right - fade_out, top), (right, box.bottom())]
         )
@@ -117,7 +117,7 @@ class ActingPainter:
             for _, handle in self._lane.fade_handles(region, box):
                 painter.drawEllipse(handle, HANDLE_PX - 1.0, HANDLE_PX - 1.0)
         painter.setPen(QColor(tokens.text))
-        number = "" if region.steady or region.amount >= 1.0 else f" {region.amount:.2f}"
+        number = "" if region.steady or region.amount >= 1.0 else f" {region.amount:.2f}".replace("-", "−")
         indent = 10.0 if region.by_hand else 5.0
         # The name of what begins before the left edge stays in sight.
         inside = QRectF(QPointF(max(box.left(), 0.0), box.top()), box.bottomRight())

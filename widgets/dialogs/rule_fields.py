@@ -1,0 +1,192 @@
+"""The fields of a rule: what they are called, their bounds and units, and the widgets that set them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Final, NamedTuple, get_args
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QMenu, QPushButton, QSizePolicy
+
+from app.editor.translated import tr
+from metadata.rules import Place, When
+from widgets.common.controls import named
+from widgets.common.plain import verbatim
+from widgets.dialogs.automatic_number import TEXT_MARGIN_PX
+
+SECONDS: Final = "rules_dialog.unit_s"
+SEMITONES: Final = "rules_dialog.unit_semitones"
+
+
+class Field(NamedTuple):
+    """A number of a rule: its name in the table, the id of its text, bounds, step, the id of its unit, and a value to
+    begin with."""
+
+    name: str
+    text_id: str
+    low: float
+    high: float
+    step: float
+    unit_id: str
+    first: float
+
+
+_ASKED: Final = (
+    Field("loudness_above", "rules_dialog.loudness_above", 0.0, 1.0, 0.05, "", 0.8),
+    Field("loudness_below", "rules_dialog.loudness_below", 0.0, 1.0, 0.05, "", 0.4),
+    Field("accent", "rules_dialog.accent", 0.0, 1.0, 0.05, "", 0.1),
+    Field("effort_above", "rules_dialog.effort_above", 0.0, 1.0, 0.05, "", 0.5),
+    Field("semitones_above_easy", "rules_dialog.semitones_above_easy", -60.0, 60.0, 1.0, SEMITONES, 0.0),
+    Field("semitones_below_easy", "rules_dialog.semitones_below_easy", -60.0, 60.0, 1.0, SEMITONES, 0.0),
+    Field("leap_up", "rules_dialog.leap_up", 0.0, 60.0, 1.0, SEMITONES, 7.0),
+    Field("leap_down", "rules_dialog.leap_down", 0.0, 60.0, 1.0, SEMITONES, 7.0),
+    Field("longer_s", "rules_dialog.longer_s", 0.0, 600.0, 0.1, SECONDS, 1.0),
+    Field("shorter_s", "rules_dialog.shorter_s", 0.0, 600.0, 0.1, SECONDS, 0.3),
+    Field("rest_longer_s", "rules_dialog.rest_longer_s", 0.0, 600.0, 0.5, SECONDS, 2.0),
+    Field("rest_after_longer_s", "rules_dialog.rest_after_longer_s", 0.0, 600.0, 0.5, SECONDS, 2.0),
+    Field("played_longer_s", "rules_dialog.played_longer_s", 0.0, 3600.0, 10.0, SECONDS, 60.0),
+)
+CONDITIONS: Final = tuple(field for field in _ASKED if field.name in When.__struct_fields__)
+"""Numbers that may be asked of a note."""
+_PLACES: Final[Mapping[str, str]] = {
+    "first": "rules_dialog.place_first",
+    "after_rest": "rules_dialog.place_after_rest",
+    "climax": "rules_dialog.place_climax",
+    "phrase_end": "rules_dialog.place_phrase_end",
+    "before_rest": "rules_dialog.place_before_rest",
+    "last": "rules_dialog.place_last",
+}
+PLACES: Final[Mapping[str, str]] = {id: text for id, text in _PLACES.items() if id in get_args(Place)}
+MOMENTS: Final[Mapping[str, str]] = {
+    "": "rules_dialog.moment_note",
+    "gives_entry": "rules_dialog.moment_gives_entry",
+    "takes_entry": "rules_dialog.moment_takes_entry",
+    "ending": "rules_dialog.moment_ending",
+}
+GROWTHS: Final[Mapping[str, str]] = {
+    "loudness": "rules_dialog.growth_loudness",
+    "height": "rules_dialog.growth_height",
+    "depth": "rules_dialog.growth_depth",
+    "length": "rules_dialog.growth_length",
+    "accent": "rules_dialog.growth_accent",
+    "effort": "rules_dialog.growth_effort",
+}
+ANCHORS: Final[Mapping[str, str]] = {"onset": "rules_dialog.anchor_onset", "end": "rules_dialog.anchor_end"}
+
+
+def kept(value: float, before: float) -> float:
+    """A number that is shown rounded: what it was where it was left alone."""
+    return before if abs(value - before) < 5e-4 else value
+
+
+class Number(QDoubleSpinBox):
+    """A number with its unit and no zeros behind it; the wheel works only where the keyboard is."""
+
+    def __init__(self, name: str, low: float, high: float, step: float) -> None:
+        super().__init__()
+        self.setObjectName(name)
+        self.setDecimals(3)
+        self.setRange(low, high)
+        self.setSingleStep(step)
+        self.setKeyboardTracking(False)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
+
+    def textFromValue(self, value: float) -> str:
+        return self.locale().toString(value, "g", 6)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        if self.hasFocus():
+            super().wheelEvent(event)
+        else:
+            event.ignore()
+
+
+class Asked:
+    """A number that may be left out: a box to tick with its name, and the number beside it."""
+
+    def __init__(self, field: Field, changed: Callable[[], None]) -> None:
+        self.field = field
+        self.check = named(QCheckBox(), f"rule_{field.name}_asked")
+        self.number = Number(f"rule_{field.name}", field.low, field.high, field.step)
+        self.check.toggled.connect(self.number.setEnabled)
+        self.check.clicked.connect(lambda _checked: changed())
+        self.number.valueChanged.connect(lambda _value: changed())
+        self.number.setEnabled(False)
+
+    @property
+    def value(self) -> float | None:
+        """What is asked; None where nothing is."""
+        return self.number.value() if self.check.isChecked() else None
+
+    def kept(self, of: object) -> float | None:
+        """What is asked; where the user left it alone it is what ``of`` has, to the last digit."""
+        value, before = self.value, getattr(of, self.field.name)
+        return value if value is None or before is None else kept(value, before)
+
+    def show_value(self, value: float | None) -> None:
+        """Show it without a signal."""
+        self.number.blockSignals(True)
+        self.number.setValue(self.field.first if value is None else value)
+        self.number.blockSignals(False)
+        self.check.setChecked(value is not None)
+
+    def retranslate(self) -> None:
+        """Set its texts anew."""
+        self.check.setText(tr(self.field.text_id))
+        self.number.setAccessibleName(self.check.text())
+        self.number.setSuffix(tr(self.field.unit_id) if self.field.unit_id else "")
+
+
+class Several(QPushButton):
+    """Any number of things out of a list, in a menu.
+
+    Signals
+    -------
+    changed()
+        The user chose or left one.
+    """
+
+    changed = Signal()
+
+    def __init__(self, name: str) -> None:
+        super().__init__()
+        self.setObjectName(name)
+        self.setAutoDefault(False)
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self._menu = QMenu(self)
+        self.setMenu(self._menu)
+        self._chosen: tuple[str, ...] = ()
+        self._names: dict[str, str] = {}
+        self._none = ""
+
+    @property
+    def chosen(self) -> tuple[str, ...]:
+        """What is chosen, in the order of the list."""
+        return self._chosen
+
+    def show_choice(self, names: Mapping[str, str], chosen: Sequence[str], none: str) -> None:
+        """Offer things by id; ``none`` stands for nothing chosen. What is chosen and not there is offered too."""
+        self._names = {**{id: id for id in chosen}, **names}
+        self._chosen, self._none = tuple(chosen), none
+        self._menu.clear()
+        for id, text in self._names.items():
+            entry = self._menu.addAction(verbatim(text))
+            entry.setObjectName(id)
+            entry.setCheckable(True)
+            entry.setChecked(id in self._chosen)
+            entry.triggered.connect(lambda _=False, id=id: self._toggle(id))
+        self._say()
+
+    def _toggle(self, id: str) -> None:
+        chosen = {*self._chosen} ^ {id}
+        self._chosen = tuple(one for one in self._names if one in chosen)
+        self._say()
+        self.changed.emit()
+
+    def _say(self) -> None:
+        text = ", ".join(self._names[id] for id in self._chosen) or self._none
+        self.setText(verbatim(text))
+        self.setToolTip(text)
