@@ -32,6 +32,7 @@ from app.plan.model import (
     FingeringEvent,
     GestureEvent,
     PoseEvent,
+    StyleEvent,
 )
 from app.plan.problem_lines import problem_lines
 from app.project.performers import Dancer, Player
@@ -203,6 +204,8 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         # Only where the animator held something differently: nothing else has any.
         angles = ("up_deg", "left_deg", "roll_deg")
         table["poses"] = _events(plan.poses, clock, reason, "target", *angles, "fade_in_s", "fade_out_s")
+    if plan.styles:
+        table["styles"] = _events(plan.styles, clock, reason, "style", "fade_in_s", "fade_out_s")
     if plan.additive:
         table["curves"] = _spans(plan.additive, clock, "channel", "low", "high")
     return table
@@ -237,7 +240,7 @@ def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, cloc
 
 
 def _events(
-    events: Sequence[BreathEvent | CueEvent | ExpressionEvent | GestureEvent | PoseEvent],
+    events: Sequence[BreathEvent | CueEvent | ExpressionEvent | GestureEvent | PoseEvent | StyleEvent],
     clock: TempoMap,
     reason: _Reasons,
     what: str,
@@ -251,7 +254,7 @@ def _events(
 
 
 def _spans(
-    events: Sequence[BreathEvent | CueEvent | ExpressionEvent | GestureEvent | PoseEvent | AdditiveEvent],
+    events: Sequence[BreathEvent | CueEvent | ExpressionEvent | GestureEvent | PoseEvent | StyleEvent | AdditiveEvent],
     clock: TempoMap,
     what: str,
     *fields: str,

@@ -17,6 +17,7 @@ from app.plan.corrections import PinFingering
 from app.project.casting import StagePosition
 from app.project.edit.corrections import put
 from app.project.edit.dancers import add_dancer, place_dancers
+from app.project.edit.events import add_style
 from app.project.storage import load, save
 from tests.unit.project.pieces import small_project
 
@@ -161,3 +162,14 @@ def test_an_instrument_that_is_not_installed_is_named(run: Run, tmp_path: Path) 
     assert status == 4
     assert "ophicleide" in complaint
     assert run("inspect", tmp_path / "piece.suisou", "--set", "trumpet.instrument=trumpet_Bb")[0] == 0
+
+
+def test_bars_in_another_style_are_listed(run: Run, tmp_path: Path) -> None:
+    project = small_project()
+    player = project.players[0]
+    save(add_style(project, player.id, "soloist", 0, 1920).project, tmp_path / "piece.suisou")
+    first, second = json.loads(run("inspect", str(tmp_path / "piece.suisou"), "--json", "--no-contacts")[1])["players"]
+    (listed,) = first["styles"]
+    assert (listed["style"], listed["start_beat"], listed["end_beat"]) == ("soloist", 0.0, 4.0)
+    assert listed["reason"] == "set manually"
+    assert "styles" not in second
