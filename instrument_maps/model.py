@@ -393,6 +393,9 @@ class Hold(_Table, frozen=True):
     tables are for long rests. An instrument that is only played seated has no tables for standing, and the other way
     round.
 
+    ``free_hand``: which hand can leave the instrument while it is lowered, and comes past it to the music; None: the
+    one that does not bear its weight.
+
     ``size_range``: a player with small hands or short arms gets it smaller, one with large hands larger, but never
     beyond these multiples of the model's size.
     """
@@ -403,6 +406,14 @@ class Hold(_Table, frozen=True):
     lowered_standing: Lowered | None = None
     lowered_seated: Lowered | None = None
     size_range: tuple[float, float] = (0.5, 1.25)
+    free_hand: Literal["left", "right", "none"] | None = None
+
+    @property
+    def leaving_hand(self) -> Hand | None:
+        """The hand that can leave the lowered instrument: what else holds it bears it meanwhile. None: neither."""
+        if self.free_hand is None:
+            return "left" if self.support_hand == "right" else "right"
+        return None if self.free_hand == "none" else self.free_hand
 
     @property
     def postures(self) -> tuple[Posture, ...]:
@@ -497,6 +508,23 @@ class Fingering(_Table, frozen=True):
         return self.rank > 1 and "obsolete" in self.tags
 
 
+class Water(_Table, frozen=True):
+    """How water is let out of the instrument in a long rest.
+
+    Attributes
+    ----------
+    gesture : str
+        Its name in `metadata.gestures`.
+    position_m, normal : vector or None
+        Of the water key: where the forefinger presses it, and the way out of it; in the root frame. None where there is
+        none to press.
+    """
+
+    gesture: str
+    position_m: Vector | None = None
+    normal: Vector | None = None
+
+
 class Air(_Table, frozen=True):
     """How long one full breath of an adult lasts on the instrument, seconds of playing by dynamic."""
 
@@ -534,6 +562,8 @@ class InstrumentMap(_Table, frozen=True):
         Written pitches at which a new register begins; a line crosses the break between such a note and the one below.
     air : Air or None
         None: as the body's lungs say, whatever the instrument.
+    water : Water or None
+        None: it is let out where no one sees it.
     fingerings : tuple of Fingering
         Sorted by written pitch and rank.
     size : float
@@ -562,6 +592,7 @@ class InstrumentMap(_Table, frozen=True):
     endpin: Endpin | None = None
     breaks: tuple[int, ...] = ()
     air: Air | None = None
+    water: Water | None = None
     acoustics: Acoustics | None = None
     sources: tuple[str, ...] = ()
     size: float = 1.0

@@ -58,6 +58,7 @@ def problems(instrument: InstrumentMap) -> Iterator[Problem]:
     yield from _hold(instrument)
     yield from _acoustics(instrument)
     yield from _air(instrument)
+    yield from _water(instrument)
     yield from _fingerings(instrument)
 
 
@@ -376,6 +377,20 @@ def _air(instrument: InstrumentMap) -> Iterator[Problem]:
     for index, written in enumerate(instrument.breaks):
         if not instrument.range.low + shift < written <= instrument.range.high + shift:
             yield f"breaks[{index}]", f"written pitch {written} is not within the range"
+
+
+def _water(instrument: InstrumentMap) -> Iterator[Problem]:
+    water = instrument.water
+    if water is None:
+        return
+    if not water.gesture.isidentifier():
+        yield "water.gesture", f"'{water.gesture}' is not the name of a gesture"
+    if (water.position_m is None) != (water.normal is None):
+        yield "water.normal", "a water key has a position and a normal"
+    if water.position_m is not None and math.hypot(*water.position_m) > _REACH_M:
+        yield "water.position_m", f"is more than {_REACH_M:g} m from the mouthpiece"
+    if water.normal is not None and abs(math.hypot(*water.normal) - 1.0) > _UNIT_TOLERANCE:
+        yield "water.normal", "is not a unit vector"
 
 
 def _fingerings(instrument: InstrumentMap) -> Iterator[Problem]:

@@ -1,6 +1,7 @@
 """Gestures as an animator writes them: keyed angles of parts of the body, added to whatever the body does there.
 
-Hands, lips and feet keep their places: contacts are solved after.
+Hands, lips and feet keep their places: contacts are solved after. Only while the instrument is lowered may a hand leave
+it, and the instrument come up to the lips.
 """
 
 from __future__ import annotations
@@ -19,6 +20,11 @@ Turn: TypeAlias = Literal["up", "left", "roll"]
 Start: TypeAlias = Literal["anytime", "resting", "lowered"]
 Angle: TypeAlias = Annotated[float, msgspec.Meta(ge=-45.0, le=45.0)]
 Slope: TypeAlias = Annotated[float, msgspec.Meta(ge=-720.0, le=720.0)]
+
+HandPlace: TypeAlias = Literal["grip", "page", "key"]
+HandShape: TypeAlias = Literal["held", "open", "pinch", "point"]
+Which: TypeAlias = Literal["free", "left", "right"]
+Offset: TypeAlias = Annotated[float, msgspec.Meta(ge=-0.5, le=0.5)]
 
 MOST_TRACKS = 15
 """Every angle of every target."""
@@ -59,6 +65,57 @@ class Track(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     keys: tuple[Key, ...]
 
 
+class HandKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Where a hand is at a time.
+
+    Attributes
+    ----------
+    at : float
+        Share of the gesture's length.
+    place : str
+        ``"grip"``: on the instrument; ``"page"``: the fingertips in the middle of the music; ``"key"``: the forefinger
+        on the instrument's water key.
+    m : tuple of float
+        From there to the left, up and ahead, metres of an adult.
+    shape : str
+        ``"held"``: the fingers as on the instrument; ``"open"``, ``"pinch"`` with thumb and forefinger, ``"point"``.
+    """
+
+    at: Fraction01
+    place: HandPlace = "grip"
+    m: tuple[Offset, Offset, Offset] = (0.0, 0.0, 0.0)
+    shape: HandShape = "held"
+
+
+class HandTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The way of a hand that leaves the instrument; it begins and ends on its grip.
+
+    Attributes
+    ----------
+    which : str
+        ``"free"``: the one that the instrument's map says can leave it.
+    """
+
+    keys: tuple[HandKey, ...]
+    which: Which = "free"
+
+
+class ShareKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """How far something is at a time: both 0..1."""
+
+    at: Fraction01
+    share: Fraction01
+
+
+class GazeTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Where the eyes go meanwhile: shares of the gesture's length, and degrees from straight ahead."""
+
+    start: Fraction01
+    end: Fraction01
+    up_deg: Annotated[float, msgspec.Meta(ge=-60.0, le=30.0)] = 0.0
+    left_deg: Annotated[float, msgspec.Meta(ge=-60.0, le=60.0)] = 0.0
+
+
 class Gesture(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A gesture.
 
@@ -69,16 +126,33 @@ class Gesture(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     may_start : str
         Where rules may place it: anywhere, while nothing is played, or while the instrument is lowered.
     amplitude : tuple of float
-        Its size at amplitude 0, 0.5 and 1, linear between.
+        Its size at amplitude 0, 0.5 and 1, linear between. A hand goes all the way, or where the size is 0 not at all.
+    hand : HandTrack or None
+        Of a hand that leaves the instrument.
+    raised : tuple of ShareKey
+        How much of its way to the lips the lowered instrument comes up; empty: it stays.
+    gaze : GazeTrack or None
+        None: the eyes do what they do.
+    lets_out_water : bool
+        Rules place it only for an instrument whose map names it.
     """
 
     name: str
     title: Title
     length_s: Annotated[float, msgspec.Meta(ge=0.3, le=30.0)]
-    tracks: tuple[Track, ...]
+    tracks: tuple[Track, ...] = ()
     may_start: Start = "anytime"
     amplitude: AmplitudeScale = (0.3, 1.0, 1.5)
     description: Title = Title("")
+    hand: HandTrack | None = None
+    raised: tuple[ShareKey, ...] = ()
+    gaze: GazeTrack | None = None
+    lets_out_water: bool = False
+
+    @property
+    def needs_lowered(self) -> bool:
+        """Whether it can be done only while the instrument is wholly lowered."""
+        return self.hand is not None or bool(self.raised)
 
 
 def read_gesture(path: Path) -> Gesture:
@@ -88,8 +162,12 @@ def read_gesture(path: Path) -> Gesture:
     check_title(path, gesture.title)
     if not gesture.amplitude[0] <= gesture.amplitude[1] <= gesture.amplitude[2] <= 3.0:
         raise invalid(path, "amplitude", "must not fall, and be at most 3")
-    if not 1 <= len(gesture.tracks) <= MOST_TRACKS:
-        raise invalid(path, "tracks", f"must be 1 to {MOST_TRACKS}")
+    least = 0 if gesture.needs_lowered else 1
+    if not least <= len(gesture.tracks) <= MOST_TRACKS:
+        raise invalid(path, "tracks", f"must be {least} to {MOST_TRACKS}")
+    if gesture.needs_lowered and gesture.may_start != "lowered":
+        raise invalid(path, "may_start", 'must be "lowered" where a hand leaves the instrument, or it comes up')
+    _check_hand(path, gesture)
     seen: set[tuple[str, str]] = set()
     for index, track in enumerate(gesture.tracks):
         place = f"tracks[{index}]"
@@ -105,15 +183,39 @@ def read_gesture(path: Path) -> Gesture:
 def _check_keys(path: Path, place: str, keys: tuple[Key, ...]) -> None:
     if not 3 <= len(keys) <= MOST_KEYS:
         raise invalid(path, place, f"must be 3 to {MOST_KEYS}")
-    for index, (key, following) in enumerate(pairwise(keys), 1):
-        if following.at - key.at < 0.01:
-            raise invalid(path, f"{place}[{index}].at", "must be at least 0.01 after the key before")
-    for index, at in ((0, 0.0), (len(keys) - 1, 1.0)):
-        key = keys[index]
-        if key.at != at:
-            raise invalid(path, f"{place}[{index}].at", f"must be {at:g}: a gesture begins at 0 and ends at 1")
-        if key.deg != 0.0 or key.slope:
+    _check_times(path, place, [key.at for key in keys])
+    for index in (0, len(keys) - 1):
+        if keys[index].deg != 0.0 or keys[index].slope:
             raise invalid(path, f"{place}[{index}].deg", "must be 0 and level: the body goes on from where it is")
+
+
+def _check_hand(path: Path, gesture: Gesture) -> None:
+    if gesture.hand is not None:
+        keys = gesture.hand.keys
+        if not 3 <= len(keys) <= MOST_KEYS:
+            raise invalid(path, "hand.keys", f"must be 3 to {MOST_KEYS}")
+        _check_times(path, "hand.keys", [key.at for key in keys])
+        for index in (0, len(keys) - 1):
+            if keys[index] != HandKey(keys[index].at):
+                raise invalid(path, f"hand.keys[{index}]", "must be on the grip: the hand goes back to where it was")
+    if gesture.raised:
+        if not 3 <= len(gesture.raised) <= MOST_KEYS:
+            raise invalid(path, "raised", f"must be 3 to {MOST_KEYS}")
+        _check_times(path, "raised", [key.at for key in gesture.raised])
+        for index in (0, len(gesture.raised) - 1):
+            if gesture.raised[index].share != 0.0:
+                raise invalid(path, f"raised[{index}].share", "must be 0: the instrument is lowered before and after")
+    if gesture.gaze is not None and gesture.gaze.end <= gesture.gaze.start:
+        raise invalid(path, "gaze.end", "must be after the start")
+
+
+def _check_times(path: Path, place: str, at: list[float]) -> None:
+    for index, (before, after) in enumerate(pairwise(at), 1):
+        if after - before < 0.01:
+            raise invalid(path, f"{place}[{index}].at", "must be at least 0.01 after the key before")
+    for index, end in ((0, 0.0), (len(at) - 1, 1.0)):
+        if at[index] != end:
+            raise invalid(path, f"{place}[{index}].at", f"must be {end:g}: a gesture begins at 0 and ends at 1")
 
 
 # As in `metadata.load`: types are worked out under the import's lock.

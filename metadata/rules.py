@@ -12,7 +12,7 @@ from metadata.model import Fraction01, NotNegative, Positive
 from metadata.tables import Title, check_name, decoded, invalid
 
 Offset: TypeAlias = Annotated[float, msgspec.Meta(ge=-60.0, le=60.0)]
-Place: TypeAlias = Literal["first", "after_rest", "climax", "phrase_end", "last"]
+Place: TypeAlias = Literal["first", "after_rest", "climax", "phrase_end", "before_rest", "last"]
 Growth: TypeAlias = Literal["loudness", "height", "depth", "length", "accent", "effort"]
 Moment: TypeAlias = Literal["gives_entry", "takes_entry", "ending"]
 Anchor: TypeAlias = Literal["onset", "end"]
@@ -33,15 +33,19 @@ class When(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         How long the note lasts.
     rest_longer_s, rest_after_longer_s : float
         The silence before the note, and after it.
+    played_longer_s : float
+        What the player has played so far, this note with it.
     accent : float
         How much louder than those around it, 0..1.
     leap_up, leap_down : float
         Semitones from the note before.
     place : tuple of str
         Where it is, any of these: ``"first"`` or ``"last"`` of the part, ``"after_rest"``, ``"climax"`` (highest and
-        loudest of its phrase), ``"phrase_end"``.
+        loudest of its phrase), ``"phrase_end"``, ``"before_rest"`` (the same, and more is to come).
     styles, habits : tuple of str
         The player has any of these.
+    not_styles : tuple of str
+        The player has none of these.
     chance : float
         In so many of the cases.
     effort_above : float
@@ -60,11 +64,13 @@ class When(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     shorter_s: NotNegative | None = None
     rest_longer_s: NotNegative | None = None
     rest_after_longer_s: NotNegative | None = None
+    played_longer_s: NotNegative | None = None
     accent: Fraction01 | None = None
     leap_up: NotNegative | None = None
     leap_down: NotNegative | None = None
     place: tuple[Place, ...] = ()
     styles: tuple[str, ...] = ()
+    not_styles: tuple[str, ...] = ()
     habits: tuple[str, ...] = ()
     chance: Fraction01 = 1.0
     effort_above: Fraction01 | None = None
@@ -90,6 +96,8 @@ class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         What the offsets count from: the onset or the end of the note.
     start_s, end_s : float
         Offsets. A gesture without an end lasts as long as it says itself.
+    spread_s : float
+        A gesture begins up to so much later, by player, place and seed: no two do it at once.
     fade_in_s, fade_out_s : float or None
         Of an expression; None: its own.
     stays_s : float
@@ -106,6 +114,7 @@ class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     start_s: Offset = 0.0
     end: Anchor = "end"
     end_s: Offset | None = None
+    spread_s: NotNegative = 0.0
     fade_in_s: Positive | None = None
     fade_out_s: Positive | None = None
     stays_s: NotNegative = 0.0

@@ -85,7 +85,7 @@ def inspection(performance: Performance, *, contacts: bool = True) -> Table:
         Whether all motion is generated to check what the bodies reach.
     """
     project = performance.project
-    score = project.score
+    score, place = project.score, project.conductor
     # No one plans for an instrument that is not there.
     playable = attempt(project.players, performance.instrument)
     absent = {one.player.id for one in playable.left_out}
@@ -101,6 +101,7 @@ def inspection(performance: Performance, *, contacts: bool = True) -> Table:
         "felt_beat_quarters": project.felt_beat_quarters,
         "seed": project.seed,
         "section_intensity": project.section_intensity,
+        "conductor": None if place is None else {"x_m": place.x_m, "z_m": place.z_m},
         "duration_s": score.tempo_map.seconds(float(score.sounding_end_tick)),
         "ticks_per_beat": score.ticks_per_quarter,
         "tempo": [{"tick": tick, "bpm": bpm} for tick, bpm in score.tempo_map.bpm],

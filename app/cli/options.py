@@ -15,6 +15,7 @@ from app.errors import UsageError
 from app.messages import text as worded
 from app.plan.generate import COME_UP_S, PREROLL_BEATS, PREROLL_LEAST_S
 from app.project import limits
+from app.project.casting import MOST_IN_ARC, ConductorPlace, conductor_place
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_preroll
 from app.project.frame_rate import exact_number
 from app.project.frame_rate import frame_rate as typed_rate
@@ -90,7 +91,10 @@ _felt_quarters = within(
     "auto or a length in quarters such as 1, 1.5 or 1/2",
     lambda text: float(exact_number(text)),
 )
+_stage_m = within(*limits.STAGE_M, "a number of metres", float)
 AUTOMATIC: Final = "auto"
+NO_CONDUCTOR: Final = "none"
+USUAL_CONDUCTOR: Final = "usual"
 seconds = within(-LONGEST_S, LONGEST_S, "a number of seconds", float)
 """Of the performance; before the first beat it is negative."""
 
@@ -117,6 +121,17 @@ def picture_size(least_px: tuple[int, int], most_px: tuple[int, int]) -> Callabl
 def felt_beat(text: str) -> float | str:
     """A beat in quarters; `AUTOMATIC`: metre and tempo say."""
     return AUTOMATIC if text.strip().casefold() == AUTOMATIC else _felt_quarters(text)
+
+
+def conductor(text: str) -> ConductorPlace | str:
+    """A place on the stage, `USUAL_CONDUCTOR` or `NO_CONDUCTOR`."""
+    said = text.strip().casefold()
+    if said in (NO_CONDUCTOR, USUAL_CONDUCTOR):
+        return said
+    x, comma, z = said.partition(",")
+    if not comma:
+        raise argparse.ArgumentTypeError(f"{text[:_MOST_SHOWN]!r} is not a place such as 0,1.5, nor usual, nor none")
+    return ConductorPlace(_stage_m(x), _stage_m(z))
 
 
 def text_encoding(text: str) -> str:
@@ -195,6 +210,14 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         metavar="TIMES",
         help="multiplies what all players show of their acting, 0 to 2 (default: the project's, 1)",
     )
+    command.add_argument(
+        "--conductor",
+        type=conductor,
+        metavar="PLACE",
+        help="where a conductor stands, who gives the entries: X,Z in metres (--conductor=-0.5,2 where X is negative), "
+        "usual for before the players, or none (default: the project's; of a MIDI file none for up to "
+        f"{MOST_IN_ARC} players, usual for more)",
+    )
 
 
 def add_title_option(command: argparse.ArgumentParser) -> None:
@@ -250,10 +273,15 @@ def _piece(arguments: argparse.Namespace, project: Project) -> PieceSettings:
         "felt_beat_quarters": getattr(arguments, "felt_beat", None),
         "seed": getattr(arguments, "seed", None),
         "section_intensity": getattr(arguments, "section_intensity", None),
+        "conductor": getattr(arguments, "conductor", None),
     }
     given = {field: value for field, value in asked.items() if value is not None}
     if given.get("felt_beat_quarters") == AUTOMATIC:
         given["felt_beat_quarters"] = None
+    if given.get("conductor") == NO_CONDUCTOR:
+        given["conductor"] = None
+    elif given.get("conductor") == USUAL_CONDUCTOR:
+        given["conductor"] = conductor_place([player.stage for player in project.bodies])
     return msgspec.structs.replace(piece_settings(project), **given)
 
 

@@ -346,6 +346,19 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the gesture {name!r} is meant for where its table says may_start = {start!r}; move it there",
         "ジェスチャー {name!r} は、表の may_start = {start!r} の場所で行うものです。移動してください",
     ),
+    "stage.conductor": ("Conductor", "指揮者"),
+    "gesture.hand_holds": (
+        "the gesture {name!r} would take a hand that this instrument needs; no hand leaves it",
+        "ジェスチャー {name!r} の手は、この楽器を持つのに必要です。手は楽器を離れません",
+    ),
+    "gesture.no_water_key": (
+        "the gesture {name!r} presses a water key, and the instrument has none; no hand leaves it",
+        "ジェスチャー {name!r} は水抜きのキーを押しますが、この楽器にはありません。手は楽器を離れません",
+    ),
+    "gesture.hand_busy": (
+        "the gesture {name!r} begins before the hand is back from another; move it",
+        "ジェスチャー {name!r} は、手がほかの動作から戻る前に始まります。移動してください",
+    ),
     "gesture.lower_instrument": (
         "{rest_s:g} s of rest: the instrument is lowered and raised again before the entry",
         "{rest_s:g} 秒の休み: 楽器を下ろし、入りの前に構え直します",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from app.rig import quaternion
 from app.rig.hold import GripPose, HandHold, Placed, hand_targets
 from app.rig.ik import arm, solve_limb
 from app.rig.model import Skeleton
+
+if TYPE_CHECKING:
+    from app.motion.hands import Away
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 
@@ -67,6 +71,7 @@ def solve_arms(
     controls: Mapping[str, FloatArray],
     placed: Mapping[str, Placed],
     swung: FloatArray | None = None,
+    away: Away | None = None,
 ) -> dict[int, FloatArray]:
     """Rotations of clavicles, arms and hands, by joint; ``swung`` (F, 4) is how far elbows go with arms that swing."""
     rotations: dict[int, FloatArray] = {}
@@ -74,7 +79,10 @@ def solve_arms(
     for hand in hold.hands:
         targets = hand_targets(hand, carried.position_m, carried.rotation, controls, placed)
         turned = with_chest if swung is None else quaternion.multiply(swung, with_chest)
-        rotations |= _solve_arm(skeleton, hand, body, turned, motion, *targets)
+        freely = None
+        if away is not None:
+            targets, freely = away.targets(hand.side, *targets), away.elbows.get(hand.side)
+        rotations |= _solve_arm(skeleton, hand, body, turned, motion, *targets, freely)
     for side, sign in (("left", -1.0), ("right", 1.0)):
         if all(hand.side != side for hand in hold.hands):
             hangs = quaternion.from_axis_angle(np.array([0.0, 0.0, 1.0]), sign * HANGS_RAD)
@@ -90,6 +98,7 @@ def _solve_arm(
     motion: BodyMotion,
     target_m: FloatArray,
     target_rotation: FloatArray,
+    freely: tuple[FloatArray, FloatArray] | None = None,
 ) -> dict[int, FloatArray]:
     side = hand.side
     limb = arm(skeleton, side)
@@ -102,6 +111,9 @@ def _solve_arm(
         line = target_m - root_m
         line /= np.sqrt(np.einsum("fi,fi->f", line, line))[:, None]
         pole = quaternion.rotate(quaternion.from_axis_angle(line, sign * motion.elbow_held_rad[side]), pole)
+    if freely is not None:
+        share, elbow = freely
+        pole = pole + share[:, None] * (quaternion.rotate(body.chest, elbow) - pole)
     if hand.motion is not None:
         target_m = exact_target(limb, root_m, target_m)
     pose = solve_limb(limb, root_m, held.clavicle, target_m, target_rotation, pole)

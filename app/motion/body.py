@@ -29,6 +29,8 @@ from app.motion.nods import Nods
 from app.motion.overlap import Leads, Overlapped
 from app.motion.path import Path
 from app.motion.pose import Offset, Poses, hold_body
+from app.motion.quiet import quiet_breaths
+from app.motion.reaching import Reaches, Reaching, reached
 from app.motion.ribs import air
 from app.plan.acting import Acting
 from app.plan.footwork import FOOT_KINDS
@@ -42,6 +44,8 @@ EYES_BACK = 0.6
 """Share of the head's turn to the instrument that the eyes turn back, to the music and to the others."""
 EXHALE_S = 3.0
 FULLEST = 1.4
+QUIET, QUIET_AIR = 0.45, 0.3
+"""How full a quiet breath makes the lungs look, and how much air it is, beside a full one."""
 LEAST_DRAWN = 0.4
 """However soon breaths follow each other, each has this much room: no breath goes unseen, also where a bell sinks."""
 BREATH_LEAD_S = 0.03
@@ -49,7 +53,9 @@ BREATH_LEAD_S = 0.03
 LIFT_SHARE = 0.7
 STEP_IN_HIPS = 0.3
 """Hips go along with a foot that is put ahead."""
-_NONE_AT_REST = (*("protraction_rad", "elbow_held_rad", "bell_held_rad", "hips_danced", "elbows_late_rad", "feet"),)
+_NONE_AT_REST = (
+    *("protraction_rad", "elbow_held_rad", "bell_held_rad", "hips_danced", "elbows_late_rad", "feet", "hands"),
+)
 
 
 @dataclass(frozen=True)
@@ -91,6 +97,8 @@ class BodyMotion:
         ``forward``, ``turn`` and ``left``: how far the elbows are from where the chest has them; empty: not at all.
     feet : dict of str to array
         What feet do that do not stand (`app.motion.feet.feet_moved`); empty: they stand.
+    hands : dict of str to array
+        Where hands are that leave the instrument (`app.motion.reaching.reached`); empty: they stay.
     """
 
     forward_rad: dict[str, FloatArray]
@@ -118,6 +126,7 @@ class BodyMotion:
     hips_danced: dict[str, FloatArray]
     elbows_late_rad: dict[str, FloatArray]
     feet: dict[str, FloatArray]
+    hands: dict[str, FloatArray]
 
     def __getitem__(self, frames: slice) -> BodyMotion:
         """The same motion in some of its frames."""
@@ -181,7 +190,7 @@ class LayerSamples:
 
     ``dip`` and ``lift`` are of the nods, ``giving`` is 1 half way between two places of the weight, ``held`` what the
     animator holds differently, ``gestured`` the keyed gestures, ``feet`` as of `Feet.sample`, ``concert`` what is done
-    beside playing (None: nothing).
+    beside playing (None: nothing), ``reached`` the hands that leave the instrument.
     """
 
     full: FloatArray
@@ -200,6 +209,8 @@ class LayerSamples:
     held: dict[PoseTarget, Offset]
     gestured: Sums | None = None
     concert: ConcertSamples | None = None
+    reached: Reaches | None = None
+    quiet: FloatArray | float = 0.0
 
 
 @dataclass(frozen=True)
@@ -230,9 +241,11 @@ class Layers:
     weight: Curve
     height: Curve
     lowered: Curve
+    quiet: Curve
     feet: Feet
     poses: Poses
     gestured: Gestured
+    reaching: Reaching
     concert: Concert
     still: Envelopes
     leads: Leads
@@ -278,9 +291,11 @@ class Layers:
             lowered=low.lowered
             if low
             else lowering(gestures["lower_instrument"], body.bell.lower_s, body.bell.raise_s),
+            quiet=low.quiet if low else quiet_breaths(gestures["lower_instrument"]),
             feet=stepped.feet if stepped else Feet.of(gestures["feet"], body.footwork.step_s),
             poses=Poses.of(plan.poses),
             gestured=Gestured.of(plan.gestures),
+            reaching=Reaching.of(plan.gestures),
             concert=others_too.concert if others_too else Concert.of(gestures["concert"], felt_beats),
             still=others_too.still if others_too else holds_of(gestures["concert"]),
             leads=Leads.of(body.overlap),
@@ -307,9 +322,11 @@ class Layers:
             giving=2.0 * share * (1.0 - share) * np.abs(after - before),
             height=self.height.sample(times_s),
             lowered=self.lowered.sample(times_s),
+            quiet=self.quiet.sample(times_s),
             feet=self.feet.sample(times_s),
             held=self.poses.sample(times_s),
             gestured=self.gestured.sample(times_s),
+            reached=self.reaching.sample(times_s),
             concert=self.concert.sample(times_s),
         )
 
@@ -345,9 +362,12 @@ def body_motion(
     """Sum of all layers at ascending ``times_s`` (F,), on top of the posture's own angles; without ``steps`` feet only
     tap. ``beside`` is the share that is shown of keyed gestures and of what is done beside playing."""
     sizes, sway, deg = Sizes(body, parameters, player_id), body.sway, np.deg2rad
-    inhaled, lean, shown = levels.full, levels.leaning, acting.gestures * beside
+    inhaled, lean, shown = levels.full + QUIET * levels.quiet, levels.leaning, acting.gestures * beside
     dip, lift = acting.cue * levels.dip, acting.cue * levels.lift
     frames, lowered, seated = len(times_s), levels.lowered, posture.seat_height_shank > 0.0
+    hands, raised = reached(levels.reached or {}, parameters.amplitude, acting.gestures)
+    if raised is not None:
+        lowered = lowered * (1.0 - raised)
     look, total = with_instrument(look, lowered), Sum(frames)
     aside_rad = _held(total, posture, lowered)
     angles = Angles.of(
@@ -429,6 +449,7 @@ def body_motion(
         hips_danced={},
         elbows_late_rad=angles.elbows_late(),
         feet=feet,
+        hands=hands,
     )
 
 

@@ -27,22 +27,33 @@ _TURNS = ("up", "left", "roll")
 def slopes_of(track: Track) -> FloatArray:
     """The tangent of every key, degrees for the whole length: where none is given, level at a turn and else towards
     the neighbours, so that nothing overshoots."""
-    at = np.array([key.at for key in track.keys])
-    deg = np.array([key.deg for key in track.keys])
-    steps = np.diff(deg) / np.diff(at)
+    slopes = _monotone(np.array([key.at for key in track.keys]), np.array([key.deg for key in track.keys]))
+    given = np.array([np.nan if key.slope is None else key.slope for key in track.keys])
+    return np.where(np.isnan(given), slopes, given)
+
+
+def _monotone(at: FloatArray, values: FloatArray) -> FloatArray:
+    steps = np.diff(values) / np.diff(at)
     slopes = np.zeros(len(at))
     before, after = steps[:-1], steps[1:]
     onwards = before * after > 0.0
     # The harmonic mean (Fritsch and Butland 1984) keeps the curve between its keys.
     slopes[1:-1][onwards] = 2.0 * before[onwards] * after[onwards] / (before + after)[onwards]
-    given = np.array([np.nan if key.slope is None else key.slope for key in track.keys])
-    return np.where(np.isnan(given), slopes, given)
+    return slopes
 
 
 def angles_deg(track: Track, phase: FloatArray) -> FloatArray:
     """A track's angle at phases of its gesture, (F,); 0 outside of 0..1."""
     at = np.array([key.at for key in track.keys])
-    deg, slopes = np.array([key.deg for key in track.keys]), slopes_of(track)
+    return _between(at, np.array([key.deg for key in track.keys]), slopes_of(track), phase)
+
+
+def keyed(at: FloatArray, values: FloatArray, phase: FloatArray) -> FloatArray:
+    """What goes through values at some phases, without overshooting any; 0 outside of 0..1."""
+    return _between(at, values, _monotone(at, values), phase)
+
+
+def _between(at: FloatArray, values: FloatArray, slopes: FloatArray, phase: FloatArray) -> FloatArray:
     place = np.clip(np.searchsorted(at, phase, side="right") - 1, 0, len(at) - 2)
     length = (at[1:] - at[:-1])[place]
     u = (phase - at[place]) / length
@@ -50,9 +61,9 @@ def angles_deg(track: Track, phase: FloatArray) -> FloatArray:
     moved = cubed * (10.0 + u * (6.0 * u - 15.0))
     leaving = u + cubed * (-6.0 + u * (8.0 - 3.0 * u))
     arriving = cubed * (-4.0 + u * (7.0 - 3.0 * u))
-    first, last = deg[place], deg[place + 1]
-    angles = first + (last - first) * moved + length * (slopes[place] * leaving + slopes[place + 1] * arriving)
-    inside: FloatArray = np.where((phase > 0.0) & (phase < 1.0), angles, 0.0)
+    first, last = values[place], values[place + 1]
+    found = first + (last - first) * moved + length * (slopes[place] * leaving + slopes[place + 1] * arriving)
+    inside: FloatArray = np.where((phase > 0.0) & (phase < 1.0), found, 0.0)
     return inside
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from app.motion.additive import NOTHING, Added, Additive, with_added, with_added_morphs, with_held
 from app.motion.aside import Aside
-from app.motion.body import BodyMotion, Layers, LayerSamples, body_motion
+from app.motion.body import QUIET_AIR, BodyMotion, Layers, LayerSamples, body_motion
 from app.motion.contact import Carried
 from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
@@ -201,6 +201,9 @@ class PerformanceCurves:
             moved = with_added(moved, added, self.body, self.player.place.knee_rad)
         if frames.stowed is not None and self.player.put_aside is not None:
             moved = self.player.put_aside.watched(moved, frames.stowed)
+            # A hand that has put its instrument aside has left it already.
+            there = 1.0 - frames.stowed
+            moved = replace(moved, hands={name: (there * values.T).T for name, values in moved.hands.items()})
         morphs = face_morphs(
             frames.face,
             self.body.embouchure[self.instrument_map.embouchure.kind],
@@ -211,7 +214,8 @@ class PerformanceCurves:
             self._face_sizes.shared(share_at(styles, "face", frames.times_s), share_at(styles, "lips", frames.times_s)),
             frames.times_s,
         )
-        morphs |= widened(levels.air, self.body.breath, self.acting.breath)
+        air = levels.air + QUIET_AIR * levels.quiet
+        morphs |= widened(air, self.body.breath, self.acting.breath)
         if added:
             morphs = with_added_morphs(morphs, added, frames.face.at_lips)
         return Curves(
@@ -420,6 +424,7 @@ def _player(
         still=still,
         base=trunk(character.skeleton, *hips_path(place, character.skeleton, still), still),
         grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
+        water=instrument_map.water,
     ).standing_on(instrument_map.endpin)
 
 

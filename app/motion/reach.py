@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,6 +16,9 @@ from app.rig import quaternion
 from app.rig.hold import GripPose, Placed, hand_targets
 from app.rig.ik import arm
 from app.rig.model import Skeleton
+
+if TYPE_CHECKING:
+    from app.motion.hands import Away
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 
@@ -66,6 +70,7 @@ def needed_help(
     carried: Carried,
     controls: Mapping[str, FloatArray],
     placed: Mapping[str, Placed],
+    away: Away | None = None,
 ) -> Help:
     """The help a body needs that has none yet; exactly 0 where the arms alone reach, and where hands stay.
 
@@ -77,7 +82,9 @@ def needed_help(
     most_turn: dict[str, FloatArray] = {}
     most_protraction: dict[str, FloatArray] = {}
     for hand in hold.hands:
-        target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, controls, placed)
+        target_m, rotation = hand_targets(hand, carried.position_m, carried.rotation, controls, placed)
+        if away is not None:
+            target_m, _ = away.targets(hand.side, target_m, rotation)
         girdle = _girdle(skeleton, hand.side, body, target_m)
         arm_m = arm(skeleton, hand.side).length_m
         distance_m = girdle.distance_m(0.0)

@@ -16,6 +16,7 @@ from app.motion.body import BodyMotion
 from app.motion.contact import Carried, carry
 from app.motion.curve import FloatArray
 from app.motion.endpin import Stand
+from app.motion.hands import Away, away, with_shapes
 from app.motion.model import Motion
 from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
 from app.motion.reach import TURN_RAD, Help, needed_help, shoulder_distance_m, softly_capped
@@ -24,7 +25,7 @@ from app.rig import quaternion
 from app.rig.finger_poses import finger_rotations
 from app.rig.hold import GripPose, Placed, hand_targets
 from app.rig.model import Skeleton
-from instrument_maps.model import Carriage, Endpin, Lowered
+from instrument_maps.model import Carriage, Endpin, Lowered, Water
 
 CHUNK = 4096
 """Frames solved at once: few enough to stay in the processor's cache."""
@@ -55,7 +56,8 @@ class Player:
 
     ``still`` is the posture before any motion and ``base`` its trunk, one frame; ``grip_of_lips_m`` (3,) is how far
     playing lips bring the mouthpiece from where one lip alone would carry it, in the head's frame. ``stand`` is there
-    where the instrument stands on the floor, ``aside`` where the musician plays others too.
+    where the instrument stands on the floor, ``aside`` where the musician plays others too. ``water`` says where it is
+    let out.
     """
 
     skeleton: Skeleton
@@ -68,6 +70,11 @@ class Player:
     grip_of_lips_m: FloatArray
     stand: Stand | None = None
     aside: Aside | None = None
+    water: Water | None = None
+
+    def away(self, motion: BodyMotion, carried: Carried) -> Away | None:
+        """Where hands are that leave the instrument; None where all stay."""
+        return away(self.skeleton, self.base, motion.hands, carried, self.water) if motion.hands else None
 
     def standing_on(self, endpin: Endpin | None) -> Player:
         """The player with the instrument on its endpin, where it usually is low enough for that."""
@@ -175,7 +182,10 @@ def poses(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -
         hips_m[part], instrument_m[part], instrument[part] = chunk_hips_m, carried.position_m, carried.rotation
         for joint, values in local.items():
             rotations[part, joint] = values
-        rotations[part, fingers] = finger_rotations(player.hold, chunk.controls, len(chunk), chunk.placed, chunk.raised)
+        posed = finger_rotations(player.hold, chunk.controls, len(chunk), chunk.placed, chunk.raised)
+        if chunk.body.hands:
+            posed = with_shapes(player.skeleton, chunk.body.hands, fingers, posed)
+        rotations[part, fingers] = posed
         for name, values in stops.items():
             controls[name][part] = values
     if player.stand is not None:
@@ -223,8 +233,8 @@ def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatAr
     hips_m, hips, upper, carried = _upper(player, curves)
     local = {skeleton.index("hips"): hips} | upper.local
     controls = stopped(skeleton, player.hold, upper, motion, carried, curves.controls, curves.placed)
-    late = _late(motion)
-    arms = solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed, late)
+    late, free = _late(motion), player.away(motion, carried)
+    arms = solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed, late, free)
     if player.put_aside is not None and curves.stowed is not None and np.any(curves.stowed):
         # The other hand lets go where the instrument was lowered, and does not follow it.
         letting_go = player.put_aside.let_go(skeleton, player.hold, arms, curves.stowed)
@@ -254,7 +264,8 @@ def _late(motion: BodyMotion) -> FloatArray | None:
 def needs(player: Player, curves: Curves) -> Help:
     """What trunk and shoulders must add for far hands, frame by frame."""
     _, _, upper, carried = _upper(player, curves)
-    needed = needed_help(player.skeleton, player.hold, upper, carried, curves.controls, curves.placed)
+    free = player.away(curves.body, carried)
+    needed = needed_help(player.skeleton, player.hold, upper, carried, curves.controls, curves.placed, free)
     # The chest carries a lowered instrument: turning would take it along and bring no hand nearer.
     turning = 1.0 - curves.body.lowered
     return replace(needed, turn_rad=needed.turn_rad * turning, short_m=needed.short_m * turning)

@@ -8,8 +8,9 @@ instrument or character.
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from threading import RLock
 from typing import Final
@@ -28,17 +29,20 @@ from app.plan.doubling import Change, changes, first_played, held_plan
 from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
 from app.plan.glances import StagePlace
 from app.plan.memo import Memo
-from app.plan.model import PlayerPlan, Problem, TimeFrame
+from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame
 from app.plan.parameters import PlayerParameters, deciding
 from app.project.model import Project
 from app.project.performers import Player
 from app.rig.character_library import character_library
 from app.score.limits import too_long
 from instrument_maps.library import library
-from instrument_maps.model import InstrumentMap
+from instrument_maps.model import InstrumentMap, Posture
 from metadata.library import MetadataLibrary, metadata_library
 from metadata.model import Expression
 
+EYES_M: Final[Mapping[Posture, float]] = {"standing": 1.58, "seated": 1.22}
+CONDUCTOR_EYES_M: Final = 1.8
+"""About how high eyes are, the conductor's on a podium."""
 LIGHT = 8
 """Where neither breaths nor cues are looked for, planning costs this many times less."""
 
@@ -162,9 +166,15 @@ class Performance:
 
     @property
     def places(self) -> dict[str, StagePlace]:
-        """Where every player is on the stage."""
-        stages = {player.id: player.stage for player in self.project.players}
-        return {id: StagePlace(stage.x_m, stage.z_m, stage.turn_rad) for id, stage in stages.items()}
+        """Where every player is on the stage, and the conductor."""
+        found = {}
+        for player in self.project.players:
+            stage, eyes_m = player.stage, EYES_M[player.parameters.posture]
+            found[player.id] = StagePlace(stage.x_m, stage.z_m, stage.turn_rad, eyes_m)
+        conductor = self.project.conductor
+        if conductor is not None:
+            found[CONDUCTOR] = StagePlace(conductor.x_m, conductor.z_m, math.pi, CONDUCTOR_EYES_M)
+        return found
 
     @cached_property
     def _ensemble(self) -> EnsemblePlan:

@@ -12,7 +12,7 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.line import Piece, Rhythm, Seeds
-from app.plan.model import CueEvent, GestureEvent
+from app.plan.model import CONDUCTOR, CueEvent, GestureEvent
 from app.score.model import Note
 
 SOONEST_S: Final = 0.02
@@ -21,6 +21,8 @@ LATEST_S: Final = 0.06
 SMALLEST: Final = 0.3
 LARGEST: Final = 0.55
 """Size of their nods beside the leader's."""
+UNDER_CONDUCTOR: Final = 0.6
+"""Who follows a baton nods less."""
 
 
 def answering_nods(
@@ -40,6 +42,8 @@ def answering_nods(
             continue
         after_s = SOONEST_S + (LATEST_S - SOONEST_S) * seeds.chance_at("nod after", cue.end_tick)
         size = SMALLEST + (LARGEST - SMALLEST) * seeds.chance_at("nod", cue.end_tick)
+        if cue.player_id == CONDUCTOR:
+            size *= UNDER_CONDUCTOR
         start_s, end_s = cue.start_s + after_s, cue.downbeat_s + after_s
         event_id = f"nod:{notes[index].id}"
         # Of two who give the same entry the first is answered.

@@ -1,8 +1,9 @@
 """Who gives the entries, and when.
 
-Without a conductor the players give the entries themselves, by body and instrument, with a preparatory beat: the start,
-and the new start after a rest or a general pause of all; going on after a fermata; a new tempo, in which that beat is
-given; and a player or a section that comes in after a long rest, or as the next voice of a canon, while others play.
+A conductor gives all of them; the players look there and breathe together. Without one the players give the entries
+themselves, by body and instrument, with a preparatory beat: the start, and the new start after a rest or a general
+pause of all; going on after a fermata; a new tempo, in which that beat is given; and a player or a section that comes
+in after a long rest, or as the next voice of a canon, while others play.
 What an accompaniment plays that is not on stage sounds too: an entry with it needs no cue.
 
 Head and instrument rise on the preparatory beat, with the inhalation, and drop onto the next one: there lies the nod's
@@ -24,7 +25,7 @@ from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, SetCue, removed_ids
 from app.plan.dynamics import vigour_of
 from app.plan.line import BEFORE_FIRST_TICK, IntArray, LineTimes, MonophonicPart, Piece, Rhythm
-from app.plan.model import CueEvent, FloatArray, TimeFrame
+from app.plan.model import CONDUCTOR, CueEvent, FloatArray, TimeFrame
 from instrument_maps.vocabulary import vocabulary
 
 COMMON_REST_BARS = 2
@@ -334,9 +335,10 @@ def plan_cues(
     all_times: tuple[LineTimes, ...],
     piece: Piece,
     frame: TimeFrame,
+    conducted: bool = False,
 ) -> tuple[tuple[CueEvent, ...], frozenset[str]]:
     """Every cue of the ensemble, corrections applied, and the ids of all that the rules made; ``found`` are
-    `entries`.
+    `entries`. Where the ensemble is ``conducted`` the conductor gives what no player is chosen to give.
 
     A cue's id is ``cue:`` and the note it brings in, or ``cue:@`` and the tick for a leader who does not play there.
     """
@@ -344,13 +346,15 @@ def plan_cues(
     busy_until_s: dict[int, float] = {}
     for entry in found:
         leader, why = leader_of(entry, lines, all_times, piece)
+        if conducted and why != "chosen":
+            generated.append(_conducted(entry, lines, all_times, piece, frame))
+            continue
         if leader is None:
             continue
         leader = _at_hand(leader, entry.tick, lines, all_times)
         own = next((lines[line].notes[index] for line, index in entry.players if line == leader), None)
         note = own.id if own is not None and own.onset_tick == entry.tick else f"@{entry.tick}"
-        loudness = float(np.mean([all_times[line].loudness[index] for line, index in entry.players]))
-        amount = round(min(max(float(vigour_of(np.array([loudness]))[0]), SMALLEST), LARGEST), 4)
+        amount = _size(entry, all_times)
         takers = _takers(leader, entry.players, lines)
         cue = _cue(lines[leader].player_id, note, entry, why, piece, frame, amount, takers)
         # No one nods twice at once.
@@ -377,6 +381,19 @@ def plan_cues(
                 events[event.id + event.player_id] = event
     ordered = sorted(events.values(), key=lambda event: (event.start_s, event.player_id))
     return tuple(ordered), frozenset(event.id for event in generated)
+
+
+def _size(entry: Entry, all_times: tuple[LineTimes, ...]) -> float:
+    loudness = float(np.mean([all_times[line].loudness[index] for line, index in entry.players]))
+    return round(min(max(float(vigour_of(np.array([loudness]))[0]), SMALLEST), LARGEST), 4)
+
+
+def _conducted(
+    entry: Entry, lines: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...], piece: Piece, frame: TimeFrame
+) -> CueEvent:
+    """An entry that the conductor gives, to all who come in."""
+    takers = tuple(lines[line].player_id for line, _ in entry.players)
+    return _cue(CONDUCTOR, f"@{entry.tick}", entry, "conductor", piece, frame, _size(entry, all_times), takers)
 
 
 def _takers(leader: int, players: tuple[tuple[int, int], ...], lines: tuple[MonophonicPart, ...]) -> tuple[str, ...]:

@@ -16,6 +16,7 @@ from app.plan.additive_curve import AdditiveCurve
 from app.plan.bar_phase import lowest, with_felt_bars
 from app.plan.breath import plan_breaths
 from app.plan.breath_envelope import blown
+from app.plan.conducted import looks_up
 from app.plan.corrections import (
     AddExpression,
     AddGesture,
@@ -46,9 +47,9 @@ from app.plan.gesture import Pulse, plan_gestures, pulse
 from app.plan.glances import StagePlace, glances_of
 from app.plan.line import LineTimes, MonophonicPart, Piece, Seeds, note_times, without_sound
 from app.plan.memo import Memo
-from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, Problem, TimeFrame
+from app.plan.model import CONDUCTOR, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, Problem, TimeFrame
 from app.plan.moments import Around, plan_moments
-from app.plan.named_gestures import with_definitions
+from app.plan.named_gestures import undisturbed, with_definitions
 from app.plan.parameters import restricted
 from app.plan.pose import plan_poses
 from app.plan.rules import lowered_spans_s, plan_by_rules, with_ruled, without_overruled
@@ -172,7 +173,7 @@ def plan_ensemble(
     stop_requested, progress : callable
         Asked, and called with the share that is done, between two players.
     places : mapping of str to StagePlace, optional
-        Where each player stands; who has no place looks at no one.
+        Where each player stands, and under `CONDUCTOR` who gives the entries; who has no place looks at no one.
     rules : tuple of Rule, optional
         What players show and do by rules; the bundled ones by default.
     gestures : mapping of str to Gesture, optional
@@ -198,7 +199,8 @@ def plan_ensemble(
     musicians = tuple(line.musician or line.player_id for line in lines)
     found = shared.step("entries", entries, rhythms, piece, musicians)
     leading = tuple(_leading(line) for line in lines)
-    cues, cue_ids = shared.step("cues", plan_cues, found, leading, all_times, piece, frame)
+    conducted = places is not None and CONDUCTOR in places
+    cues, cue_ids = shared.step("cues", plan_cues, found, leading, all_times, piece, frame, conducted)
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
     beat = shared.step("pulse", pulse, piece, frame, first_s)
     ending = shared.step("ending", ending_of, all_times, piece)
@@ -240,8 +242,8 @@ def _answered(cues: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...
 def _seen(
     player_id: str, own: tuple[CueEvent, ...], answered: tuple[CueEvent, ...], places: Mapping[str, StagePlace]
 ) -> dict[str, StagePlace]:
-    """The places of the player and of those whom the player looks at."""
-    others = {cue.player_id for cue in answered} | {taker for cue in own for taker in cue.takers}
+    """The places of the player, of the conductor and of those whom the player looks at."""
+    others = {cue.player_id for cue in answered} | {taker for cue in own for taker in cue.takers} | {CONDUCTOR}
     return {one: place for one, place in places.items() if one == player_id or one in others}
 
 
@@ -385,9 +387,12 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     corrected = memo.step("gestures by hand", without_overruled, corrected)
     held = restricted(parameters, "poses")
     defined = memo.step("named gestures", with_definitions, corrected, given.named, instrument, held, times, lowered)
-    gestures = defined.gestures
-    looked = memo.step("looked at", _of_kinds, gestures, ("lower_instrument", "look_about", "look_up"))
-    glances = memo.step("glances", glances_of, line.player_id, given.cues + given.answered, looked, given.seen, seeds)
+    gestures = memo.step("undisturbed", undisturbed, defined.gestures)
+    looked = memo.step("looked at", _looking, gestures)
+    gaze = acting_of(parameters).gaze
+    up = memo.step("looks up", looks_up, line.player_id, times, piece, frame, given.last_s, given.seen, gaze, seeds)
+    cued = given.cues + given.answered
+    glances = memo.step("glances", glances_of, line.player_id, cued, looked, given.seen, seeds, up)
     # Who corrected the smile after the last note keeps it, whatever the ending is.
     named = any(item.event_id == SMILE_ID for item in corrections if isinstance(item, ChangeExpression | RemoveEvent))
     ending = msgspec.structs.replace(given.ending, bright=True) if named else given.ending
@@ -453,9 +458,14 @@ def _plan_line(memo: Memo, given: _Given) -> tuple[PlayerPlan, Breathed]:
     return plan, breathed_of(given.shared_line, notes, breaths.catches, events)
 
 
-def _of_kinds(gestures: tuple[GestureEvent, ...], kinds: tuple[str, ...]) -> tuple[GestureEvent, ...]:
-    """The gestures of some kinds."""
-    return tuple(event for event in gestures if event.kind in kinds)
+def _looking(gestures: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
+    """The gestures that eyes depend on."""
+    kinds = ("lower_instrument", "look_about", "look_up")
+    return tuple(
+        event
+        for event in gestures
+        if event.kind in kinds or (event.gesture is not None and event.gesture.gaze is not None)
+    )
 
 
 def _lost(

@@ -7,8 +7,8 @@ the body goes: at the end of a sway or lean, and for as long as it lasts for the
 Amounts follow the dynamics (`app.plan.dynamics`); sizes belong to the motion, which scales by the
 player's amplitude.
 
-In a rest longer than twice `app.plan.swing.STIR_S` the body is still but at its edges: what is made is in proportion to
-the notes, however long the silence between them.
+In a rest longer than twice `app.plan.swing.STIR_S` the body moves with the beat at its edges only, and the weight is
+shifted a few times: what is made is in proportion to the notes, however long the silence between them.
 
 Everything random is drawn from player and score position (tick), so the same place repeats in every run, however the
 rest of the piece is edited (Wanderley: players repeat the same bell movement at the same place).
@@ -35,14 +35,15 @@ from app.plan.lowered import lowered_spans
 from app.plan.memo import Memo
 from app.plan.model import BreathEvent, CueEvent, FloatArray, GestureEvent, StyleEvent, TimeFrame
 from app.plan.phrase import accents, leans, phrases
+from app.plan.swing import STIR_S, stirring, sways, swings_of
 from app.plan.swing import Pulse as Pulse
 from app.plan.swing import pulse as pulse
-from app.plan.swing import stirring, sways, swings_of
 from app.score.model import Note
 from app.score.tempo import TempoMap
 
 SHIFT_MEAN_S = 9.0
 SHIFT_LEAST_S = 3.0
+MOST_IN_SILENCE = 12
 CONTOUR_SEMITONES = 10.0
 """This far above or below the line's mean the bell is as high or as low as it gets."""
 CONTOUR_STEP = 0.12
@@ -135,6 +136,7 @@ def weight_shifts(
     shifts = seeds.chances_at("shift", ticks) < chances
     ticks, ends = ticks[shifts], ends[shifts]
     at_ticks = ticks + (seeds.chances_at("shift at", ticks) * (ends - ticks)).astype(np.int64)
+    at_ticks = np.union1d(at_ticks, _in_silence(times, seeds, clock))
     starts: list[tuple[int, float]] = []
     for at, at_s in zip(at_ticks.tolist(), clock.seconds(at_ticks.astype(np.float64)).tolist(), strict=True):
         if at_s >= frame.first_frame_s and (not starts or at_s - starts[-1][1] >= SHIFT_LEAST_S):
@@ -155,6 +157,21 @@ def weight_shifts(
             )
         )
     return events
+
+
+def _in_silence(times: Rhythm, seeds: Seeds, clock: TempoMap) -> npt.NDArray[np.int64]:
+    """Ticks of shifts in the middle of long silences: a few, however long they are."""
+    found = []
+    quiet = times.onset_s[1:] - times.played_end_s[:-1] > 2.0 * STIR_S + SHIFT_LEAST_S
+    for index in np.flatnonzero(quiet).tolist():
+        at_s, last_s = float(times.played_end_s[index]) + STIR_S, float(times.onset_s[index + 1]) - STIR_S
+        place = int(times.onset_tick[index + 1])
+        for number in range(MOST_IN_SILENCE):
+            at_s += SHIFT_MEAN_S * (0.5 + seeds.chance_at(f"shift in silence {number}", place))
+            if at_s > last_s:
+                break
+            found.append(round(clock.ticks(at_s)))
+    return np.array(found, dtype=np.int64)
 
 
 def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynamics: Dynamics) -> list[GestureEvent]:

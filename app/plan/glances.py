@@ -9,14 +9,15 @@ from __future__ import annotations
 
 import itertools
 import math
-from bisect import bisect_right
-from collections.abc import Mapping, Sequence
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Final
 
 import msgspec
 
 from app.plan.line import Seeds
-from app.plan.model import ABOUT, AUDIENCE, CueEvent, GestureEvent, GlanceEvent
+from app.plan.model import ABOUT, AUDIENCE, CONDUCTOR, CueEvent, GestureEvent, GlanceEvent
+from metadata.gestures import GazeTrack
 
 EYES_RAD: Final = math.radians(35.0)
 PLAYING_HEAD: Final = 0.3
@@ -25,6 +26,7 @@ FREE_HEAD: Final = 0.65
 """... and one that has not."""
 MOST_RAD: Final = 1.1
 """No one looks further aside for it."""
+MOST_UP_RAD: Final = 0.35
 LEVEL_RAD: Final = 0.02
 """Others' faces, below the player's own eyes."""
 TO_GIVER_S: Final = (0.25, 0.6)
@@ -41,11 +43,32 @@ SIDE_RAD: Final = (0.5, 1.0)
 
 
 class StagePlace(msgspec.Struct, frozen=True):
-    """Where a player is: metres, the audience towards +Z, and the turn from +Z towards +X in radians."""
+    """Where a player is: metres, the audience towards +Z, and the turn from +Z towards +X in radians; ``eyes_m`` above
+    the floor."""
 
     x_m: float
     z_m: float
     turn_rad: float
+    eyes_m: float = 0.0
+
+
+class _Spans:
+    """Spans of time in order, and the latest end of those up to each, so that none has to be compared with all."""
+
+    def __init__(self, spans: Iterable[tuple[float, float]]) -> None:
+        ordered = sorted(spans)
+        self._starts_s = [start_s for start_s, _ in ordered]
+        self._latest_ends_s = list(itertools.accumulate((end_s for _, end_s in ordered), max))
+
+    def hold(self, start_s: float, end_s: float) -> bool:
+        """Whether one begins at the start or before, and ends at the end or later."""
+        begun = bisect_right(self._starts_s, start_s)
+        return begun > 0 and self._latest_ends_s[begun - 1] >= end_s
+
+    def meet(self, start_s: float, end_s: float) -> bool:
+        """Whether one overlaps."""
+        begun = bisect_left(self._starts_s, end_s)
+        return begun > 0 and self._latest_ends_s[begun - 1] > start_s
 
 
 def glances_of(
@@ -54,6 +77,7 @@ def glances_of(
     gestures: Sequence[GestureEvent],
     places: Mapping[str, StagePlace],
     seeds: Seeds,
+    up: tuple[GlanceEvent, ...] = (),
 ) -> tuple[GlanceEvent, ...]:
     """All glances of a player, in order, one at a time.
 
@@ -64,11 +88,11 @@ def glances_of(
     gestures : sequence of GestureEvent
         The player's own, corrections applied.
     places : mapping of str to StagePlace
-        Where every player stands; without a place of the player's own or the other's no one is looked at.
+        Where every player stands, and the conductor; without a place of the player's own or the other's no one is
+        looked at.
+    up : tuple of GlanceEvent
+        Looks up to the conductor while playing (`app.plan.conducted`).
     """
-    spans = sorted((event.start_s, event.end_s) for event in gestures if event.kind == "lower_instrument")
-    starts_s = [start_s for start_s, _ in spans]
-    latest_ends_s = list(itertools.accumulate((end_s for _, end_s in spans), max))
     found: list[GlanceEvent] = []
     for cue in cues:
         if cue.player_id == player_id:
@@ -81,7 +105,13 @@ def glances_of(
         elif event.kind == "look_up" and player_id in places:
             yaw_rad = _wrapped(-places[player_id].turn_rad)
             found.append(_glance(f"glance:{event.id}", AUDIENCE, event.start_s, event.end_s, yaw_rad))
-    return tuple(_in_turn([_turned(one, starts_s, latest_ends_s) for one in found]))
+        elif event.gesture is not None and event.gesture.gaze is not None and event.amount > 0.0:
+            found.append(_at_own_hands(event, event.gesture.gaze))
+    taken = _Spans((one.start_s, one.end_s) for one in found)
+    # What is asked for anyway is more than a look up from the music.
+    found += [one for one in up if not taken.meet(one.start_s, one.end_s)]
+    lowered = _Spans((event.start_s, event.end_s) for event in gestures if event.kind == "lower_instrument")
+    return tuple(_in_turn([_turned(one, lowered) for one in found]))
 
 
 def _to_giver(cue: CueEvent, player_id: str, places: Mapping[str, StagePlace], seeds: Seeds) -> list[GlanceEvent]:
@@ -90,7 +120,10 @@ def _to_giver(cue: CueEvent, player_id: str, places: Mapping[str, StagePlace], s
     before_s = _between(TO_GIVER_S, seeds.chance_at("glance before", cue.end_tick))
     after_s = _between(STAYS_S, seeds.chance_at("glance after", cue.end_tick))
     yaw_rad = bearing_rad(places[player_id], places[cue.player_id])
-    return [_glance(f"glance:{cue.id}", cue.player_id, cue.start_s - before_s, cue.downbeat_s + after_s, yaw_rad)]
+    glance = _glance(f"glance:{cue.id}", cue.player_id, cue.start_s - before_s, cue.downbeat_s + after_s, yaw_rad)
+    if cue.player_id == CONDUCTOR:
+        glance = msgspec.structs.replace(glance, pitch_rad=pitch_rad(places[player_id], places[CONDUCTOR]))
+    return [glance]
 
 
 def _to_takers(cue: CueEvent, places: Mapping[str, StagePlace], seeds: Seeds) -> list[GlanceEvent]:
@@ -125,12 +158,32 @@ def _about(event: GestureEvent, seeds: Seeds) -> list[GlanceEvent]:
     ]
 
 
+def _at_own_hands(event: GestureEvent, gaze: GazeTrack) -> GlanceEvent:
+    """Where a gesture says that the eyes go."""
+    length_s = event.end_s - event.start_s
+    return GlanceEvent(
+        f"glance:{event.id}",
+        ABOUT,
+        event.start_s + gaze.start * length_s,
+        event.start_s + gaze.end * length_s,
+        math.radians(gaze.left_deg),
+        -math.radians(gaze.up_deg),
+        FREE_HEAD,
+    )
+
+
 def bearing_rad(own: StagePlace, other: StagePlace) -> float:
     """Where another stands, from the direction in which a player faces; to the left is positive."""
     across_m, ahead_m = other.x_m - own.x_m, other.z_m - own.z_m
     if across_m == 0.0 and ahead_m == 0.0:
         return 0.0
     return _wrapped(math.atan2(across_m, ahead_m) - own.turn_rad)
+
+
+def pitch_rad(own: StagePlace, other: StagePlace) -> float:
+    """How far down another's eyes are from a player's own."""
+    away_m = max(math.hypot(other.x_m - own.x_m, other.z_m - own.z_m), 0.5)
+    return round(min(max(math.atan2(own.eyes_m - other.eyes_m, away_m), -MOST_UP_RAD), MOST_UP_RAD), 4)
 
 
 def _wrapped(angle_rad: float) -> float:
@@ -141,16 +194,9 @@ def _glance(name: str, at: str, start_s: float, end_s: float, yaw_rad: float) ->
     return GlanceEvent(name, at, start_s, end_s, yaw_rad, LEVEL_RAD, PLAYING_HEAD)
 
 
-def _turned(glance: GlanceEvent, starts_s: list[float], latest_ends_s: list[float]) -> GlanceEvent:
-    """With as much of the head as is free, and as far as eyes and head go.
-
-    Parameters
-    ----------
-    starts_s, latest_ends_s : list of float
-        Where the instrument is lowered: starts in order, and the latest end of those up to each.
-    """
-    begun = bisect_right(starts_s, glance.start_s - 0.5)
-    free = begun > 0 and latest_ends_s[begun - 1] >= glance.end_s + 0.5
+def _turned(glance: GlanceEvent, lowered: _Spans) -> GlanceEvent:
+    """With as much of the head as is free, and as far as eyes and head go."""
+    free = lowered.hold(glance.start_s - 0.5, glance.end_s + 0.5)
     share = FREE_HEAD if free else PLAYING_HEAD
     most_rad = min(EYES_RAD / (1.0 - share), MOST_RAD)
     yaw_rad = min(max(glance.yaw_rad, -most_rad), most_rad)

@@ -43,6 +43,7 @@ def faces_now(
         below_easy=instrument.range.easy_low - pitch,
         accents=nothing,
         leap=nothing,
+        played_s=nothing,
         effort=effort,
         places={},
     )

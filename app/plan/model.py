@@ -195,6 +195,8 @@ class ExpressionEvent(msgspec.Struct, frozen=True, gc=False):
 
 AUDIENCE: Final = "audience"
 ABOUT: Final = "about"
+CONDUCTOR: Final = "conductor"
+"""Who gives the entries where one stands there: in places, cues and glances as the players' ids are."""
 
 
 class GlanceEvent(msgspec.Struct, frozen=True, gc=False):
@@ -203,7 +205,7 @@ class GlanceEvent(msgspec.Struct, frozen=True, gc=False):
     Attributes
     ----------
     at : str
-        Id of a player, `AUDIENCE`, or `ABOUT` for no one.
+        Id of a player, `CONDUCTOR`, `AUDIENCE`, or `ABOUT` for no one.
     yaw_rad, pitch_rad : float
         The direction from the player's own, left and down.
     head_share : float

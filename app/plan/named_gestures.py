@@ -1,12 +1,12 @@
 """Gestures that stand in tables (`metadata.gestures`), as one body with one instrument can make them.
 
-Messages: ``gesture.unknown`` (name, known), ``gesture.not_here`` (name, start).
+Messages: ``gesture.unknown`` (name, known), ``gesture.not_here`` (name, start), ``gesture.hand_busy`` (name).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import msgspec
 import numpy as np
@@ -16,10 +16,13 @@ from app.plan.line import LineTimes
 from app.plan.model import GestureEvent, Problem
 from app.plan.parameters import PlayerParameters
 from app.plan.pose import GENTLE_RAD_S2, pose_limits
-from app.plan.rules import may_start
+from app.plan.possible import impossible, may_start
 from instrument_maps.model import InstrumentMap
-from metadata.gestures import Gesture, Key, Track
+from metadata.gestures import Gesture, HandTrack, Key, Track
 from metadata.load import load_body
+
+IDLE_KINDS: Final = frozenset({"look_about", "count", "settle_grip"})
+"""What a player does with nothing else to do."""
 
 
 class Defined(NamedTuple):
@@ -45,6 +48,7 @@ def with_definitions(
     result: list[GestureEvent] = []
     problems: list[Problem] = []
     limits: dict[str, dict[str, tuple[float, float]]] = {}
+    busy_s = -np.inf
     for event in events:
         definition = definitions.get(event.name)
         if event.kind != "named":
@@ -60,10 +64,21 @@ def with_definitions(
                 track: pose_limits(track, instrument, parameters, body)
                 for track in ("bell", "head", "left_elbow", "right_elbow", "torso")
             }
+        wrong = None
         if not may_start(definition, event.start_s, event.end_s, times, lowered):
-            said = Message("gesture.not_here", {"name": event.name, "start": definition.may_start})
-            problems.append(Problem(said, None, event.start_s, event.end_s))
+            wrong = Message("gesture.not_here", {"name": event.name, "start": definition.may_start})
+        elif definition.needs_lowered:
+            wrong = impossible(definition, instrument)
+            if wrong is None and event.start_s < busy_s:
+                wrong = Message("gesture.hand_busy", {"name": event.name})
+        if wrong is not None:
+            problems.append(Problem(wrong, None, event.start_s, event.end_s))
         made = fitted(definition, event.end_s - event.start_s, limits)
+        if definition.needs_lowered and wrong is not None:
+            made = msgspec.structs.replace(made, hand=None, raised=())
+        elif definition.needs_lowered:
+            busy_s = event.end_s
+            made = _in_hand(made, instrument)
         result.append(msgspec.structs.replace(event, gesture=made))
     return Defined(tuple(result), tuple(problems))
 
@@ -90,6 +105,28 @@ def fitted(gesture: Gesture, length_s: float, limits: Mapping[str, Mapping[str, 
         share = min(share, GENTLE_RAD_S2 / max(float(quickest), 1e-9))
         tracks.append(track if share == 1.0 else _scaled(track, share))
     return msgspec.structs.replace(gesture, tracks=tuple(tracks))
+
+
+def _in_hand(gesture: Gesture, instrument: InstrumentMap) -> Gesture:
+    """With the hand that can leave this instrument."""
+    if gesture.hand is None:
+        return gesture
+    return msgspec.structs.replace(gesture, hand=HandTrack(gesture.hand.keys, instrument.hold.leaving_hand or "free"))
+
+
+def undisturbed(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
+    """Events without generated looks about, counts and other grips while a hand is away; the very same tuple where
+    there are none."""
+    away = [event for event in events if event.gesture is not None and event.gesture.needs_lowered]
+    if not away:
+        return events
+    return tuple(
+        event
+        for event in events
+        if event.corrected
+        or event.kind not in IDLE_KINDS
+        or not any(one.start_s < event.end_s and event.start_s < one.end_s for one in away)
+    )
 
 
 def _acceleration_deg(track: Track) -> float:

@@ -17,6 +17,7 @@ from app.plan.embouchure import efforts_of
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.model import EmbouchureEvent, ExpressionEvent, FloatArray, GestureEvent, Problem, StyleEvent, TimeFrame
 from app.plan.parameters import PlayerParameters
+from app.plan.possible import belongs, comes_up, may_start
 from app.plan.styles import styles_at
 from app.score.model import Note
 from app.score.tempo import TempoMap
@@ -35,6 +36,8 @@ LEAST_S: Final = 0.2
 """A shorter moment does not reach the face."""
 
 
+BETWEEN_S: Final = 0.5
+"""From one gesture of a rest to the next."""
 E = TypeVar("E", GestureEvent, ExpressionEvent)
 
 
@@ -58,6 +61,7 @@ class Facts(NamedTuple):
     below_easy: FloatArray
     accents: FloatArray
     leap: FloatArray
+    played_s: FloatArray
     effort: FloatArray
     places: Mapping[str, BoolArray]
 
@@ -111,6 +115,8 @@ def plan_by_rules(
         here = matches(rule.when, facts) & by_chance(rule, times.onset_tick, seeds)
         if styles and rule.when.styles:
             here &= np.array([style in rule.when.styles for style in played_in])
+        if styles and rule.when.not_styles:
+            here &= np.array([style not in rule.when.not_styles for style in played_in])
         sizes = rule.do.strength * growth_of(rule, facts)
         if rule.do.scaled_by == "puff":
             sizes = sizes * instrument.embouchure.puff
@@ -121,7 +127,9 @@ def plan_by_rules(
             shown += _faces(rule, faces[rule.do.expression], notes, times, facts, found, sizes, piece.clock, instrument)
         else:
             gesture = gestures[rule.do.gesture]
-            made += _gestures(rule, gesture, notes, times, found, sizes, piece.clock, lowered)
+            if not belongs(gesture, instrument):
+                continue
+            made += _gestures(rule, gesture, notes, times, found, sizes, piece.clock, lowered, seeds, made)
     return Ruled(
         tuple(sorted(shown, key=in_order)),
         tuple(sorted(made, key=lambda event: (event.start_s, event.id))),
@@ -164,12 +172,14 @@ def facts_of(
         below_easy=instrument.range.easy_low - pitch,
         accents=dynamics.accents,
         leap=np.concatenate(([0.0], np.diff(pitch))),
+        played_s=np.cumsum(times.duration_s),
         effort=efforts_of(embouchures) if embouchures else np.zeros(len(pitch)),
         places={
             "first": number == 0,
             "after_rest": apart & (number > 0),
             "climax": climax,
             "phrase_end": ends,
+            "before_rest": ends & (number < len(pitch) - 1),
             "last": number == len(pitch) - 1,
         },
     )
@@ -185,6 +195,7 @@ def matches(when: When, facts: Facts) -> BoolArray:
         (when.longer_s, facts.lasts_s),
         (when.rest_longer_s, facts.rest_s),
         (when.rest_after_longer_s, facts.rest_after_s),
+        (when.played_longer_s, facts.played_s),
         (when.accent, facts.accents),
         (when.leap_up, facts.leap),
         (when.leap_down, -facts.leap),
@@ -206,6 +217,8 @@ def matches(when: When, facts: Facts) -> BoolArray:
 def concerns(when: When, styles: Collection[str], habits: Sequence[str]) -> bool:
     """Whether a player of some styles and habits is meant."""
     if when.styles and set(when.styles).isdisjoint(styles):
+        return False
+    if when.not_styles and set(styles) <= set(when.not_styles):
         return False
     return not when.habits or not set(when.habits).isdisjoint(habits)
 
@@ -347,13 +360,26 @@ def _gestures(
     sizes: FloatArray,
     clock: TempoMap,
     lowered: tuple[tuple[float, float], ...],
+    seeds: Seeds,
+    others: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
-    """One gesture for every note, where it may start and the one before is `Rule.apart_s` away."""
+    """One gesture for every note, where it may start and the one before is `Rule.apart_s` away; ``others`` are there
+    already."""
     starts_s, ends_s = _spans_s(rule, times, found, gesture.length_s)
+    if rule.do.spread_s:
+        later_s = rule.do.spread_s * seeds.chances_at(f"rule {rule.name} later", times.onset_tick[found])
+        starts_s, ends_s = starts_s + later_s, ends_s + later_s
+    taken = sorted((one.start_s, one.end_s) for one in others) if gesture.may_start != "anytime" else []
     events: list[GestureEvent] = []
     free_s = -np.inf
     for place, start_s, end_s in zip(found.tolist(), starts_s.tolist(), ends_s.tolist(), strict=True):
+        for first_s, last_s in taken:
+            # One thing after another, as long as the rest has room for it.
+            if first_s < end_s + BETWEEN_S and start_s < last_s + BETWEEN_S:
+                start_s, end_s = last_s + BETWEEN_S, end_s + last_s + BETWEEN_S - start_s
         if start_s < free_s or end_s <= start_s or not may_start(gesture, start_s, end_s, times, lowered):
+            continue
+        if gesture.may_start != "anytime" and comes_up(start_s, end_s, lowered):
             continue
         free_s = end_s + rule.apart_s
         events.append(
@@ -370,18 +396,6 @@ def _gestures(
             )
         )
     return events
-
-
-def may_start(
-    gesture: Gesture, start_s: float, end_s: float, times: LineTimes, lowered: tuple[tuple[float, float], ...]
-) -> bool:
-    """Whether a gesture may be done from one time to another."""
-    if gesture.may_start == "resting":
-        first = int(np.searchsorted(times.played_end_s, start_s, side="right"))
-        return first == len(times.onset_s) or float(times.onset_s[first]) >= end_s
-    if gesture.may_start == "lowered":
-        return any(first_s <= start_s and end_s <= last_s for first_s, last_s in lowered)
-    return True
 
 
 def with_ruled(made: tuple[E, ...], ruled: tuple[E, ...]) -> tuple[E, ...]:

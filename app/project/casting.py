@@ -19,6 +19,8 @@ ARC_RAD = math.radians(150.0)
 LEAST_RADIUS_M = 1.1
 MOST_IN_ARC = 12
 """More sit in rows, as a band does."""
+CONDUCTOR_AWAY_M, CONDUCTOR_STEP_M = 1.9, 0.05
+"""From the nearest player."""
 FRONT_RADIUS_M, ROW_DEPTH_M = 2.6, 1.5
 """Radius of the first of several rows, and room behind it for a slide and a stand."""
 ELBOW_M = 0.36
@@ -47,6 +49,13 @@ class StagePosition(msgspec.Struct, frozen=True):
     x_m: float
     z_m: float
     turn_rad: float
+
+
+class ConductorPlace(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Where a conductor stands, facing the players: as `StagePosition`."""
+
+    x_m: float
+    z_m: float
 
 
 class Footprint(msgspec.Struct, frozen=True):
@@ -92,6 +101,23 @@ def stage_seats(footprints: Sequence[Footprint]) -> tuple[StagePosition, ...]:
         step = 2.0 * math.asin(min(1.0, spacing / 2.0 / radius))
         places.update(zip(row, _row(len(row), step, radius), strict=True))
     return tuple(places[index] for index in range(len(footprints)))
+
+
+def conductor_place(stages: Sequence[StagePosition]) -> ConductorPlace:
+    """Where a conductor stands before players: in their middle, as far from the nearest as that one needs, and on the
+    audience's side of them."""
+    if not stages:
+        return ConductorPlace(0.0, CONDUCTOR_AWAY_M)
+    x_m = math.fsum(stage.x_m for stage in stages) / len(stages)
+    z_m = math.fsum(stage.z_m for stage in stages) / len(stages)
+    while min(math.hypot(stage.x_m - x_m, stage.z_m - z_m) for stage in stages) < CONDUCTOR_AWAY_M:
+        z_m += CONDUCTOR_STEP_M
+    return ConductorPlace(round(x_m, 2), round(z_m, 2))
+
+
+def has_conductor(count: int) -> bool:
+    """Whether an ensemble of so many is conducted: chamber music leads itself, a band does not."""
+    return count > MOST_IN_ARC
 
 
 def usual_posture(count: int) -> Posture:

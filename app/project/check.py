@@ -341,6 +341,9 @@ def _setting_faults(project: Project) -> Iterator[Fault]:
     yield from between("seed", project.seed, limits.SEED)
     yield from between("preroll_beats", project.preroll_beats, limits.PREROLL_BEATS)
     yield from between("section_intensity", project.section_intensity, limits.SECTION_INTENSITY)
+    if project.conductor is not None:
+        yield from between("conductor.x_m", project.conductor.x_m, limits.STAGE_M)
+        yield from between("conductor.z_m", project.conductor.z_m, limits.STAGE_M)
     if project.felt_beat_quarters is not None:
         yield from between("felt_beat_quarters", project.felt_beat_quarters, limits.FELT_BEAT_QUARTERS)
     if not limits.FPS[0] <= project.fps <= limits.FPS[1]:

@@ -49,12 +49,13 @@ def _with_section_intensity(raw: Raw) -> Raw:
 
 
 def _with_takers(raw: Raw) -> Raw:
-    """10 to 11: a cue may say whom it brings in; before, it was who comes in there. There may be regions of a style."""
+    """10 to 11: a cue may say whom it brings in; before, it was who comes in there. There may be regions of a style.
+    There may be a conductor; before, players gave all entries."""
     corrections = {
         player: [{**item, "takers": None} if item["correction"] == "set_cue" else item for item in items]
         for player, items in raw["corrections"].items()
     }
-    return {**raw, "corrections": corrections}
+    return {**raw, "corrections": corrections, "conductor": None}
 
 
 def _with_parameters(raw: Raw, version: int) -> Raw:

@@ -15,7 +15,16 @@ from app.errors import UsageError
 from app.plan.corrections import Correction
 from app.plan.generate import PREROLL_BEATS, usual_preroll
 from app.plan.parameters import Parameter, PlayerParameters, declared
-from app.project.casting import amplitude, choose_characters, player_seed, stage_seats, usual_posture
+from app.project.casting import (
+    ConductorPlace,
+    amplitude,
+    choose_characters,
+    conductor_place,
+    has_conductor,
+    player_seed,
+    stage_seats,
+    usual_posture,
+)
 from app.project.dance_corrections import DanceCorrection
 from app.project.doubling import common_postures, doubled_parts, embodied
 from app.project.footprint import footprint, together
@@ -111,6 +120,8 @@ class Project:
         Before the first note, in felt beats.
     section_intensity : float
         Multiplies what all players show of their acting; 1: as their styles and parameters have it.
+    conductor : ConductorPlace or None
+        Where the conductor stands who gives the entries; None: the players give them themselves.
     felt_beat_quarters : float or None
         The beat that is felt throughout, in quarters: 1.5 where a fast 6/8 is felt in two. None: metre and tempo say.
     fps : Fraction
@@ -147,6 +158,7 @@ class Project:
     dancers: tuple[Dancer, ...] = ()
     dance_corrections: Mapping[str, tuple[DanceCorrection, ...]] = field(default_factory=dict)
     section_intensity: float = 1.0
+    conductor: ConductorPlace | None = None
 
     def __post_init__(self) -> None:
         players = embodied(self.players)
@@ -277,7 +289,14 @@ def project_from_score(score: Score, maps: Mapping[str, InstrumentMap], *, seed:
     project = Project(
         score, tuple(players), seed=seed, read_notes={part.id: {note.id: note for note in part.notes} for part in parts}
     )
-    return replace(project, preroll_beats=preroll_of_new(project))
+    return replace(project, preroll_beats=preroll_of_new(project), conductor=conductor_of_new(project))
+
+
+def conductor_of_new(project: Project) -> ConductorPlace | None:
+    """Where the conductor of a new piece stands; None for an ensemble that leads itself."""
+    if not has_conductor(len(project.bodies)):
+        return None
+    return conductor_place([player.stage for player in project.bodies])
 
 
 def preroll_of_new(project: Project) -> float:

@@ -27,6 +27,7 @@ from app.errors import FileError, Message, shortened
 from app.formats.atomic import atomic_write
 from app.formats.files import open_file, read_file
 from app.plan.corrections import Correction
+from app.project.casting import ConductorPlace
 from app.project.check import faults
 from app.project.dance_corrections import DanceCorrection
 from app.project.ids import is_made_here
@@ -62,6 +63,7 @@ class _Content(msgspec.Struct, forbid_unknown_fields=True):
     seed: int
     preroll_beats: float
     section_intensity: float
+    conductor: ConductorPlace | None
     felt_beat_quarters: float | None
     audio: AudioTrack | None
     players: tuple[Player, ...]
@@ -203,6 +205,7 @@ def _content(project: Project, path: Path) -> _Content:
         seed=project.seed,
         preroll_beats=project.preroll_beats,
         section_intensity=project.section_intensity,
+        conductor=project.conductor,
         felt_beat_quarters=project.felt_beat_quarters,
         audio=audio,
         players=tuple(
@@ -368,6 +371,7 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
         seed=content.seed,
         preroll_beats=content.preroll_beats,
         section_intensity=content.section_intensity,
+        conductor=content.conductor,
         felt_beat_quarters=content.felt_beat_quarters,
         fps=Fraction(content.fps),
         audio=audio,

@@ -1,4 +1,4 @@
-"""What holds for the piece as a whole: title, frame rate, pre-roll, felt beat, section intensity and seed."""
+"""What holds for the piece as a whole: title, frame rate, pre-roll, felt beat, intensity, conductor and seed."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QDoubleSpinBox, QLineEd
 from app.editor.session import Session
 from app.errors import Message
 from app.project import limits
+from app.project.casting import ConductorPlace, conductor_place
 from app.project.edit.generation import vary_everyone
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_seed, usual_settings
 from app.project.frame_rate import USUAL_RATES, frame_rate, frame_rate_text
-from widgets.common.controls import Button, Caption, Retranslated, named, wrapped
+from widgets.common.controls import Button, Caption, Check, Retranslated, named, wrapped
 from widgets.common.icons import icon
 from widgets.common.layouts import STRETCH, in_column, in_form, in_row
 from widgets.common.plain import ComboBox, Label
@@ -58,6 +59,16 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._intensity.setDecimals(2)
         self._intensity.setSingleStep(0.05)
         self._intensity.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
+        self._conducted = named(Check("piece_settings_dialog.conductor_gives_entries"), "piece_conducted")
+        self._conductor = named(_Beats(), "piece_conductor_x"), named(_Beats(), "piece_conductor_z")
+        for name, field in zip(("X ", "Z "), self._conductor, strict=True):
+            field.setRange(*limits.STAGE_M)
+            field.setDecimals(2)
+            field.setSingleStep(0.1)
+            field.setPrefix(name)
+            field.setSuffix(" m")
+            field.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
+            self._conducted.toggled.connect(field.setEnabled)
         self._seed = named(QLineEdit(), "piece_seed")
         self._randomise = Button("piece_settings_dialog.randomise", self._another_seed, "piece_randomise")
         self._problem = named(wrapped(Label()), "piece_problem")
@@ -86,6 +97,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
                 "piece_settings_dialog.pre_roll": self._preroll,
                 "piece_settings_dialog.felt_beat": self._felt,
                 "piece_settings_dialog.section_intensity": self._intensity,
+                "piece_settings_dialog.conductor": in_row(self._conducted, *((field, 1) for field in self._conductor)),
                 "piece_settings_dialog.seed": in_row((self._seed, 1), self._randomise),
             }
         )
@@ -110,7 +122,12 @@ class PieceSettingsDialog(Retranslated, QDialog):
             felt_beat_quarters=self._felt.currentData(),
             seed=seed,
             section_intensity=self._kept("intensity", self._intensity.value()),
+            conductor=self._place() if self._conducted.isChecked() else None,
         )
+
+    def _place(self) -> ConductorPlace:
+        across, ahead = self._conductor
+        return ConductorPlace(self._kept("conductor x", across.value()), self._kept("conductor z", ahead.value()))
 
     def _kept(self, name: str, value: Value) -> Value:
         """A value that the user left alone is what it was, to the last digit and sign."""
@@ -141,10 +158,18 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._felt.setCurrentIndex(self._felt.findData(settings.felt_beat_quarters))
         self._intensity.setValue(settings.section_intensity)
         self._seed.setText(str(settings.seed))
+        stages = [player.stage for player in self._session.project.bodies]
+        place = settings.conductor or conductor_place(stages)
+        self._conducted.setChecked(settings.conductor is not None)
+        for field, place_m in zip(self._conductor, (place.x_m, place.z_m), strict=True):
+            field.setValue(place_m)
+            field.setEnabled(settings.conductor is not None)
         self._shown = {
             "title": (self._title.text(), settings.title),
             "preroll": (self._preroll.value(), settings.preroll_beats),
             "intensity": (self._intensity.value(), settings.section_intensity),
+            "conductor x": (self._conductor[0].value(), place.x_m),
+            "conductor z": (self._conductor[1].value(), place.z_m),
         }
 
     def _reset_all(self) -> None:
@@ -204,6 +229,9 @@ class PieceSettingsDialog(Retranslated, QDialog):
             self._preroll: self.tr("piece_settings_dialog.felt_beats_before_first_note"),
             self._felt: self.tr("piece_settings_dialog.breaths_cues_sway_and_pre"),
             self._intensity: self.tr("piece_settings_dialog.multiplies_acting_of_all_players"),
+            self._conducted: self.tr("piece_settings_dialog.conductor_tip"),
+            self._conductor[0]: self.tr("piece_settings_dialog.conductor_left"),
+            self._conductor[1]: self.tr("piece_settings_dialog.conductor_ahead"),
             self._seed: self.tr("piece_settings_dialog.another_seed_is_another_performance"),
         }
         for field, tip in tips.items():
@@ -218,7 +246,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._judge()
 
     def sizeHint(self) -> QSize:
-        return QSize(580, 330)
+        return QSize(580, 370)
 
 
 class _Beats(QDoubleSpinBox):

@@ -726,6 +726,20 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Unit of breaths, cues, sway and pre-roll",
         "ブレス、合図、体の揺れ、プリロールの単位",
     ),
+    "piece_settings_dialog.conductor": ("Conductor", "指揮者"),
+    "piece_settings_dialog.conductor_ahead": (
+        "Towards the audience from the middle of the stage",
+        "ステージ中央から客席側への距離",
+    ),
+    "piece_settings_dialog.conductor_gives_entries": ("Gives the entries", "入りの合図を出す"),
+    "piece_settings_dialog.conductor_left": (
+        "To the right of the audience from the middle of the stage",
+        "ステージ中央から客席の右手側への距離",
+    ),
+    "piece_settings_dialog.conductor_tip": (
+        "Players look up to the conductor instead of cueing each other",
+        "奏者は互いに合図せず、指揮者を見ます",
+    ),
     "piece_settings_dialog.cancel": ("Cancel", "キャンセル"),
     "piece_settings_dialog.dotted_eighth": ("Dotted eighth", "付点8分音符"),
     "piece_settings_dialog.dotted_half": ("Dotted half", "付点2分音符"),

@@ -326,6 +326,7 @@ class ViewportPanel(Retranslated, QWidget):
         )
         emphasis = Emphasis(
             rings=self.scene.rings(),
+            podium=self.scene.podium(),
             hovered=pointer.hovered if pointer is not None and here else None,
             in_the_way=in_the_way(view, stage, rows, camera) if stage is not None else frozenset(),
             wireframe=session.viewport.shows("wireframe"),

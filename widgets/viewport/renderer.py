@@ -68,11 +68,19 @@ class Shapes:
     stand: Geometry
 
 
+RING_M = 0.48
+PODIUM_M = (0.28, 0.55)
+"""Radii of the rings around a player, and of those that mark the conductor's place."""
+
+
 @dataclass(frozen=True)
 class Emphasis:
-    """What stands out: rings by row, the row under the pointer, rows that are seen through, how figures are drawn."""
+    """What stands out: rings by row, the row under the pointer, rows that are seen through, how figures are drawn, and
+    the podium."""
 
     rings: Mapping[int, Color] = field(default_factory=dict)
+    podium: tuple[float, float, Color] | None = None
+    """Where the conductor stands: x, z, and the colour of the rings that mark it."""
     hovered: int | None = None
     in_the_way: frozenset[int] = frozenset()
     wireframe: bool = False
@@ -354,14 +362,20 @@ class Renderer:
         self._limb_texture.set_data(self._limb_rows)
 
     def _draw_rings(self, stage: Stage, clip: npt.NDArray[np.float32], emphasis: Emphasis) -> None:
+        rings = []
         for row, color in emphasis.rings.items():
             if row < len(stage.members) and stage.shown[row]:
                 place = stage.members[row].world_from_player[:, 3]
-                self._ring["u_clip_from_world"] = clip
-                self._ring["u_middle"] = (place[0], 0.001, place[2])
-                self._ring["u_radius"] = 0.48
-                self._ring["u_color"] = (*color, 0.9)
-                self._ring.draw("triangle_strip")
+                rings.append((float(place[0]), float(place[2]), RING_M, color))
+        if emphasis.podium is not None:
+            x_m, z_m, color = emphasis.podium
+            rings += [(x_m, z_m, radius_m, color) for radius_m in PODIUM_M]
+        for x_m, z_m, radius_m, color in rings:
+            self._ring["u_clip_from_world"] = clip
+            self._ring["u_middle"] = (x_m, 0.001, z_m)
+            self._ring["u_radius"] = radius_m
+            self._ring["u_color"] = (*color, 0.9)
+            self._ring.draw("triangle_strip")
 
     @staticmethod
     def _light(program: Any, camera: Camera, clip: npt.NDArray[np.float32], look: Look) -> None:

@@ -12,7 +12,9 @@ from PySide6.QtCore import QObject, Signal
 from app.editor.live_poses import LivePoses
 from app.editor.poses import Poses, same
 from app.editor.session import Session, Severity
+from app.editor.translated import tr
 from app.errors import Message
+from app.messages import text
 from app.performance.cast import LeftOut
 from app.performance.chunks import Pose
 from app.project.performers import Dancer, Player
@@ -28,6 +30,10 @@ from widgets.viewport.overlay import Marks, Name, over_heads_m
 from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.renderer import Shapes
 from widgets.viewport.worn_face import WornFaces
+
+CONDUCTORS_NAME = "stage.conductor"
+PODIUM_NAME_M = 0.5
+"""So high over the conductor's place it says what it is."""
 
 Floats = npt.NDArray[np.float64]
 
@@ -187,6 +193,11 @@ class Scene(QObject):
         rows = {own: stage.index(own) for own in selected}
         return {row: rgb(self._session.colour(selected[own])) for own, row in rows.items() if row is not None}
 
+    def podium(self) -> tuple[float, float, Color] | None:
+        """Where the conductor stands, and the colour that marks it."""
+        place = self._session.project.conductor
+        return None if place is None else (place.x_m, place.z_m, rgb(self._session.tokens.text_dim))
+
     def _is_selected(self, performer: Player | Dancer) -> bool:
         if isinstance(performer, Player):
             played = self._session.project.played_by(performer)
@@ -217,6 +228,9 @@ class Scene(QObject):
             for (_, player), over_m in zip(known, places_m, strict=True):
                 selected = self._is_selected(player)
                 names.append(Name(player.name, session.colour(player) if selected else "", over_m, selected))
+            if project.conductor is not None:
+                over_m = np.array([project.conductor.x_m, PODIUM_NAME_M, project.conductor.z_m])
+                names.append(Name(_conductors_name(), "", over_m, False))
         if state.shows("skeleton"):
             skeletons = [(row, session.colour(player)) for row, player in known]
         touched = state.shows("contacts") and bool(rows) and rows[0] in visible
@@ -258,3 +272,9 @@ class Scene(QObject):
             lean = self.tr("scene.lean_left") if held.roll_deg > 0 else self.tr("scene.lean_right")
             parts.append((lean, held.roll_deg))
         return "  ".join(text.format(degrees=f"{abs(value):.1f}") for text, value in parts) or "0°"
+
+
+def _conductors_name() -> str:
+    """In the editor's language; in English where none is chosen, as in a film."""
+    said = tr(CONDUCTORS_NAME)
+    return text(Message(CONDUCTORS_NAME)) if said == CONDUCTORS_NAME else said

@@ -17,9 +17,10 @@ import msgspec
 from app.errors import UsageError
 from app.plan.corrections import Correction
 from app.project import limits
+from app.project.casting import ConductorPlace
 from app.project.check import expression_faults
 from app.project.edit.tempo import set_metre, set_tempo
-from app.project.model import AudioTrack, Project, preroll_of_new
+from app.project.model import AudioTrack, Project, conductor_of_new, preroll_of_new
 from app.project.names import clean_name
 from app.score.model import Score
 from app.score.tempo import TempoMap
@@ -63,6 +64,14 @@ def set_section_intensity(project: Project, intensity: float) -> Project:
     return _with(project, section_intensity=float(intensity))
 
 
+def set_conductor(project: Project, place: ConductorPlace | None) -> Project:
+    """Where the conductor stands; None: there is none."""
+    if place is not None:
+        _check("conductor.x_m", place.x_m, limits.STAGE_M)
+        _check("conductor.z_m", place.z_m, limits.STAGE_M)
+    return _with(project, conductor=place)
+
+
 def set_felt_beat(project: Project, quarters: float | None) -> Project:
     """The beat that is felt, in quarters; None: metre and tempo say."""
     if quarters is None:
@@ -86,6 +95,7 @@ class PieceSettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     felt_beat_quarters: float | None
     seed: int
     section_intensity: float = 1.0
+    conductor: ConductorPlace | None = None
 
 
 def piece_settings(project: Project) -> PieceSettings:
@@ -97,7 +107,10 @@ def piece_settings(project: Project) -> PieceSettings:
 def usual_settings(title: str, project: Project | None = None) -> PieceSettings:
     """What a new piece of this title begins with, by the tempo and the notes of ``project`` where that is given."""
     usual = piece_settings(new_piece(title))
-    return usual if project is None else msgspec.structs.replace(usual, preroll_beats=preroll_of_new(project))
+    if project is None:
+        return usual
+    own = {"preroll_beats": preroll_of_new(project), "conductor": conductor_of_new(project)}
+    return msgspec.structs.replace(usual, **own)
 
 
 def set_piece_settings(project: Project, settings: PieceSettings) -> Project:
@@ -110,7 +123,8 @@ def set_piece_settings(project: Project, settings: PieceSettings) -> Project:
     """
     project = set_fps(set_title(project, settings.title), settings.fps)
     project = set_felt_beat(set_preroll(project, settings.preroll_beats), settings.felt_beat_quarters)
-    return set_section_intensity(set_seed(project, settings.seed), settings.section_intensity)
+    project = set_section_intensity(set_seed(project, settings.seed), settings.section_intensity)
+    return set_conductor(project, settings.conductor)
 
 
 def set_audio(project: Project, path: str | os.PathLike[str] | None) -> Project:

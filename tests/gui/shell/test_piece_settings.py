@@ -12,15 +12,25 @@ import msgspec
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox, QDoubleSpinBox, QLabel, QLineEdit, QPushButton, QWidget
+from PySide6.QtWidgets import (
+    QApplication,
+    QCheckBox,
+    QComboBox,
+    QDoubleSpinBox,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QWidget,
+)
 
+from app.project.casting import ConductorPlace
 from app.project.edit.piece import PieceSettings, piece_settings
 from app.project.storage import load
 from app.shell.app import Program
 from tests.gui.shell.conftest import Answers, trigger
 from widgets.dialogs.piece_settings import PieceSettingsDialog
 
-OTHER = PieceSettings("Fanfare & Co.", Fraction(24000, 1001), 2.5, 1.5, 7, 0.8)
+OTHER = PieceSettings("Fanfare & Co.", Fraction(24000, 1001), 2.5, 1.5, 7, 0.8, ConductorPlace(-0.5, 1.75))
 
 
 @pytest.fixture
@@ -69,6 +79,10 @@ def fill_in(dialog: PieceSettingsDialog) -> None:
     for _ in range(beats.findData(OTHER.felt_beat_quarters)):
         QTest.keyClick(beats, Qt.Key.Key_Down)
     type_into(part(dialog, QDoubleSpinBox, "section_intensity"), "0.8")
+    part(dialog, QCheckBox, "conducted").setFocus()
+    QTest.keyClick(part(dialog, QCheckBox, "conducted"), Qt.Key.Key_Space)
+    type_into(part(dialog, QDoubleSpinBox, "conductor_x"), "-0.5")
+    type_into(part(dialog, QDoubleSpinBox, "conductor_z"), "1.75")
     type_into(part(dialog, QLineEdit, "seed"), "7")
 
 

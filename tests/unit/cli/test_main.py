@@ -158,7 +158,7 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
     assert set(found) == {
         "duration_s", "ticks_per_beat", "tempo", "markers", "percussion_hits", "first_frame_s", "warnings", "unplayed",
         "left_out", "players", "dancers", "title", "fps", "fps_exact", "preroll_beats", "felt_beat_quarters", "seed",
-        "section_intensity",
+        "section_intensity", "conductor",
     }  # fmt: skip
     assert set(found["tempo"][0]) == {"tick", "bpm"}
     for player in found["players"]:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from app.cli import main
+from app.project.casting import conductor_place
 from app.project.edit.players import set_parameters
 from app.project.storage import load, save
 from metadata.library import FOLDERS, STYLES
@@ -98,3 +101,23 @@ def test_style_habits_and_the_sections_intensity_are_set_where_a_piece_is_named(
     assert status == 2
     assert all(name in said for name in STYLES.now().items)
     assert run("inspect", piece, "--section-intensity", "3")[0] == 2
+
+
+def test_a_conductor_is_placed_where_a_piece_is_named(run: Run, tmp_path: Path) -> None:
+    piece = tmp_path / "a.suisou"
+    save(small_project(), piece)
+
+    def placed(*options: str) -> object:
+        status, out, _ = run("inspect", piece, "--json", "--no-contacts", *options)
+        assert status == 0
+        return json.loads(out)["conductor"]
+
+    assert placed() is None
+    assert placed("--conductor=-0.5,2") == {"x_m": -0.5, "z_m": 2.0}
+    usual = conductor_place([player.stage for player in small_project().players])
+    assert placed("--conductor", "usual") == {"x_m": usual.x_m, "z_m": usual.z_m}
+    save(replace(small_project(), conductor=usual), piece)
+    assert placed() == {"x_m": usual.x_m, "z_m": usual.z_m}
+    assert placed("--conductor", "none") is None
+    for wrong in ("1", "a,b", "0,1e9", "0,nan"):
+        assert run("inspect", piece, f"--conductor={wrong}")[0] == 2

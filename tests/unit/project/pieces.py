@@ -24,7 +24,7 @@ from app.plan.corrections import (
     Vary,
 )
 from app.plan.parameters import PlayerParameters
-from app.project.casting import StagePosition, stage_arc
+from app.project.casting import ConductorPlace, StagePosition, stage_arc
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
 from app.project.model import AudioTrack, CompSpan, PlayerTakes, Project
 from app.project.performers import Dancer, Player
@@ -143,6 +143,7 @@ def full_project(folder: str = "/music") -> Project:
         seed=2**63 - 1,
         preroll_beats=3.5,
         section_intensity=0.75,
+        conductor=ConductorPlace(-0.5, 1.75),
         felt_beat_quarters=1.5,
         fps=Fraction(30000, 1001),
         audio=AudioTrack(f"{folder}/録音.wav", -0.132, 0.94),
