@@ -284,15 +284,6 @@ def test_the_beats_follow_a_recording_with_a_tempo_of_its_own(
     assert np.median(errors_s) < 0.015
     session.document.undo()
     assert session.project.score.tempo_map is before.score.tempo_map
-    # Rain is another piece: refused, and nothing is changed.
-    noise = np.random.default_rng(1).normal(scale=0.1, size=(20 * RATE_HZ, 2))
-    soundfile.write(tmp_path / "rain.wav", noise, RATE_HZ)
-    add(session, tmp_path / "rain.wav", qtbot)
-    qtbot.waitUntil(lambda: session.listening.waveform is not None)
-    count = len(session.document.done)
-    sound.follow()
-    qtbot.waitUntil(lambda: reported[-1][0].id == "audio.not_followed")
-    assert len(session.document.done) == count
 
 
 def test_a_missing_recording_is_reported_once(sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
