@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.motion.away import Away
 from app.motion.body import BodyMotion
 from app.motion.contact import Carried
 from app.motion.curve import FloatArray
@@ -17,9 +17,6 @@ from app.rig import quaternion
 from app.rig.hold import GripPose, HandHold, Placed, hand_targets
 from app.rig.ik import arm, solve_limb
 from app.rig.model import Skeleton
-
-if TYPE_CHECKING:
-    from app.motion.hands import Away
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
+from app.motion.away import Away
 from app.motion.contact import Carried
 from app.motion.curve import FloatArray
 from app.motion.posture import SIDES, Side, Trunk
@@ -31,40 +31,6 @@ ELBOW_LOW: Final = np.array([0.5, -1.0, -0.25])
 """Where the elbow of such an arm points; likewise."""
 KEY_ELBOW: Final = 0.4
 """How far that holds for a hand at the water key."""
-
-
-@dataclass(frozen=True)
-class Away:
-    """Hands on their way at some frames.
-
-    Attributes
-    ----------
-    places : dict of side to list of (share (F,), position (F, 3), rotation (F, 4))
-        Wrists in the world.
-    offsets_m : dict of side to (F, 3)
-    elbows : dict of side to (share (F,), direction (3,))
-        Where elbows point, in the chest's frame, and how far that holds.
-    """
-
-    places: dict[Side, list[tuple[FloatArray, FloatArray, FloatArray]]]
-    offsets_m: dict[Side, FloatArray]
-    elbows: dict[Side, tuple[FloatArray, FloatArray]]
-
-    def targets(self, side: Side, position_m: FloatArray, rotation: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Where a wrist is that would be on its grip at ``position_m`` (F, 3) and ``rotation`` (F, 4); the very same
-        numbers where it has not left it."""
-        if side not in self.offsets_m:
-            return position_m, rotation
-        moved_m, turned = position_m, rotation
-        for share, there_m, there in self.places[side]:
-            moved_m = moved_m + share[:, None] * (there_m - position_m)
-            turned = quaternion.slerp(turned, there, share)
-        left = np.zeros(len(position_m), dtype=bool)
-        for share, _, _ in self.places[side]:
-            left |= share > 0.0
-        moved_m = moved_m + self.offsets_m[side]
-        left |= np.any(self.offsets_m[side] != 0.0, axis=1)
-        return np.where(left[:, None], moved_m, position_m), np.where(left[:, None], turned, rotation)
 
 
 def away(

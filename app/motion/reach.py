@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.motion.away import Away
 from app.motion.contact import Carried
 from app.motion.curve import FloatArray
 from app.motion.posture import Side, Trunk
@@ -16,9 +16,6 @@ from app.rig import quaternion
 from app.rig.hold import GripPose, Placed, hand_targets
 from app.rig.ik import arm
 from app.rig.model import Skeleton
-
-if TYPE_CHECKING:
-    from app.motion.hands import Away
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 

@@ -12,11 +12,12 @@ import numpy as np
 
 from app.motion.arms import solve_arms
 from app.motion.aside import Aside, Place
+from app.motion.away import Away
 from app.motion.body import BodyMotion
 from app.motion.contact import Carried, carry
 from app.motion.curve import FloatArray
 from app.motion.endpin import Stand
-from app.motion.hands import Away, away, with_shapes
+from app.motion.hands import away, with_shapes
 from app.motion.model import Motion
 from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
 from app.motion.reach import TURN_RAD, Help, needed_help, shoulder_distance_m, softly_capped
