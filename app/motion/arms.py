@@ -6,15 +6,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from app.motion.body import BodyMotion
 from app.motion.contact import Carried
 from app.motion.curve import FloatArray
 from app.motion.posture import Side, Trunk, exact_target
 from app.motion.reach import clavicle_of, forwards_axis
+from app.motion.wrists import Wrist
 from app.rig import quaternion
 from app.rig.hold import GripPose, HandHold, Placed, hand_targets
-from app.rig.ik import arm, solve_limb
+from app.rig.ik import Limb, LimbPose, arm, solve_limb
 from app.rig.model import Skeleton
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
@@ -66,6 +68,7 @@ def solve_arms(
     carried: Carried,
     controls: Mapping[str, FloatArray],
     placed: Mapping[str, Placed],
+    wrists: Mapping[Side, Wrist],
     swung: FloatArray | None = None,
 ) -> dict[int, FloatArray]:
     """Rotations of clavicles, arms and hands, by joint; ``swung`` (F, 4) is how far elbows go with arms that swing."""
@@ -74,7 +77,7 @@ def solve_arms(
     for hand in hold.hands:
         targets = hand_targets(hand, carried.position_m, carried.rotation, controls, placed)
         turned = with_chest if swung is None else quaternion.multiply(swung, with_chest)
-        rotations |= _solve_arm(skeleton, hand, body, turned, motion, *targets)
+        rotations |= _solve_arm(skeleton, hand, body, turned, motion, *targets, wrists[hand.side])
     for side, sign in (("left", -1.0), ("right", 1.0)):
         if all(hand.side != side for hand in hold.hands):
             hangs = quaternion.from_axis_angle(np.array([0.0, 0.0, 1.0]), sign * HANGS_RAD)
@@ -90,6 +93,7 @@ def _solve_arm(
     motion: BodyMotion,
     target_m: FloatArray,
     target_rotation: FloatArray,
+    wrist: Wrist,
 ) -> dict[int, FloatArray]:
     side = hand.side
     limb = arm(skeleton, side)
@@ -98,12 +102,45 @@ def _solve_arm(
     root_m = held.joint_m
     out = np.tan(motion.elbows_rad + ELBOW_OUT * motion.protraction_rad[side])[:, None] * np.array([sign, 0.0, 0.0])
     pole = quaternion.rotate(with_chest, hand.elbow_direction + out)
+    line = target_m - root_m
+    line /= np.sqrt(np.einsum("fi,fi->f", line, line))[:, None]
     if side in motion.elbow_held_rad:
-        line = target_m - root_m
-        line /= np.sqrt(np.einsum("fi,fi->f", line, line))[:, None]
         pole = quaternion.rotate(quaternion.from_axis_angle(line, sign * motion.elbow_held_rad[side]), pole)
     if hand.motion is not None:
         target_m = exact_target(limb, root_m, target_m)
-    pose = solve_limb(limb, root_m, held.clavicle, target_m, target_rotation, pole)
+    asked = _Asked(limb, root_m, held.clavicle, target_m, target_rotation, pole, line)
+    pose = asked.solved()
+    aside_rad = wrist.aside_rad(pose.end)
+    beyond_rad = wrist.beyond_rad(aside_rad)
+    bent = np.flatnonzero(beyond_rad)
+    if len(bent):
+        there = asked[bent]
+        turn = wrist.relief_rad(aside_rad[bent], beyond_rad[bent], lambda turn: wrist.aside_rad(there.solved(turn).end))
+        relieved = there.solved(turn)
+        pose.upper[bent], pose.lower[bent], pose.end[bent] = relieved.upper, relieved.lower, relieved.end
     joint, _ = clavicle_of(skeleton, side)
     return {joint: held.moved, limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """What an arm is solved for, and the line from its shoulder to its hand (F, 3)."""
+
+    limb: Limb
+    root_m: FloatArray
+    clavicle: FloatArray
+    target_m: FloatArray
+    target_rotation: FloatArray
+    pole: FloatArray
+    line: FloatArray
+
+    def solved(self, turn_rad: FloatArray | None = None) -> LimbPose:
+        """With the elbow turned (F,) about that line from where it points."""
+        pole = self.pole
+        if turn_rad is not None:
+            pole = quaternion.rotate(quaternion.from_axis_angle(self.line, turn_rad), pole)
+        return solve_limb(self.limb, self.root_m, self.clavicle, self.target_m, self.target_rotation, pole)
+
+    def __getitem__(self, frames: npt.NDArray[np.intp]) -> _Asked:
+        every = (self.root_m, self.clavicle, self.target_m, self.target_rotation, self.pole, self.line)
+        return _Asked(self.limb, *(values[frames] for values in every))

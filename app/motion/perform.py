@@ -29,6 +29,8 @@ from app.motion.settled import settled, shown_by
 from app.motion.solve import Curves, Player, padding, solve
 from app.motion.splice import changed_stretch, spliced
 from app.motion.stations import raised_curve, sampled, station_curves
+from app.motion.tipping import with_bell_room
+from app.motion.wrists import wrists_of
 from app.plan.acting import Acting
 from app.plan.model import PlayerPlan, TimeFrame, same_events
 from app.plan.parameters import PlayerParameters, deciding
@@ -37,7 +39,7 @@ from app.rig.hold import GripPose, Lips, Placed, giving_for
 from app.rig.model import Character
 from app.score.metre_map import FeltBeats
 from instrument_maps.model import InstrumentMap
-from metadata.load import load_expressions
+from metadata.load import load_expressions, load_skeleton
 from metadata.model import Body, Embouchure, Expression, Posture
 
 NOT_SHOWN = Envelopes.of(())
@@ -399,7 +401,7 @@ def _player(
             return before.player
     place = stance(character.skeleton, posture)
     still = BodyMotion.still(posture)
-    return Player(
+    made = Player(
         skeleton=character.skeleton,
         hold=hold,
         place=place,
@@ -408,7 +410,9 @@ def _player(
         still=still,
         base=trunk(character.skeleton, *hips_path(place, character.skeleton, still), still),
         grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
-    ).standing_on(instrument_map.endpin)
+        wrists=wrists_of(body, load_skeleton()),
+    )
+    return with_bell_room(made.standing_on(instrument_map.endpin))
 
 
 def _fingers(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -13,13 +13,15 @@ import numpy as np
 from app.motion.arms import solve_arms
 from app.motion.aside import Aside, Place
 from app.motion.body import BodyMotion
-from app.motion.contact import Carried, carry
+from app.motion.contact import ANYWHERE, BellRoom, Carried, carry
 from app.motion.curve import FloatArray
 from app.motion.endpin import Stand
 from app.motion.model import Motion
-from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
-from app.motion.reach import TURN_RAD, Help, needed_help, shoulder_distance_m, softly_capped
+from app.motion.posture import Side, Stance, Trunk, hips_path, solve_legs, trunk
+from app.motion.reach import TURN_RAD, Help, needed_help, shoulder_distance_m
+from app.motion.soft import softly_capped
 from app.motion.stop import stopped
+from app.motion.wrists import Wrist
 from app.rig import quaternion
 from app.rig.finger_poses import finger_rotations
 from app.rig.hold import GripPose, Placed, hand_targets
@@ -66,14 +68,16 @@ class Player:
     still: BodyMotion
     base: Trunk
     grip_of_lips_m: FloatArray
+    wrists: Mapping[Side, Wrist]
     stand: Stand | None = None
     aside: Aside | None = None
+    bell_room: BellRoom = ANYWHERE
 
     def standing_on(self, endpin: Endpin | None) -> Player:
         """The player with the instrument on its endpin, where it usually is low enough for that."""
         if endpin is None:
             return self
-        _, _, _, usual = _upper(self, Curves(self.still, {}, {}, np.zeros(1)))
+        _, _, _, usual = upper_body(self, Curves(self.still, {}, {}, np.zeros(1)))
         return replace(self, stand=Stand.of(endpin, self.carriage, usual))
 
     @cached_property
@@ -82,7 +86,7 @@ class Player:
         if self.aside is None:
             return None
         low = replace(self.still, lowered=np.ones(1))
-        _, _, _, carried = _upper(replace(self, aside=None, stand=None), Curves(low, {}, {}, np.zeros(1)))
+        _, _, _, carried = upper_body(replace(self, aside=None, stand=None), Curves(low, {}, {}, np.zeros(1)))
         return Place.of(self.aside, self.skeleton, self.hold, self.base, carried)
 
     @cached_property
@@ -198,7 +202,8 @@ def _parts(frames: int) -> Iterator[slice]:
         yield slice(start, min(start + CHUNK, frames))
 
 
-def _upper(player: Player, curves: Curves) -> tuple[FloatArray, FloatArray, Trunk, Carried]:
+def upper_body(player: Player, curves: Curves) -> tuple[FloatArray, FloatArray, Trunk, Carried]:
+    """Place (F, 3) and rotation (F, 4) of the hips, the trunk, and the instrument."""
     hips_m, hips = hips_path(player.place, player.skeleton, curves.body)
     upper = trunk(player.skeleton, hips_m, hips, curves.body)
     carried = carry(
@@ -211,6 +216,7 @@ def _upper(player: Player, curves: Curves) -> tuple[FloatArray, FloatArray, Trun
         curves.morphs,
         curves.mouth_open,
         player.grip_of_lips_m,
+        player.bell_room,
     )
     if player.stand is not None:
         carried = player.stand.stood(carried, curves.body)
@@ -220,11 +226,11 @@ def _upper(player: Player, curves: Curves) -> tuple[FloatArray, FloatArray, Trun
 def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatArray], Carried, dict[str, FloatArray]]:
     """Hips, local rotations by joint (fingers apart), instrument, and the controls as far as hands carry them."""
     skeleton, motion = player.skeleton, curves.body
-    hips_m, hips, upper, carried = _upper(player, curves)
+    hips_m, hips, upper, carried = upper_body(player, curves)
     local = {skeleton.index("hips"): hips} | upper.local
     controls = stopped(skeleton, player.hold, upper, motion, carried, curves.controls, curves.placed)
     late = _late(motion)
-    arms = solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed, late)
+    arms = arms_of(player, upper, motion, carried, controls, curves.placed, late)
     if player.put_aside is not None and curves.stowed is not None and np.any(curves.stowed):
         # The other hand lets go where the instrument was lowered, and does not follow it.
         letting_go = player.put_aside.let_go(skeleton, player.hold, arms, curves.stowed)
@@ -232,7 +238,7 @@ def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatAr
         swung = player.put_aside.turned(curves.stowed)
         if late is not None:
             swung = quaternion.multiply(swung, late)
-        arms = solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed, swung)
+        arms = arms_of(player, upper, motion, carried, controls, curves.placed, swung)
         arms |= letting_go
     local |= arms
     local |= solve_legs(player.place, skeleton, hips_m, hips, motion.feet)
@@ -241,6 +247,20 @@ def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatAr
         if name in skeleton.names:
             local[skeleton.index(name)] = quaternion.from_rotation_vector(looking)
     return hips_m, local, carried, controls
+
+
+def arms_of(
+    player: Player,
+    upper: Trunk,
+    motion: BodyMotion,
+    carried: Carried,
+    controls: dict[str, FloatArray],
+    placed: dict[str, Placed],
+    swung: FloatArray | None = None,
+) -> dict[int, FloatArray]:
+    """Rotations of clavicles, arms and hands, by joint; as of `app.motion.arms.solve_arms`."""
+    base, wrists = player.base, player.wrists
+    return solve_arms(player.skeleton, player.hold, upper, base, motion, carried, controls, placed, wrists, swung)
 
 
 def _late(motion: BodyMotion) -> FloatArray | None:
@@ -253,7 +273,7 @@ def _late(motion: BodyMotion) -> FloatArray | None:
 
 def needs(player: Player, curves: Curves) -> Help:
     """What trunk and shoulders must add for far hands, frame by frame."""
-    _, _, upper, carried = _upper(player, curves)
+    _, _, upper, carried = upper_body(player, curves)
     needed = needed_help(player.skeleton, player.hold, upper, carried, curves.controls, curves.placed)
     # The chest carries a lowered instrument: turning would take it along and bring no hand nearer.
     turning = 1.0 - curves.body.lowered
@@ -336,7 +356,7 @@ def _drawn_m(player: Player) -> float:
         distances_m = []
         for draw in (0.0, 1.0):
             motion = _drawn(turned, draw * one, right * one)
-            _, _, upper, carried = _upper(player, Curves(motion, farthest, {}, nothing))
+            _, _, upper, carried = upper_body(player, Curves(motion, farthest, {}, nothing))
             target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, farthest)
             distances_m.append(shoulder_distance_m(player.skeleton, hand.side, upper, target_m))
         nearer.append(float(distances_m[0] - distances_m[1]))
@@ -351,7 +371,7 @@ def _farthest(player: Player) -> dict[str, float]:
             continue
         curves = Curves(player.still, {hand.motion.control: one}, {}, np.zeros(1))
         body = helped(player, player.still, needs(player, curves))
-        _, _, upper, carried = _upper(player, replace(curves, body=body))
+        _, _, upper, carried = upper_body(player, replace(curves, body=body))
         reached = stopped(player.skeleton, player.hold, upper, body, carried, curves.controls, {})
         result[hand.motion.control] = float(reached[hand.motion.control][0])
     return result
