@@ -16,7 +16,7 @@ from app.motion.reach import clavicle_of, forwards_axis
 from app.motion.wrists import Wrist
 from app.rig import quaternion
 from app.rig.hold import GripPose, HandHold, Placed, hand_targets
-from app.rig.ik import Limb, LimbPose, arm, solve_limb
+from app.rig.ik import Limb, LimbPose, arm, end_of, solve_limb, swivelled
 from app.rig.model import Skeleton
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
@@ -108,39 +108,39 @@ def _solve_arm(
         pole = quaternion.rotate(quaternion.from_axis_angle(line, sign * motion.elbow_held_rad[side]), pole)
     if hand.motion is not None:
         target_m = exact_target(limb, root_m, target_m)
-    asked = _Asked(limb, root_m, held.clavicle, target_m, target_rotation, pole, line)
-    pose = asked.solved()
+    pose = solve_limb(limb, root_m, held.clavicle, target_m, target_rotation, pole)
     aside_rad = wrist.aside_rad(pose.end)
     beyond_rad = wrist.beyond_rad(aside_rad)
     bent = np.flatnonzero(beyond_rad)
     if len(bent):
-        there = asked[bent]
-        turn = wrist.relief_rad(aside_rad[bent], beyond_rad[bent], lambda turn: wrist.aside_rad(there.solved(turn).end))
-        relieved = there.solved(turn)
-        pose.upper[bent], pose.lower[bent], pose.end[bent] = relieved.upper, relieved.lower, relieved.end
+        _relieve(wrist, limb, pose, bent, (aside_rad, beyond_rad), line, held.clavicle, target_rotation)
     joint, _ = clavicle_of(skeleton, side)
     return {joint: held.moved, limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}
 
 
-@dataclass(frozen=True)
-class _Asked:
-    """What an arm is solved for, and the line from its shoulder to its hand (F, 3)."""
+def _relieve(
+    wrist: Wrist,
+    limb: Limb,
+    pose: LimbPose,
+    bent: npt.NDArray[np.intp],
+    angles_rad: tuple[FloatArray, FloatArray],
+    line: FloatArray,
+    clavicle: FloatArray,
+    target_rotation: FloatArray,
+) -> None:
+    """Turn the arms of a pose in which a wrist is ``bent`` too far about the line from shoulder to hand."""
+    bones = pose.bones[0][bent], pose.bones[1][bent]
+    there = LimbPose(pose.upper[bent], pose.lower[bent], pose.end[bent], pose.miss_m[bent], bones)
+    axis, target = line[bent], target_rotation[bent]
 
-    limb: Limb
-    root_m: FloatArray
-    clavicle: FloatArray
-    target_m: FloatArray
-    target_rotation: FloatArray
-    pole: FloatArray
-    line: FloatArray
+    def aside_at(turn_rad: FloatArray) -> FloatArray:
+        turned = quaternion.multiply(quaternion.from_axis_angle(axis, turn_rad), there.bones[1])
+        return wrist.aside_rad(end_of(limb, turned, target))
 
-    def solved(self, turn_rad: FloatArray | None = None) -> LimbPose:
-        """With the elbow turned (F,) about that line from where it points."""
-        pole = self.pole
-        if turn_rad is not None:
-            pole = quaternion.rotate(quaternion.from_axis_angle(self.line, turn_rad), pole)
-        return solve_limb(self.limb, self.root_m, self.clavicle, self.target_m, self.target_rotation, pole)
-
-    def __getitem__(self, frames: npt.NDArray[np.intp]) -> _Asked:
-        every = (self.root_m, self.clavicle, self.target_m, self.target_rotation, self.pole, self.line)
-        return _Asked(self.limb, *(values[frames] for values in every))
+    aside_rad, beyond_rad = angles_rad
+    turn_rad = wrist.relief_rad(aside_rad[bent], beyond_rad[bent], aside_at)
+    turn = quaternion.from_axis_angle(axis, turn_rad)
+    relieved = swivelled(limb, there, turn, clavicle[bent], target)
+    for own, turned in ((pose.upper, relieved.upper), (pose.lower, relieved.lower), (pose.end, relieved.end)):
+        # Of the two quaternions of a rotation the one near to where it was: no frame flips.
+        own[bent] = np.where(np.einsum("fi,fi->f", own[bent], turned)[:, None] < 0.0, -turned, turned)

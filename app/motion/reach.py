@@ -59,6 +59,11 @@ class Help:
     most_turn_rad: dict[str, FloatArray]
     most_protraction_rad: dict[str, FloatArray]
 
+    @property
+    def moves_trunk(self) -> bool:
+        """Whether more than the shoulders helps."""
+        return bool(np.any(self.turn_rad) or np.any(self.short_m))
+
 
 def needed_help(
     skeleton: Skeleton,

@@ -21,6 +21,7 @@ from app.motion.posture import Side, Stance, Trunk, hips_path, solve_legs, trunk
 from app.motion.reach import TURN_RAD, Help, needed_help, shoulder_distance_m
 from app.motion.soft import softly_capped
 from app.motion.stop import stopped
+from app.motion.upper_body import UpperBody, joined
 from app.motion.wrists import Wrist
 from app.rig import quaternion
 from app.rig.finger_poses import finger_rotations
@@ -77,7 +78,7 @@ class Player:
         """The player with the instrument on its endpin, where it usually is low enough for that."""
         if endpin is None:
             return self
-        _, _, _, usual = upper_body(self, Curves(self.still, {}, {}, np.zeros(1)))
+        usual = upper_body(self, Curves(self.still, {}, {}, np.zeros(1))).carried
         return replace(self, stand=Stand.of(endpin, self.carriage, usual))
 
     @cached_property
@@ -86,7 +87,7 @@ class Player:
         if self.aside is None:
             return None
         low = replace(self.still, lowered=np.ones(1))
-        _, _, _, carried = upper_body(replace(self, aside=None, stand=None), Curves(low, {}, {}, np.zeros(1)))
+        carried = upper_body(replace(self, aside=None, stand=None), Curves(low, {}, {}, np.zeros(1))).carried
         return Place.of(self.aside, self.skeleton, self.hold, self.base, carried)
 
     @cached_property
@@ -157,13 +158,21 @@ def solve(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -
         Time of the first requested frame.
     """
     pad = padding(fps)
-    needed = [needs(player, curves[part]) for part in _parts(len(curves))]
-    curves = replace(curves, body=helped(player, curves.body, _spread(needed, pad // 2)))
-    return poses(player, curves[pad : len(curves) - pad], fps, first_frame_s)
+    uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
+    needed = [_needs(player, curves[part], upper) for part, upper in zip(_parts(len(curves)), uppers, strict=True)]
+    given = _spread(needed, pad // 2)
+    curves = replace(curves, body=helped(player, curves.body, given))
+    asked = slice(pad, len(curves) - pad)
+    return poses(player, curves[asked], fps, first_frame_s, None if given.moves_trunk else joined(uppers)[asked])
 
 
-def poses(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -> Motion:
-    """The poses of a body that is helped already: frame by frame, none of them needs its neighbours."""
+def poses(
+    player: Player, curves: Curves, fps: Fraction, first_frame_s: float, upper: UpperBody | None = None
+) -> Motion:
+    """The poses of a body that is helped already: frame by frame, none of them needs its neighbours.
+
+    ``upper`` is its upper body where that is known.
+    """
     frames, joints = len(curves), len(player.skeleton.names)
     rotations = np.zeros((frames, joints, 4), dtype=np.float32)
     rotations[..., 3] = 1.0
@@ -174,7 +183,8 @@ def poses(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -
     controls = {name: np.empty(frames, dtype=np.float32) for name in curves.controls}
     for part in _parts(frames):
         chunk = curves[part]
-        chunk_hips_m, local, carried, stops = _pose(player, chunk)
+        known = upper_body(player, chunk) if upper is None else upper[part]
+        chunk_hips_m, local, carried, stops = _pose(player, chunk, known)
         chunk = replace(chunk, controls=stops)
         hips_m[part], instrument_m[part], instrument[part] = chunk_hips_m, carried.position_m, carried.rotation
         for joint, values in local.items():
@@ -202,8 +212,8 @@ def _parts(frames: int) -> Iterator[slice]:
         yield slice(start, min(start + CHUNK, frames))
 
 
-def upper_body(player: Player, curves: Curves) -> tuple[FloatArray, FloatArray, Trunk, Carried]:
-    """Place (F, 3) and rotation (F, 4) of the hips, the trunk, and the instrument."""
+def upper_body(player: Player, curves: Curves) -> UpperBody:
+    """What the contacts are solved on."""
     hips_m, hips = hips_path(player.place, player.skeleton, curves.body)
     upper = trunk(player.skeleton, hips_m, hips, curves.body)
     carried = carry(
@@ -220,13 +230,15 @@ def upper_body(player: Player, curves: Curves) -> tuple[FloatArray, FloatArray, 
     )
     if player.stand is not None:
         carried = player.stand.stood(carried, curves.body)
-    return hips_m, hips, upper, carried
+    return UpperBody(hips_m, hips, upper, carried)
 
 
-def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatArray], Carried, dict[str, FloatArray]]:
+def _pose(
+    player: Player, curves: Curves, known: UpperBody
+) -> tuple[FloatArray, dict[int, FloatArray], Carried, dict[str, FloatArray]]:
     """Hips, local rotations by joint (fingers apart), instrument, and the controls as far as hands carry them."""
     skeleton, motion = player.skeleton, curves.body
-    hips_m, hips, upper, carried = upper_body(player, curves)
+    hips_m, hips, upper, carried = known.hips_m, known.hips, known.trunk, known.carried
     local = {skeleton.index("hips"): hips} | upper.local
     controls = stopped(skeleton, player.hold, upper, motion, carried, curves.controls, curves.placed)
     late = _late(motion)
@@ -273,8 +285,11 @@ def _late(motion: BodyMotion) -> FloatArray | None:
 
 def needs(player: Player, curves: Curves) -> Help:
     """What trunk and shoulders must add for far hands, frame by frame."""
-    _, _, upper, carried = upper_body(player, curves)
-    needed = needed_help(player.skeleton, player.hold, upper, carried, curves.controls, curves.placed)
+    return _needs(player, curves, upper_body(player, curves))
+
+
+def _needs(player: Player, curves: Curves, upper: UpperBody) -> Help:
+    needed = needed_help(player.skeleton, player.hold, upper.trunk, upper.carried, curves.controls, curves.placed)
     # The chest carries a lowered instrument: turning would take it along and bring no hand nearer.
     turning = 1.0 - curves.body.lowered
     return replace(needed, turn_rad=needed.turn_rad * turning, short_m=needed.short_m * turning)
@@ -356,9 +371,10 @@ def _drawn_m(player: Player) -> float:
         distances_m = []
         for draw in (0.0, 1.0):
             motion = _drawn(turned, draw * one, right * one)
-            _, _, upper, carried = upper_body(player, Curves(motion, farthest, {}, nothing))
+            upper = upper_body(player, Curves(motion, farthest, {}, nothing))
+            carried = upper.carried
             target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, farthest)
-            distances_m.append(shoulder_distance_m(player.skeleton, hand.side, upper, target_m))
+            distances_m.append(shoulder_distance_m(player.skeleton, hand.side, upper.trunk, target_m))
         nearer.append(float(distances_m[0] - distances_m[1]))
     return max([*nearer, LEAST_DRAWN_M])
 
@@ -371,8 +387,8 @@ def _farthest(player: Player) -> dict[str, float]:
             continue
         curves = Curves(player.still, {hand.motion.control: one}, {}, np.zeros(1))
         body = helped(player, player.still, needs(player, curves))
-        _, _, upper, carried = upper_body(player, replace(curves, body=body))
-        reached = stopped(player.skeleton, player.hold, upper, body, carried, curves.controls, {})
+        upper = upper_body(player, replace(curves, body=body))
+        reached = stopped(player.skeleton, player.hold, upper.trunk, body, upper.carried, curves.controls, {})
         result[hand.motion.control] = float(reached[hand.motion.control][0])
     return result
 

@@ -41,8 +41,8 @@ def _wrists_bent(player: Player, tipped_rad: FloatArray, placed: dict[str, Place
     still = replace(player.still.for_frames(len(tipped_rad)), bell_down_rad=tipped_rad)
     curves = Curves(still, {}, {}, np.zeros(len(tipped_rad)), placed)
     body = helped(player, still, needs(player, curves))
-    _, _, upper, carried = upper_body(player, replace(curves, body=body))
-    arms = arms_of(player, upper, body, carried, {}, placed)
+    upper = upper_body(player, replace(curves, body=body))
+    arms = arms_of(player, upper.trunk, body, upper.carried, {}, placed)
     worst = np.zeros(len(tipped_rad))
     for hand in player.hold.hands:
         end = arms[arm(player.skeleton, hand.side).end]

@@ -183,7 +183,10 @@ def _both(
     It lifts on its way, but where it keeps on something that it works at both ends of the way.
     """
     near, far = table.stations[first], table.stations[second]
-    keeps = first == second or bool(set(near.controls) & set(far.controls))
+    if first == second:
+        stays = _at_station(near, controls, raised)
+        return stays, stays
+    keeps = bool(set(near.controls) & set(far.controls))
     off, on = (1.0, 1.0) if keeps else (1.0 - share, share)
     return _at_station(near, controls, raised, off), _at_station(far, controls, raised, on)
 
