@@ -170,12 +170,12 @@ def carry(
     with_head = quaternion.multiply(body.head, quaternion.conjugate(base.head))
     with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
     low_rad, _, high_rad = np.deg2rad(carriage.pitch_down_deg)
-    going, played = _going_along(with_head, carriage), bell_pitch(carriage, motion.bell_rad)
+    going = _going_along(with_head, carriage)
     cued = within(-motion.bell_cue_rad, high_rad - pitch, pitch - low_rad)
     bowed = quaternion.to_rotation_vector(quaternion.multiply(quaternion.conjugate(with_chest), going))[:, 0]
-    pitch = pitch + cued
-    back = within(room.back_rad(played + cued + bowed), high_rad - pitch, pitch - low_rad)
-    pitch = pitch + back + motion.bell_down_rad
+    played = bell_pitch(carriage, motion.bell_rad) + cued
+    back = within(room.back_rad(played + bowed), high_rad - played, played - low_rad)
+    pitch = pitch + cued + back + motion.bell_down_rad
     turned = attitude(pitch, yaw - motion.bell_right_rad, roll)
     rotation = quaternion.multiply(going, turned)
     position_m = body.head_m + quaternion.rotate(body.head, lips_m)

@@ -9,6 +9,7 @@ import numpy as np
 from app.motion.contact import BellRoom, tips_freely
 from app.motion.curve import FloatArray
 from app.motion.solve import Curves, Player, arms_of, helped, needs, upper_body
+from app.motion.wrists import LOST_RAD
 from app.rig.hold import Placed, giving_for
 from app.rig.ik import arm
 
@@ -31,7 +32,8 @@ def with_bell_room(player: Player) -> Player:
         there = np.repeat([0.0, *stations], len(tipped))
         placed[giving_for(finger)] = Placed(np.zeros(len(there)), there, (there > 0.0).astype(np.float64))
     bent = _wrists_bent(player, np.tile(tipped, len(leans) + 1), placed).reshape(-1, len(tipped))
-    fits = np.logical_and.reduce(bent <= bent[:, len(tipped) // 2, None] + NEARLY_RAD)
+    usual = bent[:, len(tipped) // 2, None]
+    fits = np.logical_and.reduce((bent <= usual + NEARLY_RAD) | (usual > LOST_RAD))
     room = BellRoom.within(tipped + np.deg2rad(player.carriage.pitch_down_deg[1]), fits)
     return replace(player, bell_room=room)
 
