@@ -9,6 +9,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from app.identity_cache import IdentityCache
 from app.motion.additive import NOTHING, Added, Additive, with_added, with_added_morphs, with_held
 from app.motion.aside import Aside
 from app.motion.body import BodyMotion, Layers, LayerSamples, body_motion
@@ -35,14 +36,17 @@ from app.plan.acting import Acting
 from app.plan.model import PlayerPlan, TimeFrame, same_events
 from app.plan.parameters import PlayerParameters, deciding
 from app.rig.carriage import carrying
+from app.rig.finger_lift import with_curved_fingers
 from app.rig.hold import GripPose, Lips, Placed, giving_for
-from app.rig.model import Character
+from app.rig.model import Character, Skeleton
 from app.score.metre_map import FeltBeats
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions, load_skeleton
 from metadata.model import Body, Embouchure, Expression, Posture
 
 NOT_SHOWN = Envelopes.of(())
+_CURVED: IdentityCache[GripPose] = IdentityCache(128)
+"""Holds with curved fingers: a player goes on with the very same one."""
 
 
 def frame_count(time_frame: TimeFrame, fps: Fraction) -> int:
@@ -384,6 +388,10 @@ def lying(
     return place.rest
 
 
+def _curved(hold: GripPose, skeleton: Skeleton) -> GripPose:
+    return with_curved_fingers(hold, skeleton, load_skeleton())
+
+
 def _player(
     parameters: PlayerParameters,
     instrument_map: InstrumentMap,
@@ -395,6 +403,7 @@ def _player(
 ) -> Player:
     """What does not change with time; that of ``before``, which knows already how far its hands come, where it is the
     same body in the same posture."""
+    hold = _CURVED.step(_curved, hold, character.skeleton)
     if before is not None:
         same_body = before.player.hold is hold and before.player.skeleton is character.skeleton
         if same_body and before.posture == posture and before.parameters.posture == parameters.posture:
