@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
+from typing import cast
 
 import numpy as np
 
@@ -41,12 +43,14 @@ from app.rig.hold import GripPose, Lips, Placed, giving_for
 from app.rig.model import Character, Skeleton
 from app.score.metre_map import FeltBeats
 from instrument_maps.model import InstrumentMap
+from instrument_maps.model import Posture as PostureName
 from metadata.load import load_expressions, load_skeleton
 from metadata.model import Body, Embouchure, Expression, Posture
 
 NOT_SHOWN = Envelopes.of(())
 _CURVED: IdentityCache[GripPose] = IdentityCache(128)
-"""Holds with curved fingers: a player goes on with the very same one."""
+_PLAYERS: IdentityCache[Player] = IdentityCache(128)
+"""Holds with curved fingers, and what of players does not change with time: a player goes on with the very same."""
 
 
 def frame_count(time_frame: TimeFrame, fps: Fraction) -> int:
@@ -324,7 +328,7 @@ def prepare(
     posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
     asked = Asked(plan, parameters.embouchure_tension, body.face, Lungs.of(parameters, instrument_map.air))
     watching = Watching(parameters.seed, acting.gaze, acting.blink)
-    player = _player(parameters, instrument_map, character, hold, body, posture, before)
+    player = _player(parameters, instrument_map, character, hold, body)
     if before is None:
         face, layers = Face.of(asked), Layers.of(plan, body, felt_beats)
         gaze = plan_gaze(plan, watching)
@@ -380,9 +384,7 @@ def lying(
     number: int,
 ) -> Carried:
     """Where an instrument lies while its player has another in the hands, one frame; ``number`` as of `Aside`."""
-    carriage = instrument_map.hold.carriage(parameters.posture)
-    posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
-    still = _player(parameters, instrument_map, character, hold, body, posture, None)
+    still = _player(parameters, instrument_map, character, hold, body)
     place = replace(still, aside=Aside(instrument_map.hold.support_hand, number)).put_aside
     assert place is not None
     return place.rest
@@ -393,31 +395,28 @@ def _curved(hold: GripPose, skeleton: Skeleton) -> GripPose:
 
 
 def _player(
-    parameters: PlayerParameters,
-    instrument_map: InstrumentMap,
-    character: Character,
-    hold: GripPose,
-    body: Body,
-    posture: Posture,
-    before: PerformanceCurves | None,
+    parameters: PlayerParameters, instrument_map: InstrumentMap, character: Character, hold: GripPose, body: Body
 ) -> Player:
-    """What does not change with time; that of ``before``, which knows already how far its hands come, where it is the
-    same body in the same posture."""
-    hold = _CURVED.step(_curved, hold, character.skeleton)
-    if before is not None:
-        same_body = before.player.hold is hold and before.player.skeleton is character.skeleton
-        if same_body and before.posture == posture and before.parameters.posture == parameters.posture:
-            return before.player
-    place = stance(character.skeleton, posture)
+    """What does not change with time: the very same for the same body in the same posture, which knows already how far
+    its hands come and its instrument tips."""
+    curved = _CURVED.step(_curved, hold, character.skeleton)
+    return _PLAYERS.step(_made, sys.intern(parameters.posture), instrument_map, character.skeleton, curved, body)
+
+
+def _made(posture_name: str, instrument_map: InstrumentMap, skeleton: Skeleton, hold: GripPose, body: Body) -> Player:
+    named = cast(PostureName, posture_name)
+    carriage = instrument_map.hold.carriage(named)
+    posture = carrying(body, instrument_map.hold.possible(named), carriage)
+    place = stance(skeleton, posture)
     still = BodyMotion.still(posture)
     made = Player(
-        skeleton=character.skeleton,
+        skeleton=skeleton,
         hold=hold,
         place=place,
-        carriage=instrument_map.hold.carriage(parameters.posture),
-        lowered=instrument_map.hold.lowered(parameters.posture),
+        carriage=carriage,
+        lowered=instrument_map.hold.lowered(named),
         still=still,
-        base=trunk(character.skeleton, *hips_path(place, character.skeleton, still), still),
+        base=trunk(skeleton, *hips_path(place, skeleton, still), still),
         grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
         wrists=wrists_of(body, load_skeleton()),
     )
