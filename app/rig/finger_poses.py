@@ -87,7 +87,7 @@ def finger_rotations(
             start = stop
         heights = _heights(hand, controls, height)
         for way, rotations in zip(ways, _posed(hand, ways, placed, controls, heights), strict=True):
-            result[way.frames, way.joints] = rotations
+            result[slice(None) if len(way.frames) == frames else way.frames, way.joints] = rotations
     return result
 
 
