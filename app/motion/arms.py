@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from app.motion.away import Away
 from app.motion.body import BodyMotion
@@ -13,9 +14,10 @@ from app.motion.contact import Carried
 from app.motion.curve import FloatArray
 from app.motion.posture import Side, Trunk, exact_target
 from app.motion.reach import clavicle_of, forwards_axis
+from app.motion.wrists import Wrist
 from app.rig import quaternion
 from app.rig.hold import GripPose, HandHold, Placed, hand_targets
-from app.rig.ik import arm, solve_limb
+from app.rig.ik import Limb, LimbPose, arm, end_of, solve_limb, swivelled
 from app.rig.model import Skeleton
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
@@ -67,6 +69,7 @@ def solve_arms(
     carried: Carried,
     controls: Mapping[str, FloatArray],
     placed: Mapping[str, Placed],
+    wrists: Mapping[Side, Wrist],
     swung: FloatArray | None = None,
     away: Away | None = None,
 ) -> dict[int, FloatArray]:
@@ -79,7 +82,7 @@ def solve_arms(
         freely = None
         if away is not None:
             targets, freely = away.targets(hand.side, *targets), away.elbows.get(hand.side)
-        rotations |= _solve_arm(skeleton, hand, body, turned, motion, *targets, freely)
+        rotations |= _solve_arm(skeleton, hand, body, turned, motion, *targets, wrists[hand.side], freely)
     for side, sign in (("left", -1.0), ("right", 1.0)):
         if all(hand.side != side for hand in hold.hands):
             hangs = quaternion.from_axis_angle(np.array([0.0, 0.0, 1.0]), sign * HANGS_RAD)
@@ -95,6 +98,7 @@ def _solve_arm(
     motion: BodyMotion,
     target_m: FloatArray,
     target_rotation: FloatArray,
+    wrist: Wrist,
     freely: tuple[FloatArray, FloatArray] | None = None,
 ) -> dict[int, FloatArray]:
     side = hand.side
@@ -104,9 +108,9 @@ def _solve_arm(
     root_m = held.joint_m
     out = np.tan(motion.elbows_rad + ELBOW_OUT * motion.protraction_rad[side])[:, None] * np.array([sign, 0.0, 0.0])
     pole = quaternion.rotate(with_chest, hand.elbow_direction + out)
+    line = target_m - root_m
+    line /= np.sqrt(np.einsum("fi,fi->f", line, line))[:, None]
     if side in motion.elbow_held_rad:
-        line = target_m - root_m
-        line /= np.sqrt(np.einsum("fi,fi->f", line, line))[:, None]
         pole = quaternion.rotate(quaternion.from_axis_angle(line, sign * motion.elbow_held_rad[side]), pole)
     if freely is not None:
         share, elbow = freely
@@ -114,5 +118,38 @@ def _solve_arm(
     if hand.motion is not None:
         target_m = exact_target(limb, root_m, target_m)
     pose = solve_limb(limb, root_m, held.clavicle, target_m, target_rotation, pole)
+    aside_rad = wrist.aside_rad(pose.end)
+    beyond_rad = wrist.beyond_rad(aside_rad)
+    bent = np.flatnonzero(beyond_rad)
+    if len(bent):
+        _relieve(wrist, limb, pose, bent, (aside_rad, beyond_rad), line, held.clavicle, target_rotation)
     joint, _ = clavicle_of(skeleton, side)
     return {joint: held.moved, limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}
+
+
+def _relieve(
+    wrist: Wrist,
+    limb: Limb,
+    pose: LimbPose,
+    bent: npt.NDArray[np.intp],
+    angles_rad: tuple[FloatArray, FloatArray],
+    line: FloatArray,
+    clavicle: FloatArray,
+    target_rotation: FloatArray,
+) -> None:
+    """Turn the arms of a pose in which a wrist is ``bent`` too far about the line from shoulder to hand."""
+    bones = pose.bones[0][bent], pose.bones[1][bent]
+    there = LimbPose(pose.upper[bent], pose.lower[bent], pose.end[bent], pose.miss_m[bent], bones)
+    axis, target = line[bent], target_rotation[bent]
+
+    def aside_at(turn_rad: FloatArray) -> FloatArray:
+        turned = quaternion.multiply(quaternion.from_axis_angle(axis, turn_rad), there.bones[1])
+        return wrist.aside_rad(end_of(limb, turned, target))
+
+    aside_rad, beyond_rad = angles_rad
+    turn_rad = wrist.relief_rad(aside_rad[bent], beyond_rad[bent], aside_at)
+    turn = quaternion.from_axis_angle(axis, turn_rad)
+    relieved = swivelled(limb, there, turn, clavicle[bent], target)
+    for own, turned in ((pose.upper, relieved.upper), (pose.lower, relieved.lower), (pose.end, relieved.end)):
+        # Of the two quaternions of a rotation the one near to where it was: no frame flips.
+        own[bent] = np.where(np.einsum("fi,fi->f", own[bent], turned)[:, None] < 0.0, -turned, turned)

@@ -8,7 +8,7 @@ afterwards and are never broken by them. Sizes come from `metadata` at the playe
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import zip_longest
 from typing import Any
@@ -130,14 +130,21 @@ class BodyMotion:
 
     def __getitem__(self, frames: slice) -> BodyMotion:
         """The same motion in some of its frames."""
-        cut: dict[str, Any] = {}
+        return self._each(lambda values: values[frames])
+
+    def for_frames(self, frames: int) -> BodyMotion:
+        """One frame's motion, as many times."""
+        return self._each(lambda values: np.tile(values, frames))
+
+    def _each(self, made: Callable[[FloatArray], FloatArray]) -> BodyMotion:
+        result: dict[str, Any] = {}
         for member in fields(self):
             value = getattr(self, member.name)
             if isinstance(value, dict):
-                cut[member.name] = {joint: angles[frames] for joint, angles in value.items()}
+                result[member.name] = {joint: made(angles) for joint, angles in value.items()}
             else:
-                cut[member.name] = value[frames]
-        return BodyMotion(**cut)
+                result[member.name] = made(value)
+        return BodyMotion(**result)
 
     @classmethod
     def still(cls, posture: Posture) -> BodyMotion:

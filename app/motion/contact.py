@@ -10,11 +10,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from app.motion.body import BodyMotion
 from app.motion.curve import FloatArray
 from app.motion.pose import within
 from app.motion.posture import Trunk
+from app.motion.soft import softly_over
 from app.rig import quaternion
 from app.rig.hold import GripPose
 from instrument_maps.model import Carriage, Lowered
@@ -30,6 +32,35 @@ pass."""
 
 FREE_DEG = 10.0
 """An instrument whose carriage has this much room from end to end goes along with the head."""
+
+
+@dataclass(frozen=True)
+class BellRoom:
+    """How far an instrument tips from the chest while both wrists stay within their range: down is positive."""
+
+    low_rad: float = -np.inf
+    high_rad: float = np.inf
+
+    @classmethod
+    def within(cls, down_rad: FloatArray, fits: npt.NDArray[np.bool_]) -> BellRoom:
+        """From ascending angles (T,), the middle one of which is where it is played, and whether the wrists follow."""
+        usual, misses = len(down_rad) // 2, np.flatnonzero(~fits)
+        low, high = misses[misses < usual], misses[misses > usual]
+        return cls(
+            low_rad=float(down_rad[low[-1] + 1]) if len(low) else -np.inf,
+            high_rad=float(down_rad[high[0] - 1]) if len(high) else np.inf,
+        )
+
+    def back_rad(self, down_rad: FloatArray) -> FloatArray:
+        """What brings angles (F,) back into it; 0 where they are well within."""
+        back: FloatArray = softly_over(self.low_rad - down_rad, ROOM_EASE_RAD)
+        return back - softly_over(down_rad - self.high_rad, ROOM_EASE_RAD)
+
+
+ROOM_EASE_RAD = float(np.deg2rad(2.0))
+"""The ends of that room are approached so softly."""
+
+ANYWHERE = BellRoom()
 
 
 @dataclass(frozen=True)
@@ -78,6 +109,12 @@ def freedom(carriage: Carriage) -> float:
     return min(1.0, min(high - low for low, _, high in ranges) / FREE_DEG)
 
 
+def tips_freely(carriage: Carriage) -> bool:
+    """Whether an instrument tips up and down with the head: one that lies or stands keeps its place."""
+    low_deg, _, high_deg = carriage.pitch_down_deg
+    return high_deg - low_deg >= FREE_DEG
+
+
 def _going_along(with_head: FloatArray, carriage: Carriage) -> FloatArray:
     """The head's turn (F, 4), as far as the instrument goes along with it.
 
@@ -106,6 +143,7 @@ def carry(
     morphs: Mapping[str, FloatArray],
     mouth_open: FloatArray,
     grip_of_lips_m: FloatArray,
+    room: BellRoom,
 ) -> Carried:
     """Place the instrument: at the lips, or lowered before the body.
 
@@ -119,6 +157,8 @@ def carry(
         How far the mouth is open for a breath, 0..1: then one lip alone carries the mouthpiece.
     grip_of_lips_m : (3,) float64
         Added to where that lip carries it, so that it keeps its playing place there.
+    room : BellRoom
+        What head and melody tip beyond it, the instrument tips back in the lips; not what the animator does.
     """
     lowering = motion.lowered
     frames = len(lowering)
@@ -128,15 +168,20 @@ def carry(
     lips_m = contact_m + (carried_m + grip_of_lips_m - contact_m) * on_one[:, None]
     pitch, yaw, roll = held_angles(carriage, motion)
     with_head = quaternion.multiply(body.head, quaternion.conjugate(base.head))
+    with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
     low_rad, _, high_rad = np.deg2rad(carriage.pitch_down_deg)
-    pitch = pitch + within(-motion.bell_cue_rad, high_rad - pitch, pitch - low_rad) + motion.bell_down_rad
+    going = _going_along(with_head, carriage)
+    cued = within(-motion.bell_cue_rad, high_rad - pitch, pitch - low_rad)
+    bowed = quaternion.to_rotation_vector(quaternion.multiply(quaternion.conjugate(with_chest), going))[:, 0]
+    played = bell_pitch(carriage, motion.bell_rad) + cued
+    back = within(room.back_rad(played + bowed), high_rad - played, played - low_rad)
+    pitch = pitch + cued + back + motion.bell_down_rad
     turned = attitude(pitch, yaw - motion.bell_right_rad, roll)
-    rotation = quaternion.multiply(_going_along(with_head, carriage), turned)
+    rotation = quaternion.multiply(going, turned)
     position_m = body.head_m + quaternion.rotate(body.head, lips_m)
     if not np.any(lowering):
         return Carried(position_m, rotation)
     base_lips_m = base.head_m + quaternion.rotate(base.head, hold.lips.usual_m)
-    with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
     low_m = body.chest_m + quaternion.rotate(with_chest, base_lips_m + np.array(lowered.offset_m) - base.chest_m)
     low = quaternion.multiply(
         with_chest,

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
+from typing import cast
 
 import numpy as np
 
+from app.identity_cache import IdentityCache
 from app.motion.additive import NOTHING, Added, Additive, with_added, with_added_morphs, with_held
 from app.motion.aside import Aside
 from app.motion.body import QUIET_AIR, BodyMotion, Layers, LayerSamples, body_motion
@@ -29,19 +32,26 @@ from app.motion.settled import settled, shown_by
 from app.motion.solve import Curves, Player, padding, solve
 from app.motion.splice import changed_stretch, spliced
 from app.motion.stations import raised_curve, sampled, station_curves
+from app.motion.tipping import with_bell_room
+from app.motion.wrists import wrists_of
 from app.plan.acting import Acting, acting_of
 from app.plan.model import PlayerPlan, TimeFrame, same_events
 from app.plan.parameters import PlayerParameters, deciding
 from app.plan.styles import differing_s, most_shown, share_at, shown_in_style
 from app.rig.carriage import carrying
+from app.rig.finger_lift import with_curved_fingers
 from app.rig.hold import GripPose, Lips, Placed, giving_for
-from app.rig.model import Character
+from app.rig.model import Character, Skeleton
 from app.score.metre_map import FeltBeats
 from instrument_maps.model import InstrumentMap
-from metadata.load import load_expressions
+from instrument_maps.model import Posture as PostureName
+from metadata.load import load_expressions, load_skeleton
 from metadata.model import Body, Embouchure, Expression, Posture
 
 NOT_SHOWN = Envelopes.of(())
+_CURVED: IdentityCache[GripPose] = IdentityCache(128)
+_PLAYERS: IdentityCache[Player] = IdentityCache(128)
+"""Holds with curved fingers, and what of players does not change with time: a player goes on with the very same."""
 
 
 def frame_count(time_frame: TimeFrame, fps: Fraction) -> int:
@@ -334,7 +344,7 @@ def prepare(
     posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
     asked = Asked(plan, parameters.embouchure_tension, body.face, Lungs.of(parameters, instrument_map.air))
     watching = Watching(parameters.seed, acting.gaze, acting.blink)
-    player = _player(parameters, instrument_map, character, hold, body, posture, before)
+    player = _player(parameters, instrument_map, character, hold, body)
     if before is None:
         face, layers = Face.of(asked), Layers.of(shown_in_style(plan), body, felt_beats)
         gaze = plan_gaze(plan, watching)
@@ -390,42 +400,44 @@ def lying(
     number: int,
 ) -> Carried:
     """Where an instrument lies while its player has another in the hands, one frame; ``number`` as of `Aside`."""
-    carriage = instrument_map.hold.carriage(parameters.posture)
-    posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
-    still = _player(parameters, instrument_map, character, hold, body, posture, None)
+    still = _player(parameters, instrument_map, character, hold, body)
     place = replace(still, aside=Aside(instrument_map.hold.support_hand, number)).put_aside
     assert place is not None
     return place.rest
 
 
+def _curved(hold: GripPose, skeleton: Skeleton) -> GripPose:
+    return with_curved_fingers(hold, skeleton, load_skeleton())
+
+
 def _player(
-    parameters: PlayerParameters,
-    instrument_map: InstrumentMap,
-    character: Character,
-    hold: GripPose,
-    body: Body,
-    posture: Posture,
-    before: PerformanceCurves | None,
+    parameters: PlayerParameters, instrument_map: InstrumentMap, character: Character, hold: GripPose, body: Body
 ) -> Player:
-    """What does not change with time; that of ``before``, which knows already how far its hands come, where it is the
-    same body in the same posture."""
-    if before is not None:
-        same_body = before.player.hold is hold and before.player.skeleton is character.skeleton
-        if same_body and before.posture == posture and before.parameters.posture == parameters.posture:
-            return before.player
-    place = stance(character.skeleton, posture)
+    """What does not change with time: the very same for the same body in the same posture, which knows already how far
+    its hands come and its instrument tips."""
+    curved = _CURVED.step(_curved, hold, character.skeleton)
+    return _PLAYERS.step(_made, sys.intern(parameters.posture), instrument_map, character.skeleton, curved, body)
+
+
+def _made(posture_name: str, instrument_map: InstrumentMap, skeleton: Skeleton, hold: GripPose, body: Body) -> Player:
+    named = cast(PostureName, posture_name)
+    carriage = instrument_map.hold.carriage(named)
+    posture = carrying(body, instrument_map.hold.possible(named), carriage)
+    place = stance(skeleton, posture)
     still = BodyMotion.still(posture)
-    return Player(
-        skeleton=character.skeleton,
+    made = Player(
+        skeleton=skeleton,
         hold=hold,
         place=place,
-        carriage=instrument_map.hold.carriage(parameters.posture),
-        lowered=instrument_map.hold.lowered(parameters.posture),
+        carriage=carriage,
+        lowered=instrument_map.hold.lowered(named),
         still=still,
-        base=trunk(character.skeleton, *hips_path(place, character.skeleton, still), still),
+        base=trunk(skeleton, *hips_path(place, skeleton, still), still),
         grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
         water=instrument_map.water,
-    ).standing_on(instrument_map.endpin)
+        wrists=wrists_of(body, load_skeleton()),
+    )
+    return with_bell_room(made.standing_on(instrument_map.endpin))
 
 
 def _fingers(

@@ -31,6 +31,7 @@ HEEL = (-1.0, -0.45)
 SIT_BONES_M = 0.09
 """Who sits leans the pelvis about what is so far below the hips."""
 X_AXIS = np.array([1.0, 0.0, 0.0])
+FOOT_PARTS = ("heel", "toes", "ahead", "up", "push")
 
 
 @dataclass(frozen=True)
@@ -110,10 +111,27 @@ def footing(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: 
 
     A heel lifts about the toes, which stay; toes lift about the heel; a step takes all of the foot.
     """
+    parts = {name: moved[f"{side}_{name}"] for name in FOOT_PARTS if f"{side}_{name}" in moved}
+    ankle_m, foot = (np.broadcast_to(still, (frames, len(still))) for still in (place.ankles_m[side], place.feet[side]))
+    if not parts:
+        return Footing(ankle_m, foot, None)
+    # Most of the time a foot stands, to the bit.
+    here = np.flatnonzero(np.logical_or.reduce([values != 0.0 for values in parts.values()]))
+    lifted = _footing(place, side, {name: values[here] for name, values in parts.items()}, len(here))
+    ankle_m, foot = ankle_m.copy(), foot.copy()
+    ankle_m[here], foot[here] = lifted.ankle_m, lifted.foot
+    toes = None
+    if lifted.toes is not None:
+        toes = np.tile(quaternion.from_axis_angle(X_AXIS, np.array([-0.0])), (frames, 1))
+        toes[here] = lifted.toes
+    return Footing(ankle_m, foot, toes)
+
+
+def _footing(place: Stance, side: Side, parts: Mapping[str, FloatArray], frames: int) -> Footing:
+    """The foot in frames in which it is moved."""
     ankle_m = np.broadcast_to(place.ankles_m[side], (frames, 3))
     foot = np.broadcast_to(place.feet[side], (frames, 4))
-    heel, toes = moved.get(f"{side}_heel"), moved.get(f"{side}_toes")
-    ahead_m, up_m, push = (moved.get(f"{side}_{part}") for part in ("ahead", "up", "push"))
+    heel, toes, ahead_m, up_m, push = (parts.get(name) for name in FOOT_PARTS)
     bent = None
     for angle, pivot_m in ((heel, place.balls_m[side]), (None if toes is None else -toes, place.heels_m[side])):
         if angle is not None:

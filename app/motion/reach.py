@@ -12,6 +12,7 @@ from app.motion.away import Away
 from app.motion.contact import Carried
 from app.motion.curve import FloatArray
 from app.motion.posture import Side, Trunk
+from app.motion.soft import softly_capped, softly_over
 from app.rig import quaternion
 from app.rig.hold import GripPose, Placed, hand_targets
 from app.rig.ik import arm
@@ -58,6 +59,11 @@ class Help:
     protraction_rad: dict[str, FloatArray]
     most_turn_rad: dict[str, FloatArray]
     most_protraction_rad: dict[str, FloatArray]
+
+    @property
+    def moves_trunk(self) -> bool:
+        """Whether more than the shoulders helps."""
+        return bool(np.any(self.turn_rad) or np.any(self.short_m))
 
 
 def needed_help(
@@ -106,17 +112,6 @@ def needed_help(
 def shoulder_distance_m(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> float:
     """From a shoulder that is as far forwards as it comes to its hand's target, in the first frame."""
     return float(_girdle(skeleton, side, body, target_m).distance_m(CLAVICLE_RAD)[0])
-
-
-def softly_over(x: FloatArray, ease: FloatArray | float) -> FloatArray:
-    """``max(x, 0)`` with a parabola between -ease and ease; exactly 0 below."""
-    result: FloatArray = np.where(x >= ease, x, np.square(np.maximum(x + ease, 0.0)) / (4.0 * ease))
-    return result
-
-
-def softly_capped(x: FloatArray, most: FloatArray | float, ease: FloatArray | float) -> FloatArray:
-    """``min(x, most)``, rounded where it bends."""
-    return most - softly_over(most - x, ease)
 
 
 @dataclass(frozen=True)

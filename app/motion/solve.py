@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -14,14 +14,17 @@ from app.motion.arms import solve_arms
 from app.motion.aside import Aside, Place
 from app.motion.away import Away
 from app.motion.body import BodyMotion
-from app.motion.contact import Carried, carry
+from app.motion.contact import ANYWHERE, BellRoom, Carried, carry
 from app.motion.curve import FloatArray
 from app.motion.endpin import Stand
 from app.motion.hands import away, with_shapes
 from app.motion.model import Motion
-from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
-from app.motion.reach import TURN_RAD, Help, needed_help, shoulder_distance_m, softly_capped
+from app.motion.posture import Side, Stance, Trunk, hips_path, solve_legs, trunk
+from app.motion.reach import TURN_RAD, Help, needed_help, shoulder_distance_m
+from app.motion.soft import softly_capped
 from app.motion.stop import stopped
+from app.motion.upper_body import UpperBody, joined
+from app.motion.wrists import Wrist
 from app.rig import quaternion
 from app.rig.finger_poses import finger_rotations
 from app.rig.hold import GripPose, Placed, hand_targets
@@ -69,8 +72,10 @@ class Player:
     still: BodyMotion
     base: Trunk
     grip_of_lips_m: FloatArray
+    wrists: Mapping[Side, Wrist]
     stand: Stand | None = None
     aside: Aside | None = None
+    bell_room: BellRoom = ANYWHERE
     water: Water | None = None
 
     def away(self, motion: BodyMotion, carried: Carried) -> Away | None:
@@ -81,7 +86,7 @@ class Player:
         """The player with the instrument on its endpin, where it usually is low enough for that."""
         if endpin is None:
             return self
-        _, _, _, usual = _upper(self, Curves(self.still, {}, {}, np.zeros(1)))
+        usual = upper_body(self, Curves(self.still, {}, {}, np.zeros(1))).carried
         return replace(self, stand=Stand.of(endpin, self.carriage, usual))
 
     @cached_property
@@ -90,7 +95,7 @@ class Player:
         if self.aside is None:
             return None
         low = replace(self.still, lowered=np.ones(1))
-        _, _, _, carried = _upper(replace(self, aside=None, stand=None), Curves(low, {}, {}, np.zeros(1)))
+        carried = upper_body(replace(self, aside=None, stand=None), Curves(low, {}, {}, np.zeros(1))).carried
         return Place.of(self.aside, self.skeleton, self.hold, self.base, carried)
 
     @cached_property
@@ -161,24 +166,32 @@ def solve(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -
         Time of the first requested frame.
     """
     pad = padding(fps)
-    needed = [needs(player, curves[part]) for part in _parts(len(curves))]
-    curves = replace(curves, body=helped(player, curves.body, _spread(needed, pad // 2)))
-    return poses(player, curves[pad : len(curves) - pad], fps, first_frame_s)
+    uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
+    needed = [_needs(player, curves[part], upper) for part, upper in zip(_parts(len(curves)), uppers, strict=True)]
+    given = _spread(needed, pad // 2)
+    curves = replace(curves, body=helped(player, curves.body, given))
+    asked = slice(pad, len(curves) - pad)
+    return poses(player, curves[asked], fps, first_frame_s, None if given.moves_trunk else joined(uppers)[asked])
 
 
-def poses(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -> Motion:
-    """The poses of a body that is helped already: frame by frame, none of them needs its neighbours."""
+def poses(
+    player: Player, curves: Curves, fps: Fraction, first_frame_s: float, upper: UpperBody | None = None
+) -> Motion:
+    """The poses of a body that is helped already: frame by frame, none of them needs its neighbours.
+
+    ``upper`` is its upper body where that is known.
+    """
     frames, joints = len(curves), len(player.skeleton.names)
     rotations = np.zeros((frames, joints, 4), dtype=np.float32)
     rotations[..., 3] = 1.0
     hips_m = np.empty((frames, 3), dtype=np.float32)
     instrument_m = np.empty((frames, 3), dtype=np.float32)
     instrument = np.empty((frames, 4), dtype=np.float32)
-    fingers = list(player.hold.finger_joints)
     controls = {name: np.empty(frames, dtype=np.float32) for name in curves.controls}
     for part in _parts(frames):
         chunk = curves[part]
-        chunk_hips_m, local, carried, stops = _pose(player, chunk)
+        known = upper_body(player, chunk) if upper is None else upper[part]
+        chunk_hips_m, local, carried, stops = _pose(player, chunk, known)
         chunk = replace(chunk, controls=stops)
         hips_m[part], instrument_m[part], instrument[part] = chunk_hips_m, carried.position_m, carried.rotation
         for joint, values in local.items():
@@ -186,7 +199,9 @@ def poses(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -
         posed = finger_rotations(player.hold, chunk.controls, len(chunk), chunk.placed, chunk.raised)
         if chunk.body.hands:
             posed = with_shapes(player.skeleton, chunk.body.hands, fingers, posed)
-        rotations[part, fingers] = posed
+        # Joint by joint: all at once takes three times as long.
+        for column, joint in enumerate(player.hold.finger_joints):
+            rotations[part, joint] = posed[:, column]
         for name, values in stops.items():
             controls[name][part] = values
     if player.stand is not None:
@@ -209,7 +224,8 @@ def _parts(frames: int) -> Iterator[slice]:
         yield slice(start, min(start + CHUNK, frames))
 
 
-def _upper(player: Player, curves: Curves) -> tuple[FloatArray, FloatArray, Trunk, Carried]:
+def upper_body(player: Player, curves: Curves) -> UpperBody:
+    """What the contacts are solved on."""
     hips_m, hips = hips_path(player.place, player.skeleton, curves.body)
     upper = trunk(player.skeleton, hips_m, hips, curves.body)
     carried = carry(
@@ -222,20 +238,23 @@ def _upper(player: Player, curves: Curves) -> tuple[FloatArray, FloatArray, Trun
         curves.morphs,
         curves.mouth_open,
         player.grip_of_lips_m,
+        player.bell_room,
     )
     if player.stand is not None:
         carried = player.stand.stood(carried, curves.body)
-    return hips_m, hips, upper, carried
+    return UpperBody(hips_m, hips, upper, carried)
 
 
-def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatArray], Carried, dict[str, FloatArray]]:
+def _pose(
+    player: Player, curves: Curves, known: UpperBody
+) -> tuple[FloatArray, dict[int, FloatArray], Carried, dict[str, FloatArray]]:
     """Hips, local rotations by joint (fingers apart), instrument, and the controls as far as hands carry them."""
     skeleton, motion = player.skeleton, curves.body
-    hips_m, hips, upper, carried = _upper(player, curves)
+    hips_m, hips, upper, carried = known.hips_m, known.hips, known.trunk, known.carried
     local = {skeleton.index("hips"): hips} | upper.local
     controls = stopped(skeleton, player.hold, upper, motion, carried, curves.controls, curves.placed)
     late, free = _late(motion), player.away(motion, carried)
-    arms = solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed, late, free)
+    arms = arms_of(player, upper, motion, carried, controls, curves.placed, late, free)
     if player.put_aside is not None and curves.stowed is not None and np.any(curves.stowed):
         # The other hand lets go where the instrument was lowered, and does not follow it.
         letting_go = player.put_aside.let_go(skeleton, player.hold, arms, curves.stowed)
@@ -243,7 +262,7 @@ def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatAr
         swung = player.put_aside.turned(curves.stowed)
         if late is not None:
             swung = quaternion.multiply(swung, late)
-        arms = solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed, swung)
+        arms = arms_of(player, upper, motion, carried, controls, curves.placed, swung)
         arms |= letting_go
     local |= arms
     local |= solve_legs(player.place, skeleton, hips_m, hips, motion.feet)
@@ -252,6 +271,21 @@ def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatAr
         if name in skeleton.names:
             local[skeleton.index(name)] = quaternion.from_rotation_vector(looking)
     return hips_m, local, carried, controls
+
+
+def arms_of(
+    player: Player,
+    upper: Trunk,
+    motion: BodyMotion,
+    carried: Carried,
+    controls: dict[str, FloatArray],
+    placed: dict[str, Placed],
+    swung: FloatArray | None = None,
+    away: Away | None = None,
+) -> dict[int, FloatArray]:
+    """Rotations of clavicles, arms and hands, by joint; as of `app.motion.arms.solve_arms`."""
+    base, wrists = player.base, player.wrists
+    return solve_arms(player.skeleton, player.hold, upper, base, motion, carried, controls, placed, wrists, swung, away)
 
 
 def _late(motion: BodyMotion) -> FloatArray | None:
@@ -264,9 +298,12 @@ def _late(motion: BodyMotion) -> FloatArray | None:
 
 def needs(player: Player, curves: Curves) -> Help:
     """What trunk and shoulders must add for far hands, frame by frame."""
-    _, _, upper, carried = _upper(player, curves)
-    free = player.away(curves.body, carried)
-    needed = needed_help(player.skeleton, player.hold, upper, carried, curves.controls, curves.placed, free)
+    return _needs(player, curves, upper_body(player, curves))
+
+
+def _needs(player: Player, curves: Curves, upper: UpperBody) -> Help:
+    free = player.away(curves.body, upper.carried)
+    needed = needed_help(player.skeleton, player.hold, upper.trunk, upper.carried, curves.controls, curves.placed, free)
     # The chest carries a lowered instrument: turning would take it along and bring no hand nearer.
     turning = 1.0 - curves.body.lowered
     return replace(needed, turn_rad=needed.turn_rad * turning, short_m=needed.short_m * turning)
@@ -348,9 +385,10 @@ def _drawn_m(player: Player) -> float:
         distances_m = []
         for draw in (0.0, 1.0):
             motion = _drawn(turned, draw * one, right * one)
-            _, _, upper, carried = _upper(player, Curves(motion, farthest, {}, nothing))
+            upper = upper_body(player, Curves(motion, farthest, {}, nothing))
+            carried = upper.carried
             target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, farthest)
-            distances_m.append(shoulder_distance_m(player.skeleton, hand.side, upper, target_m))
+            distances_m.append(shoulder_distance_m(player.skeleton, hand.side, upper.trunk, target_m))
         nearer.append(float(distances_m[0] - distances_m[1]))
     return max([*nearer, LEAST_DRAWN_M])
 
@@ -363,8 +401,8 @@ def _farthest(player: Player) -> dict[str, float]:
             continue
         curves = Curves(player.still, {hand.motion.control: one}, {}, np.zeros(1))
         body = helped(player, player.still, needs(player, curves))
-        _, _, upper, carried = _upper(player, replace(curves, body=body))
-        reached = stopped(player.skeleton, player.hold, upper, body, carried, curves.controls, {})
+        upper = upper_body(player, replace(curves, body=body))
+        reached = stopped(player.skeleton, player.hold, upper.trunk, body, upper.carried, curves.controls, {})
         result[hand.motion.control] = float(reached[hand.motion.control][0])
     return result
 

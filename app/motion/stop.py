@@ -17,7 +17,7 @@ from app.motion.body import BodyMotion
 from app.motion.contact import Carried
 from app.motion.curve import FloatArray
 from app.motion.posture import Trunk
-from app.motion.reach import softly_capped
+from app.motion.soft import softly_capped
 from app.rig.hold import GripPose, HandHold, Placed, hand_targets
 from app.rig.ik import arm
 from app.rig.model import Skeleton

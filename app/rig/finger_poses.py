@@ -35,6 +35,16 @@ LOW_HOVER = 0.123
 """In slow passages a finger waits as low as if its control had come so far: at the map's height, which is 1 / 1.3 of
 the highest (`app.rig.grip_problem.HOVER_MORE`)."""
 
+NEIGHBOURS = {
+    "index": {"middle": 0.3},
+    "middle": {"index": 0.2, "ring": 0.5},
+    "ring": {"middle": 0.5, "little": 0.5},
+    "little": {"ring": 1.0},
+}
+"""Which fingers come along with which others: ring with little and middle most (Zatsiorsky, Li & Latash 2000)."""
+GIVES = 0.10
+"""How far a waiting finger comes along at most, as a share of its control's way: some 2 mm."""
+
 
 def finger_rotations(
     hold: GripPose,
@@ -75,9 +85,28 @@ def finger_rotations(
             if table.chain is not None:
                 ways += _ways(table, where, np.flatnonzero(moved), slice(start, stop), given=True)
             start = stop
-        for way, rotations in zip(ways, _posed(hand, ways, placed, controls, height), strict=True):
-            result[way.frames, way.joints] = rotations
+        heights = _heights(hand, controls, height)
+        for way, rotations in zip(ways, _posed(hand, ways, placed, controls, heights), strict=True):
+            result[slice(None) if len(way.frames) == frames else way.frames, way.joints] = rotations
     return result
+
+
+def _heights(hand: HandHold, controls: Controls, raised: FloatArray) -> dict[str, FloatArray]:
+    """How high (F,) each finger waits: lower beside one that presses, with which it shares muscles and sinews."""
+    heights = {table.finger: raised for table in hand.fingers}
+    if not any(station.hovers for table in hand.fingers for station in table.stations):
+        return heights
+    pressing: dict[str, FloatArray] = {}
+    for table in hand.fingers:
+        worked = {name for station in table.stations for name in station.controls if name in controls}
+        if worked:
+            values = [np.asarray(controls[name], dtype=np.float64) for name in sorted(worked)]
+            pressing[table.finger.split(".")[1]] = np.clip(np.maximum.reduce(values), 0.0, 1.0)
+    for finger in heights:
+        for neighbour, share in NEIGHBOURS.get(finger.split(".")[1], {}).items():
+            if neighbour in pressing:
+                heights[finger] = heights[finger] - GIVES / LOW_HOVER * share * pressing[neighbour]
+    return heights
 
 
 @dataclass(frozen=True)
@@ -119,7 +148,11 @@ def _ways(table: FingerTable, where: Placed | None, frames: IntArray, joints: sl
 
 
 def _posed(
-    hand: HandHold, ways: Sequence[_Way], placed: Mapping[str, Placed] | None, controls: Controls, raised: FloatArray
+    hand: HandHold,
+    ways: Sequence[_Way],
+    placed: Mapping[str, Placed] | None,
+    controls: Controls,
+    raised: Mapping[str, FloatArray],
 ) -> list[FloatArray]:
     """Rotations (K, n, 4) of the fingers of one hand on their ways, all that is solved for them solved together.
 
@@ -130,7 +163,7 @@ def _posed(
     for way in ways:
         values = _sampled(way.table, controls, way.frames)
         poses: tuple[FloatArray | Asked, ...] = _both(
-            way.table, way.first, way.second, way.share, values, raised[way.frames]
+            way.table, way.first, way.second, way.share, values, raised[way.table.finger][way.frames]
         )
         if way.given:
             now = [(lean, weight[way.frames]) for lean, weight in given]
@@ -183,7 +216,10 @@ def _both(
     It lifts on its way, but where it keeps on something that it works at both ends of the way.
     """
     near, far = table.stations[first], table.stations[second]
-    keeps = first == second or bool(set(near.controls) & set(far.controls))
+    if first == second:
+        stays = _at_station(near, controls, raised)
+        return stays, stays
+    keeps = bool(set(near.controls) & set(far.controls))
     off, on = (1.0, 1.0) if keeps else (1.0 - share, share)
     return _at_station(near, controls, raised, off), _at_station(far, controls, raised, on)
 

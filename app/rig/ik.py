@@ -74,12 +74,16 @@ class Limb:
 
 @dataclass(frozen=True)
 class LimbPose:
-    """Rotations of a limb: all ``parent_from_joint`` (F, 4), and how far the end stays from its target (F,)."""
+    """Rotations of a limb: all ``parent_from_joint`` (F, 4), and how far the end stays from its target (F,).
+
+    ``bones`` are the world rotations (F, 4) of upper and lower bone before the lower one takes its share of the twist.
+    """
 
     upper: FloatArray
     lower: FloatArray
     end: FloatArray
     miss_m: FloatArray
+    bones: tuple[FloatArray, FloatArray]
 
 
 @lru_cache(maxsize=64)
@@ -136,16 +140,46 @@ def solve_limb(
     upper_rest, lower_rest = limb.rest_frames
     upper_world = quaternion.multiply(quaternion.from_frames(middle / a, hinge), upper_rest)
     lower_world = quaternion.multiply(quaternion.from_frames((end - middle) / b, hinge), lower_rest)
-    if limb.twist_share:
-        axis = limb.lower_vector_m / b
-        twist = quaternion.twist_angle(quaternion.multiply(quaternion.conjugate(lower_world), target_rotation), axis)
-        lower_world = quaternion.multiply(lower_world, quaternion.from_axis_angle(axis, limb.twist_share * twist))
+    return _posed(limb, (upper_world, lower_world), parent_rotation, target_rotation, np.abs(requested - distance))
+
+
+def swivelled(
+    limb: Limb, pose: LimbPose, turn: FloatArray, parent_rotation: FloatArray, target_rotation: FloatArray
+) -> LimbPose:
+    """The limb turned in the world (F, 4) about the line from its root to its target: the end stays as it is."""
+    upper_world, lower_world = (quaternion.multiply(turn, bone) for bone in pose.bones)
+    return _posed(limb, (upper_world, lower_world), parent_rotation, target_rotation, pose.miss_m)
+
+
+def end_of(limb: Limb, lower_world: FloatArray, target_rotation: FloatArray) -> FloatArray:
+    """``parent_from_joint`` (F, 4) of the end, for a lower bone that has not taken its share of the twist yet."""
+    twisted = _with_twist(limb, lower_world, target_rotation)
+    return quaternion.multiply(quaternion.conjugate(twisted), target_rotation)
+
+
+def _posed(
+    limb: Limb,
+    bones: tuple[FloatArray, FloatArray],
+    parent_rotation: FloatArray,
+    target_rotation: FloatArray,
+    miss_m: FloatArray,
+) -> LimbPose:
+    upper_world, lower_world = bones[0], _with_twist(limb, bones[1], target_rotation)
     return LimbPose(
         upper=quaternion.multiply(quaternion.conjugate(parent_rotation), upper_world),
         lower=quaternion.multiply(quaternion.conjugate(upper_world), lower_world),
         end=quaternion.multiply(quaternion.conjugate(lower_world), target_rotation),
-        miss_m=np.abs(requested - distance),
+        miss_m=miss_m,
+        bones=bones,
     )
+
+
+def _with_twist(limb: Limb, lower_world: FloatArray, target_rotation: FloatArray) -> FloatArray:
+    if not limb.twist_share:
+        return lower_world
+    axis = limb.lower_vector_m / limb.lower_m
+    twist = quaternion.twist_angle(quaternion.multiply(quaternion.conjugate(lower_world), target_rotation), axis)
+    return quaternion.multiply(lower_world, quaternion.from_axis_angle(axis, limb.twist_share * twist))
 
 
 def _soft_limit(distance: FloatArray, longest: float, shortest: float) -> FloatArray:

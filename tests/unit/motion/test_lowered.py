@@ -44,6 +44,7 @@ BEYOND_DEG = 3.5
 """Wrists may leave their usual range by this much."""
 OUT_OF_SIGHT_M = 0.08
 """Nothing is that deep in a body and nowhere nearer its skin."""
+SEEDS = 6
 POINT_M = 0.016
 """Points of the instrument that are looked at are about so far apart."""
 
@@ -82,7 +83,9 @@ def case(instrument_id: str, posture: Posture, character_id: str) -> Case:
     hold = hold_for(character, bundled_instrument(instrument), instrument, body)
     down = GestureEvent("down", "lower_instrument", 0, 1, LOWERED_S, 100.0, 1.0, Message("test.reason"))
     plan = PlayerPlan("player", TimeFrame(0.0, END_S), (), (), (), (), (), (down,), (), ())
-    parameters = PlayerParameters(amplitude=0.0, posture=posture, sway=0.0, weight_shift=0.0)
+    # The head looks about meanwhile, by chance: each case has another seed.
+    seed = CASES.index((instrument_id, posture, character_id)) % SEEDS
+    parameters = PlayerParameters(amplitude=0.0, posture=posture, sway=0.0, weight_shift=0.0, seed=seed)
     playing = prepare(plan, parameters, instrument, character, hold, body, felt_beats=((0, 480),))
     return Case(instrument, character, hold, playing.motion(FPS, 0, round(3.0 * FPS)))
 
@@ -117,9 +120,8 @@ def test_wrists_stay_in_their_range(rest: Case) -> None:
             degrees.T, (bound.flexion_deg, bound.sideways_deg, bound.twist_deg), strict=True
         ):
             beyond = np.maximum(low - angles, angles - high)
-            # A small body's wrist that is a little beyond while playing cannot jump back at once, and the head looks
-            # about meanwhile, by chance.
-            assert beyond[1:-1].max() <= max(BEYOND_DEG, beyond[0] + 1.0), (side, angles)
+            # A small body's wrist that is a little beyond while playing cannot jump back at once.
+            assert beyond[1:-1].max() <= max(BEYOND_DEG, beyond[0] + 0.5), (side, angles)
             assert beyond[-1] <= BEYOND_DEG, (side, angles)
 
 

@@ -1,0 +1,52 @@
+"""How far an instrument tips from the chest before a wrist leaves its range."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from app.motion.contact import BellRoom, tips_freely
+from app.motion.curve import FloatArray
+from app.motion.solve import Curves, Player, arms_of, helped, needs, upper_body
+from app.motion.wrists import LOST_RAD
+from app.rig.hold import Placed, giving_for
+from app.rig.ik import arm
+
+MOST_DEG, STEP_DEG = 40, 2
+"""An instrument tips no further either way from where it is played; in such steps it is tried."""
+NEARLY_RAD = float(np.deg2rad(0.25))
+"""A wrist may leave its range by so much more when the instrument tips."""
+
+
+def with_bell_room(player: Player) -> Player:
+    """The player with an instrument that tips no further than both wrists follow."""
+    if player.stand is not None or not tips_freely(player.carriage):
+        return player
+    tipped = np.deg2rad(np.arange(-MOST_DEG, MOST_DEG + 1, STEP_DEG))
+    leans = [lean for hand in player.hold.hands for lean in hand.leans]
+    # As the hands lie, and as they give way for a finger, a row each.
+    placed: dict[str, Placed] = {}
+    for finger in sorted({finger for lean in leans for finger, _ in lean.places}):
+        stations = [dict(lean.places).get(finger, 0) for lean in leans]
+        there = np.repeat([0.0, *stations], len(tipped))
+        placed[giving_for(finger)] = Placed(np.zeros(len(there)), there, (there > 0.0).astype(np.float64))
+    bent = _wrists_bent(player, np.tile(tipped, len(leans) + 1), placed).reshape(-1, len(tipped))
+    usual = bent[:, len(tipped) // 2, None]
+    fits = np.logical_and.reduce((bent <= usual + NEARLY_RAD) | (usual > LOST_RAD))
+    room = BellRoom.within(tipped + np.deg2rad(player.carriage.pitch_down_deg[1]), fits)
+    return replace(player, bell_room=room)
+
+
+def _wrists_bent(player: Player, tipped_rad: FloatArray, placed: dict[str, Placed]) -> FloatArray:
+    """How far (F,) the worse wrist of a still body is out of its range, the bell down by so much (F,)."""
+    still = replace(player.still.for_frames(len(tipped_rad)), bell_down_rad=tipped_rad)
+    curves = Curves(still, {}, {}, np.zeros(len(tipped_rad)), placed)
+    body = helped(player, still, needs(player, curves))
+    upper = upper_body(player, replace(curves, body=body))
+    arms = arms_of(player, upper.trunk, body, upper.carried, {}, placed)
+    worst = np.zeros(len(tipped_rad))
+    for hand in player.hold.hands:
+        end = arms[arm(player.skeleton, hand.side).end]
+        worst = np.maximum(worst, player.wrists[hand.side].outside_rad(end))
+    return worst
