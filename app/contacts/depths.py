@@ -58,7 +58,8 @@ class HandDepths:
 
     def __init__(self, hand: Skin, bodies: Sequence[Proxy]) -> None:
         self._hand = carried(hand)
-        self._groups = _groups(hand)
+        strongest = np.argmax(hand.weights, axis=1).astype(np.int32)
+        self._groups = _groups(hand.positions_m.tobytes(), strongest.tobytes())
         self._nodes, self._field = _field(tuple(bodies))
 
     def depths_m(
@@ -306,16 +307,16 @@ class _Groups:
         return _Pairs(grouped.blocks[row], members[there], first[pair] + within, grouped.nodes[pair])
 
 
-def _groups(skin: Skin) -> _Groups:
-    """Groups of vertices that lie together and go with the same joint."""
-    strongest = np.argmax(skin.weights, axis=1)
-    groups = [
-        rows for joint in np.unique(strongest) for rows in _split(np.flatnonzero(strongest == joint), skin.positions_m)
-    ]
+@lru_cache(maxsize=16)
+def _groups(places_m: bytes, strongest: bytes) -> _Groups:
+    """Groups of vertices that lie together and go with the same joint: the strongest one. Cached by what the arrays
+    hold: players may share a body."""
+    positions_m, joints = np.frombuffer(places_m).reshape(-1, 3), np.frombuffer(strongest, dtype=np.int32)
+    groups = [rows for joint in np.unique(joints) for rows in _split(np.flatnonzero(joints == joint), positions_m)]
     members = np.full((len(groups), max(map(len, groups))), -1, dtype=np.intp)
     middles, radii_m = np.zeros(len(groups), dtype=np.intp), np.zeros(len(groups), dtype=np.float32)
     for index, rows in enumerate(groups):
-        points_m = skin.positions_m[rows]
+        points_m = positions_m[rows]
         middle = int(np.argmin(np.linalg.norm(points_m - points_m.mean(axis=0), axis=1)))
         members[index, : len(rows)], middles[index] = rows, rows[middle]
         radii_m[index] = np.linalg.norm(points_m - points_m[middle], axis=1).max() * STRETCH
