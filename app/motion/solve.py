@@ -16,6 +16,7 @@ from app.motion.body import BodyMotion
 from app.motion.contact import Carried, carry
 from app.motion.curve import FloatArray
 from app.motion.endpin import Stand
+from app.motion.extremes import greatest_within, least_within
 from app.motion.model import Motion
 from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
 from app.motion.reach import TURN_RAD, Help, needed_help, shoulder_distance_m, softly_capped
@@ -376,10 +377,7 @@ def _eased(needed: FloatArray, half: int) -> FloatArray:
     """
     if not np.any(needed):
         return needed
-    window = 2 * half + 1
-    from scipy.ndimage import maximum_filter1d, minimum_filter1d  # heavy; the window is up before
-
-    held = maximum_filter1d(np.maximum(needed, 0.0), window) + minimum_filter1d(np.minimum(needed, 0.0), window)
-    weights = np.hanning(window + 2)
+    held = greatest_within(np.maximum(needed, 0.0), half) + least_within(np.minimum(needed, 0.0), half)
+    weights = np.hanning(2 * half + 3)
     eased: FloatArray = np.convolve(held, weights / weights.sum(), mode="same")
     return eased
