@@ -7,8 +7,10 @@ import sys
 from typing import Any, Final
 
 _ARENA_MAX: Final = -8
-"""M_ARENA_MAX in malloc.h of GNU's C library."""
+_MMAP_THRESHOLD: Final = -3
+"""Of malloc.h of GNU's C library."""
 _ARENAS: Final = 2
+_LARGE_BYTES: Final = 2**20
 
 
 def give_back() -> None:
@@ -23,10 +25,12 @@ def give_back() -> None:
 
 def share_memory() -> None:
     """Have all threads that are begun from now on take memory from the same few places: what one has freed serves the
-    next. Python runs one of them at a time, so they seldom wait for one another there."""
+    next. Python runs one of them at a time, so they seldom wait for one another there. What is large has a place of its
+    own, which goes back to the system at once; else more and more of it lies between what is small and stays."""
     option = _of_c_library("mallopt")
     if option is not None:
         option(_ARENA_MAX, _ARENAS)
+        option(_MMAP_THRESHOLD, _LARGE_BYTES)
 
 
 def _of_c_library(name: str) -> Any:
