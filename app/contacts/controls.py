@@ -79,13 +79,22 @@ class NoteFrames:
 
     def working(self, control: Control, values: FloatArray) -> tuple[BoolArray, BoolArray]:
         """Frames of a sounding note at which a control is away from rest as its note asks, and at rest as it asks."""
-        pressed = np.zeros(len(self._times_s), dtype=np.bool_)
-        released = pressed.copy()
-        for note, target in zip(self.notes, self.targets(control), strict=True):
-            span = self._span(note.start_s, note.end_s)
-            there = in_place(control, values[span], np.asarray(target))
-            (released if target == control.rest_value else pressed)[span] |= there
+        pressed, released = np.zeros((2, len(self._times_s)), dtype=np.bool_)
+        frames, notes = self._frames_of_notes
+        targets = self.targets(control)[notes]
+        there, rests = in_place(control, values[frames], targets), targets == control.rest_value
+        pressed[frames[there & ~rests]] = True
+        released[frames[there & rests]] = True
         return pressed, released
+
+    @cached_property
+    def _frames_of_notes(self) -> tuple[IntArray, IntArray]:
+        """The frames at which each note sounds, one note after another, and which note it is: one may sound on under
+        the next."""
+        spans = [self._span(note.start_s, note.end_s) for note in self.notes]
+        frames = [np.arange(span.start, span.stop) for span in spans]
+        notes = np.repeat(np.arange(len(frames)), np.array([len(own) for own in frames], dtype=np.intp))
+        return np.concatenate([np.zeros(0, dtype=np.intp), *frames]), notes
 
     def asked(self, requested: Sequence[bool] | BoolArray) -> BoolArray:
         """Frames of the sounding notes for which ``requested`` (N,) is true."""

@@ -58,7 +58,8 @@ class HandDepths:
 
     def __init__(self, hand: Skin, bodies: Sequence[Proxy]) -> None:
         self._hand = carried(hand)
-        self._groups = _groups(hand)
+        strongest = np.argmax(hand.weights, axis=1).astype(np.int32)
+        self._groups = _groups(hand.positions_m.tobytes(), strongest.tobytes())
         self._nodes, self._field = _field(tuple(bodies))
 
     def depths_m(
@@ -198,7 +199,7 @@ class _Search:
         spots, nodes = np.mgrid[: len(blocks), : len(self._world_from_node)].reshape(2, -1)
         pairs = _Pairs(blocks, groups, spots, nodes)
         placed = self._placed(pairs, self._groups.middles[groups])
-        least_m = placed.least_m(self._field.beyond_m(placed.places_m, nodes)) - self._groups.radii_m[groups][spots]
+        least_m = placed.least_m(self._field.beyond_m(placed.places_m.T, nodes)) - self._groups.radii_m[groups][spots]
         self._grouped = pairs[-least_m > pairs.of_blocks(depths_m.min(axis=1))]
 
     def judge_roughly(self, size: int, depths_m: SingleArray) -> None:
@@ -214,13 +215,13 @@ class _Search:
         grouped, single = (pairs.split(self._moved.size // size) for pairs in (self._grouped, self._single))
         if size != self._moved.size:
             self._moved = self._parts.moves(size)
-        least_m, placed = self._rough(grouped, self._groups.middles[grouped.items], depths_m)
-        least_m -= self._groups.radii_m[grouped.items][grouped.spots]
-        near, still = -least_m > grouped.of_blocks(depths_m.min(axis=1)), placed.moves_m < STILL_M
+        near, placed = self._near(
+            grouped, self._groups.middles[grouped.items], self._groups.radii_m[grouped.items], depths_m
+        )
+        still = placed.moves_m < STILL_M
         self._grouped = grouped[near & ~still]
         single += self._groups.vertices(grouped[near & still])
-        least_m, placed = self._rough(single, single.items, depths_m)
-        near = -least_m > single.of_blocks(depths_m.min(axis=1))
+        near, placed = self._near(single, single.items, np.zeros(len(single.items), dtype=np.float32), depths_m)
         self._single, self._singly = single[near], placed[near]
 
     def judge_exactly(self, depths_m: SingleArray) -> None:
@@ -228,21 +229,21 @@ class _Search:
         pairs, places_m, moves_m = self._single, self._singly.places_m, self._singly.moves_m
         if self._moved.size == 1:
             places_m, moves_m = self._exactly_m(pairs), np.zeros_like(moves_m)
-        distances_m = self._field.distances_m(places_m.astype(np.float64), pairs.nodes).astype(np.float32)
+        distances_m = self._field.distances_m(places_m.T.astype(np.float64), pairs.nodes).astype(np.float32)
         _raise(depths_m, pairs, -distances_m - moves_m)
         self._single = pairs[moves_m - distances_m > pairs.of_blocks(depths_m.min(axis=1))]
 
     def _exactly_m(self, pairs: _Pairs) -> SingleArray:
-        """Places (N, 3) of vertices at single frames in the frames of their nodes, without the steadiest one's
+        """Places (3, N) of vertices at single frames in the frames of their nodes, without the steadiest one's
         detour."""
-        places_m = np.empty((len(pairs), 3), dtype=np.float32)
+        places_m = np.empty((3, len(pairs)), dtype=np.float32)
         blocks, vertices = pairs.blocks[pairs.spots], pairs.items[pairs.spots]
         for node in np.unique(pairs.nodes).tolist():
             rows = np.flatnonzero(pairs.nodes == node)
             frames, at = np.unique(blocks[rows], return_inverse=True)
             local = joints_in_node(self._world_from_node[node][frames], self._world_from_joint[frames])
             morphs = {name: curve[frames] for name, curve in self._morphs.items()}
-            places_m[rows] = Poses(self._hand, local, morphs).places_m(at, vertices[rows])
+            places_m[:, rows] = Poses(self._hand, local, morphs).places_m(at, vertices[rows])
         return places_m
 
     def _placed(self, pairs: _Pairs, vertices: IntArray) -> Placed:
@@ -253,14 +254,20 @@ class _Search:
         if size > 1:
             there, at = np.unique(pairs.blocks, return_inverse=True)
             moves_m += self._poses.moves(size, there).most_m(at, vertices)
-        return self._moved.placed(pairs.blocks[spots], pairs.nodes, places_m[spots], moves_m[spots])
+        return self._moved.placed(pairs.blocks[spots], pairs.nodes, places_m.take(spots, axis=1), moves_m[spots])
 
-    def _rough(self, pairs: _Pairs, vertices: IntArray, depths_m: SingleArray) -> tuple[SingleArray, Placed]:
-        """Distances (N,) of vertices (S,) in all frames of the blocks, or less, by the grids."""
-        placed = self._placed(pairs, vertices)
-        about_m, error_m = self._field.about_m(placed.places_m, pairs.nodes)
+    def _near(
+        self, pairs: _Pairs, vertices: IntArray, radii_m: SingleArray, depths_m: SingleArray
+    ) -> tuple[npt.NDArray[np.bool_], Placed]:
+        """Which pairs (N,) the grids leave, of vertices (S,) and what is within radii (S,) around them: those that may
+        be deepest in some frame of their block. What was found raises the depths (B, size)."""
+        placed, own_m = self._placed(pairs, vertices), radii_m[pairs.spots]
+        # Something this far away is known to be less deep than what has been found.
+        clear_m = own_m + placed.moves_m - pairs.of_blocks(depths_m.min(axis=1))
+        about_m, error_m = self._field.about_m(placed.places_m.T, pairs.nodes, clear_m, placed.moves_m)
         _raise(depths_m, pairs, -about_m - error_m - placed.moves_m)
-        return placed.least_m(about_m - error_m), placed
+        least_m = placed.least_m(about_m - error_m) - own_m
+        return -least_m > pairs.of_blocks(depths_m.min(axis=1)), placed
 
 
 def _raise(depths_m: SingleArray, pairs: _Pairs, found_m: SingleArray) -> None:
@@ -300,16 +307,16 @@ class _Groups:
         return _Pairs(grouped.blocks[row], members[there], first[pair] + within, grouped.nodes[pair])
 
 
-def _groups(skin: Skin) -> _Groups:
-    """Groups of vertices that lie together and go with the same joint."""
-    strongest = np.argmax(skin.weights, axis=1)
-    groups = [
-        rows for joint in np.unique(strongest) for rows in _split(np.flatnonzero(strongest == joint), skin.positions_m)
-    ]
+@lru_cache(maxsize=16)
+def _groups(places_m: bytes, strongest: bytes) -> _Groups:
+    """Groups of vertices that lie together and go with the same joint: the strongest one. Cached by what the arrays
+    hold: players may share a body."""
+    positions_m, joints = np.frombuffer(places_m).reshape(-1, 3), np.frombuffer(strongest, dtype=np.int32)
+    groups = [rows for joint in np.unique(joints) for rows in _split(np.flatnonzero(joints == joint), positions_m)]
     members = np.full((len(groups), max(map(len, groups))), -1, dtype=np.intp)
     middles, radii_m = np.zeros(len(groups), dtype=np.intp), np.zeros(len(groups), dtype=np.float32)
     for index, rows in enumerate(groups):
-        points_m = skin.positions_m[rows]
+        points_m = positions_m[rows]
         middle = int(np.argmin(np.linalg.norm(points_m - points_m.mean(axis=0), axis=1)))
         members[index, : len(rows)], middles[index] = rows, rows[middle]
         radii_m[index] = np.linalg.norm(points_m - points_m[middle], axis=1).max() * STRETCH

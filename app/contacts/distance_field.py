@@ -1,6 +1,7 @@
 """Signed distance to the closed bodies of some nodes: roughly on a grid for each, exactly near them.
 
-The grids' bricks are computed when something is first there: hands are near a small part of an instrument.
+The grids' bricks are computed when something is first there: hands are near a small part of an instrument. How far the
+middle of a brick is from the bodies tells enough of most; the cells of a brick are computed only for what may be near.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import numpy.typing as npt
 from app.rig.proxy import Bodies, bodies, distances
 from instrument_maps.model import Proxy
 
+FloatArray = npt.NDArray[np.float64]
 SingleArray = npt.NDArray[np.float32]
 IntArray = npt.NDArray[np.intp]
 
@@ -49,40 +51,69 @@ class DistanceField:
     def __init__(self, bodies_by_node: Sequence[Sequence[Proxy]]) -> None:
         names = [some[0].node for some in bodies_by_node]
         self._bodies: Bodies = bodies([body for some in bodies_by_node for body in some], names)
-        self._own = [np.flatnonzero(self._bodies.nodes == node) for node in range(len(names))]
+        own = [np.flatnonzero(self._bodies.nodes == node) for node in range(len(names))]
+        self._own, self._owned = np.concatenate(own), np.array([len(some) for some in own])
+        self._first_own = np.cumsum(self._owned) - self._owned
         hulls = self._bodies.hulls
         low_m = np.minimum(hulls[:, :3], hulls[:, 3:6]) - hulls[:, 6:]
         high_m = np.maximum(hulls[:, :3], hulls[:, 3:6]) + hulls[:, 6:]
-        self._low_m = np.array([low_m[own].min(axis=0) for own in self._own])
-        self._high_m = np.array([high_m[own].max(axis=0) for own in self._own])
+        self._low_m = np.array([low_m[some].min(axis=0) for some in own])
+        self._high_m = np.array([high_m[some].max(axis=0) for some in own])
         ends_m = np.maximum(*(np.linalg.norm(hulls[:, at : at + 3], axis=1) for at in (0, 3))) + hulls[:, 6]
-        self.reaches_m = np.array([ends_m[own].max() for own in self._own])
+        self.reaches_m = np.array([ends_m[some].max() for some in own])
         self._corners_m = self._low_m - FAR_M
         self._shapes = np.ceil((self._high_m + FAR_M - self._corners_m) / _BRICK_M).astype(np.int32)
         ends = np.cumsum(self._shapes.prod(axis=1, dtype=np.int64)).astype(np.int32)
         self._starts = np.append(np.int32(0), ends[:-1])
         self._brick_at = np.full(ends[-1], -1, dtype=np.int32)
         """Number of the brick at each place of each node's grid; -1 where nothing has been computed."""
+        self._middle_m = np.full(ends[-1], np.nan, dtype=np.float32)
+        """Distance of the middle of each brick; NaN where it has not been computed."""
         self._about_m = np.zeros((0, BRICK_CELLS**3), dtype=np.float32)
         """By brick."""
         self._touching: list[IntArray] = []
         """By brick: the bodies that a point in it may be near."""
         self._lock = Lock()
 
-    def about_m(self, points_m: SingleArray, nodes: IntArray) -> tuple[SingleArray, SingleArray]:
-        """Distance (N,) of points (N, 3) in the frames of nodes (N,), at most `FAR_M`, and how much each may be off:
-        a distance changes by no more than a point moves."""
+    def about_m(
+        self,
+        points_m: SingleArray,
+        nodes: IntArray,
+        clear_m: SingleArray | None = None,
+        depth_m: SingleArray | None = None,
+    ) -> tuple[SingleArray, SingleArray]:
+        """About how far points are from the bodies of nodes.
+
+        Parameters
+        ----------
+        points_m : (N, 3) float32
+            In the frames of ...
+        nodes : (N,) int
+        clear_m, depth_m : (N,) float32, optional
+            Where it is enough to know whether a point is this far outside, and how far it is inside if it is deeper
+            than that, less is computed.
+
+        Returns
+        -------
+        about_m : (N,) float32
+            The distance.
+        error_m : (N,) float32
+            How much it may be off: a distance changes by no more than a point moves. `FAR_M` less this is not
+            distinguished from more.
+        """
         corners_m = self._corners_m.astype(np.float32).T.take(nodes, axis=1)
         inside = self._inside((points_m.T - corners_m) / np.float32(CELL_M), nodes, BRICK_CELLS)
-        cells = inside.astype(np.int32)
-        places = cells // BRICK_CELLS
-        x, y, z = cells - places * BRICK_CELLS
-        brick = self._bricks(places, nodes)
-        cell = ((brick * BRICK_CELLS + x) * BRICK_CELLS + y) * BRICK_CELLS + z
-        found: SingleArray = self._about_m.reshape(-1).take(cell)
-        inside -= cells
-        inside -= np.float32(0.5)
-        return found, np.sqrt(np.einsum("in,in->n", inside, inside)) * np.float32(CELL_M)
+        if clear_m is None or depth_m is None:
+            return self._by_cells(inside, nodes)
+        places = (inside * np.float32(1.0 / BRICK_CELLS)).astype(np.int32)
+        flat = self._flat(places, nodes)
+        about_m = self._middles(flat)
+        error_m = _off_middle(inside, places, BRICK_CELLS)
+        least_m, most_m = about_m - error_m, about_m + error_m
+        rows = np.flatnonzero((least_m < clear_m) & ((most_m >= clear_m) | (least_m < -depth_m)))
+        if len(rows):
+            about_m[rows], error_m[rows] = self._by_cells(inside.take(rows, axis=1), nodes.take(rows))
+        return about_m, error_m
 
     def beyond_m(self, points_m: SingleArray, nodes: IntArray) -> SingleArray:
         """How far points (N, 3) in the frames of nodes (N,) are outside the boxes around their bodies: (N,), the
@@ -98,7 +129,7 @@ class DistanceField:
         places = self._inside((points_m.T - self._corners_m.T.take(nodes, axis=1)) / _BRICK_M, nodes, 1).astype(
             np.int32
         )
-        bodies_of = [self._touching[index] for index in self._bricks(places, nodes).tolist()]
+        bodies_of = [self._touching[index] for index in self._bricks(self._flat(places, nodes)).tolist()]
         counts = np.fromiter(map(len, bodies_of), dtype=np.intp, count=len(bodies_of))
         if counts.any():
             point = np.repeat(np.arange(len(points_m)), counts)
@@ -113,42 +144,91 @@ class DistanceField:
         np.minimum(scaled, (self._shapes.T * parts - _EDGE).astype(scaled.dtype).take(nodes, axis=1), out=scaled)
         return scaled
 
-    def _bricks(self, places: npt.NDArray[np.int32], nodes: IntArray) -> npt.NDArray[np.int32]:
-        """Numbers (N,) of the bricks at places (3, N) of nodes (N,), computed where they have not been."""
+    def _by_cells(self, inside: SingleArray, nodes: IntArray) -> tuple[SingleArray, SingleArray]:
+        """`about_m` for places (3, N) in the grids, in cells, by the middles of the cells."""
+        cells = inside.astype(np.int32)
+        places = cells // BRICK_CELLS
+        x, y, z = cells - places * BRICK_CELLS
+        brick = self._bricks(self._flat(places, nodes))
+        cell = ((brick * BRICK_CELLS + x) * BRICK_CELLS + y) * BRICK_CELLS + z
+        return self._about_m.reshape(-1).take(cell), _off_middle(inside, cells, 1)
+
+    def _flat(self, places: npt.NDArray[np.int32], nodes: IntArray) -> npt.NDArray[np.int32]:
+        """Where bricks at places (3, N) of nodes (N,) are among those of all nodes."""
         x, y, z = places
-        flat = (x * self._shapes[:, 1].take(nodes) + y) * self._shapes[:, 2].take(nodes) + z
+        flat: npt.NDArray[np.int32] = (x * self._shapes[:, 1].take(nodes) + y) * self._shapes[:, 2].take(nodes) + z
         flat += self._starts.take(nodes)
+        return flat
+
+    def _middles(self, flat: npt.NDArray[np.int32]) -> SingleArray:
+        """Distances (N,) of the middles of bricks, computed where they have not been."""
+        found: SingleArray = self._middle_m.take(flat)
+        missing = np.isnan(found)
+        if missing.any():
+            # Threads that find the same missing compute the same.
+            new = np.unique(flat[missing])
+            distances_m, _, firsts = self._from_middles_m(self._corners_of(new), self._nodes_of(new))
+            self._middle_m[new] = np.minimum.reduceat(distances_m, firsts)
+            found[missing] = self._middle_m[flat[missing]]
+        return found
+
+    def _bricks(self, flat: npt.NDArray[np.int32]) -> npt.NDArray[np.int32]:
+        """Numbers (N,) of bricks, computed where they have not been."""
         bricks: npt.NDArray[np.int32] = self._brick_at.take(flat)
         missing = bricks < 0
         if missing.any():
             with self._lock:
                 new = np.unique(flat[missing])
-                new = new[self._brick_at[new] < 0]
-                node = np.searchsorted(self._starts, new, side="right") - 1
-                for one in np.unique(node).tolist():
-                    self._compute(new[node == one], one)
+                self._compute(new[self._brick_at[new] < 0])
             bricks[missing] = self._brick_at[flat[missing]]
         return bricks
 
-    def _compute(self, flat: npt.NDArray[np.integer], node: int) -> None:
-        own = self._own[node]
+    def _nodes_of(self, flat: npt.NDArray[np.integer]) -> IntArray:
+        """The nodes (N,) of bricks."""
+        return np.searchsorted(self._starts, flat, side="right") - 1
+
+    def _corners_of(self, flat: npt.NDArray[np.integer]) -> FloatArray:
+        """The lowest corners (N, 3) of bricks, metres."""
+        nodes = self._nodes_of(flat)
+        _, y, z = self._shapes.T.take(nodes, axis=1)
+        place, at_z = np.divmod(flat - self._starts[nodes], z)
+        corners_m: FloatArray = np.stack([*np.divmod(place, y), at_z], axis=-1) * _BRICK_M + self._corners_m[nodes]
+        return corners_m
+
+    def _from_middles_m(self, corners_m: FloatArray, nodes: IntArray) -> tuple[FloatArray, IntArray, IntArray]:
+        """Distances of the middles of bricks (N,) with lowest corners (N, 3) from the bodies of their nodes (N,): the
+        distances, these bodies, and where those of each brick begin (N,)."""
+        counts = self._owned[nodes]
+        brick, firsts = np.repeat(np.arange(len(nodes)), counts), np.cumsum(counts) - counts
+        body = self._own[np.arange(len(brick)) + (self._first_own[nodes] - firsts)[brick]]
+        return distances(self._bodies, (corners_m + _BRICK_M / 2.0)[brick], body), body, firsts
+
+    def _compute(self, flat: npt.NDArray[np.integer]) -> None:
+        if not len(flat):
+            return
+        nodes, corners_m = self._nodes_of(flat), self._corners_of(flat)
         steps = (np.arange(BRICK_CELLS) + 0.5) * CELL_M
         cells_m = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
-        places = np.unravel_index(flat - self._starts[node], self._shapes[node].tolist())
-        corners_m = np.stack(places, axis=-1) * _BRICK_M + self._corners_m[node]
         radius_m = _HALF_DIAGONAL * _BRICK_M
-        brick, body = (index.ravel() for index in np.mgrid[: len(flat), : len(own)])
-        middles_m = (corners_m + _BRICK_M / 2.0)[brick]
-        middle_m = distances(self._bodies, middles_m, own[body]).reshape(len(flat), len(own))
+        middle_m, body, firsts = self._from_middles_m(corners_m, nodes)
+        brick = np.repeat(np.arange(len(flat)), self._owned[nodes])
         # What is nearest somewhere in a brick is no further from its middle than the nearest and the brick's diagonal.
-        nearest = middle_m < np.minimum(middle_m.min(axis=1, keepdims=True) + 2.0 * radius_m, FAR_M + radius_m)
-        brick, body = np.nonzero(nearest)
-        points_m = corners_m[brick, None] + cells_m
-        found = distances(self._bodies, points_m.reshape(-1, 3), np.repeat(own[body], len(cells_m)))
+        nearest_m = np.minimum(np.minimum.reduceat(middle_m, firsts) + 2.0 * radius_m, FAR_M + radius_m)
+        rows = np.flatnonzero(middle_m < nearest_m[brick])
+        points_m = (corners_m[brick[rows], None] + cells_m).reshape(-1, 3)
+        found_m = distances(self._bodies, points_m, np.repeat(body[rows], len(cells_m)))
         about_m = np.full((len(flat), len(cells_m)), FAR_M)
-        np.minimum.at(about_m, brick, found.reshape(-1, len(cells_m)))
+        np.minimum.at(about_m, brick[rows], found_m.reshape(-1, len(cells_m)))
+        near = middle_m < NEAR_M + radius_m
         count = len(self._touching)
         self._about_m = np.concatenate([self._about_m, about_m.astype(np.float32)])
-        self._touching += [own[row] for row in middle_m < NEAR_M + radius_m]
+        self._touching += np.split(body[near], np.cumsum(np.add.reduceat(near, firsts, dtype=np.intp))[:-1])
         # Last, since other threads look here without a lock.
         self._brick_at[flat] = count + np.arange(len(flat), dtype=np.int32)
+
+
+def _off_middle(inside: SingleArray, numbers: npt.NDArray[np.int32], cells: int) -> SingleArray:
+    """How far (N,) places (3, N), in cells, are from the middles of what they are in: cubes of so many cells."""
+    x, y, z = inside - numbers * np.float32(cells) - np.float32(0.5 * cells)
+    off_m: SingleArray = np.sqrt(x * x + y * y + z * z) * np.float32(CELL_M)
+    return off_m

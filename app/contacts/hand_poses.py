@@ -1,6 +1,7 @@
 """Where vertices of a hand are in the frames of an instrument's nodes, and how far they move.
 
-For `app.contacts.depths`: all in single precision, and over whole arrays of vertices and frames.
+For `app.contacts.depths`: all in single precision, and over whole arrays of vertices and frames. Places and matrices
+are kept one coordinate after another, since arithmetic on whole rows is faster than on three or four numbers at a time.
 """
 
 from __future__ import annotations
@@ -29,11 +30,11 @@ class Carried:
     carriers : (V, K) int
         Rows of ``joints``, the strongest first.
     weights : (V, K) float32
-    places_m : (V, K, 3) float32
+    places_m : (K, 3, V) float32
         In the frame of each carrier.
     arms_m : (V, K) float32
         From each carrier to the vertex.
-    morphs : dict of str to (V, K, 3) float32
+    morphs : dict of str to (K, 3, V) float32
         Displacements, in the frame of each carrier.
     """
 
@@ -55,22 +56,43 @@ def carried(skin: Skin) -> Carried:
         joints=skin.joints,
         carriers=carriers,
         weights=np.take_along_axis(skin.weights, carriers, axis=1).astype(np.float32),
-        places_m=places_m.astype(np.float32),
+        places_m=_by_carrier(places_m),
         arms_m=np.linalg.norm(places_m, axis=2).astype(np.float32),
         morphs={
-            name: np.einsum("vkij,vj->vki", from_mesh[..., :3], deltas_m).astype(np.float32)
+            name: _by_carrier(np.einsum("vkij,vj->vki", from_mesh[..., :3], deltas_m))
             for name, deltas_m in skin.morphs.items()
         },
     )
 
 
+def _by_carrier(vectors: FloatArray) -> SingleArray:
+    """Vectors (V, K, 3) as (K, 3, V) in single precision."""
+    return vectors.transpose(1, 2, 0).astype(np.float32, order="C")
+
+
 def joints_in_node(world_from_node: FloatArray, world_from_joint: SingleArray) -> SingleArray:
-    """``node_from_joint`` (F, J, 3, 4) of ``world_from_node`` (F, 4, 4) and ``world_from_joint`` (F, 3, J, 4)."""
+    """``node_from_joint`` (3, 4, F, J) of ``world_from_node`` (F, 4, 4) and ``world_from_joint`` (F, 3, J, 4)."""
     node_from_world = np.linalg.inv(world_from_node)[:, :3].astype(np.float32)
     frames, _, joints, _ = world_from_joint.shape
     turned = (node_from_world[:, :, :3] @ world_from_joint.reshape(frames, 3, 4 * joints)).reshape(frames, 3, joints, 4)
     turned[..., 3] += node_from_world[:, :, None, 3]
-    return np.ascontiguousarray(turned.transpose(0, 2, 1, 3))
+    return np.ascontiguousarray(turned.transpose(1, 3, 0, 2))
+
+
+def _through(matrices: SingleArray, at: IntArray, points_m: SingleArray) -> SingleArray:
+    """Points (3, N) through chosen ones (N,) of matrices (3, 4, M)."""
+    result = np.empty_like(points_m)
+    for axis, row in enumerate(matrices):
+        # In the order of a matrix product, whose rounding this has.
+        moved_m = row[0].take(at)
+        moved_m *= points_m[0]
+        for column in (1, 2):
+            turned_m = row[column].take(at)
+            turned_m *= points_m[column]
+            moved_m += turned_m
+        moved_m += row[3].take(at)
+        result[axis] = moved_m
+    return result
 
 
 class Poses:
@@ -79,7 +101,7 @@ class Poses:
     Parameters
     ----------
     hand : Carried
-    node_from_joint : (F, J, 3, 4) float32
+    node_from_joint : (3, 4, F, J) float32
     morphs : dict of str to (F,) float32
         Weights.
     """
@@ -88,31 +110,38 @@ class Poses:
         self._hand, self._node_from_joint, self._morphs = hand, node_from_joint, morphs
 
     def places_m(self, frames: IntArray, vertices: IntArray) -> SingleArray:
-        """Where vertices (N,) are at frames (N,): (N, 3)."""
+        """Where vertices (N,) are at frames (N,): (3, N)."""
         hand = self._hand
-        result = np.zeros((len(frames), 3), dtype=np.float32)
-        matrices = self._node_from_joint.reshape(-1, 12)
-        first = frames * len(hand.joints)
+        result = np.zeros((3, len(frames)), dtype=np.float32)
+        matrices = self._node_from_joint.reshape(3, 4, -1)
         for carrier in range(hand.carriers.shape[1]):
-            rows = np.flatnonzero(hand.weights[:, carrier].take(vertices))
-            at, vertex = first[rows], vertices[rows]
-            places_m = hand.places_m[:, carrier].take(vertex, axis=0)
+            weights = hand.weights[:, carrier].take(vertices)
+            rows = np.flatnonzero(weights)
+            every = len(rows) == len(vertices)
+            vertex, frame = (vertices, frames) if every else (vertices.take(rows), frames.take(rows))
+            places_m = hand.places_m[carrier].take(vertex, axis=1)
             for name, curve in self._morphs.items():
-                places_m += curve[frames[rows], None] * hand.morphs[name][vertex, carrier]
-            matrix = matrices.take(at + hand.carriers[:, carrier].take(vertex), axis=0).reshape(-1, 3, 4)
-            moved_m = np.einsum("nij,nj->ni", matrix[..., :3], places_m) + matrix[..., 3]
-            result[rows] += hand.weights[:, carrier].take(vertex)[:, None] * moved_m
+                places_m += curve.take(frame) * hand.morphs[name][carrier].take(vertex, axis=1)
+            at = frame * len(hand.joints) + hand.carriers[:, carrier].take(vertex)
+            moved_m = _through(matrices, at, places_m)
+            moved_m *= weights if every else weights.take(rows)
+            if every:
+                result += moved_m
+            else:
+                for axis in range(3):
+                    result[axis][rows] += moved_m[axis]
         return result
 
     def moves(self, size: int, blocks: IntArray) -> Moves:
         """How far joints move from the middle frames of some blocks (B,) of a size."""
-        placed = self._node_from_joint.reshape(-1, size, *self._node_from_joint.shape[1:])[blocks]
-        moved = placed - placed[:, size // 2, None]
+        joints = self._node_from_joint.shape[3]
+        placed = self._node_from_joint.reshape(3, 4, -1, size, joints)[:, :, blocks]
+        moved = placed - placed[:, :, :, size // 2, None]
         curves = {name: curve.reshape(-1, size)[blocks] for name, curve in self._morphs.items()}
         return Moves(
             hand=self._hand,
-            chords=_chords(moved[..., :3]).max(axis=1),
-            shifts_m=_lengths(moved[..., 3]).max(axis=1),
+            chords=_chords(moved).max(axis=1),
+            shifts_m=_lengths(moved[:, 3]).max(axis=1),
             greatest={name: np.abs(curve).max(axis=1) for name, curve in curves.items()},
             changes={name: np.abs(curve - curve[:, size // 2, None]).max(axis=1) for name, curve in curves.items()},
         )
@@ -143,17 +172,19 @@ class Moves:
         """What vertices (N,) move at most in blocks (N,)."""
         hand = self.hand
         result, first = np.zeros(len(blocks), dtype=np.float32), blocks * len(hand.joints)
+        chords, shifts_m = self.chords.reshape(-1), self.shifts_m.reshape(-1)
         for carrier in range(hand.carriers.shape[1]):
-            rows = np.flatnonzero(hand.weights[:, carrier].take(vertices))
-            block, vertex = blocks[rows], vertices[rows]
-            at = first[rows] + hand.carriers[:, carrier].take(vertex)
-            arms_m, moves_m = hand.arms_m[:, carrier].take(vertex), self.shifts_m.reshape(-1).take(at)
+            weights = hand.weights[:, carrier].take(vertices)
+            rows = np.flatnonzero(weights)
+            vertex = vertices.take(rows)
+            at = first.take(rows) + hand.carriers[:, carrier].take(vertex)
+            arms_m, moves_m = hand.arms_m[:, carrier].take(vertex), shifts_m.take(at)
             for name, greatest in self.greatest.items():
-                lengths_m = _lengths(hand.morphs[name][vertex, carrier])
-                arms_m += greatest[block] * lengths_m
-                moves_m += self.changes[name][block] * lengths_m
-            moves_m += self.chords.reshape(-1).take(at) * arms_m
-            result[rows] += hand.weights[:, carrier].take(vertex) * moves_m
+                block, lengths_m = blocks.take(rows), _lengths(hand.morphs[name][carrier]).take(vertex)
+                arms_m += greatest.take(block) * lengths_m
+                moves_m += self.changes[name].take(block) * lengths_m
+            moves_m += chords.take(at) * arms_m
+            result[rows] += weights.take(rows) * moves_m
         return result
 
 
@@ -182,26 +213,26 @@ class Parts:
 
     def __init__(self, world_from_node: Sequence[FloatArray], base: int, reaches_m: FloatArray) -> None:
         first = world_from_node[base]
-        node_from_base = np.empty((len(world_from_node), len(first), 3, 4), dtype=np.float32)
+        node_from_base = np.empty((3, 4, len(world_from_node), len(first)), dtype=np.float32)
         for node, here in enumerate(world_from_node):
             back = here[:, :3, :3].transpose(0, 2, 1)
-            node_from_base[node, ..., :3] = back @ first[:, :3, :3]
-            node_from_base[node, ..., 3] = np.einsum("fij,fj->fi", back, first[:, :3, 3] - here[:, :3, 3])
+            node_from_base[:, :3, node] = (back @ first[:, :3, :3]).transpose(1, 2, 0)
+            node_from_base[:, 3, node] = np.einsum("fij,fj->if", back, first[:, :3, 3] - here[:, :3, 3])
         self._node_from_base = node_from_base
         self._reaches_m = reaches_m.astype(np.float32)
 
     def moves(self, size: int) -> PartMoves:
         """How far nodes move from the middle frames of blocks of a size."""
-        nodes, frames = self._node_from_base.shape[:2]
-        placed = self._node_from_base.reshape(nodes, frames // size, size, 3, 4)
-        middle = placed[:, :, size // 2]
+        nodes, frames = self._node_from_base.shape[2:]
+        placed = self._node_from_base.reshape(3, 4, nodes, frames // size, size)
+        middle = placed[..., size // 2]
         if size == 1:
-            still = np.zeros(middle.shape[:2], dtype=np.float32)
+            still = np.zeros(middle.shape[2:], dtype=np.float32)
             return PartMoves(size, middle, still, still, self._reaches_m)
-        origin_m = -np.einsum("nbji,nbj->nbi", middle[..., :3], middle[..., 3])
-        shifts_m = _lengths(np.einsum("nbsij,nbj->nbsi", placed[..., :3], origin_m) + placed[..., 3])
-        chords = _chords(placed[..., :3] - middle[:, :, None, :, :3])
-        return PartMoves(size, middle, chords.max(axis=2), shifts_m.max(axis=2), self._reaches_m)
+        origin_m = -np.einsum("jinb,jnb->inb", middle[:, :3], middle[:, 3])
+        shifts_m = _lengths(np.einsum("ijnbs,jnb->inbs", placed[:, :3], origin_m) + placed[:, 3])
+        chords = _chords(placed[:, :3] - middle[:, :3, ..., None])
+        return PartMoves(size, np.ascontiguousarray(middle), chords.max(axis=2), shifts_m.max(axis=2), self._reaches_m)
 
 
 @dataclass(frozen=True, eq=False)
@@ -212,7 +243,7 @@ class PartMoves:
     ----------
     size : int
         Frames of a block.
-    node_from_base : (N, B, 3, 4) float32
+    node_from_base : (3, 4, N, B) float32
         In the middle frames.
     chords : (N, B) float32
         What is 1 from a node's origin is moved by its turning by no more.
@@ -233,14 +264,13 @@ class PartMoves:
 
         Parameters
         ----------
-        base_m : (N, 3) float32
+        base_m : (3, N) float32
             Points in the frame of the base.
         moves_m : (N,) float32
             How far they move there within their block.
         """
         at = nodes * self.chords.shape[1] + blocks
-        matrix = self.node_from_base.reshape(-1, 3, 4).take(at, axis=0)
-        places_m = np.einsum("nij,nj->ni", matrix[..., :3], base_m) + matrix[..., 3]
+        places_m = _through(self.node_from_base.reshape(3, 4, -1), at, base_m)
         lengths_m, reaches_m = _lengths(places_m), self.reaches_m.take(nodes)
         # However far a point is, its distance changes by no more than what the node has moves.
         turns_m = self.chords.reshape(-1).take(at) * np.minimum(lengths_m, reaches_m)
@@ -253,7 +283,7 @@ class Placed:
 
     Attributes
     ----------
-    places_m : (N, 3) float32
+    places_m : (3, N) float32
     shifts_m, turns_m : (N,) float32
         How much the distance from the node's bodies changes at most: by shifts, and by the node's turning.
     beyond_m : (N,) float32
@@ -266,7 +296,7 @@ class Placed:
     beyond_m: SingleArray
 
     def __getitem__(self, rows: npt.NDArray[np.bool_]) -> Placed:
-        return Placed(self.places_m[rows], self.shifts_m[rows], self.turns_m[rows], self.beyond_m[rows])
+        return Placed(self.places_m[:, rows], self.shifts_m[rows], self.turns_m[rows], self.beyond_m[rows])
 
     @property
     def moves_m(self) -> SingleArray:
@@ -280,13 +310,18 @@ class Placed:
 
 
 def _chords(changes: SingleArray) -> SingleArray:
-    """What is 1 from the origin is moved by these changes (..., 3, 3) of a rotation by no more."""
+    """What is 1 from the origin is moved by these changes (3, 3 or more, ...) of a rotation by no more."""
     # A turn by an angle moves it by the chord, 2 sin(angle / 2), at most.
-    chords: SingleArray = np.sqrt(np.einsum("...ij,...ij->...", changes, changes) / np.float32(2.0))
+    square = np.zeros(changes.shape[2:], dtype=np.float32)
+    for row in changes:
+        for change in row[:3]:
+            square += change * change
+    chords: SingleArray = np.sqrt(square / np.float32(2.0))
     return chords
 
 
 def _lengths(vectors: SingleArray) -> SingleArray:
-    """Lengths of vectors (..., 3)."""
-    lengths_m: SingleArray = np.sqrt(np.einsum("...i,...i->...", vectors, vectors))
+    """Lengths of vectors (3, ...)."""
+    x, y, z = vectors
+    lengths_m: SingleArray = np.sqrt(x * x + y * y + z * z)
     return lengths_m

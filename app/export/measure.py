@@ -51,7 +51,6 @@ TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
 
 _CHUNK = 1024
-_SAMPLED = 64
 _TORSO = ("hips", "neck")
 _SOLES = ("left.foot.sole", "right.foot.sole")
 _HANDS = ("left.hand", "right.hand")
@@ -262,14 +261,10 @@ def _read(
         here = {node: held_world[at, bone] for node, bone in node_bones.items()}
         morphs = {name: weights[at] for name, weights in player.morphs(first, last).items()}
         world = world[at]
-        # A few frames first: with what is found there, most of the others are known not to be reported.
-        for step in (_SAMPLED, 1):
-            least_m = np.maximum(depth_m[begin:end:step], reported_least_m(depth_m))
-            for hand in hands:
-                faces = {name: weights[::step] for name, weights in morphs.items()}
-                parts = {node: matrices[::step] for node, matrices in here.items()}
-                least_m = hand.depths_m(world[::step], faces, parts, least_m)
-            depth_m[begin:end:step] = least_m
+        least_m = np.maximum(depth_m[begin:end], reported_least_m(depth_m))
+        for hand in hands:
+            least_m = hand.depths_m(world, morphs, here, least_m)
+        depth_m[begin:end] = least_m
 
     spans = (slice(first, min(first + _CHUNK, frames)) for first in range(0, frames, _CHUNK))
     tasks: list[Callable[[], None]] = [beside, *(partial(read, span) for span in spans)]

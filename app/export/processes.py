@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import contextlib
 import subprocess
-from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from threading import Thread
+from threading import Lock, Thread
 
 import msgspec
 
@@ -62,7 +61,8 @@ def export_players(
     dict of str to ExportedPlayer
         By the id of the musician.
     """
-    waiting = deque(cast.performers)
+    waiting = Waiting(cast.performers)
+    last: Performer | None = None
     finished: dict[str, ExportedPlayer] = {}
     shares: dict[str, float] = {}
     helpers: list[_Helper] = []
@@ -78,21 +78,61 @@ def export_players(
             with contextlib.suppress(OSError):  # where no process can be started, this one does all
                 for _ in range(processes - 1):
                     helpers.append(_Helper(job, waiting, finished, shares))
-        while waiting or any(helper.is_alive() for helper in helpers):
-            try:
-                performer = waiting.popleft()
-            except IndexError:
+        while len(waiting) or any(helper.is_alive() for helper in helpers):
+            performer = waiting.take(last)
+            if performer is None:
                 for helper in helpers:
                     helper.join(_POLL_S)
                 for other, done in list(shares.items()):
                     reported(other, done)
                 continue
-            player_id = performer.player.id
+            last, player_id = performer, performer.player.id
             finished[player_id] = export_player(request, cast, performer, folder, partial(report, player_id))
     finally:
         for helper in helpers:
             helper.end()
     return finished
+
+
+class Waiting:
+    """Musicians who have not been started.
+
+    What is made for one serves the next with the same instrument, and more so with the same body, so each process goes
+    on with those as long as there are any.
+
+    Parameters
+    ----------
+    performers : sequence of Performer
+    """
+
+    def __init__(self, performers: Sequence[Performer]) -> None:
+        self._left = list(performers)
+        self._begun: set[str] = set()
+        self._lock = Lock()
+
+    def __len__(self) -> int:
+        return len(self._left)
+
+    def take(self, last: Performer | None) -> Performer | None:
+        """The one to begin now, by who has exported ``last``; None where all have been started."""
+
+        def worth(one: Performer) -> tuple[bool, bool, bool]:
+            kind = one.player.instrument_id
+            same = last is not None and kind == last.player.instrument_id
+            return same, kind not in self._begun, last is not None and one.character is last.character
+
+        with self._lock:
+            if not self._left:
+                return None
+            performer = max(self._left, key=worth)
+            self._left.remove(performer)
+            self._begun.add(performer.player.instrument_id)
+            return performer
+
+    def give_back(self, performer: Performer) -> None:
+        """Have another process do it."""
+        with self._lock:
+            self._left.append(performer)
 
 
 class _Helper(Thread):
@@ -102,8 +142,8 @@ class _Helper(Thread):
     ----------
     job : bytes
         An encoded `Job`.
-    waiting : deque of Performer
-        Those that have not been started: taken from the left; one whose process ended comes back.
+    waiting : Waiting
+        One whose process ended is given back.
     finished : dict of str to ExportedPlayer
         What was exported is put there.
     shares : dict of str to float
@@ -113,7 +153,7 @@ class _Helper(Thread):
     def __init__(
         self,
         job: bytes,
-        waiting: deque[Performer],
+        waiting: Waiting,
         finished: dict[str, ExportedPlayer],
         shares: dict[str, float],
     ) -> None:
@@ -131,11 +171,8 @@ class _Helper(Thread):
         decoder = msgspec.msgpack.Decoder(Answer)
         with contextlib.suppress(BrokenPipeError):
             send(to, self._job)
-        while self._waiting:
-            try:
-                performer = self._waiting.popleft()
-            except IndexError:
-                return
+        performer: Performer | None = None
+        while (performer := self._waiting.take(performer)) is not None:
             player_id = performer.player.id
             try:
                 send(to, player_id.encode())
@@ -143,7 +180,7 @@ class _Helper(Thread):
                     self._shares[player_id] = answer.done
             except (OSError, msgspec.MsgspecError):
                 self._shares.pop(player_id, None)
-                self._waiting.append(performer)
+                self._waiting.give_back(performer)
                 return
             self._finished[player_id] = answer.player
             self._shares[player_id] = 1.0

@@ -17,6 +17,7 @@ from app.motion.body import BodyMotion
 from app.motion.contact import ANYWHERE, BellRoom, Carried, carry
 from app.motion.curve import FloatArray
 from app.motion.endpin import Stand
+from app.motion.extremes import greatest_within, least_within
 from app.motion.hands import away, with_shapes
 from app.motion.model import Motion
 from app.motion.posture import Side, Stance, Trunk, hips_path, solve_legs, trunk
@@ -198,7 +199,7 @@ def poses(
             rotations[part, joint] = values
         posed = finger_rotations(player.hold, chunk.controls, len(chunk), chunk.placed, chunk.raised)
         if chunk.body.hands:
-            posed = with_shapes(player.skeleton, chunk.body.hands, fingers, posed)
+            posed = with_shapes(player.skeleton, chunk.body.hands, player.hold.finger_joints, posed)
         # Joint by joint: all at once takes three times as long.
         for column, joint in enumerate(player.hold.finger_joints):
             rotations[part, joint] = posed[:, column]
@@ -426,10 +427,7 @@ def _eased(needed: FloatArray, half: int) -> FloatArray:
     """
     if not np.any(needed):
         return needed
-    window = 2 * half + 1
-    from scipy.ndimage import maximum_filter1d, minimum_filter1d  # heavy; the window is up before
-
-    held = maximum_filter1d(np.maximum(needed, 0.0), window) + minimum_filter1d(np.minimum(needed, 0.0), window)
-    weights = np.hanning(window + 2)
+    held = greatest_within(np.maximum(needed, 0.0), half) + least_within(np.minimum(needed, 0.0), half)
+    weights = np.hanning(2 * half + 3)
     eased: FloatArray = np.convolve(held, weights / weights.sum(), mode="same")
     return eased

@@ -215,7 +215,9 @@ def distances(some: Bodies, local_m: npt.NDArray[Any], body: IntArray) -> npt.ND
     for rows, measure in _kinds(some):
         hit = np.flatnonzero((body >= start) & (body < start + len(rows)))
         if len(hit):
-            result[hit] = measure(rows[body[hit] - start].astype(local_m.dtype, copy=False), local_m[hit])
+            # One number after another: arithmetic on whole columns is faster where they lie together.
+            row = rows.T.astype(local_m.dtype).take(body.take(hit) - start, axis=1)
+            result[hit] = measure(row.T, local_m.T.take(hit, axis=1).T)
         start += len(rows)
     return result
 

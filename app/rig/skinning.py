@@ -126,11 +126,15 @@ def skin_of(
     np.add.at(dense, (np.arange(len(vertices))[:, None], joints), weights)
     used = np.flatnonzero(dense.any(axis=0))
     moved = {}
+    chosen = np.zeros(len(positions_m), dtype=np.bool_)
+    chosen[vertices] = True
+    rank = np.empty(len(positions_m), dtype=np.intp)
     for name, touched, deltas_m in morphs:
-        rank = np.full(len(positions_m), -1, dtype=np.intp)
-        rank[touched] = np.arange(len(touched))
-        hit = rank[vertices] >= 0
-        if hit.any():
+        rows = np.flatnonzero(chosen[touched])
+        if len(rows):
+            rank[vertices] = -1
+            rank[touched[rows]] = rows
+            hit = rank[vertices] >= 0
             moved[name] = np.zeros((len(vertices), 3))
             moved[name][hit] = deltas_m[rank[vertices[hit]]]
     place_m = positions_m[vertices].astype(np.float64)

@@ -9,7 +9,6 @@ from typing import Final
 
 import numpy as np
 import numpy.typing as npt
-from PIL import Image
 
 from app.formats.gltf.model import GltfModel, GltfPrimitive
 from app.formats.scene import Material
@@ -23,10 +22,6 @@ PX_PER_BYTE: Final = 64
 """So many pixels in all, and so many more for each byte of the images, are looked at: a few bytes can be any number."""
 MOST_SCANS: Final = 64
 """A JPEG is read once for each of its scans, of which real ones have about ten."""
-_UNREADABLE: Final = (
-    *(OSError, ValueError, SyntaxError, EOFError),
-    *(Image.DecompressionBombError, Image.DecompressionBombWarning),
-)
 _SCAN: Final = b"\xff\xda"
 OPAQUE: Final = 0.5
 """What lets more light through than it keeps is cut out and has no colour."""
@@ -49,6 +44,12 @@ class Textures:
         return self._seen[id(image)]
 
     def _opened(self, image: bytes) -> FloatArray | None:
+        from PIL import Image  # heavy; few figures have textures
+
+        unreadable = (
+            *(OSError, ValueError, SyntaxError, EOFError),
+            *(Image.DecompressionBombError, Image.DecompressionBombWarning),
+        )
         if image.startswith(b"\xff\xd8") and image.count(_SCAN) > MOST_SCANS:
             return None
         try:
@@ -60,7 +61,7 @@ class Textures:
                         return None
                     opened.draft("RGB", (SAMPLED_PX, SAMPLED_PX))
                     small = opened.convert("RGBA")
-        except _UNREADABLE:
+        except unreadable:
             return None
         small.thumbnail((SAMPLED_PX, SAMPLED_PX), Image.Resampling.BOX)
         return np.asarray(small, dtype=np.float64) / 255.0

@@ -18,6 +18,7 @@ from app.audio.playback import Playback
 from app.editor.files import Files
 from app.editor.generator import Generator
 from app.editor.library_watch import watch_characters, watch_instruments, watch_metadata
+from app.editor.memory import share_memory
 from app.editor.questions import Questions
 from app.editor.recorder import Recorder
 from app.editor.session import Session, Severity
@@ -180,6 +181,7 @@ def run(start: Start) -> int:
     """Run the editor; returns the exit status."""
     if start.screenshot is not None:
         return picture(start, start.screenshot)
+    share_memory()
     application = make_application()
     garbage = Garbage()
     settings = Settings(settings_path())

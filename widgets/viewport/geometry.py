@@ -28,6 +28,8 @@ THIN_SHARES = (0.0, 0.1, 0.34)
 """What is thin (brows, eyes) is at most so coarse, by level, as a share of its smallest side."""
 LEVELS = len(BODY_CELLS_M)
 BONES_PER_VERTEX = 4
+_MOST_SHORT = 2**16 - 1
+"""Vertices whose numbers have 16 bits."""
 
 SHAPE = np.dtype([("a_position", np.float32, 3), ("a_normal", np.float32, 3)])
 SURFACE = np.dtype(
@@ -76,7 +78,7 @@ class Geometry:
         At rest, in the space the bones' matrices take from.
     surfaces : (S,) SURFACE
         Bones as indices into a player's matrices; base colour (linear) with the roughness beside it; metallic.
-    triangles : (T, 3) uint32
+    triangles : (T, 3) uint16 or uint32
         Those that are seen from one side only come first.
     one_sided : int
         How many these are.
@@ -87,7 +89,7 @@ class Geometry:
 
     shape: npt.NDArray[np.void]
     surfaces: npt.NDArray[np.void]
-    triangles: npt.NDArray[np.uint32]
+    triangles: npt.NDArray[np.uint16] | npt.NDArray[np.uint32]
     one_sided: int
     face: Face | None = None
     surface_of: npt.NDArray[np.uint16] | None = None
@@ -198,7 +200,7 @@ def crowd(parts: Sequence[tuple[int, Geometry]]) -> Crowd:
         _numbers(surface)[here] = _numbers(part.surface)
         rows[here] = row
         for place, own in ((first, part.triangles[: part.one_sided]), (second, part.triangles[part.one_sided :])):
-            np.add(own, np.uint32(start), out=triangles[place : place + len(own)])
+            np.add(own, np.uint32(start), dtype=np.uint32, out=triangles[place : place + len(own)])
         start, first = here.stop, first + part.one_sided
         second += len(part.triangles) - part.one_sided
     return Crowd(tuple(parts), shape, surface, rows, triangles, one_sided)
@@ -341,7 +343,7 @@ class _Whole:
         last = self._two_sided[triangles[:, 0]]
         sorted_triangles = np.concatenate([triangles[~last], triangles[last]])
         surfaces, surface_of = self._surfaces(order)
-        corners = place[sorted_triangles].astype(np.uint32)
+        corners = place[sorted_triangles].astype(np.uint16 if len(order) <= _MOST_SHORT else np.uint32)
         return Geometry(shape, surfaces, corners, int((~last).sum()), face, surface_of)
 
     def _surfaces(self, order: Ints) -> tuple[npt.NDArray[np.void], npt.NDArray[np.uint16] | None]:

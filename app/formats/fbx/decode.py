@@ -12,6 +12,7 @@ from __future__ import annotations
 import struct
 import zlib
 from collections.abc import Callable
+from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,9 @@ _LARGEST_RATIO = 1032
 # What all packed arrays may take together: this and a multiple of the file's size. What stands still packs well.
 _FREE_BYTES = 2**26
 _MOST_TIMES = 256
+
+_MOST_KEPT_BYTES, _LARGEST_KEPT_BYTES = 2**25, 2**21
+_Packed = tuple[np.dtype[np.generic], int, bytes]
 
 _ARRAYS = {b"f": "<f4", b"d": "<f8", b"i": "<i4", b"l": "<i8", b"b": "?", b"c": "u1"}
 _SCALARS = {b"C": "<?", b"B": "<?", b"Y": "<h", b"I": "<i", b"L": "<q", b"F": "<f", b"D": "<d"}
@@ -68,12 +72,39 @@ def read_elements(data: bytes, file: str) -> Element:
     return Element("", (np.int32(version & 0x7FFFFFFF),), children)
 
 
+class _Arrays:
+    """Arrays by what they are packed as, some of those that were unpacked last: players with the same body have the
+    same meshes."""
+
+    def __init__(self) -> None:
+        self._kept: dict[_Packed, npt.NDArray[np.generic]] = {}
+        self._bytes = 0
+        self._lock = Lock()
+
+    def get(self, packed: _Packed) -> npt.NDArray[np.generic] | None:
+        return self._kept.get(packed)
+
+    def keep(self, packed: _Packed, values: npt.NDArray[np.generic]) -> None:
+        size = values.nbytes + len(packed[2])
+        if size > _LARGEST_KEPT_BYTES:
+            return
+        with self._lock:
+            if self._bytes + size > _MOST_KEPT_BYTES:
+                self._kept, self._bytes = {}, 0
+            if packed not in self._kept:
+                self._kept[packed] = values
+                self._bytes += size
+
+
+_arrays = _Arrays()
+
+
 class _Reader:
     def __init__(self, data: bytes, file: str, version: int) -> None:
         self._data = data
         self._file = file
         self._left_bytes = _FREE_BYTES + _MOST_TIMES * len(data)
-        self._unpacked: dict[tuple[np.dtype[np.generic], int, bytes], npt.NDArray[np.generic]] = {}
+        self._unpacked: dict[_Packed, npt.NDArray[np.generic]] = {}
         self._head = struct.Struct("<IIIB" if version < LARGE_VERSION else "<QQQB")
 
     def _error(self, what: str, offset: int) -> FileError:
@@ -150,9 +181,14 @@ class _Reader:
                 raise FileError("fbx.too_large", file=self._file)
             # All curves of a clip have the same times.
             packed = dtype, count, bytes(raw)
-            if packed not in self._unpacked:
-                self._unpacked[packed] = self._values(dtype, size, self._inflated(raw, size, start), start)
-            return self._unpacked[packed]
+            found = self._unpacked.get(packed)
+            if found is None:
+                found = _arrays.get(packed)
+                if found is None:
+                    found = self._values(dtype, size, self._inflated(raw, size, start), start)
+                    _arrays.keep(packed, found)
+                self._unpacked[packed] = found
+            return found
         if encoding != 0:
             raise self._error("bad_array", start)
         return self._values(dtype, size, raw, start)

@@ -19,6 +19,7 @@ from PySide6.QtCore import QCoreApplication, QEventLoop
 from PySide6.QtWidgets import QApplication
 from vispy.gloo.gl import use_gl
 
+from app.editor.memory import share_memory
 from app.editor.settings import Settings
 from app.editor.tasks import ThreadTasks
 from app.project import storage
@@ -77,6 +78,7 @@ class LargeEditor:
         application = QApplication.instance()
         assert isinstance(application, QApplication)
         self.application = application
+        share_memory()
         settings = Settings(self.folder / "editor.toml")
         settings.language = "en"
         self._drawing_s = self._drawing_wall_s = 0.0

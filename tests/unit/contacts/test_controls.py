@@ -6,8 +6,13 @@ from collections.abc import Set
 
 import msgspec
 import numpy as np
+import numpy.typing as npt
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
+from app.contacts.bounds import in_place
 from app.contacts.controls import ControlMeasure, NoteFrames, notes_of
 from app.errors import Message
 from app.plan.model import FingeringEvent
@@ -82,3 +87,22 @@ def test_a_slide_may_leave_the_last_note_of_a_cut_for_the_note_after_it() -> Non
     notes = [event(0.0, 1.0, 0.0), event(1.0, 2.0, 1.0), event(2.0, 3.0, 0.0)]
     assert notes_of(notes, 0.5, 1.9) == notes
     assert notes_of(notes, 1.0, 2.5) == notes[1:]
+
+
+@given(
+    notes=st.lists(st.tuples(st.floats(-1.0, 5.0), st.floats(0.0, 2.0), st.sampled_from((0.0, 0.5, 1.0))), max_size=8),
+    values=arrays(np.float64, 40, elements=st.sampled_from((0.0, 0.05, 0.45, 0.5, 0.95, 1.0))),
+)
+def test_what_works_is_what_is_found_note_by_note(
+    notes: list[tuple[float, float, float]], values: npt.NDArray[np.float64]
+) -> None:
+    events = [event(start_s, start_s + length_s, value) for start_s, length_s, value in sorted(notes)]
+    times_s, press = FIRST_FRAME_S + np.arange(40) / FPS, control()
+    expected = {True: np.zeros(40, dtype=np.bool_), False: np.zeros(40, dtype=np.bool_)}
+    for one in events:
+        value = one.controls.get("c", 0.0)
+        sounds = (times_s >= one.start_s - 1e-9) & (times_s < one.end_s - 1e-9)
+        expected[value != 0.0] |= sounds & in_place(press, values, np.full(40, value))
+    pressed, released = NoteFrames(times_s, events).working(press, values)
+    np.testing.assert_array_equal(pressed, expected[True])
+    np.testing.assert_array_equal(released, expected[False])

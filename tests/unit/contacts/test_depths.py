@@ -170,6 +170,15 @@ def test_the_field_is_the_distance_to_the_nearest_body(instrument_id: str) -> No
         off = np.abs(about - np.minimum(exact, FAR_M)) - error
         assert off[exact < FAR_M].max(initial=0.0) <= SINGLE_PRECISION_M
         assert (about - error)[exact >= FAR_M].max() <= FAR_M
+        clear_m, depth_m = random.uniform((-0.01, 0.0), (0.05, 0.01), (len(points_m), 2)).astype(np.float32).T
+        roughly, roughly_off = field.about_m(points_m.astype(np.float32), nodes, clear_m, depth_m)
+        off = np.abs(roughly - exact) - roughly_off
+        assert off[exact < FAR_M].max(initial=0.0) <= SINGLE_PRECISION_M
+        # Whatever is known to be clear by the cells is known to be so.
+        clear = about - error >= clear_m
+        assert (roughly - roughly_off >= clear_m - SINGLE_PRECISION_M)[clear].all()
+        deep = -about - error > np.maximum(depth_m, 0.0)
+        assert (-roughly - roughly_off >= -about - error - SINGLE_PRECISION_M)[deep & (exact < clear_m)].all()
         found = field.distances_m(points_m, nodes)
         np.testing.assert_allclose(found, np.minimum(exact, NEAR_M), atol=SINGLE_PRECISION_M)
         beyond = field.beyond_m(points_m.astype(np.float32), nodes)

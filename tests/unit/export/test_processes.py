@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ import pytest
 
 from app.errors import Cancelled
 from app.export import processes
-from app.export.processes import process_count
+from app.export.processes import Waiting, process_count
 from app.export.request import Request, cast_of
 from app.export.run import export
 from app.messages import text
@@ -116,6 +117,21 @@ def test_stopping_ends_the_processes(tmp_path: Path, monkeypatch: pytest.MonkeyP
         )
     assert [process.poll() is not None for process in started] == [True, True]
     assert not (tmp_path / "new").exists()
+
+
+def test_each_process_goes_on_with_what_it_has_begun(tmp_path: Path) -> None:
+    cast = cast_of(replace(request(tmp_path, quartet(), 2), players=quartet().players), text)
+    waiting = Waiting(cast.performers)
+    here = waiting.take(None)
+    there = waiting.take(None)
+    assert here is not None
+    assert there is not None
+    assert here.player.instrument_id != there.player.instrument_id
+    waiting.give_back(there)
+    again = [waiting.take(here), waiting.take(here), waiting.take(here), waiting.take(here)]
+    kinds = [None if one is None else one.player.instrument_id for one in again]
+    other = there.player.instrument_id
+    assert kinds == [here.player.instrument_id, other, other, None]
 
 
 def test_more_processes_only_for_long_work(tmp_path: Path) -> None:

@@ -1,0 +1,24 @@
+"""The greatest and the least of the values around each: as `scipy.ndimage` finds them, without loading it."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+
+
+def greatest_within(values: FloatArray, half: int) -> FloatArray:
+    """The greatest value (F,) within ``half`` of each; beyond the ends the values go back."""
+    found, window, width = np.pad(values, half, mode="symmetric"), 2 * half + 1, 1
+    while width < window:
+        # Of twice as many each time, the last time of as many as are left.
+        step = min(width, window - width)
+        found = np.maximum(found[:-step], found[step:])
+        width += step
+    return found
+
+
+def least_within(values: FloatArray, half: int) -> FloatArray:
+    """The least value (F,) within ``half`` of each, in the same way."""
+    return -greatest_within(-values, half)
