@@ -377,9 +377,20 @@ def _eased(needed: FloatArray, half: int) -> FloatArray:
     if not np.any(needed):
         return needed
     window = 2 * half + 1
-    from scipy.ndimage import maximum_filter1d, minimum_filter1d  # heavy; the window is up before
-
-    held = maximum_filter1d(np.maximum(needed, 0.0), window) + minimum_filter1d(np.minimum(needed, 0.0), window)
+    held = _highest(np.maximum(needed, 0.0), half) - _highest(-np.minimum(needed, 0.0), half)
     weights = np.hanning(window + 2)
     eased: FloatArray = np.convolve(held, weights / weights.sum(), mode="same")
     return eased
+
+
+def _highest(values: FloatArray, half: int) -> FloatArray:
+    """The largest value within ``half`` frames of each."""
+    # SciPy has it too, and takes longer to load than a short piece to move.
+    result = np.full(len(values) + 2 * half, -np.inf)
+    result[half : half + len(values)] = values
+    window, covered = 2 * half + 1, 1
+    while covered < window:
+        step = min(covered, window - covered)
+        result = np.maximum(result[:-step], result[step:])
+        covered += step
+    return result
