@@ -25,8 +25,14 @@ from app.project.performers import Dancer
 from app.score.read import read_midi
 from instrument_maps.library import all_maps
 from tests.support.dances import model
+from tests.support.phrases import know_phrases
 
 QUARTET = Path(__file__).parents[4] / "resources" / "examples" / "quartet.mid"
+
+
+@pytest.fixture(autouse=True)
+def _phrases_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    know_phrases(monkeypatch)
 
 
 @cache
