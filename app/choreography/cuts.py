@@ -14,7 +14,6 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 from scipy.ndimage import gaussian_filter1d
-from scipy.signal import butter, find_peaks, sosfiltfilt
 
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
@@ -90,6 +89,8 @@ def segment(clip: MotionClip) -> Segmentation:
     curve = angular_acceleration(clip)
     fps = float(clip.fps)
     height = np.log(np.maximum(curve, FLOOR_RAD_S2))
+    from scipy.signal import find_peaks  # heavy; a dialog that learns nothing yet is up before
+
     peaks, _ = find_peaks(height, prominence=np.log(PROMINENCE), distance=max(1.0, LEAST_SPAN_S * fps))
     bounds = [0, *peaks.tolist(), len(curve) - 1]
     minima = [_minimum(height, start, stop, round(LONGEST_REST_S * fps)) for start, stop in pairwise(bounds)]
@@ -136,6 +137,8 @@ def _low_pass(rotations: FloatArray, fps: float) -> FloatArray:
     """Butterworth filter over the frames, without delay; nothing where the frame rate holds no such frequency."""
     if 0.45 * fps <= CUT_OFF_HZ:
         return rotations
+    from scipy.signal import butter, sosfiltfilt  # heavy, as above
+
     sections = butter(ORDER, CUT_OFF_HZ, fs=fps, output="sos")
     filtered: FloatArray = sosfiltfilt(sections, rotations, axis=0, padlen=min(len(rotations) - 1, int(fps)))
     return filtered

@@ -199,7 +199,7 @@ def poses(
             rotations[part, joint] = values
         posed = finger_rotations(player.hold, chunk.controls, len(chunk), chunk.placed, chunk.raised)
         if chunk.body.hands:
-            posed = with_shapes(player.skeleton, chunk.body.hands, player.hold.finger_joints, posed)
+            posed = with_shapes(player.skeleton, chunk.body.hands, list(player.hold.finger_joints), posed)
         # Joint by joint: all at once takes three times as long.
         for column, joint in enumerate(player.hold.finger_joints):
             rotations[part, joint] = posed[:, column]

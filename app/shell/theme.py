@@ -22,11 +22,14 @@ FAINT = 0.6
 
 
 def apply_theme(application: QApplication, tokens: Tokens) -> None:
-    """Dress the whole application."""
-    if application.style().name().lower() != "fusion":
+    """Dress the whole application, if it is not dressed so yet: Qt polishes every widget again, whatever the rules."""
+    rules = style_sheet(tokens)
+    if application.styleSheet() == rules:
+        return
+    if not application.styleSheet():
         application.setStyle(QStyleFactory.create("Fusion"))
     application.setPalette(palette(tokens))
-    application.setStyleSheet(style_sheet(tokens))
+    application.setStyleSheet(rules)
 
 
 def palette(tokens: Tokens) -> QPalette:

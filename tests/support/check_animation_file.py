@@ -36,7 +36,7 @@ interpreters) and in */bin/python beside this script; node packages in $CHECK_AN
 Exit status: 0 every reader that ran agrees, 1 a reader failed or disagrees or a required one is missing, 2 usage.
 Each reader runs in its own process, so a crash or a hang of one is just 'failed'.
 """
-import argparse, base64, functools, gc, glob, json, math, os, pathlib, re, shutil, signal, stat, struct, subprocess, sys, tempfile, zlib
+import argparse, atexit, base64, functools, gc, glob, json, math, os, pathlib, re, select, shutil, signal, stat, struct, subprocess, sys, tempfile, time, zlib
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 KTIME = 46186158000
@@ -294,7 +294,7 @@ def load_glb(path):
         bufs = []
         for b in js.get('buffers', []):
             u = b['uri']
-            bufs.append(base64.b64decode(u.split(',', 1)[1]) if u.startswith('data:') else open(os.path.join(os.path.dirname(path), u), 'rb').read())
+            bufs.append(base64.b64decode(u.split(',', 1)[1]) if u.startswith('data:') else pathlib.Path(os.path.dirname(path), u).read_bytes())
         return js, bufs
     p, js, binb = 12, None, b''
     while p + 8 <= len(d):
@@ -589,7 +589,7 @@ def r_assimp(a):
         pr = subprocess.run(['assimp', 'export', a['file'], d + '/o.json', '-fassjson'], capture_output=True, text=True, errors='replace')
         if not os.path.exists(d + '/o.json') or 'ERROR' in pr.stdout + pr.stderr:
             raise RuntimeError('assimp: ' + ' '.join(x for x in (pr.stdout + pr.stderr).splitlines() if 'ERROR' in x or 'rror' in x)[-300:])
-        js = json.load(open(d + '/o.json'))
+        js = json.loads(pathlib.Path(d + '/o.json').read_bytes())
     an = (js.get('animations') or [None])[0]
     tr, dur, tps = {}, 0, 1.0
     if an:
@@ -664,7 +664,7 @@ def r_three(a):
         raise NotInstalled('node')
     d3 = find_node_module('three')
     with tempfile.TemporaryDirectory() as d:
-        open(d + '/r.mjs', 'w').write(THREE_JS)
+        pathlib.Path(d + '/r.mjs').write_text(THREE_JS)
         cfg = {k: a[k] for k in ('file', 'ext', 'times', 't0')}
         cfg['file'] = os.path.abspath(cfg['file']); cfg['out'] = d + '/o.json'
         pathlib.Path(d + '/c.json').write_text(json.dumps(cfg))
@@ -672,7 +672,7 @@ def r_three(a):
         if pr.returncode or not os.path.exists(d + '/o.json'):
             er = [x for x in pr.stderr.splitlines() if 'rror' in x]
             raise RuntimeError('three: ' + (er[-1] if er else pr.stderr[-200:]))
-        r = json.load(open(d + '/o.json'))
+        r = json.loads(pathlib.Path(d + '/o.json').read_bytes())
     if a['ext'] == '.fbx':      # FBXLoader leaves the file's unit, and turns Z-up scenes itself
         r['pos'] = [{k: [(a.get('unit') or 1.0) * c for c in v] for k, v in p.items()} for p in r['pos']]
     elif a['ext'] in ('.glb', '.gltf'):
@@ -821,19 +821,24 @@ READERS = {'structure': (r_structure, ('.fbx',), None), 'fbxsdk': (r_fbxsdk, ('.
 
 
 # ------------------------------------------------------------------ worker and parent
-def worker(reader, cfg):
-    a = json.load(open(cfg))
+def answer(reader, a):
     un = a.get('unit') or 1.0
     a['to_canon'] = canon([tuple(x) for x in a['axes']], un) if a.get('axes') else (lambda p: [un * v for v in p])
     try:
         r = READERS[reader][0](a); r['status'] = 'skipped' if 'skip' in r else 'ok'
     except NotInstalled as e:
         r = {'status': 'not installed', 'note': str(e)}
-    except BaseException as e:
+    except Exception as e:
         r = {'status': 'failed', 'note': '%s: %s' % (type(e).__name__, str(e)[:400])}
-    with open(a['result'], 'w') as f:
-        json.dump(r, f)
-        f.flush()
+    return json.dumps(r)
+
+
+def worker(reader):
+    # One file after another: a line with the request in, a line with the answer out; what a library prints is no answer.
+    answers = os.fdopen(os.dup(1), 'w')
+    os.dup2(2, 1)
+    for line in sys.stdin:
+        print(answer(reader, json.loads(line)), file=answers, flush=True)
     os._exit(0)          # some bindings crash while the interpreter is torn down
 
 
@@ -862,28 +867,77 @@ def python_for(module):
     return None
 
 
+class Worker:
+    """A process that reads files with one library, which takes longer to load than most files to read."""
+
+    def __init__(self, py, name):
+        self.log = tempfile.TemporaryFile()
+        self.process = subprocess.Popen([py, os.path.abspath(__file__), '--worker', name], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        stderr=self.log, start_new_session=True)
+
+    def ask(self, cfg, timeout):
+        self.process.stdin.write(json.dumps(cfg).encode() + b'\n')
+        self.process.stdin.flush()
+        line, end = b'', time.monotonic() + timeout
+        while not line.endswith(b'\n'):
+            if not select.select([self.process.stdout], [], [], max(0.0, end - time.monotonic()))[0]:
+                return None
+            more = os.read(self.process.stdout.fileno(), 1 << 20)
+            if not more:
+                break
+            line += more
+        return line
+
+    def end(self):
+        """The exit status, and the last that it printed."""
+        try:
+            os.killpg(self.process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        self.process.wait()
+        self.process.stdin.close(); self.process.stdout.close()
+        self.log.seek(0)
+        with self.log:
+            return self.process.returncode, self.log.read().decode('utf8', 'replace')
+
+
+WORKERS = {}
+
+
+@atexit.register
+def end_workers():
+    for w in WORKERS.values():
+        w.end()
+    WORKERS.clear()
+
+
 def run_reader(name, cfg, timeout):
+    if READERS[name][2] is None:    # what is built in, and programs that have processes of their own
+        return json.loads(answer(name, dict(cfg)))
     py = python_for(READERS[name][2])
     if py is None:
         return {'status': 'not installed', 'note': 'python module ' + READERS[name][2]}
-    with tempfile.TemporaryDirectory() as d:
-        cfg = dict(cfg, result=d + '/r.json')
-        pathlib.Path(d + '/c.json').write_text(json.dumps(cfg))
-        p = subprocess.Popen([py, os.path.abspath(__file__), '--worker', name, d + '/c.json'], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                             start_new_session=True, stdin=subprocess.DEVNULL)
-        try:
-            out = p.communicate(timeout=timeout)[0].decode('utf8', 'replace')
-        except subprocess.TimeoutExpired:
-            os.killpg(p.pid, signal.SIGKILL); p.communicate()
-            return {'status': 'failed', 'note': 'no answer in %d s' % timeout}
-        if os.path.exists(d + '/r.json') and os.path.getsize(d + '/r.json'):
-            return json.loads(pathlib.Path(d + '/r.json').read_text())
-        return {'status': 'failed', 'note': 'reader died (%s) %s' % (('signal %d' % -p.returncode) if p.returncode < 0 else 'exit %d' % p.returncode, out[-200:].strip())}
+    w = WORKERS.get(name)
+    if w is None:
+        w = WORKERS[name] = Worker(py, name)
+    try:
+        line = w.ask(cfg, timeout)
+    except BrokenPipeError:
+        line = b''
+    if line:
+        return json.loads(line)
+    del WORKERS[name]
+    if line is None:
+        w.end()
+        return {'status': 'failed', 'note': 'no answer in %d s' % timeout}
+    w.process.wait()
+    status, out = w.end()
+    return {'status': 'failed', 'note': 'reader died (%s) %s' % (('signal %d' % -status) if status < 0 else 'exit %d' % status, out[-200:].strip())}
 
 
 def main(argv):
-    if len(argv) > 2 and argv[0] == '--worker':
-        return worker(argv[1], argv[2])
+    if len(argv) > 1 and argv[0] == '--worker':
+        return worker(argv[1])
     ap = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     ap.add_argument('file'); ap.add_argument('--expected'); ap.add_argument('--tol', type=float, default=0.05); ap.add_argument('--wtol', type=float, default=0.005)
     ap.add_argument('--frames'); ap.add_argument('--fps', type=float); ap.add_argument('--readers'); ap.add_argument('--require', default='')

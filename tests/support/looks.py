@@ -154,7 +154,8 @@ class Look:
         self.language = "en"
         self.window.resize(*size)
         # Where things are does not depend on the players' motion.
-        self.program.generator.live.work = lambda stop_requested: False  # type: ignore[method-assign]
+        live = self.program.generator.live
+        live.work = live.judge = lambda stop_requested: False  # type: ignore[method-assign]
         # Composing the window with a picture by OpenGL takes most of the time where the processor does its work.
         canvas = self.window.viewport.canvas_widget()
         assert canvas is not None

@@ -112,8 +112,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         table.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed | triggers.AnyKeyPressed)
         table.setItemDelegate(_Completing(self._choices, table))
         header = table.horizontalHeader()
-        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        header.setSectionResizeMode(LABEL, QHeaderView.ResizeMode.Stretch)
+        self._fit_columns(QHeaderView.ResizeMode.ResizeToContents)
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         edits = QGridLayout()
         for place, name in enumerate(("up", "down", "add", "remove", "revert", "revert_all", "undo", "redo")):
@@ -252,6 +251,8 @@ class InstrumentsDialog(Retranslated, QDialog):
         chosen = chosen or self._chosen()
         self._filling = True
         self._table.setUpdatesEnabled(False)
+        # Else every cell that is set has all of them measured again.
+        self._fit_columns(QHeaderView.ResizeMode.Fixed)
         self._table.setRowCount(len(draft.table))
         shift = draft.instrument.transposition_semitones
         mark = QColor(self._session.tokens.by_hand)
@@ -276,12 +277,19 @@ class InstrumentsDialog(Retranslated, QDialog):
                 if base and base.get((one.written_pitch, one.rank)) != one:
                     item.setForeground(mark)
                 self._table.setItem(row, column, item)
+        self._fit_columns(QHeaderView.ResizeMode.ResizeToContents)
         self._table.setUpdatesEnabled(True)
         places = [(one.written_pitch, one.rank) for one in draft.table]
         at = places.index(chosen) if chosen in places else 0
         self._filling = False
         self._table.setCurrentCell(at, LABEL)
         self._show_row()
+
+    def _fit_columns(self, mode: QHeaderView.ResizeMode) -> None:
+        """Give all columns a mode but the one that has the room that is left over."""
+        header = self._table.horizontalHeader()
+        header.setSectionResizeMode(mode)
+        header.setSectionResizeMode(LABEL, QHeaderView.ResizeMode.Stretch)
 
     def _chosen(self) -> tuple[int, int] | None:
         """Written pitch and rank of the chosen row."""

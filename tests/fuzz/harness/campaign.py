@@ -225,10 +225,10 @@ def _attack(child: Child, kind: str, seconds: float, seed: int, tally: Tally) ->
     pool: list[bytes] = []
     known: set[tuple[str, str]] = set()
     end_s = time.monotonic() + seconds
-    ahead = good[::-1]
+    ahead = spec.seeds()[::-1]
     while ahead or time.monotonic() < end_s:
         seeds = pool if pool and chance.random() < 0.3 else good
-        # What is good, and what was found before, comes first and as it is.
+        # What is good comes first and as it is; what was found before, which test_found reads, as mutants alone.
         data = ahead.pop() if ahead else mutated(seeds, chance, spec.structured)
         result = child.run(kind, data)
         costly = tally.add(data, result)

@@ -95,7 +95,9 @@ def _drawn(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> N
     if "drawn" not in marks:
         monkeypatch.setattr("widgets.viewport.panel.why_no_gl", lambda: "not in this test")
         if "moved" not in marks:
-            monkeypatch.setattr("app.performance.live.LiveMotion.work", lambda self, stop_requested: False)
+            # Contacts are judged in motion that is made for it, also where no one looks at it.
+            for making in ("work", "judge"):
+                monkeypatch.setattr(f"app.performance.live.LiveMotion.{making}", lambda self, stop_requested: False)
 
 
 Start = Callable[[], Program]

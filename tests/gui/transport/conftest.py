@@ -10,10 +10,16 @@ from app.audio.playback import Playback
 from app.editor.session import Session
 from app.editor.sound import Sound
 from tests.gui.transport.devices import FakeDevices, Time
+from tests.support.phrases import know_phrases
 
 STEP_S = 0.01
 
 Elapse = Callable[[float], None]
+
+
+@pytest.fixture(autouse=True)
+def _phrases_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    know_phrases(monkeypatch)
 
 
 @pytest.fixture

@@ -35,7 +35,7 @@ from tests.support import readers
 from tests.support.foreign import foreign
 from tests.support.performed import player_motion
 from tests.support.skinned import GlbFile
-from tests.unit.export.test_skeletons import FPS, what_it_holds
+from tests.unit.export.test_skeletons import FPS, what_it_holds, without_morphs
 from tests.unit.export.unreal.conftest import quartet
 
 MM = 1e-4
@@ -395,13 +395,6 @@ def test_twist_bones_carry_skin_with_their_share(made: Made, choice: SkeletonCho
 
 
 # Other programs
-
-
-def without_morphs(scene: Scene) -> Scene:
-    """What no option changes, and what takes readers longest."""
-    assert scene.clip is not None
-    meshes = tuple(replace(mesh, morphs=()) for mesh in scene.meshes)
-    return replace(scene, meshes=meshes, clip=replace(scene.clip, morph_weights={}))
 
 
 def read_by(made: Made, choice: SkeletonChoice, options: RigOptions, asked: list[str]) -> None:

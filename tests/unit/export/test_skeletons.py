@@ -169,6 +169,13 @@ def what_it_holds(scene: Scene) -> readers.Expected:
     )
 
 
+def without_morphs(scene: Scene) -> Scene:
+    """What no option changes, and what takes readers longest."""
+    assert scene.clip is not None
+    meshes = tuple(replace(mesh, morphs=()) for mesh in scene.meshes)
+    return replace(scene, meshes=meshes, clip=replace(scene.clip, morph_weights={}))
+
+
 @pytest.mark.parametrize("name", ["own", "ue5"])
 def test_other_programs_read_the_same(piece: Piece, name: str) -> None:
     asked = [reader for reader in readers.QUICK_FBX if readers.installed(reader)]
@@ -182,7 +189,12 @@ def test_other_programs_read_the_same(piece: Piece, name: str) -> None:
 def test_slow_readers_read_the_same(piece: Piece, name: str, reader: str) -> None:
     if not readers.installed(reader):
         pytest.skip(f"{reader} is not installed")
-    readers.judge(piece.folder / f"{name}.fbx", what_it_holds(piece.written(name)), [reader])
+    file, scene = name, piece.written(name)
+    if (name, reader) == ("ue5", "fbxsdk"):
+        # Its morphs take this reader longest by far, which reads them in unreal/test_readers.
+        file = f"{name}_still_face"
+        scene = piece.file(file, without_morphs(scene))
+    readers.judge(piece.folder / f"{file}.fbx", what_it_holds(scene), [reader])
 
 
 def request(piece: Piece, folder: Path, skeleton: SkeletonChoice, asset: Path | None) -> Request:

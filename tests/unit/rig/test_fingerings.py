@@ -208,7 +208,8 @@ def _depths_mm(fingered: Fingered, hand: HandHold, table: FingerTable, raised: f
     bodies = proxy.bodies(fingered.instrument.proxy, fingered.model.node_names)
     nodes, turns = node_transforms(fingered.model, fingered.instrument, fingered.controls, len(fingered))
     placed = proxy.Nodes(nodes[0], quaternion.to_matrix(turns[0]))
-    return np.array([1000.0 * proxy.inside(bodies, placed, one, np.zeros(len(one)))[0].max() for one in skin])
+    depth, _ = proxy.inside(bodies, placed, skin.reshape(-1, 3), np.zeros(skin.shape[0] * skin.shape[1]))
+    return 1000.0 * depth.reshape(skin.shape[:2]).max(axis=1)
 
 
 def test_no_finger_is_thrown_about_on_its_way(fingered: Fingered) -> None:

@@ -238,7 +238,8 @@ fit_hold(character_named("man_adult"), bundled_instrument(trumpet), trumpet, loa
 
 
 def test_a_second_fit_is_the_same_to_the_bit() -> None:
-    character, instrument = character_named(PAIRS[0][0]), bundled_maps()[PAIRS[0][1]]
+    # One hand is fitted at many places of the slide, the other from many starts: both ways of fitting.
+    character, instrument = character_named("man_adult"), bundled_maps()["trombone_tenor_F_attachment"]
     model = bundled_instrument(instrument)
     first, second = (fit_hold(character, model, instrument, load_body()) for _ in range(2))
     for a, b in zip(first.hands, second.hands, strict=True):

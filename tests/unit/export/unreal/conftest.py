@@ -25,8 +25,14 @@ from app.project.performers import Dancer
 from app.score.read import read_midi
 from instrument_maps.library import all_maps
 from tests.support.dances import model
+from tests.support.phrases import know_phrases
 
 QUARTET = Path(__file__).parents[4] / "resources" / "examples" / "quartet.mid"
+
+
+@pytest.fixture(autouse=True)
+def _phrases_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    know_phrases(monkeypatch)
 
 
 @cache
@@ -77,10 +83,8 @@ def with_recording(project: Project, path: Path, offset_s: float) -> Project:
     return replace(project, audio=AudioTrack(str(path), offset_s))
 
 
-@pytest.fixture
-def unreal(tmp_path: Path) -> UnrealProject:
+def artists_project(folder: Path) -> UnrealProject:
     """A project with something of the artist's in every folder that an export writes to."""
-    folder = tmp_path / "Game"
     files = {
         "Game.uproject": json.dumps({"FileVersion": 3, "EngineAssociation": "5.6"}),
         "Content/Suisou/quartet/BP_Mine.uasset": "mine",
@@ -92,6 +96,29 @@ def unreal(tmp_path: Path) -> UnrealProject:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(content)
     return find_project(folder)
+
+
+@pytest.fixture
+def unreal(tmp_path: Path) -> UnrealProject:
+    """A project with something of the artist's in every folder that an export writes to."""
+    return artists_project(tmp_path / "Game")
+
+
+@pytest.fixture(scope="session")
+def exported_files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    """All files of such a project into which the first player was exported."""
+    unreal = artists_project(tmp_path_factory.mktemp("exported_unreal") / "Game")
+    export_into(request_of(quartet()), unreal, text)
+    return tree_of(unreal.folder)
+
+
+@pytest.fixture
+def exported(unreal: UnrealProject, exported_files: dict[str, bytes]) -> UnrealProject:
+    """Such a project into which the first player was exported."""
+    for name, data in exported_files.items():
+        (unreal.folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (unreal.folder / name).write_bytes(data)
+    return unreal
 
 
 Export = Callable[[Request], Written]

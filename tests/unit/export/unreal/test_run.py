@@ -73,6 +73,7 @@ def test_what_is_there_and_what_it_says(unreal: UnrealProject, export: Export) -
     theirs = tree_of(unreal.folder)
     request = request_of(quartet())
     written = export(request)
+    assert written.plan.plugin
     tree = tree_of(unreal.folder)
     assert set(without_plugin(tree)) == OURS | THEIRS
     assert {name: tree[name] for name in THEIRS} == theirs
@@ -105,14 +106,13 @@ def test_what_is_there_and_what_it_says(unreal: UnrealProject, export: Export) -
     assert set(report["players"][0]["files"].values()) == set(reported["files"]) - {"Audio/S_quartet.wav"}
 
 
-def test_the_synthesisers_sound_begins_with_frame_0(unreal: UnrealProject, export: Export) -> None:
+def test_the_synthesisers_sound_begins_with_frame_0(exported: UnrealProject) -> None:
     request = request_of(quartet())
-    export(request)
-    samples, rate_hz = soundfile.read(unreal.folder / SOURCES / "Audio/S_quartet.wav")
-    info = soundfile.info(unreal.folder / SOURCES / "Audio/S_quartet.wav")
+    samples, rate_hz = soundfile.read(exported.folder / SOURCES / "Audio/S_quartet.wav")
+    info = soundfile.info(exported.folder / SOURCES / "Audio/S_quartet.wav")
     assert (info.format, info.subtype, rate_hz) == ("WAV", "PCM_16", 48_000)
     assert len(samples) == round(48_000 * request.span.count / 12)
-    assert description(unreal)["sound"]["offset_s"] == 0.0
+    assert description(exported)["sound"]["offset_s"] == 0.0
     # Silence until the first note of the piece.
     onset_s = min(part.notes[0].onset_tick for part in request.performance.project.score.parts)
     first = (request.performance.piece.clock.seconds(float(onset_s)) - request.span.first_frame_s) * 48_000
@@ -132,14 +132,13 @@ def test_the_recording_sounds_at_its_offset(unreal: UnrealProject, export: Expor
     assert abs(np.abs(samples[:, 0]).argmax() - expected) < 3
 
 
-def test_three_exports_leave_the_same_tree(unreal: UnrealProject, export: Export) -> None:
+def test_three_exports_leave_the_same_tree(exported: UnrealProject, export: Export) -> None:
     request = request_of(quartet())
-    export(request)
-    tree = tree_of(unreal.folder)
+    tree = tree_of(exported.folder)
     for _ in range(2):
         written = export(request)
         assert not written.plan.removed
-    assert tree_of(unreal.folder) == tree
+    assert tree_of(exported.folder) == tree
     assert {path.as_posix() for path in written.plan.replaced} == OURS
 
 
@@ -180,36 +179,33 @@ def test_a_leftover_that_a_user_changed_stays_and_is_reported(unreal: UnrealProj
         ("SuisouSource/quartet/manifest.json", "unreal.manifest"),
     ],
 )
-def test_what_is_the_artists_is_not_replaced(unreal: UnrealProject, export: Export, name: str, id: str) -> None:
-    export(request_of(quartet()))
-    (unreal.folder / name).write_bytes(b"mine")
-    before = tree_of(unreal.folder)
+def test_what_is_the_artists_is_not_replaced(exported: UnrealProject, export: Export, name: str, id: str) -> None:
+    (exported.folder / name).write_bytes(b"mine")
+    before = tree_of(exported.folder)
     with pytest.raises(FileError) as caught:
         export(request_of(quartet(), ("Trumpet 1", "Trumpet 2")))
     assert caught.value.message.id == id
-    assert Path(str(caught.value.message.arguments["file"])) == unreal.folder / name
+    assert Path(str(caught.value.message.arguments["file"])) == exported.folder / name
     assert text(caught.value.message)
-    assert tree_of(unreal.folder) == before
+    assert tree_of(exported.folder) == before
 
 
 def test_a_write_protected_file_is_reported_although_it_could_be_replaced(
-    unreal: UnrealProject, export: Export, monkeypatch: pytest.MonkeyPatch
+    exported: UnrealProject, export: Export, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    export(request_of(quartet()))
-    before = tree_of(unreal.folder)
-    protected = unreal.folder / SOURCES / "Audio/S_quartet.wav"
+    before = tree_of(exported.folder)
+    protected = exported.folder / SOURCES / "Audio/S_quartet.wav"
     # Whoever runs the tests may be allowed everything.
     monkeypatch.setattr(os, "access", lambda path, mode: Path(path) != protected)
     with pytest.raises(FileError) as caught:
         export(request_of(quartet(), last_bar=2))
     assert caught.value.message.id == "unreal.locked"
     assert str(protected) in text(caught.value.message)
-    assert tree_of(unreal.folder) == before
+    assert tree_of(exported.folder) == before
 
 
-def test_a_manifest_that_leads_elsewhere_is_damaged(unreal: UnrealProject, export: Export) -> None:
-    export(request_of(quartet()))
-    path = unreal.folder / SOURCES / "manifest.json"
+def test_a_manifest_that_leads_elsewhere_is_damaged(exported: UnrealProject, export: Export) -> None:
+    path = exported.folder / SOURCES / "manifest.json"
     manifest = json.loads(path.read_text())
     for name in ("../notes.txt", "/etc/passwd", "C:/x", "a\\..\\..\\b"):
         manifest["files"] = {name: {"bytes": 4, "sha256": "0" * 64}}
@@ -219,9 +215,8 @@ def test_a_manifest_that_leads_elsewhere_is_damaged(unreal: UnrealProject, expor
         assert caught.value.message.id == "unreal.manifest"
 
 
-def test_version_control_may_change_line_ends(unreal: UnrealProject, export: Export) -> None:
-    export(request_of(quartet()))
-    path = unreal.folder / SOURCES / "performance.json"
+def test_version_control_may_change_line_ends(exported: UnrealProject, export: Export) -> None:
+    path = exported.folder / SOURCES / "performance.json"
     path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
     export(request_of(quartet()))
     assert b"\r\n" not in path.read_bytes()
@@ -269,10 +264,9 @@ def test_names_do_not_depend_on_who_is_exported() -> None:
 
 @pytest.mark.parametrize("stage", ["write_cast", "write_sound", "check_fbx", "encode_description"])
 def test_an_error_in_the_middle_leaves_the_old_tree(
-    unreal: UnrealProject, export: Export, monkeypatch: pytest.MonkeyPatch, stage: str
+    exported: UnrealProject, export: Export, monkeypatch: pytest.MonkeyPatch, stage: str
 ) -> None:
-    export(request_of(quartet()))
-    before = tree_of(unreal.folder)
+    before = tree_of(exported.folder)
     real = getattr(run, stage)
 
     def failing(*arguments: object, **named: object) -> None:
@@ -282,7 +276,7 @@ def test_an_error_in_the_middle_leaves_the_old_tree(
     monkeypatch.setattr(run, stage, failing)
     with pytest.raises(KeyboardInterrupt):
         export(request_of(quartet(), ("Trumpet 2",), last_bar=2))
-    assert tree_of(unreal.folder) == before
+    assert tree_of(exported.folder) == before
 
 
 def test_it_is_cancelled(unreal: UnrealProject) -> None:
@@ -323,26 +317,24 @@ def test_a_wrong_file_never_takes_its_place(
 
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 @pytest.mark.parametrize("ending", [signal.SIGTERM, signal.SIGKILL])
-def test_a_killed_export_leaves_the_old_tree(unreal: UnrealProject, export: Export, ending: signal.Signals) -> None:
+def test_a_killed_export_leaves_the_old_tree(exported: UnrealProject, export: Export, ending: signal.Signals) -> None:
     request = request_of(quartet())
-    export(request)
-    before = tree_of(unreal.folder)
-    command = [sys.executable, "-m", "app", "export", str(QUARTET), "--unreal", str(unreal.folder)]
+    before = tree_of(exported.folder)
+    command = [sys.executable, "-m", "app", "export", str(QUARTET), "--unreal", str(exported.folder)]
     process = subprocess.Popen(command, cwd=QUARTET.parents[2], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     deadline = time.monotonic() + 600
-    while not list(unreal.folder.rglob("draft/**/*.fbx")):
+    while not list(exported.folder.rglob("draft/**/*.fbx")):
         assert time.monotonic() < deadline
         time.sleep(0.05)
     process.send_signal(ending)
     assert process.wait(60) != 0
-    after = {name: data for name, data in tree_of(unreal.folder).items() if ".partial/" not in name}
+    after = {name: data for name, data in tree_of(exported.folder).items() if ".partial/" not in name}
     assert after == before
     export(request)
-    assert tree_of(unreal.folder) == before
+    assert tree_of(exported.folder) == before
 
 
-def test_the_plug_in_is_put_there_once(unreal: UnrealProject, export: Export) -> None:
-    assert export(request_of(quartet())).plan.plugin
+def test_the_plug_in_is_put_there_once(exported: UnrealProject, export: Export) -> None:
     assert not export(request_of(quartet())).plan.plugin
 
 
@@ -386,9 +378,8 @@ def test_another_ones_plug_in_is_reported(unreal: UnrealProject, export: Export)
     assert tree_of(unreal.folder) == before
 
 
-def test_a_name_that_differs_in_case_is_the_same_piece(unreal: UnrealProject, export: Export) -> None:
-    export(request_of(quartet()))
-    plan = plan_export(request_of(quartet()).performance, (), "QUARTET.mid", unreal)
+def test_a_name_that_differs_in_case_is_the_same_piece(exported: UnrealProject) -> None:
+    plan = plan_export(request_of(quartet()).performance, (), "QUARTET.mid", exported)
     assert plan.layout.piece == "quartet"
 
 

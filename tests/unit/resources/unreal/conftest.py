@@ -20,6 +20,7 @@ from app.performance.ensemble import Performance
 from app.performance.span import bars_span
 from app.project.model import Project
 from tests.support.fake_unreal import Studio, fake_unreal
+from tests.support.phrases import know_phrases
 from tests.unit.export.unreal.conftest import quartet
 
 PYTHON = Path(__file__).parents[4] / "resources" / "unreal" / "Suisou" / "Content" / "Python"
@@ -57,6 +58,11 @@ class Editor:
 
     def sequence(self, piece: str = "quartet") -> Any:
         return self.studio.assets[f"/Game/Suisou/{piece}/LS_{piece}"]
+
+
+@pytest.fixture(autouse=True)
+def _phrases_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    know_phrases(monkeypatch)
 
 
 @pytest.fixture
