@@ -13,8 +13,9 @@ from typing import Final
 import numpy as np
 
 from app.plan.glances import PLAYING_HEAD, StagePlace, bearing_rad, pitch_rad
-from app.plan.line import LineTimes, Piece, Rhythm, Seeds
+from app.plan.line import IntArray, LineTimes, Piece, Rhythm, Seeds
 from app.plan.model import CONDUCTOR, FloatArray, GlanceEvent, TimeFrame
+from app.plan.spans import Spans
 
 CHANGING: Final = 0.03
 """A beat longer or shorter by this share than the one before belongs to a change of tempo."""
@@ -27,6 +28,9 @@ PHRASE_S: Final = (0.55, 0.2)
 PHRASE_REST_S: Final = 0.3
 BAR_EVERY_S: Final = 7.0
 """About so often a player looks up before a bar line."""
+NEAR_S: Final = 2.0
+"""A bar line further from what is played is none to look up at; in long rests other looks are planned."""
+LONGEST_BAR_S: Final = 8.0
 BAR_S: Final = (0.5, 0.18)
 QUICK_S: Final = 0.2
 """From onset to onset: who has so much to read does not look up."""
@@ -62,10 +66,10 @@ def looks_up(
     if amount <= 0.0:
         return ()
     spans = _certain(times, piece, last_s)
-    taken = np.array(spans).reshape(-1, 2)
+    taken = Spans(spans)
     free_s = -np.inf
     for start_s, end_s in _by_chance(times.rhythm, piece, amount, seeds):
-        near = np.any((start_s < taken[:, 1] + LEAST_APART_S) & (taken[:, 0] < end_s + LEAST_APART_S))
+        near = taken.meet(start_s - LEAST_APART_S, end_s + LEAST_APART_S)
         if not near and start_s >= free_s:
             spans.append((start_s, end_s))
             free_s = end_s + LEAST_APART_S
@@ -107,10 +111,9 @@ def _by_chance(times: Rhythm, piece: Piece, amount: float, seeds: Seeds) -> list
     starts = np.flatnonzero(np.insert(rests_s >= PHRASE_REST_S, 0, False))
     starts = starts[seeds.chances_at("up at phrase", times.onset_tick[starts]) < PHRASE_CHANCE * amount]
     spans = [(at_s - PHRASE_S[0], at_s + PHRASE_S[1]) for at_s in times.onset_s[starts].tolist()]
-    bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
-    bars_s: FloatArray = piece.clock.seconds(bars.astype(np.float64))
+    bars, bars_s = _bars(times, piece)
     if len(bars) > 1:
-        chances = np.append(np.diff(bars_s), 0.0) / BAR_EVERY_S * amount
+        chances = np.minimum(np.append(np.diff(bars_s), 0.0), LONGEST_BAR_S) / BAR_EVERY_S * amount
         # Read ahead: what comes next is what keeps the eyes on the page.
         place = np.minimum(np.searchsorted(times.onset_s, bars_s), len(times.onset_s) - 1)
         around = np.stack([np.clip(place + step, 0, len(times.onset_s) - 1) for step in (-1, 0, 1)])
@@ -119,3 +122,15 @@ def _by_chance(times: Rhythm, piece: Piece, amount: float, seeds: Seeds) -> list
         chosen = (seeds.chances_at("up at bar", bars) < chances) & ~quick
         spans += [(at_s - BAR_S[0], at_s + BAR_S[1]) for at_s in bars_s[chosen].tolist()]
     return sorted(spans)
+
+
+def _bars(times: Rhythm, piece: Piece) -> tuple[IntArray, FloatArray]:
+    """Ticks and seconds of the bars near what is played, one of those that lie close together."""
+    bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
+    bars_s: FloatArray = piece.clock.seconds(bars.astype(np.float64))
+    following = np.minimum(np.searchsorted(times.onset_s, bars_s), len(times.onset_s) - 1)
+    before = np.maximum(following - 1, 0)
+    near = (times.onset_s[following] - bars_s <= NEAR_S) & (bars_s - times.played_end_s[before] <= NEAR_S)
+    bars, bars_s = bars[near], bars_s[near]
+    _, first = np.unique(np.floor(bars_s / LEAST_APART_S), return_index=True)
+    return bars[first], bars_s[first]

@@ -7,16 +7,15 @@ seen from the corner of the eye.
 
 from __future__ import annotations
 
-import itertools
 import math
-from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 import msgspec
 
 from app.plan.line import Seeds
 from app.plan.model import ABOUT, AUDIENCE, CONDUCTOR, CueEvent, GestureEvent, GlanceEvent
+from app.plan.spans import Spans
 from metadata.gestures import GazeTrack
 
 EYES_RAD: Final = math.radians(35.0)
@@ -50,25 +49,6 @@ class StagePlace(msgspec.Struct, frozen=True):
     z_m: float
     turn_rad: float
     eyes_m: float = 0.0
-
-
-class _Spans:
-    """Spans of time in order, and the latest end of those up to each, so that none has to be compared with all."""
-
-    def __init__(self, spans: Iterable[tuple[float, float]]) -> None:
-        ordered = sorted(spans)
-        self._starts_s = [start_s for start_s, _ in ordered]
-        self._latest_ends_s = list(itertools.accumulate((end_s for _, end_s in ordered), max))
-
-    def hold(self, start_s: float, end_s: float) -> bool:
-        """Whether one begins at the start or before, and ends at the end or later."""
-        begun = bisect_right(self._starts_s, start_s)
-        return begun > 0 and self._latest_ends_s[begun - 1] >= end_s
-
-    def meet(self, start_s: float, end_s: float) -> bool:
-        """Whether one overlaps."""
-        begun = bisect_left(self._starts_s, end_s)
-        return begun > 0 and self._latest_ends_s[begun - 1] > start_s
 
 
 def glances_of(
@@ -107,10 +87,10 @@ def glances_of(
             found.append(_glance(f"glance:{event.id}", AUDIENCE, event.start_s, event.end_s, yaw_rad))
         elif event.gesture is not None and event.gesture.gaze is not None and event.amount > 0.0:
             found.append(_at_own_hands(event, event.gesture.gaze))
-    taken = _Spans((one.start_s, one.end_s) for one in found)
+    taken = Spans((one.start_s, one.end_s) for one in found)
     # What is asked for anyway is more than a look up from the music.
     found += [one for one in up if not taken.meet(one.start_s, one.end_s)]
-    lowered = _Spans((event.start_s, event.end_s) for event in gestures if event.kind == "lower_instrument")
+    lowered = Spans((event.start_s, event.end_s) for event in gestures if event.kind == "lower_instrument")
     return tuple(_in_turn([_turned(one, lowered) for one in found]))
 
 
@@ -194,7 +174,7 @@ def _glance(name: str, at: str, start_s: float, end_s: float, yaw_rad: float) ->
     return GlanceEvent(name, at, start_s, end_s, yaw_rad, LEVEL_RAD, PLAYING_HEAD)
 
 
-def _turned(glance: GlanceEvent, lowered: _Spans) -> GlanceEvent:
+def _turned(glance: GlanceEvent, lowered: Spans) -> GlanceEvent:
     """With as much of the head as is free, and as far as eyes and head go."""
     free = lowered.hold(glance.start_s - 0.5, glance.end_s + 0.5)
     share = FREE_HEAD if free else PLAYING_HEAD

@@ -1,0 +1,26 @@
+"""Many spans of time, asked for one at a time."""
+
+from __future__ import annotations
+
+import itertools
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable
+
+
+class Spans:
+    """Spans of time in order, and the latest end of those up to each, so that none has to be compared with all."""
+
+    def __init__(self, spans: Iterable[tuple[float, float]]) -> None:
+        ordered = sorted(spans)
+        self._starts_s = [start_s for start_s, _ in ordered]
+        self._latest_ends_s = list(itertools.accumulate((end_s for _, end_s in ordered), max))
+
+    def hold(self, start_s: float, end_s: float) -> bool:
+        """Whether one begins at the start or before, and ends at the end or later."""
+        begun = bisect_right(self._starts_s, start_s)
+        return begun > 0 and self._latest_ends_s[begun - 1] >= end_s
+
+    def meet(self, start_s: float, end_s: float) -> bool:
+        """Whether one overlaps."""
+        begun = bisect_left(self._starts_s, end_s)
+        return begun > 0 and self._latest_ends_s[begun - 1] > start_s
