@@ -59,13 +59,15 @@ class RuleForm(Retranslated, QWidget):
         self._moment, self._does, self._start, self._end_of = (
             named(Combo(), f"rule_{name}") for name in ("moment", "does", "start", "end")
         )
-        self._places, self._styles, self._habits, self._growth = (
-            named(Several(f"rule_{name}"), f"rule_{name}") for name in ("place", "styles", "habits", "grows_with")
+        self._places, self._styles, self._not_styles, self._habits, self._growth = (
+            named(Several(f"rule_{name}"), f"rule_{name}")
+            for name in ("place", "styles", "not_styles", "habits", "grows_with")
         )
         self._chance = self._number("chance", 0.0, 100.0, 5.0)
         self._strength = self._number("strength", 0.0, 1.0, 0.05)
         self._grows_from = self._number("grows_from", 0.0, 1.0, 0.05)
         self._start_s = self._number("start_s", -60.0, 60.0, 0.1)
+        self._spread = self._number("spread_s", 0.0, 60.0, 0.1)
         self._stays = self._number("stays_s", 0.0, 60.0, 0.1)
         self._apart = self._number("apart_s", 0.0, 600.0, 0.5)
         self._end, self._fade_in, self._fade_out = (Asked(field, self._edited) for field in (_END, _FADE_IN, _FADE_OUT))
@@ -73,7 +75,7 @@ class RuleForm(Retranslated, QWidget):
         self._puff.clicked.connect(lambda _checked: self._edited())
         for combo in (self._moment, self._does, self._start, self._end_of):
             combo.chosen.connect(lambda _id: self._edited())
-        for several in (self._places, self._styles, self._habits, self._growth):
+        for several in (self._places, self._styles, self._not_styles, self._habits, self._growth):
             several.changed.connect(self._edited)
         self._when, self._do = QGroupBox(), QGroupBox()
         self._lay_out()
@@ -95,6 +97,7 @@ class RuleForm(Retranslated, QWidget):
                 "rules_dialog.moment": self._moment,
                 "rules_dialog.place": self._places,
                 "rules_dialog.styles": self._styles,
+                "rules_dialog.not_styles": self._not_styles,
                 "rules_dialog.habits": self._habits,
                 "rules_dialog.chance": self._chance,
             }
@@ -107,6 +110,7 @@ class RuleForm(Retranslated, QWidget):
                 "rules_dialog.grows_with": self._growth,
                 "rules_dialog.grows_from": self._grows_from,
                 "rules_dialog.starts": in_row((self._start, 1), self._start_s),
+                "rules_dialog.spread": self._spread,
                 "rules_dialog.stays": self._stays,
                 "rules_dialog.apart": self._apart,
             }
@@ -143,6 +147,7 @@ class RuleForm(Retranslated, QWidget):
             self._strength: do.strength,
             self._grows_from: do.grows_from,
             self._start_s: do.start_s,
+            self._spread: do.spread_s,
             self._stays: do.stays_s,
             self._apart: rule.apart_s,
         }
@@ -159,6 +164,7 @@ class RuleForm(Retranslated, QWidget):
         anyone, nothing = self.tr("rules_dialog.any"), self.tr("rules_dialog.nothing")
         self._places.show_choice(self._texts(PLACES), when.place, anyone)
         self._styles.show_choice(_by_name(library.styles.items, style_name), when.styles, anyone)
+        self._not_styles.show_choice(_by_name(library.styles.items, style_name), when.not_styles, nothing)
         self._habits.show_choice(_by_name(library.habits.items, habit_name), when.habits, anyone)
         self._growth.show_choice(self._texts(GROWTHS), do.growth, nothing)
         _choose(self._moment, self._texts(MOMENTS), when.moment or "")
@@ -180,6 +186,7 @@ class RuleForm(Retranslated, QWidget):
         gesture = bool(rule.do.gesture)
         for widget in (self._stays, self._fade_in.check, self._fade_out.check):
             widget.setEnabled(not gesture)
+        self._spread.setEnabled(gesture)
         self._grows_from.setEnabled(bool(rule.do.growth))
         self._end_of.setEnabled(rule.do.end_s is not None)
 
@@ -194,6 +201,7 @@ class RuleForm(Retranslated, QWidget):
             **asked,
             place=self._places.chosen,
             styles=self._styles.chosen,
+            not_styles=self._not_styles.chosen,
             habits=self._habits.chosen,
             moment=self._moment.shown or None,
             chance=kept(self._chance.value() / 100.0, before.when.chance),
@@ -213,6 +221,7 @@ class RuleForm(Retranslated, QWidget):
             end_s=self._end.kept(before.do),
             fade_in_s=self._fade_in.kept(before.do),
             fade_out_s=self._fade_out.kept(before.do),
+            spread_s=kept(self._spread.value(), before.do.spread_s) if does == "gesture" else 0.0,
             stays_s=kept(self._stays.value(), before.do.stays_s),
         )
         apart_s = kept(self._apart.value(), before.apart_s)
@@ -239,12 +248,13 @@ class RuleForm(Retranslated, QWidget):
         self._do.setTitle(self.tr("rules_dialog.do"))
         for asked in (*self._asked, self._end, self._fade_in, self._fade_out):
             asked.retranslate()
-        for number in (self._start_s, self._stays, self._apart):
+        for number in (self._start_s, self._spread, self._stays, self._apart):
             number.setSuffix(self.tr("rules_dialog.unit_s"))
         self._chance.setSuffix(self.tr("rules_dialog.unit_percent"))
         tips = {
             self._apart: self.tr("rules_dialog.apart_tip"),
             self._growth: self.tr("rules_dialog.grows_with_tip"),
+            self._spread: self.tr("rules_dialog.spread_tip"),
             self._stays: self.tr("rules_dialog.stays_tip"),
         }
         for widget, tip in tips.items():

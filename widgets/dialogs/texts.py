@@ -1013,7 +1013,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "次に行うまでの最小の時間。これより近い表情は一つにまとめられます",
     ),
     "rules_dialog.cancel": ("Cancel", "キャンセル"),
-    "rules_dialog.chance": ("In so many cases", "確率"),
+    "rules_dialog.chance": ("Probability", "確率"),
     "rules_dialog.changed_from_ours": ("Bundled rule that you changed", "変更した付属のルール"),
     "rules_dialog.do": ("Do", "動作"),
     "rules_dialog.does": ("What", "内容"),
@@ -1084,6 +1084,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "rules_dialog.moment_gives_entry": ("Gives an entry", "入りの合図を出すとき"),
     "rules_dialog.moment_note": ("Note", "音符"),
     "rules_dialog.moment_takes_entry": ("Breath before an entry", "入りの前のブレス"),
+    "rules_dialog.not_styles": ("Except styles", "除外するスタイル"),
     "rules_dialog.nothing": ("Nothing", "なし"),
     "rules_dialog.ours": ("Bundled rule", "付属のルール"),
     "rules_dialog.place": ("Place", "位置"),
@@ -1119,6 +1120,11 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "rules_dialog.semitones_above_easy": ("Above the easy range by at least", "楽な音域より次の値以上高い"),
     "rules_dialog.semitones_below_easy": ("Below the easy range by at least", "楽な音域より次の値以上低い"),
     "rules_dialog.shorter_s": ("Lasts at most", "長さが次の値以下"),
+    "rules_dialog.spread": ("Starts later by up to", "開始を遅らせる最大値"),
+    "rules_dialog.spread_tip": (
+        "A gesture begins up to so much later, differently by player, place and seed, so that no two begin at once",
+        "ジェスチャーの開始を、奏者、位置、シードに応じて最大でこの時間だけ遅らせ、同時に始まらないようにします",
+    ),
     "rules_dialog.starts": ("Starts after", "開始位置"),
     "rules_dialog.stays": ("Stays longer by", "余韻"),
     "rules_dialog.stays_tip": (

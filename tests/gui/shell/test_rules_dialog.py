@@ -192,3 +192,20 @@ def test_return_in_a_number_takes_it_and_leaves_the_dialog_open(dialog: RulesDia
     assert dialog.isVisible()
     QTest.keyClick(dialog, Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
     assert not dialog.isVisible()
+
+
+def test_excluded_styles_and_the_spread_of_starts_are_changed(dialog: RulesDialog) -> None:
+    select(dialog, "page")
+    excluded = part(dialog, Several, "rule_not_styles")
+    assert excluded.chosen == ("marching_band",)
+    (reserved,) = [entry for entry in excluded.menu().actions() if entry.objectName() == "reserved"]
+    reserved.trigger()
+    spread = part(dialog, QDoubleSpinBox, "rule_spread_s")
+    assert spread.isEnabled()
+    type_into(spread, "3.5")
+    changed = rule(dialog, "page")
+    assert set(changed.when.not_styles) == {"marching_band", "reserved"}
+    assert changed.do.spread_s == 3.5
+    select(dialog, "strained")
+    assert not spread.isEnabled(), "expressions begin where they are asked for"
+    assert rule(dialog, "strained").do.spread_s == 0.0
