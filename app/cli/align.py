@@ -71,7 +71,7 @@ def align(arguments: argparse.Namespace) -> None:
     kind = target.suffix.lower()
     if kind not in (_PROJECT, *_MIDI):
         raise UsageError("align.kind", file=str(target))
-    if target.exists() and any(target.samefile(one) for one in (arguments.file, arguments.recording) if one.exists()):
+    if any(_same(target, one) for one in (arguments.file, arguments.recording)):
         raise FileError("align.onto_itself", file=str(target))
     project = open_project(arguments)
     following = _follow(project, arguments)
@@ -82,6 +82,13 @@ def align(arguments: argparse.Namespace) -> None:
         for warning in export_midi(aligned, target, library().maps):
             warn(text(warning))
     _report(aligned, following, target)
+
+
+def _same(one: Path, other: Path) -> bool:
+    try:
+        return one.samefile(other)
+    except OSError:
+        return False  # what is written is not there yet
 
 
 def _follow(project: Project, arguments: argparse.Namespace) -> Following:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.rig import quaternion
-from app.rig.hold import FingerTable, FloatArray, GripPose, StationTable
+from app.rig.hold import FingerTable, FloatArray, GripPose, HandHold, StationTable
 from app.rig.model import Skeleton
 from metadata.model import SkeletonProfile
 
@@ -61,11 +61,14 @@ class _Finger:
 
 
 def with_curved_fingers(hold: GripPose, skeleton: Skeleton, profile: SkeletonProfile) -> GripPose:
-    """The hold whose waiting fingers are curved."""
-    hands = tuple(
-        replace(hand, fingers=tuple(_curved(table, skeleton, profile) for table in hand.fingers)) for hand in hold.hands
-    )
-    return replace(hold, hands=hands)
+    """The hold whose waiting fingers are curved, but for those that bear the instrument: they stay on it."""
+    return replace(hold, hands=tuple(_of_hand(hand, skeleton, profile) for hand in hold.hands))
+
+
+def _of_hand(hand: HandHold, skeleton: Skeleton, profile: SkeletonProfile) -> HandHold:
+    bearing = {fit.part.rpartition(".")[0] for fit in hand.contacts if fit.control is None}
+    fingers = tuple(table if table.finger in bearing else _curved(table, skeleton, profile) for table in hand.fingers)
+    return replace(hand, fingers=fingers)
 
 
 def _curved(table: FingerTable, skeleton: Skeleton, profile: SkeletonProfile) -> FingerTable:
@@ -101,12 +104,12 @@ def _from_knuckle(station: StationTable, finger: _Finger, amount: float) -> Floa
     middle, outer = (finger.bent_rad(pressed[joint], joint) for joint in (1, 2))
     middle_rad = middle + np.clip(np.clip(middle, *CURVED_RAD) - middle, -MOST_RAD[0], MOST_RAD[0])
     outer_rad = outer + np.clip(OUTER_SHARE * middle_rad - outer, -MOST_RAD[1], MOST_RAD[1])
-    rotations = np.tile(pressed, (len(tips_m), 1, 1))
-    # Up from the key first, and bent towards ease as it rises.
-    share = np.square(1.0 - station.values)
-    for joint, own, eased in ((1, middle, middle_rad), (2, outer, outer_rad)):
-        solved = finger.bent_rad(waiting[joint], joint)
-        rotations = finger.flexed(rotations, joint, share * (solved + amount * (eased - solved) - own))
+    rotations = station.rotations
+    # Half a hole is covered by the pose that was solved for it; above that, bent towards ease as it rises.
+    share = np.square(np.clip(1.0 - 2.0 * station.values, 0.0, 1.0))
+    for joint, eased_rad in ((1, middle_rad), (2, outer_rad)):
+        solved_rad = finger.bent_rad(waiting[joint], joint)
+        rotations = finger.flexed(rotations, joint, share * amount * (eased_rad - solved_rad))
     bare, turn = rotations, np.zeros(len(share))
     for _ in range(ROUNDS):
         now_m = finger.tips_m(finger.flexed(bare, 0, turn))
@@ -116,11 +119,11 @@ def _from_knuckle(station: StationTable, finger: _Finger, amount: float) -> Floa
     rotations = finger.flexed(bare, 0, turn)
     off_m = finger.tips_m(rotations) - tips_m[-1]
     aside_m = np.linalg.norm(off_m - np.multiply.outer(off_m @ way, way), axis=1)
-    knuckle_rad = finger.bent_rad(pressed[0], 0) + turn
+    knuckle_rad = np.array([finger.bent_rad(one[0], 0) for one in station.rotations]) + turn
     if knuckle_rad.min() < KNUCKLE_RAD[0] or knuckle_rad.max() > KNUCKLE_RAD[1]:
         return None
     if np.abs(off_m @ way - height_m).max() > EXACT_M or aside_m.max() > ASIDE_M:
         return None
-    rotations[-1] = pressed
+    rotations = np.where((share > 0.0)[:, None, None], rotations, station.rotations)
     same_side = np.einsum("sjc,sjc->sj", rotations, station.rotations) >= 0.0
     return np.where(same_side[..., None], rotations, -rotations)
