@@ -27,6 +27,8 @@ KNUCKLE_RAD = (float(np.deg2rad(-30.0)), float(np.deg2rad(90.0)))
 AMOUNTS = (1.0, 0.5)
 """How much of that is tried."""
 ROUNDS, LEAST_SLOPE_M, MOST_STEP_RAD = 8, 0.001, 0.3
+SPREAD_RAD = float(np.deg2rad(0.1))
+"""The knuckle is turned sideways no further than it was solved."""
 EXACT_M, ASIDE_M = 0.0003, 0.012
 """What does not come as high so nearly, or goes further from the way up, waits as it was solved."""
 
@@ -58,6 +60,12 @@ class _Finger:
         """How far a joint (4,) is bent."""
         swing, _ = quaternion.swing_twist(rotation, self.twist[joint])
         return float(quaternion.to_rotation_vector(swing) @ self.flexion[joint])
+
+    def spread_rad(self, rotations: FloatArray) -> float:
+        """How far the knuckle (S, 4) is turned sideways at most."""
+        swing, _ = quaternion.swing_twist(rotations, self.twist[0])
+        sideways = np.cross(self.flexion[0], self.twist[0])
+        return float(np.abs(quaternion.to_rotation_vector(swing) @ sideways).max())
 
 
 def with_curved_fingers(hold: GripPose, skeleton: Skeleton, profile: SkeletonProfile) -> GripPose:
@@ -121,6 +129,8 @@ def _from_knuckle(station: StationTable, finger: _Finger, amount: float) -> Floa
     aside_m = np.linalg.norm(off_m - np.multiply.outer(off_m @ way, way), axis=1)
     knuckle_rad = np.array([finger.bent_rad(one[0], 0) for one in station.rotations]) + turn
     if knuckle_rad.min() < KNUCKLE_RAD[0] or knuckle_rad.max() > KNUCKLE_RAD[1]:
+        return None
+    if finger.spread_rad(rotations[:, 0]) > finger.spread_rad(station.rotations[:, 0]) + SPREAD_RAD:
         return None
     if np.abs(off_m @ way - height_m).max() > EXACT_M or aside_m.max() > ASIDE_M:
         return None
