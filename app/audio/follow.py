@@ -5,8 +5,8 @@ that needs numba and LLVM, 208 MB); then the onsets of the score, chord by chord
 that the tempo between them stays as even as the onsets allow; then beats are read off, smoothed over their neighbours,
 as musicians play.
 
-Between bars and every few seconds of the recording stands a frame of silence, which costs as much as half a wrong
-chord: what only one of the two has (applause, a cut, a repeat) is put there instead of being stretched over the other.
+Every few seconds of both stands a frame of silence, which costs as much as half a wrong chord: what only one of the two
+has (applause, a cut, a repeat) is put there instead of being stretched over the other.
 """
 
 from __future__ import annotations
@@ -53,11 +53,13 @@ _AROUND_S: Final = 1.5
 _ROUNDS: Final = ((0.1, 0.4, 0.01, 100.0), (0.03, 0.12, 0.004, 60.0))
 """Of the onsets: width of an onset's edge, reach and step of their shifts in seconds, cost of an uneven tempo."""
 _LEAST_GAP_S: Final = 0.02
+"""Beats lie so far apart at least."""
 _NEIGHBOURS_BEATS: Final = 1.0
 """A beat is read off the onsets this far on both sides."""
 _MISSING_S: Final = 2.0
 """Shorter stretches that only one of the two has are no cut and no repeat."""
 _BREAK_S: Final = 0.5
+"""Shorter breaks within such a stretch are part of it."""
 _SILENT, _LOUD = 0.15, 0.4
 """Size of a frame's shape, 1 at the typical level: below the one nothing sounds, above the other something does."""
 _LOCAL_S: Final = 2.5
@@ -66,6 +68,7 @@ _EVEN_BEATS: Final = 4
 _USUAL_UNEVEN: Final = 0.4
 """Natural logarithm of the tempo against that of the whole, over so many beats: 1.5 times as fast or slow."""
 _SQUEEZED: Final = -0.6
+"""The same where beats have little more than half their time: the recording leaves them out."""
 RECOGNISED: Final = 0.3
 """Mean confidence below which it is rather a recording of another piece."""
 

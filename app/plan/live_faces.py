@@ -1,4 +1,4 @@
-"""Expressions that rules show to a note while it is played: by its height, loudness and effort alone, since nobody
+"""Expressions that rules show to a note while it is played: by its height, loudness and effort alone, since no one
 knows yet how long it lasts and what follows."""
 
 from __future__ import annotations
