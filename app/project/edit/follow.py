@@ -13,7 +13,7 @@ from app.errors import UsageError
 from app.project.edit.piece import set_audio, set_offset
 from app.project.edit.tempo import set_beats
 from app.project.model import Project
-from app.score.following import Following
+from app.score.following import SURE, Following
 
 
 def follow_recording(project: Project, following: Following, path: str | os.PathLike[str]) -> Project:
@@ -30,7 +30,8 @@ def follow_recording(project: Project, following: Following, path: str | os.Path
         ``align.bars_missing`` (first, last) where the recording leaves out bars between others: they would have no
         time to sound in.
     """
-    sounding = (following.recording_s >= 0.0) & (following.confidence > 0.0)
+    # Beats before the first note and after the last one are no bars that would have to wait for those left out.
+    sounding = following.confidence >= SURE
     for span in following.missing:
         before = bool(np.any(sounding & (following.ticks < span.start)))
         after = bool(np.any(sounding & (following.ticks >= span.end)))

@@ -109,6 +109,22 @@ def test_first_bars_missing_after_applause() -> None:
     check("cut", found, applause_s - cut_s, from_s=applause_s + 0.5)
     assert len(found.missing) == 1
     assert found.missing[0].start < quartet().score.ticks_per_quarter
+    project = follow_recording(quartet(), found, "concert.wav")
+    assert project.audio is not None
+    assert project.audio.offset_s == pytest.approx(cut_s - applause_s, abs=1.0)
+
+
+def test_last_bars_missing_keep_the_tempo_before_them() -> None:
+    played_s = 80.0
+    found = followed(recorded()[: round(played_s * RATE_HZ)])
+    assert len(found.missing) == 1
+    assert found.missing[0].end > 0.97 * quartet().score.end_tick
+    project = follow_recording(quartet(), found, "concert.wav")
+    notes = np.array([note.onset_tick for part in quartet().score.parts for note in part.notes], np.float64)
+    true_s = truth().score.tempo_map.seconds(notes)
+    assert project.audio is not None
+    errors_s = np.abs(project.score.tempo_map.seconds(notes) - project.audio.offset_s - true_s)[true_s < played_s - 1.0]
+    assert np.percentile(errors_s, 95) <= NINETEEN_OF_TWENTY_S
 
 
 def test_bars_left_out_in_the_middle_are_reported_and_nothing_is_changed() -> None:
