@@ -13,7 +13,7 @@ from typing import Final, NamedTuple, TypeAlias, get_args
 import numpy as np
 
 from app.motion.curve import FloatArray, rows_changed_s
-from app.motion.gestured import keyed
+from app.motion.gestured import Gestured, keyed
 from app.plan.model import GestureEvent
 from app.rig.hold import Side
 from metadata.gestures import Gesture, HandPlace, HandShape
@@ -62,16 +62,8 @@ class Reaching:
     @classmethod
     def of(cls, events: Sequence[GestureEvent]) -> Reaching:
         """From a plan's gestures."""
-        gestures: list[Gesture] = []
-        rows = []
-        for event in events:
-            gesture = event.gesture
-            if gesture is None or not gesture.needs_lowered or event.end_s <= event.start_s:
-                continue
-            if gesture not in gestures:
-                gestures.append(gesture)
-            rows.append((event.start_s, event.end_s, event.amount, float(gestures.index(gesture))))
-        return cls(np.array(rows, dtype=np.float64).reshape(-1, 4), tuple(gestures))
+        found = Gestured.of([one for one in events if one.gesture is not None and one.gesture.needs_lowered])
+        return cls(found.rows, found.gestures)
 
     def sample(self, times_s: FloatArray) -> Reaches:
         """Where hands are on their way at ascending times."""
