@@ -1,14 +1,14 @@
-"""Recordings: WAV, FLAC, OGG and MP3 files as samples at the rate everything is mixed at.
+"""Recordings: WAV, FLAC, OGG and MP3 files, and the sound of films, as samples at the rate everything is mixed at.
 
 Messages: ``audio.not_readable``, ``audio.empty``, ``audio.too_long``, ``audio.too_dense``, ``audio.unusable``,
-``audio.breaks_off``.
+``audio.breaks_off``; of films ``video.not_readable``, ``video.no_sound``.
 """
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -18,6 +18,8 @@ import soxr
 from app.audio.track import RATE_HZ, Block, Samples
 from app.errors import Cancelled, FileError, Message
 from app.formats.files import open_file
+from app.formats.scratch import scratch_folder
+from app.formats.video import SUFFIXES, sound_into
 
 MOST_HOURS: Final = 4
 """Longer recordings would fill the memory: an hour takes 0.7 GB."""
@@ -28,6 +30,8 @@ but silence can be packed into a thousandth of it, and a small file fill the mem
 MOST_CHANNELS: Final = 64
 LEAST_RATE_HZ, MOST_RATE_HZ = 1000, 768_000
 _BLOCK: Final = 1 << 16
+FILM_SUFFIXES: Final = (*SUFFIXES, ".m4a", ".aac")
+"""Files whose sound is taken out first, by ffmpeg."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,9 +71,14 @@ def decode(
     Raises
     ------
     FileError
-        The file cannot be read, is no sound file, or is longer than `MOST_HOURS`.
+        The file cannot be read, has no sound, or is longer than `MOST_HOURS`.
     Cancelled
     """
+    if path.lower().endswith(FILM_SUFFIXES):
+        with scratch_folder() as folder:
+            wave = folder / "sound.wav"
+            sound_into(path, wave, RATE_HZ, MOST_HOURS * 3600.0 + 1.0, stop_requested)
+            return replace(decode(os.fspath(wave), progress, stop_requested), path=path)
     try:
         with open_file(path) as stream, soundfile.SoundFile(stream) as file:
             most_s = FREE_S + os.fstat(stream.fileno()).st_size / LEAST_BYTES_PER_S

@@ -19,11 +19,12 @@ from app.editor.settings import Settings
 from app.editor.translated import tr
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
+from app.formats.video import SUFFIXES
 from app.project import storage
 from app.project.autosave import Autosave, Writing, Written
 from app.project.document import Change
 from app.project.edit.dancers import add_dancer, change_dancers
-from app.project.edit.piece import new_piece, set_audio, set_offset
+from app.project.edit.piece import new_piece, relocate, set_audio, set_video
 from app.project.importing import import_project, usual_rows
 from app.project.model import Project
 from app.project.names import file_stem
@@ -33,7 +34,8 @@ from app.score.read import MidiContents, read_contents
 from instrument_maps.library import all_maps, reload
 
 MIDI_SUFFIXES: Final = (".mid", ".midi", ".smf", ".kar", ".rmi")
-AUDIO_SUFFIXES: Final = (".wav", ".flac", ".mp3", ".ogg", ".aif", ".aiff")
+AUDIO_SUFFIXES: Final = (".wav", ".flac", ".mp3", ".ogg", ".aif", ".aiff", ".m4a")
+VIDEO_SUFFIXES: Final = SUFFIXES
 EXAMPLE: Final = "quartet.mid"
 DANCED_EXAMPLE: Final = "montuno.mid"
 EXAMPLE_VARIATION: Final = 14
@@ -152,7 +154,8 @@ class Files(QObject):
         self.let_go(lambda: self._become(new_piece(), None))
 
     def open(self, path: Path, ask: bool = True) -> None:
-        """Open a project or a MIDI file in place of what is open; a recording is added to it.
+        """Open a project or a MIDI file in place of what is open; a recording or a reference video is added
+        to it.
 
         Parameters
         ----------
@@ -161,11 +164,13 @@ class Files(QObject):
         """
         path = path.absolute()
         suffix = path.suffix.lower()
-        if suffix in AUDIO_SUFFIXES:
-            if self.is_open:
+        if suffix in (*AUDIO_SUFFIXES, *VIDEO_SUFFIXES):
+            if not self.is_open:
+                self.session.notice(Message("open.audio_alone", {"file": path.name}), Severity.WARNING)
+            elif suffix in AUDIO_SUFFIXES:
                 self.add_audio(path)
             else:
-                self.session.notice(Message("open.audio_alone", {"file": path.name}), Severity.WARNING)
+                self.add_video(path)
             return
         if suffix == storage.SUFFIX:
             self.let_go(lambda: self._load(path))
@@ -194,14 +199,21 @@ class Files(QObject):
         self.settings.folder = str(path.parent)
         self.session.attempt(Message("edit.set_audio"), lambda project: set_audio(project, path))
 
-    def replace_audio(self, path: Path) -> None:
-        """The recording lies here now; its offset stays."""
+    def add_video(self, path: Path) -> None:
+        """See this reference video with the performance."""
+        self.settings.folder = str(path.parent)
+        if self.session.video.placement == "hidden":
+            self.session.video.set(placement="beside")
+        self.session.attempt(Message("edit.set_video"), lambda project: set_video(project, path))
 
-        def replaced(project: Project) -> Project:
-            offset_s = project.audio.offset_s if project.audio is not None else 0.0
-            return set_offset(set_audio(project, path), offset_s)
-
-        self.session.attempt(Message("edit.set_audio"), replaced)
+    def locate(self, missing: Path, path: Path | None) -> None:
+        """A recording or reference video that was not at its place lies here now, at the same time; None: it goes."""
+        audio, video = self.session.project.audio, self.session.project.video
+        is_audio = audio is not None and audio.path == os.fspath(missing)
+        others = video is not None and video.path == os.fspath(missing)
+        kind = "audio" if is_audio and not others else "video"
+        done = Message(f"edit.remove_{kind}" if path is None else f"edit.set_{kind}")
+        self.session.attempt(done, lambda project: relocate(project, missing, path))
 
     def _load(self, path: Path) -> None:
         presence = self.autosave.presence if self.autosave is not None else None

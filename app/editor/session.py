@@ -21,6 +21,7 @@ from app.editor.streaming import Streaming
 from app.editor.tasks import Tasks
 from app.editor.timeline_view import TimelineView
 from app.editor.tokens import DARK
+from app.editor.video_state import VideoState
 from app.editor.viewport_state import ViewportState
 from app.errors import AppError, Message
 from app.performance.ensemble import Performance
@@ -128,6 +129,7 @@ class Session(QObject):
         self.tasks = tasks
         self.pitch_display = PitchDisplay()
         self.viewport = ViewportState()
+        self.video = VideoState()
         self.listening = Listening()
         self.live_players = LivePlayers()
         self.recording = Recording()

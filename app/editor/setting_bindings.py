@@ -39,6 +39,15 @@ def in_listening(name: str) -> SettingBinding:
     )
 
 
+def in_video(name: str) -> SettingBinding:
+    """How the reference video is seen."""
+    return SettingBinding(
+        lambda session: getattr(session.video, name),
+        lambda session, value: session.video.set(**{name: value}),
+        lambda session: session.video.changed,
+    )
+
+
 def _fold(session: Session, folded: dict[str, bool]) -> None:
     for name, is_folded in folded.items():
         session.set_folded(name, is_folded)

@@ -22,7 +22,8 @@ from PySide6.QtCore import QByteArray, QCoreApplication, QObject, QTimer, Signal
 from app import encoding
 from app.editor.listening import Source
 from app.editor.session import Session
-from app.editor.setting_bindings import FOLDED, THEME, TIME, SettingBinding, in_listening, in_pitches
+from app.editor.setting_bindings import FOLDED, THEME, TIME, SettingBinding, in_listening, in_pitches, in_video
+from app.editor.video_state import DEFAULT_OPACITY, Placement
 from app.errors import AppError, FileError, MapError, Message
 from app.formats.atomic import atomic_write
 from app.formats.files import cannot_write
@@ -206,6 +207,12 @@ class Settings(QObject):
     """Whether scrubbing sounds."""
     source = Setting("sound/source", "recording", Source, held=in_listening("source"))
     """The sound of a project that has a recording."""
+
+    video_placement = Setting[Placement]("video/placement", "beside", Placement, held=in_video("placement"))
+    video_opacity = Setting(
+        "video/opacity", DEFAULT_OPACITY, Annotated[float, msgspec.Meta(ge=0.0, le=1.0)], held=in_video("opacity")
+    )
+    """Behind the players."""
 
     midi_port = Setting("midi/port", "")
     """The device that is recorded from; empty: none was chosen."""

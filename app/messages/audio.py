@@ -7,10 +7,10 @@ from typing import Final
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "audio.not_readable": (
         (
-            "cannot read audio file {file} ({detail}); choose a WAV, FLAC, OGG or MP3 file, or convert it to one "
-            "of these"
+            "cannot read audio file {file} ({detail}); choose a WAV, FLAC, OGG, MP3, M4A or video file, or convert "
+            "it to one of these"
         ),
-        "音源 {file} を読み込めません（{detail}）。WAV、FLAC、OGG、MP3 のいずれかを選ぶか、変換してください",
+        "音源 {file} を読み込めません（{detail}）。WAV、FLAC、OGG、MP3、M4A、動画のいずれかを選ぶか、変換してください",
     ),
     "audio.unusable": (
         ("{file} has {channels} channels at {rate_hz} Hz, which is not supported; export it as stereo at 48000 Hz"),

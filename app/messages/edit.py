@@ -14,6 +14,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "edit.load_metadata": ("Load Metadata from {file}", "{file} からメタデータを読み込み"),
     "edit.remove_audio": ("Remove Audio", "音源を外す"),
     "edit.set_audio": ("Change Audio", "音源を変更"),
+    "edit.set_video": ("Change Reference Video", "参照ビデオを変更"),
+    "edit.remove_video": ("Remove Reference Video", "参照ビデオを外す"),
+    "edit.set_video_offset": ("Change Video Offset", "ビデオのオフセットを変更"),
+    "edit.estimate_video_offset": ("Estimate Video Offset", "ビデオのオフセットを推定"),
     # Events of the plan
     "edit.move_events": ("Move {count} {count:Event|Events}", "イベントを移動（{count} 個）"),
     "edit.resize_events": ("Resize {count} {count:Event|Events}", "イベントの長さを変更（{count} 個）"),

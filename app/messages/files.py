@@ -43,6 +43,20 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} has no video, only audio; choose a video file",
         "{file} には映像がなく、音声だけです。動画ファイルを選んでください",
     ),
+    "video.not_recognised": (
+        (
+            "the piece was not recognised in the sound of the video (confidence {percent} %); nothing was changed; "
+            "type the offset of the video"
+        ),
+        (
+            "ビデオの音声から曲を認識できませんでした（信頼度 {percent} %）。変更していません。"
+            "ビデオのオフセットを入力してください"
+        ),
+    ),
+    "video.offset_found": (
+        "the video begins at {offset_s:.3f} s (confidence {percent} %)",
+        "ビデオの開始位置: {offset_s:.3f} 秒（信頼度 {percent} %）",
+    ),
     "video.no_sound": (
         "{file} has no audio; choose a video with audio, or set its offset by hand",
         "{file} には音声がありません。音声付きの動画を選ぶか、オフセットを手動で設定してください",

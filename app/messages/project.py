@@ -194,6 +194,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "there is no audio to offset; import an audio file first",
         "オフセットを設定する音源がありません。先に音源を読み込んでください",
     ),
+    "piece.no_video": (
+        "there is no reference video; import one first",
+        "参照ビデオがありません。先に読み込んでください",
+    ),
     "piece.path_unusable": (
         "the path {path} cannot be stored in a project; rename or move the file",
         "パス {path} はプロジェクトに保存できません。ファイルの名前を変えるか、移動してください",

@@ -104,8 +104,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ),
     ),
     "open.audio_alone": (
-        "{file} is an audio file; open its project or MIDI file first, then drop it again",
-        "{file} は音源です。先に曲を開いてから、もう一度ドロップしてください",
+        "{file} is an audio or video file; open its project or MIDI file first, then drop it again",
+        "{file} は音源または動画です。先に曲を開いてから、もう一度ドロップしてください",
     ),
     "program.fault": (
         "an internal error occurred: {detail}; your work was saved; please report this with the file {log}",

@@ -26,7 +26,7 @@ from app.project.fault import (
     unique,
     within,
 )
-from app.project.model import AudioTrack, PlayerTakes, Project
+from app.project.model import AudioTrack, PlayerTakes, Project, VideoTrack
 from app.project.parameters import is_possible, range_text
 from app.project.performers import Player
 from app.score.limits import too_long
@@ -352,19 +352,21 @@ def _setting_faults(project: Project) -> Iterator[Fault]:
     if "\0" in project.source:
         yield "source", "must be the path of a MIDI file"
     if project.audio is not None:
-        yield from within("audio", _audio_faults(project.audio))
+        yield from within("audio", _track_faults(project.audio))
+    if project.video is not None:
+        yield from within("video", _track_faults(project.video))
     yield from unique("expressions", (expression.name for expression in project.expressions), "name")
     for index, expression in enumerate(project.expressions):
         yield from expression_faults(expression, f"expressions[{index}]")
 
 
-def _audio_faults(audio: AudioTrack) -> Iterator[Fault]:
-    yield from text_faults("path", audio.path)
-    if not audio.path or "\0" in audio.path:
-        yield "path", "must be the path of a recording"
-    yield from between("offset_s", audio.offset_s, limits.OFFSET_S)
-    if audio.confidence is not None:
-        yield from between("confidence", audio.confidence, (0.0, 1.0))
+def _track_faults(track: AudioTrack | VideoTrack) -> Iterator[Fault]:
+    yield from text_faults("path", track.path)
+    if not track.path or "\0" in track.path:
+        yield "path", "must be the path of a file"
+    yield from between("offset_s", track.offset_s, limits.OFFSET_S)
+    if track.confidence is not None:
+        yield from between("confidence", track.confidence, (0.0, 1.0))
 
 
 def expression_faults(expression: Expression, place: str) -> Iterator[Fault]:

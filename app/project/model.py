@@ -104,6 +104,24 @@ class AudioTrack(msgspec.Struct, frozen=True):
     confidence: float | None = None
 
 
+class VideoTrack(msgspec.Struct, frozen=True):
+    """The reference video that is seen with the performance.
+
+    Attributes
+    ----------
+    path : str
+        Absolute; a project's file keeps it relative to itself.
+    offset_s : float
+        Performance time at which its first picture is seen.
+    confidence : float or None
+        0..1 of an estimated offset; None: set by hand.
+    """
+
+    path: str
+    offset_s: float = 0.0
+    confidence: float | None = None
+
+
 @dataclass(frozen=True)
 class Project:
     """Everything a performance is made from.
@@ -128,6 +146,7 @@ class Project:
         Frames per second of the picture: what the ruler counts, a step is, and an export starts from.
     audio : AudioTrack or None
         None: the built-in synthesiser plays the score.
+    video : VideoTrack or None
     expressions : tuple of Expression
         The animator's own, by name beside the bundled ones.
     source : str
@@ -159,6 +178,7 @@ class Project:
     dance_corrections: Mapping[str, tuple[DanceCorrection, ...]] = field(default_factory=dict)
     section_intensity: float = 1.0
     conductor: ConductorPlace | None = None
+    video: VideoTrack | None = None
 
     def __post_init__(self) -> None:
         players = embodied(self.players)

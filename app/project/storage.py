@@ -13,10 +13,10 @@ from __future__ import annotations
 import hashlib
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import Any, Final
+from typing import Any, Final, TypeVar
 
 import msgspec
 import numpy as np
@@ -32,7 +32,7 @@ from app.project.check import faults
 from app.project.dance_corrections import DanceCorrection
 from app.project.ids import is_made_here
 from app.project.migrations import CURRENT, VERSION_KEY, Raw, migrated
-from app.project.model import AudioTrack, PlayerTakes, Project
+from app.project.model import AudioTrack, PlayerTakes, Project, VideoTrack
 from app.project.performers import Dancer, Player
 from app.project.remarks import sayable
 from app.rig.character_library import characters
@@ -52,6 +52,8 @@ MOST_BYTES: Final = 256 * 2**20
 _PLACE = re.compile(r"^(.*?)(?: - at (`key` in )?`\$?\.?(.*?)`)?$", re.DOTALL)
 _FPS = re.compile(r"[1-9][0-9]{0,8}(?:/[1-9][0-9]{0,8})?", re.ASCII)
 
+Track = TypeVar("Track", AudioTrack, VideoTrack)
+
 
 class _Content(msgspec.Struct, forbid_unknown_fields=True):
     """What a file of the present version holds; corrections are read player by player, so that a fault in one of them
@@ -66,6 +68,7 @@ class _Content(msgspec.Struct, forbid_unknown_fields=True):
     conductor: ConductorPlace | None
     felt_beat_quarters: float | None
     audio: AudioTrack | None
+    video: VideoTrack | None
     players: tuple[Player, ...]
     corrections: dict[str, list[Any]]
     dancers: tuple[Dancer, ...]
@@ -195,9 +198,6 @@ def _content(project: Project, path: Path) -> _Content:
     for place, detail in faults(project):
         raise FileError("project.cannot_save", file=os.fspath(path), place=place, detail=detail)
     folder = path.absolute().parent
-    audio = project.audio
-    if audio is not None:
-        audio = msgspec.structs.replace(audio, path=_stored_path(audio.path, folder))
     return _Content(
         schema_version=CURRENT,
         source=_stored_path(project.source, folder),
@@ -207,7 +207,8 @@ def _content(project: Project, path: Path) -> _Content:
         section_intensity=project.section_intensity,
         conductor=project.conductor,
         felt_beat_quarters=project.felt_beat_quarters,
-        audio=audio,
+        audio=_moved(project.audio, _stored_path, folder),
+        video=_moved(project.video, _stored_path, folder),
         players=tuple(
             _dancing(player, _stored_choreography(player.parameters.choreography, folder)) for player in project.players
         ),
@@ -224,11 +225,16 @@ def _content(project: Project, path: Path) -> _Content:
     )
 
 
+def _moved(track: Track | None, path: Callable[[str, Path], str], folder: Path) -> Track | None:
+    """A recording or video with its path as the file has it, or as this machine does."""
+    return None if track is None else msgspec.structs.replace(track, path=path(track.path, folder))
+
+
 def load(path: str | os.PathLike[str]) -> Project:
     """Read a project.
 
-    What it needs and this computer does not have (an instrument, a character, the recording) stays in it; `missing`
-    and `missing_media` tell.
+    What it needs and this computer does not have (an instrument, a character, the recording, the reference video) stays
+    in it; `missing` and `missing_media` tell.
 
     Raises
     ------
@@ -328,11 +334,9 @@ def choreography_missing(dancer: str, choreography: str) -> tuple[Message, ...]:
 
 
 def missing_media(project: Project) -> Path | None:
-    """The recording, where it is not at its place (any more); to be asked for."""
-    if project.audio is None:
-        return None
-    path = Path(project.audio.path)
-    return None if os.path.isfile(path) else path
+    """The recording or the reference video that is not at its place (any more); to be asked for."""
+    paths = (track.path for track in (project.audio, project.video) if track is not None)
+    return next((Path(path) for path in paths if not os.path.isfile(path)), None)
 
 
 def _project(raw: Raw, folder: Path, file: str) -> Project:
@@ -351,12 +355,9 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
         if items
     }
     # What a struct does not forbid it passes over: nothing in a file may be lost by saving it again.
-    for key in ("audio", "players", "dancers", "expressions", "score", "edited_notes", "takes"):
+    for key in ("audio", "video", "players", "dancers", "expressions", "score", "edited_notes", "takes"):
         for place in _unknown(raw[key], msgspec.to_builtins(getattr(content, key)), key):
             raise FileError("project.invalid", file=file, place=place, detail="unknown key")
-    audio = content.audio
-    if audio is not None:
-        audio = msgspec.structs.replace(audio, path=_full_path(audio.path, folder))
     score = content.score
     return Project(
         score=msgspec.structs.replace(
@@ -374,7 +375,8 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
         conductor=content.conductor,
         felt_beat_quarters=content.felt_beat_quarters,
         fps=Fraction(content.fps),
-        audio=audio,
+        audio=_moved(content.audio, _full_path, folder),
+        video=_moved(content.video, _full_path, folder),
         expressions=content.expressions,
         source=_full_path(content.source, folder),
         read_notes=_read_notes(content.edited_notes, score),

@@ -26,6 +26,7 @@ from app.editor.settings import Settings, settings_path
 from app.editor.sound import Sound
 from app.editor.streamer import Streamer
 from app.editor.tasks import Tasks, ThreadTasks
+from app.editor.video import ReferenceVideo
 from app.editor.viewport_state import VIEWS
 from app.errors import AppError, FileError, Message
 from app.formats.atomic import atomic_write
@@ -139,6 +140,7 @@ class Program(QObject):
         self.generator = Generator(self.session, self.tasks)
         # Children of the session: they stay.
         sound = Sound(self.session, playback, audible)
+        video = ReferenceVideo(self.session)
         watch_instruments(self.session)
         watch_characters(self.session)
         watch_metadata(self.session)
@@ -147,7 +149,7 @@ class Program(QObject):
         table = ActionTable(self.session, settings, rows())
         self.window = Window(self.session, files, settings, asked, table, self.generator)
         self.editor = Editor(
-            self.session, settings, language, asked, files, sound, self.recorder, streamer, table, self.window
+            self.session, settings, language, asked, files, sound, self.recorder, streamer, video, table, self.window
         )
         table.begin(self.editor)
         self.window.character_dropped.connect(partial(characters.bring, self.editor))
@@ -162,6 +164,7 @@ class Program(QObject):
 
     def end(self) -> None:
         """Stop everything that works beside the window."""
+        self.editor.video.close()
         self.recorder.close()
         self.editor.streamer.close()
         self.generator.close()

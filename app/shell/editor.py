@@ -15,6 +15,7 @@ from app.editor.session import Session
 from app.editor.settings import Settings
 from app.editor.sound import Sound
 from app.editor.streamer import Streamer
+from app.editor.video import ReferenceVideo
 from app.shell.action import Row
 from app.shell.actions import ActionTable
 from app.shell.language import Language
@@ -41,6 +42,7 @@ class Editor:
     sound: Sound
     recorder: Recorder
     streamer: Streamer
+    video: ReferenceVideo
     table: ActionTable
     window: Window
 

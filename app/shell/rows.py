@@ -25,6 +25,7 @@ from app.shell.commands import (
     stream,
     takes,
     timeline,
+    video,
     viewport,
 )
 
@@ -39,6 +40,7 @@ FILE_ORDER: Final = (
     "file.reimport",
     "file.reimport_other",
     "file.add_audio",
+    "file.add_video",
     "file.add_character",
     "file.export_midi",
     "file.save_metadata",
@@ -59,7 +61,7 @@ def rows() -> tuple[Row[Any], ...]:
     found = (
         *(*file.ACTIONS, *exchange.ACTIONS, *stream.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *fingerings.ACTIONS),
         *(*events.ACTIONS, *beat.ACTIONS, *players.ACTIONS, *dancers.ACTIONS, *timeline.ACTIONS, *viewport.ACTIONS),
-        *(*playback.ACTIONS, *record.ACTIONS, *takes.ACTIONS, *generate.ACTIONS, *problems.ACTIONS),
+        *(*video.ACTIONS, *playback.ACTIONS, *record.ACTIONS, *takes.ACTIONS, *generate.ACTIONS, *problems.ACTIONS),
         *(*characters.ACTIONS, *piece_metadata.ACTIONS, *application.ACTIONS),
     )
     return tuple(sorted(found, key=lambda row: place.get(row.id, len(place))))

@@ -14,15 +14,13 @@ from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QMainWindow, QPushButton, QStackedWidget, QToolBar, QWidget
 
-from app.editor.files import AUDIO_SUFFIXES, MIDI_SUFFIXES, Files
+from app.editor.files import AUDIO_SUFFIXES, MIDI_SUFFIXES, VIDEO_SUFFIXES, Files
 from app.editor.generator import Generator
 from app.editor.questions import Questions
 from app.editor.session import Session
 from app.editor.settings import Settings
 from app.editor.tasks import ThreadTasks
 from app.encoding import is_text, shown
-from app.errors import Message
-from app.project.edit.piece import set_audio
 from app.project.recovery import Recoverable
 from app.project.storage import SUFFIX
 from app.rig.read_figure import SUFFIXES as CHARACTER_SUFFIXES
@@ -313,10 +311,10 @@ class Window(Retranslated, QMainWindow):
     def _ask_for_media(self, path: Path) -> None:
         self.banner.ask(
             lambda: (
-                self.tr("window.recording_is_not_where_it").format(name=shown(path.name)),
+                self.tr("window.media_not_found").format(name=shown(path.name)),
                 (self.tr("window.find_it"), self.tr("window.remove_it")),
             ),
-            (partial(self._find_media, path), self._remove_media),
+            (partial(self._find_media, path), partial(self._files.locate, path, None)),
         )
 
     def _say_why_no_one_plays(self, path: Path) -> None:
@@ -346,16 +344,15 @@ class Window(Retranslated, QMainWindow):
         )
 
     def _find_media(self, path: Path) -> None:
-        kinds = f"({' '.join(f'*{suffix}' for suffix in AUDIO_SUFFIXES)})"
+        audio = self.session.project.audio
+        suffixes = AUDIO_SUFFIXES if audio is not None and audio.path == os.fspath(path) else VIDEO_SUFFIXES
+        kinds = f"({' '.join(f'*{suffix}' for suffix in suffixes)})"
         if is_text(path.name):
             kinds = f"{path.name} ({path.name});;{kinds}"
         title = self.tr("window.find").format(name=shown(path.name))
         found = self._questions.open_file(title, self._files.folder, kinds)
         if found is not None:
-            self._files.replace_audio(found)
-
-    def _remove_media(self) -> None:
-        self.session.attempt(Message("edit.remove_audio"), lambda project: set_audio(project, None))
+            self._files.locate(path, found)
 
     # Looks
 
@@ -449,6 +446,6 @@ class Window(Retranslated, QMainWindow):
 def dropped_file(event: QDropEvent) -> Path | None:
     """The first file of a drop that can be opened."""
     for path in dropped_paths(event):
-        if path.suffix.lower() in (SUFFIX, *MIDI_SUFFIXES, *AUDIO_SUFFIXES, *CHARACTER_SUFFIXES):
+        if path.suffix.lower() in (SUFFIX, *MIDI_SUFFIXES, *AUDIO_SUFFIXES, *VIDEO_SUFFIXES, *CHARACTER_SUFFIXES):
             return path
     return None

@@ -31,7 +31,7 @@ from shiboken6 import isValid
 from app.capture.protocol import Opened, Ports
 from app.plan.corrections import AddExpression
 from app.project.edit.takes import add_takes, comp_whole
-from app.project.model import AudioTrack, Project
+from app.project.model import AudioTrack, Project, VideoTrack
 from app.project.presets import Preset, save_preset
 from app.score.model import Marker, Score
 from metadata.model import Expression
@@ -69,6 +69,7 @@ def with_more(project: Project, canary: Canary) -> Project:
         expressions=(face,),
         corrections={**project.corrections, front.id: (shown,)},
         audio=AudioTrack(str(canary.folder / canary.file_name("audio"))),
+        video=VideoTrack(str(canary.folder / canary.file_name("video"))),
         players=(msgspec.structs.replace(front, name=canary.name("player"), instrument_id="own"), *project.players[1:]),
     )
 

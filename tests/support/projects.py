@@ -14,7 +14,7 @@ from app.plan.parameters import PARAMETERS, Bounds, PlayerParameters
 from app.project import limits
 from app.project.casting import StagePosition
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
-from app.project.model import DANCER_PARAMETERS, AudioTrack, Project
+from app.project.model import DANCER_PARAMETERS, AudioTrack, Project, VideoTrack
 from app.project.performers import Dancer, Player
 from app.score.limits import too_long
 from app.score.metre_map import Metre
@@ -236,6 +236,7 @@ def projects(draw: st.DrawFn, folder: str = "/music") -> Project:
         felt_beat_quarters=draw(within(limits.FELT_BEAT_QUARTERS)),
         fps=draw(st.fractions(1, 240, max_denominator=1001)),
         audio=draw(st.none() | st.builds(AudioTrack, path, st.floats(-1e4, 1e4), st.none() | fractions01)),
+        video=draw(st.none() | st.builds(VideoTrack, path, st.floats(-1e4, 1e4), st.none() | fractions01)),
         expressions=tuple(draw(st.lists(expressions, max_size=2, unique_by=lambda item: item.name))),
         source=draw(st.just("") | path),
         read_notes={

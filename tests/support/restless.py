@@ -367,6 +367,7 @@ def by_hand(project: Project) -> object:
         {player: frozenset(map(msgspec.json.encode, items)) for player, items in project.corrections.items() if items},
         project.expressions,
         project.audio,
+        project.video,
         project.takes,
     )
 

@@ -36,6 +36,7 @@ from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.renderer import Emphasis, Renderer
 from widgets.viewport.scene import Scene
 from widgets.viewport.shot import Shot, times_looked_at
+from widgets.viewport.video import BesideVideo, VideoStrip
 from widgets.viewport.views import bounds, in_the_way, steady_camera, tracked, view_camera
 
 Floats = npt.NDArray[np.float64]
@@ -86,7 +87,8 @@ class ViewportPanel(Retranslated, QWidget):
         self._reason.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._reason.setMargin(24)
         self._stack.addWidget(self._reason)
-        in_column(self.header, (self._stack, 1), of=self, margins=0, spacing=0)
+        video = (BesideVideo(session, self._stack, self), 1), VideoStrip(session, self)
+        in_column(self.header, *video, of=self, margins=0, spacing=0)
 
         self._canvas: Canvas | None = None
         self._layer: Layer | None = None
@@ -119,6 +121,8 @@ class ViewportPanel(Retranslated, QWidget):
         session.theme_changed.connect(self._apply_theme)
         session.live_players.changed.connect(self._live_changed)
         session.live_players.struck.connect(self._struck)
+        session.video.changed.connect(self._update)
+        session.video.pictured.connect(self._video_pictured)
         session.viewport.changed.connect(self._state_changed)
         session.viewport.viewed.connect(self._view_asked)
         session.viewport.framed.connect(self._frame_asked)
@@ -330,6 +334,8 @@ class ViewportPanel(Retranslated, QWidget):
             hovered=pointer.hovered if pointer is not None and here else None,
             in_the_way=in_the_way(view, stage, rows, camera) if stage is not None else frozenset(),
             wireframe=session.viewport.shows("wireframe"),
+            video=session.video.picture if here and session.video.placement == "behind" else None,
+            video_opacity=session.video.opacity,
             in_motion=moving and here,
         )
         return camera, look_of(session.tokens), emphasis
@@ -351,6 +357,10 @@ class ViewportPanel(Retranslated, QWidget):
             self._canvas.update()
         if self._layer is not None:
             self._layer.refresh(bool(self.scene.message()) or self._has_marks())
+
+    def _video_pictured(self) -> None:
+        if self._session.video.placement == "behind":
+            self._update()
 
     def _selection_changed(self) -> None:
         # Only handles of poses tell of the selected span.

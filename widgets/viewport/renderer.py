@@ -16,6 +16,7 @@ import numpy.typing as npt
 from vispy import gloo
 from vispy.gloo import gl
 
+from app.formats.video import Picture
 from widgets.viewport import shaders
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Member, Stage
@@ -84,6 +85,10 @@ class Emphasis:
     hovered: int | None = None
     in_the_way: frozenset[int] = frozenset()
     wireframe: bool = False
+    video: Picture | None = None
+    """Seen behind the players ..."""
+    video_opacity: float = 1.0
+    """... so much of it."""
     in_motion: bool = False
     """Whether the next picture follows at once: a processor that draws without a graphics card may be less exact."""
 
@@ -183,6 +188,9 @@ class Renderer:
         corners = np.array([(-1, -1), (1, -1), (-1, 1), (1, 1)], np.float32)
         self._backdrop["a_corner"] = corners
         self._ring["a_corner"] = corners
+        self._video = gloo.Program(shaders.VIDEO_VERTEX, shaders.VIDEO_FRAGMENT)
+        self._video["a_corner"] = corners
+        self._video_picture: Picture | None = None
         self._solids: dict[int, _Solid] = {}
         self._morphed: OrderedDict[tuple[int, int], tuple[Any, object]] = OrderedDict()
         self._stage: Stage | None = None
@@ -278,6 +286,8 @@ class Renderer:
         if self._is_other(self._backdrop, camera, aspect, look):
             self._dress_backdrop(camera, aspect, look)
         self._backdrop.draw("triangle_strip")
+        if emphasis.video is not None:
+            self._draw_video(emphasis.video, emphasis.video_opacity, aspect)
         stage, shapes, limbs = self._stage, self._shapes, self._limbs
         if stage is None or shapes is None or limbs is None or not stage.members or not stage.shown.any():
             return
@@ -326,6 +336,21 @@ class Renderer:
             middle = tuple(((low + high) / 2.0).tolist())
             radius = 4.5 + 1.2 * float(np.linalg.norm(high - low)) / 2.0
         program["u_middle"], program["u_radius"] = middle, radius
+
+    def _draw_video(self, picture: Picture, opacity: float, aspect: float) -> None:
+        """A film's picture, as large as it can be."""
+        if picture is not self._video_picture:
+            before, self._video_picture = self._video_picture, picture
+            if before is not None and before.shape == picture.shape:
+                self._video["u_picture"].set_data(picture)
+            else:
+                self._video["u_picture"] = gloo.Texture2D(picture, interpolation="linear", internalformat="rgb8")
+        ratio = picture.shape[1] / picture.shape[0]
+        self._video["u_share"] = min(ratio / aspect, 1.0), min(aspect / ratio, 1.0)
+        self._video["u_opacity"] = opacity
+        gloo.set_state(blend=True, blend_func=OVER)
+        self._video.draw("triangle_strip")
+        gloo.set_state(blend=False)
 
     def _levels(self, stage: Stage, camera: Camera, matrix: Floats, height_px: float) -> npt.NDArray[np.intp]:
         """The level of detail of everyone; -1: not in the picture."""

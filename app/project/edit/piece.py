@@ -20,7 +20,7 @@ from app.project import limits
 from app.project.casting import ConductorPlace
 from app.project.check import expression_faults
 from app.project.edit.tempo import set_metre, set_tempo
-from app.project.model import AudioTrack, Project, conductor_of_new, preroll_of_new
+from app.project.model import AudioTrack, Project, VideoTrack, conductor_of_new, preroll_of_new
 from app.project.names import clean_name
 from app.score.model import Score
 from app.score.tempo import TempoMap
@@ -132,10 +132,7 @@ def set_audio(project: Project, path: str | os.PathLike[str] | None) -> Project:
     offset of the one before, which is set anew or estimated."""
     if path is None:
         return _with(project, audio=None)
-    text = os.path.abspath(path)  # noqa: PTH100 - a symbolic link is what the user chose
-    if "\0" in text or len(text) > limits.MOST_TEXT:
-        raise UsageError("piece.path_unusable", path=ascii(text))
-    before = project.audio
+    text, before = _path(path), project.audio
     if before is None:
         return _with(project, audio=AudioTrack(text))
     return _with(project, audio=msgspec.structs.replace(before, path=text))
@@ -145,12 +142,58 @@ def set_offset(project: Project, offset_s: float, confidence: float | None = Non
     """Performance time at which the recording's first sample sounds; ``confidence`` 0..1 where it was estimated."""
     if project.audio is None:
         raise UsageError("piece.no_recording")
+    return _placed(project, project.audio.path, offset_s, confidence)
+
+
+def set_video(project: Project, path: str | os.PathLike[str] | None) -> Project:
+    """See this reference video with the performance, or none. Another one begins with the offset of the one before;
+    the first one that of the recording, where that is the video's own sound."""
+    if path is None:
+        return _with(project, video=None)
+    text, before, audio = _path(path), project.video, project.audio
+    if before is not None:
+        return _with(project, video=msgspec.structs.replace(before, path=text))
+    if audio is not None and audio.path == text:
+        return _with(project, video=VideoTrack(text, audio.offset_s, audio.confidence))
+    return _with(project, video=VideoTrack(text))
+
+
+def set_video_offset(project: Project, offset_s: float, confidence: float | None = None) -> Project:
+    """Performance time at which the reference video begins; ``confidence`` 0..1 where it was estimated."""
+    if project.video is None:
+        raise UsageError("piece.no_video")
+    return _placed(project, project.video.path, offset_s, confidence)
+
+
+def relocate(project: Project, before: str | os.PathLike[str], after: str | os.PathLike[str] | None) -> Project:
+    """The recording or reference video that was at a path lies at another, at the same time; None: it is removed."""
+    path, gone = None if after is None else _path(after), os.fspath(before)
+    for name in ("audio", "video"):
+        track = getattr(project, name)
+        if track is not None and track.path == gone:
+            project = _with(project, **{name: None if path is None else msgspec.structs.replace(track, path=path)})
+    return project
+
+
+def _path(path: str | os.PathLike[str]) -> str:
+    text = os.path.abspath(path)  # noqa: PTH100 - a symbolic link is what the user chose
+    if "\0" in text or len(text) > limits.MOST_TEXT:
+        raise UsageError("piece.path_unusable", path=ascii(text))
+    return text
+
+
+def _placed(project: Project, path: str, offset_s: float, confidence: float | None) -> Project:
+    """Sound and picture of one file keep together."""
     _check("offset_s", offset_s, limits.OFFSET_S)
     if confidence is not None:
         _check("confidence", confidence, (0.0, 1.0))
         confidence = float(confidence)
-    audio = msgspec.structs.replace(project.audio, offset_s=float(offset_s), confidence=confidence)
-    return _with(project, audio=audio)
+    for name in ("audio", "video"):
+        track = getattr(project, name)
+        if track is not None and track.path == path:
+            placed = msgspec.structs.replace(track, offset_s=float(offset_s), confidence=confidence)
+            project = _with(project, **{name: placed})
+    return project
 
 
 def put_expression(project: Project, expression: Expression, former_name: str | None = None) -> Project:

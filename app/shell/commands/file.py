@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.editor.files import AUDIO_SUFFIXES, MIDI_SUFFIXES
+from app.editor.files import AUDIO_SUFFIXES, MIDI_SUFFIXES, VIDEO_SUFFIXES
 from app.editor.translated import tr
 from app.project.storage import SUFFIX
 from app.shell.editor import Editor, EditorAction, is_open
@@ -26,10 +26,22 @@ def import_midi(editor: Editor) -> None:
 
 def add_audio(editor: Editor) -> None:
     """Ask for the recording that the piece plays with."""
-    kinds = ((tr("files.sound_files"), AUDIO_SUFFIXES), (tr("files.all_files"), ("",)))
+    kinds = (
+        (tr("files.sound_files"), AUDIO_SUFFIXES),
+        (tr("files.video_files"), VIDEO_SUFFIXES),
+        (tr("files.all_files"), ("",)),
+    )
     path = editor.questions.open_file(tr("files.add_recording"), editor.files.folder, _filters(kinds))
     if path is not None:
         editor.files.add_audio(path)
+
+
+def add_video(editor: Editor) -> None:
+    """Ask for the video that is seen with the performance."""
+    kinds = ((tr("files.video_files"), VIDEO_SUFFIXES), (tr("files.all_files"), ("",)))
+    path = editor.questions.open_file(tr("files.add_video"), editor.files.folder, _filters(kinds))
+    if path is not None:
+        editor.files.add_video(path)
 
 
 def piece_settings(editor: Editor) -> None:
@@ -57,6 +69,7 @@ ACTIONS: tuple[EditorAction, ...] = (
     EditorAction("file.save_as", lambda editor: editor.files.save_as(), "file", "Ctrl+Shift+S", enabled=is_open),
     EditorAction("file.import_midi", import_midi, "file", icon="import"),
     EditorAction("file.add_audio", add_audio, "file", enabled=is_open, icon="waveform"),
+    EditorAction("file.add_video", add_video, "file", enabled=is_open, icon="film"),
     EditorAction("file.piece_settings", piece_settings, "file", "Alt+Return", enabled=is_open, icon="piece"),
     EditorAction("file.close", lambda editor: editor.files.close(), "file", "Ctrl+W", enabled=is_open),
     EditorAction("file.quit", lambda editor: editor.window.close(), "file", "Ctrl+Q"),

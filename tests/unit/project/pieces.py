@@ -26,7 +26,7 @@ from app.plan.corrections import (
 from app.plan.parameters import PlayerParameters
 from app.project.casting import ConductorPlace, StagePosition, stage_arc
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
-from app.project.model import AudioTrack, CompSpan, PlayerTakes, Project
+from app.project.model import AudioTrack, CompSpan, PlayerTakes, Project, VideoTrack
 from app.project.performers import Dancer, Player
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score, UnplayedPart
@@ -147,6 +147,7 @@ def full_project(folder: str = "/music") -> Project:
         felt_beat_quarters=1.5,
         fps=Fraction(30000, 1001),
         audio=AudioTrack(f"{folder}/録音.wav", -0.132, 0.94),
+        video=VideoTrack(f"{folder}/練習.mp4", 1.25, 0.8),
         expressions=(ANGRY,),
         source=f"{folder}/piece.mid",
         read_notes={"1.1.1": read},

@@ -1,0 +1,210 @@
+"""The reference video in the viewport: beside the players, and the strip with its placement and offset."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Final
+
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QImage, QPainter, QPaintEvent
+from PySide6.QtWidgets import QButtonGroup, QSizePolicy, QSplitter, QToolButton, QWidget
+
+from app.editor.session import Session
+from app.editor.tokens import LEAST_TARGET_PX
+from app.editor.video_state import DEFAULT_OPACITY, Placement
+from app.errors import Message
+from app.formats.video import Picture
+from app.project.document import Change
+from app.project.edit.piece import set_video_offset
+from app.project.limits import OFFSET_S
+from widgets.common.controls import Retranslated, named
+from widgets.common.icons import icon
+from widgets.common.layouts import STRETCH, in_row
+from widgets.common.number_slider import NumberSlider
+from widgets.common.plain import Label
+from widgets.common.text import sentence
+
+DECIMALS: Final = 3
+LEAST_SIZE: Final = QSize(160, 90)
+SPLITTER_PX: Final = 8
+_BUTTONS: Final[dict[Placement, tuple[str, str]]] = {
+    "beside": ("video_strip.beside", "video_strip.beside_the_players"),
+    "behind": ("video_strip.behind", "video_strip.behind_the_players"),
+}
+
+
+def fitted(ratio: float, width: float, height: float) -> QRectF:
+    """Where a picture of this ratio lies in a box: as large as it can be, in the middle."""
+    shown_width = min(width, height * ratio)
+    shown_height = shown_width / ratio
+    return QRectF((width - shown_width) / 2.0, (height - shown_height) / 2.0, shown_width, shown_height)
+
+
+class VideoView(Retranslated, QWidget):
+    """The video's picture of now; what keeps it from being shown, where that is so.
+
+    Parameters
+    ----------
+    session : Session
+    """
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("video_view")
+        self.setMinimumSize(LEAST_SIZE)
+        self._session = session
+        session.video.pictured.connect(self.update)
+        session.video.changed.connect(self.update)
+        session.theme_changed.connect(self.update)
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        """Set all texts again."""
+        self.setAccessibleName(self.tr("video_view.reference_video"))
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint."""
+        state, tokens = self._session.video, self._session.tokens
+        painter = QPainter(self)
+        painter.fillRect(self.rect(), QColor(tokens.sunken))
+        if state.fault is not None:
+            painter.setPen(QColor(tokens.text_dim))
+            inner = self.rect().adjusted(12, 12, -12, -12)
+            painter.drawText(inner, int(Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap), sentence(state.fault))
+        elif state.ratio > 0.0:
+            box = fitted(state.ratio, float(self.width()), float(self.height()))
+            painter.fillRect(box, QColor("black"))
+            if state.picture is not None:
+                painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
+                painter.drawImage(box, _image(state.picture))
+        painter.end()
+
+
+class BesideVideo(QSplitter):
+    """The players, and beside them the video while it is to be there.
+
+    Parameters
+    ----------
+    session : Session
+    players : QWidget
+    """
+
+    def __init__(self, session: Session, players: QWidget, parent: QWidget | None = None) -> None:
+        super().__init__(Qt.Orientation.Horizontal, parent)
+        self.setObjectName("viewport_splitter")
+        self.setHandleWidth(SPLITTER_PX)
+        self.setChildrenCollapsible(False)
+        self._session = session
+        self._view = VideoView(session, self)
+        for place, widget in enumerate((players, self._view)):
+            self.addWidget(widget)
+            self.setStretchFactor(place, 1)
+        session.changed.connect(self._refresh)
+        session.video.changed.connect(self._refresh)
+        self._refresh()
+
+    def _refresh(self, change: Change | None = None) -> None:
+        shown = self._session.project.video is not None and self._session.video.placement == "beside"
+        if shown != self._view.isVisibleTo(self):
+            self._view.setVisible(shown)
+            if shown:
+                self.setSizes([self.width() // 2, self.width() // 2])
+
+
+class VideoStrip(Retranslated, QWidget):
+    """How the video is seen, where it begins, and its place found by its sound.
+
+    Parameters
+    ----------
+    session : Session
+    """
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("video_strip")
+        self._session = session
+        self._title = Label(parent=self)
+        self._placements = QButtonGroup(self)
+        self._buttons: dict[Placement, QToolButton] = {}
+        for placement in _BUTTONS:
+            button = self._button(f"video_{placement}")
+            button.setCheckable(True)
+            button.clicked.connect(partial(session.video.set, placement=placement))
+            self._placements.addButton(button)
+            self._buttons[placement] = button
+        self._opacity = named(NumberSlider(session, default=DEFAULT_OPACITY, parent=self), "video_opacity")
+        self._opacity.changed.connect(lambda value, _: session.video.set(opacity=value))
+        self._offset = named(
+            NumberSlider(session, *OFFSET_S, step=0.01, decimals=DECIMALS, slides=False, resets=False, parent=self),
+            "video_offset",
+        )
+        self._offset.changed.connect(self._move)
+        self._offset.released.connect(session.document.end_gesture)
+        for slider in (self._opacity, self._offset):
+            slider.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+            slider.setFixedWidth(150)
+        self._estimate = self._button("video_estimate")
+        self._estimate.clicked.connect(lambda: session.actions["video.estimate_offset"].trigger())
+        self._hide = self._button("video_hide")
+        self._hide.clicked.connect(partial(session.video.set, placement="hidden"))
+        in_row(
+            *(self._title, *self._buttons.values(), self._opacity, self._offset, self._estimate, STRETCH, self._hide),
+            of=self,
+            margins=(6, 2, 6, 2),
+            spacing=4,
+        )
+        session.changed.connect(self.refresh)
+        session.video.changed.connect(self.refresh)
+        session.theme_changed.connect(self._apply_theme)
+        self._apply_theme()
+        self.retranslate()
+        self.refresh()
+
+    def refresh(self, change: Change | None = None) -> None:
+        """Show what is so now."""
+        video, state = self._session.project.video, self._session.video
+        self.setVisible(video is not None and state.placement != "hidden")
+        if video is None:
+            return
+        for placement, button in self._buttons.items():
+            button.setChecked(placement == state.placement)
+        self._opacity.setVisible(state.placement == "behind")
+        self._opacity.show_value(state.opacity)
+        self._offset.show_value(video.offset_s)
+
+    def retranslate(self) -> None:
+        """Set all texts again."""
+        self._title.setText(self.tr("video_view.reference_video"))
+        for placement, button in self._buttons.items():
+            text_id, tip_id = _BUTTONS[placement]
+            button.setText(self.tr(text_id))
+            button.setToolTip(self.tr(tip_id))
+        self._opacity.set_texts(self.tr("video_strip.opacity"), "", self.tr("video_strip.opacity_behind"))
+        self._offset.set_texts(self.tr("video_strip.offset"), "s", self.tr("video_strip.where_it_begins"))
+        self._estimate.setText(self.tr("video_strip.find_by_sound"))
+        self._estimate.setToolTip(self.tr("video_strip.place_by_sound"))
+        self._hide.setToolTip(self.tr("video_strip.hide"))
+        self._hide.setAccessibleName(self.tr("video_strip.hide"))
+
+    def _move(self, offset_s: float, token: object) -> None:
+        offset_s = round(offset_s, DECIMALS)
+        self._session.attempt(
+            Message("edit.set_video_offset"), lambda project: set_video_offset(project, offset_s), token
+        )
+
+    def _button(self, name: str) -> QToolButton:
+        button = named(QToolButton(self), name)
+        button.setAutoRaise(True)
+        button.setMinimumSize(LEAST_TARGET_PX + 2, LEAST_TARGET_PX + 2)
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        return button
+
+    def _apply_theme(self) -> None:
+        self._hide.setIcon(icon("close", self._session.tokens))
+        self._title.setStyleSheet(f"color: {self._session.tokens.text_dim};")
+
+
+def _image(picture: Picture) -> QImage:
+    height, width = picture.shape[:2]
+    return QImage(picture.data, width, height, 3 * width, QImage.Format.Format_RGB888)
