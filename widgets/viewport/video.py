@@ -6,7 +6,7 @@ from functools import partial
 from typing import Final
 
 from PySide6.QtCore import QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QImage, QPainter, QPaintEvent
+from PySide6.QtGui import QColor, QImage, QPainter, QPaintEvent, QShowEvent
 from PySide6.QtWidgets import QButtonGroup, QSizePolicy, QSplitter, QToolButton, QWidget
 
 from app.editor.session import Session
@@ -96,6 +96,8 @@ class BesideVideo(QSplitter):
         self.setHandleWidth(SPLITTER_PX)
         self.setChildrenCollapsible(False)
         self._session = session
+        self._halves = False
+        """The video was just shown."""
         self._view = VideoView(session, self)
         for place, widget in enumerate((players, self._view)):
             self.addWidget(widget)
@@ -108,8 +110,19 @@ class BesideVideo(QSplitter):
         shown = self._session.project.video is not None and self._session.video.placement == "beside"
         if shown != self._view.isVisibleTo(self):
             self._view.setVisible(shown)
-            if shown:
-                self.setSizes([self.width() // 2, self.width() // 2])
+            self._halves = shown
+            self._share()
+
+    def _share(self) -> None:
+        """Half of the room for each, once there is any."""
+        if self._halves and self.isVisible():
+            self._halves = False
+            self.setSizes([self.width() // 2] * 2)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """There is room from now on."""
+        super().showEvent(event)
+        self._share()
 
 
 class VideoStrip(Retranslated, QWidget):

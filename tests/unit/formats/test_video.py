@@ -12,35 +12,11 @@ import pytest
 import soundfile
 
 from app.errors import Cancelled, FileError
-from app.export.video import video_into
-from app.formats.video import Picture, VideoFacts, sound_into, video_facts, video_pictures
+from app.formats.video import VideoFacts, sound_into, video_facts, video_pictures
+from tests.support.films import SIZE, number_of, written
 
-BITS = 8
-SIZE = (8 * BITS, 48)
 PICTURES = 200
 PLACES = (0, 1, 2, 47, 99, 100, 198, 199)
-
-
-def numbered(number: int) -> Picture:
-    """A picture with a number in it: a column for each bit."""
-    bits = [255 * (number >> bit & 1) for bit in range(BITS)]
-    return np.broadcast_to(np.repeat(bits, 8).astype(np.uint8)[None, :, None], (SIZE[1], SIZE[0], 3)).copy()
-
-
-def number_of(picture: Picture) -> int:
-    columns = picture[8:-8].mean(axis=(0, 2)).reshape(BITS, -1).mean(axis=1)
-    return sum(1 << bit for bit in range(BITS) if columns[bit] > 127)
-
-
-def written(path: Path, rate: Fraction, click_s: float | None = None) -> Path:
-    sound = None
-    if click_s is not None:
-        sound = np.zeros((int(PICTURES / rate * 48000), 2), np.float32)
-        sound[int(click_s * 48000) :][:480] = 0.8
-    with video_into(path, SIZE, rate, sound) as film:
-        for number in range(PICTURES):
-            film.write(numbered(number))
-    return path
 
 
 def converted(source: Path, to: Path, *options: str) -> Path:
@@ -52,7 +28,9 @@ def converted(source: Path, to: Path, *options: str) -> Path:
 
 @pytest.fixture(scope="module")
 def film(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return written(tmp_path_factory.mktemp("film") / "演奏 %d 'x'.mp4", Fraction(24), click_s=2.0)
+    sound = np.zeros((PICTURES * 2000, 2), np.float32)
+    sound[96_000:][:480] = 0.8
+    return written(tmp_path_factory.mktemp("film") / "演奏 %d 'x'.mp4", Fraction(24), PICTURES, sound)
 
 
 def numbers_from(path: Path, first: int, count: int = 3) -> list[int]:
@@ -64,7 +42,7 @@ def numbers_from(path: Path, first: int, count: int = 3) -> list[int]:
 
 @pytest.mark.parametrize("rate", [Fraction(24), Fraction(30000, 1001), Fraction(60)])
 def test_any_picture_is_found_and_what_follows_it(tmp_path: Path, rate: Fraction) -> None:
-    path = written(tmp_path / "film.mp4", rate)
+    path = written(tmp_path / "film.mp4", rate, PICTURES)
     assert video_facts(str(path)).rate == rate
     for place in PLACES:
         assert numbers_from(path, place) == list(range(place, min(place + 3, PICTURES)))
