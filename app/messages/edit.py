@@ -12,7 +12,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "edit.fit_tempo": ("Fit Offset and Tempo to Audio", "オフセットとテンポを音源に合わせる"),
     "edit.follow_recording": ("Follow Recording", "テンポを録音に追従"),
     "edit.load_metadata": ("Load Metadata from {file}", "{file} からメタデータを読み込み"),
+    "edit.pin_beat": ("Pin Beat to Audio", "拍を音源に固定"),
     "edit.remove_audio": ("Remove Audio", "音源を外す"),
+    "edit.remove_pin": ("Remove Pin", "固定を解除"),
+    "edit.remove_pins": ("Remove All Pins", "すべての固定を解除"),
     "edit.set_audio": ("Change Audio", "音源を変更"),
     # Events of the plan
     "edit.move_events": ("Move {count} {count:Event|Events}", "イベントを移動（{count} 個）"),

@@ -32,8 +32,9 @@ from app.project.check import faults
 from app.project.dance_corrections import DanceCorrection
 from app.project.ids import is_made_here
 from app.project.migrations import CURRENT, VERSION_KEY, Raw, migrated
-from app.project.model import AudioTrack, PlayerTakes, Project
+from app.project.model import PlayerTakes, Project
 from app.project.performers import Dancer, Player
+from app.project.recording import AudioTrack
 from app.project.remarks import sayable
 from app.rig.character_library import characters
 from app.score.model import Note, Score
