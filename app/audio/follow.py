@@ -9,6 +9,7 @@ by hand.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -27,7 +28,7 @@ from app.audio.score_sound import (
     score_chroma,
 )
 from app.audio.track import Samples
-from app.audio.warping import MISSING_S, Integers, Pins, Warped, along, warped
+from app.audio.warping import MISSING_S, Integers, Pins, Warped, along, covered, warped
 from app.errors import AppError, Cancelled
 from app.score.following import Following, Span
 from app.score.metre_map import MetreMap
@@ -50,8 +51,16 @@ _USUAL_UNEVEN: Final = 0.4
 """Natural logarithm of the tempo against that of the whole, over so many beats: 1.5 times as fast or slow."""
 _SQUEEZED: Final = -0.6
 """The same where beats have little more than half their time: the recording leaves them out."""
-RECOGNISED: Final = 0.3
+RECOGNISED: Final = 0.4
 """Mean confidence below which it is rather a recording of another piece."""
+_WHOLE: Final = 0.8
+"""Mean confidence below which it is looked whether the recording has only a part of the piece."""
+_PARTIAL: Final = 0.9
+"""A part is at most so much of the piece."""
+_PART_RECOGNISED: Final = 0.6
+"""As `RECOGNISED` of a part, which is found wherever it is most alike."""
+_BETTER: Final = 0.1
+"""A part must be so much more sure than the whole."""
 
 
 def beats_of(metre_map: MetreMap, end_tick: int, pinned: Iterable[int] = ()) -> Integers:
@@ -103,22 +112,56 @@ def follow(
     recorded = recorded_sound(samples, rate_hz, lambda share: reached(0.6 * share))
     shapes = score_chroma(expected, 1.0)
     pins = _pins(score, pinned or {}).inside(len(samples) / rate_hz)
-    rough = warped(shapes, recorded.chroma, pins)
-    if len(rough.score_s) < 2:
-        raise AppError("audio.not_followed", percent=0)
+    piece = _Heard(score, expected, recorded, shapes, beat_ticks, pins)
+    reached(0.65)
+    result = _followed(piece, slice(0, shapes.shape[1]))
     reached(0.8)
-    times, found = _on_onsets(expected, recorded, rough, pins, lambda share: reached(0.8 + 0.15 * share))
-    beat_s = score.tempo_map.seconds(beat_ticks.astype(np.float64))
-    recording_s = _beats(beat_s, times, found, rough, pins)
-    likely = _confidence(beat_s, recording_s, shapes, recorded, times, found)
-    squeezed = _squeezed(beat_s, _lengths(beat_s, recording_s))
-    missing = tuple(_ticks(score, span) for span in _joined((*rough.missing, *squeezed)))
-    likely[np.isin(beat_ticks, [*(pinned or {})])] = 1.0
-    result = Following(beat_ticks, recording_s + EARLY_S, likely, missing, rough.added)
-    if result.mean_confidence < RECOGNISED:
-        raise AppError("audio.not_followed", percent=round(100 * result.mean_confidence))
+    if result is None or result.mean_confidence < _WHOLE or result.missing:
+        part = covered(shapes, recorded.chroma)
+        if part.stop - part.start < _PARTIAL * shapes.shape[1]:
+            reached(0.85)
+            other = _followed(piece, part)
+            if other is not None and other.mean_confidence >= max(_PART_RECOGNISED, _better_than(result)):
+                result = other
+    if result is None or result.mean_confidence < RECOGNISED:
+        raise AppError("audio.not_followed", percent=0 if result is None else round(100 * result.mean_confidence))
     reached(1.0)
     return result
+
+
+@dataclass(frozen=True)
+class _Heard:
+    """A score and a recording of it, as they are compared."""
+
+    score: Score
+    expected: ExpectedSound
+    recorded: RecordedSound
+    shapes: Floats
+    beat_ticks: Integers
+    pins: Pins
+
+
+def _better_than(whole: Following | None) -> float:
+    return 0.0 if whole is None else whole.mean_confidence + _BETTER
+
+
+def _followed(heard: _Heard, part: slice) -> Following | None:
+    """Follow a recording that has some frames of the score at most; None where nothing is alike."""
+    score, recorded, expected = heard.score, heard.recorded, heard.expected
+    start_s, end_s = part.start * CHROMA_S, part.stop * CHROMA_S
+    pins = heard.pins.within(start_s, end_s)
+    rough = warped(heard.shapes[:, part], recorded.chroma, pins)
+    if len(rough.score_s) < 2:
+        return None
+    rough, pins = rough.later(start_s, heard.shapes.shape[1] * CHROMA_S), replace(pins, score_s=pins.score_s + start_s)
+    times, found = _on_onsets(expected, recorded, rough, pins)
+    beat_s = score.tempo_map.seconds(heard.beat_ticks.astype(np.float64))
+    recording_s = _beats(beat_s, times, found, rough, pins)
+    likely = _confidence(beat_s, recording_s, heard.shapes, recorded, times, found)
+    squeezed = _squeezed(beat_s, _lengths(beat_s, recording_s))
+    missing = tuple(_ticks(score, span) for span in _joined((*rough.missing, *squeezed)))
+    likely[np.searchsorted(beat_s, pins.score_s - 1e-6)] = 1.0
+    return Following(heard.beat_ticks, recording_s + EARLY_S, likely, missing, rough.added)
 
 
 def _pins(score: Score, pinned: Mapping[int, float]) -> Pins:
@@ -128,9 +171,7 @@ def _pins(score: Score, pinned: Mapping[int, float]) -> Pins:
     )
 
 
-def _on_onsets(
-    expected: ExpectedSound, recorded: RecordedSound, warped: Warped, pins: Pins, progress: Callable[[float], None]
-) -> tuple[Floats, Floats]:
+def _on_onsets(expected: ExpectedSound, recorded: RecordedSound, warped: Warped, pins: Pins) -> tuple[Floats, Floats]:
     """Seconds of the score at which notes begin or that are pinned, and when each is in the recording, both rising."""
     fixed = np.round(pins.score_s, 3)
     times, counts = np.unique(np.concatenate((np.round(expected.onset_s, 3), fixed)), return_counts=True)
@@ -139,7 +180,7 @@ def _on_onsets(
     gaps_s = np.maximum(np.diff(times), _LEAST_GAP_S)
     found = warped.at(times)
     found[at_pins] = pins.recording_s
-    for number, (width_s, reach_s, step_s, uneven) in enumerate(_ROUNDS):
+    for width_s, reach_s, step_s, uneven in _ROUNDS:
         edges = onset_edges(recorded.onsets, width_s)
         shifts = np.arange(-reach_s, reach_s + 1e-9, step_s)
         at = (found[:, None] + shifts) / ONSET_S
@@ -148,7 +189,6 @@ def _on_onsets(
         strength[np.ix_(at_pins, np.abs(shifts) > step_s / 2)] = -np.inf
         chosen = _even_path(strength, shifts, gaps_s, uneven)
         found = np.maximum.accumulate(found + shifts[chosen])
-        progress((number + 1) / len(_ROUNDS))
     return times, found
 
 

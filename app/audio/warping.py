@@ -9,7 +9,7 @@ stretches, each of which is warped by itself.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Final, TypeAlias
 
@@ -40,6 +40,7 @@ _SILENT, _LOUD = 0.15, 0.4
 """Size of a frame's shape, 1 at the typical level: below the one nothing sounds, above the other something does."""
 
 
+_BESIDE_S: Final = 3.0
 _NEAR: Final = 80
 """Frames from whose tempo it goes on beyond the ends."""
 
@@ -51,10 +52,15 @@ class Pins:
     score_s: Floats
     recording_s: Floats
 
-    def inside(self, seconds: float) -> Pins:
+    def inside(self, recording_s: float) -> Pins:
         """Those within a recording of this length."""
-        there = (self.recording_s >= 0.0) & (self.recording_s <= seconds) & (self.score_s >= 0.0)
+        there = (self.recording_s >= 0.0) & (self.recording_s <= recording_s)
         return Pins(self.score_s[there], self.recording_s[there])
+
+    def within(self, start_s: float, end_s: float) -> Pins:
+        """Those in a part of the score, in seconds of that part."""
+        there = (self.score_s >= start_s) & (self.score_s < end_s)
+        return Pins(self.score_s[there] - start_s, self.recording_s[there])
 
 
 NO_PINS: Final = Pins(np.empty(0), np.empty(0))
@@ -68,6 +74,16 @@ class Warped:
     recording_s: Floats
     missing: tuple[Span, ...]
     added: tuple[Span, ...]
+    length_s: float
+    """Of the score."""
+
+    def later(self, score_s: float, end_s: float) -> Warped:
+        """The same, found in a part of a score that begins so much later than the whole, which lasts until ``end_s``;
+        what is beyond the part is missing."""
+        last_s = score_s + self.length_s
+        missing = tuple(Span(span.start + score_s, span.end + score_s) for span in self.missing)
+        outside = [Span(*span) for span in ((0.0, score_s), (last_s, end_s)) if span[1] - span[0] >= MISSING_S]
+        return replace(self, score_s=self.score_s + score_s, missing=(*missing, *outside), length_s=end_s)
 
     def at(self, score_s: Floats) -> Floats:
         """Seconds of the recording at seconds of the score; beyond the ends at the tempo found near them."""
@@ -90,7 +106,7 @@ def warped(score: Floats, recording: Floats, pins: Pins = NO_PINS) -> Warped:
         Chroma as shapes, a frame every `CHROMA_S`.
     """
     pool = int(np.ceil(np.sqrt(max(score.shape[1] * recording.shape[1] / _MOST_CELLS, 1.0))))
-    frame_s = pool * CHROMA_S
+    frame_s, length_s = pool * CHROMA_S, score.shape[1] * CHROMA_S
     ours, theirs = _pooled(score, pool), _pooled(recording, pool)
     one, other = _path(ours, theirs, max(round(_FILLER_S / frame_s), 1), _cuts(ours, theirs, pins, frame_s))
     missing = _runs(_alone(ours, one[_sounding(theirs, _SILENT)[other]]), frame_s)
@@ -104,12 +120,23 @@ def warped(score: Floats, recording: Floats, pins: Pins = NO_PINS) -> Warped:
     kept = np.searchsorted(frames, frames + reach) - np.searchsorted(frames, frames - reach) > reach
     score_s, recording_s = (frames[kept] + 0.5) * frame_s, (middle[kept] + 0.5) * frame_s
     if len(score_s) < 2:
-        return Warped(score_s, recording_s, (), ())
+        return Warped(score_s, recording_s, (), (), length_s)
     inside = tuple(span for span in added if recording_s[0] < span.start and span.end < recording_s[-1])
     # Never across a pin, where the recording may jump.
     stretches = np.split(np.arange(len(score_s)), np.searchsorted(score_s, pins.score_s))
     recording_s = np.concatenate([_smoothed(score_s[stretch], recording_s[stretch]) for stretch in stretches])
-    return Warped(*_through(pins, score_s, recording_s), missing, inside)
+    return Warped(*_through(pins, score_s, recording_s), missing, inside, length_s)
+
+
+def covered(score: Floats, recording: Floats) -> slice:
+    """The frames of a score that a recording of only a part of it is most like, with some more on both sides."""
+    pool = int(np.ceil(np.sqrt(max(score.shape[1] * recording.shape[1] / _MOST_CELLS, 1.0))))
+    ours, theirs = _pooled(score, pool), _pooled(recording, pool)
+    free = [len(ours), len(ours), 0, 0]
+    path = np.array(dtw.warping_path_fast(ours, theirs, use_ndim=True, penalty=_EVEN, psi=free))
+    beside = round(_BESIDE_S / CHROMA_S)
+    first, last = int(path[0, 0]) * pool - beside, (int(path[-1, 0]) + 1) * pool + beside
+    return slice(max(first, 0), min(last, score.shape[1]))
 
 
 def _cuts(ours: Floats, theirs: Floats, pins: Pins, frame_s: float) -> list[tuple[int, int]]:
