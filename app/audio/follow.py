@@ -1,23 +1,18 @@
 """When every beat of a score sounds in a recording of it that keeps its own time.
 
-Three steps, each finer: dynamic time warping of the chroma of both (dtaidistance, which is far smaller than librosa:
-that needs numba and LLVM, 208 MB); then the onsets of the score, chord by chord, are put on those of the recording so
-that the tempo between them stays as even as the onsets allow; then beats are read off, smoothed over their neighbours,
-as musicians play.
-
-Every few seconds of both stands a frame of silence, which costs as much as half a wrong chord: what only one of the two
-has (applause, a cut, a repeat) is put there instead of being stretched over the other.
+Three steps, each finer: dynamic time warping of the chroma of both (`app.audio.warping`); then the onsets of the score,
+chord by chord, are put on those of the recording so that the tempo between them stays as even as the onsets allow; then
+beats are read off, smoothed over their neighbours, as musicians play. All of it goes through the beats that were pinned
+by hand.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from typing import Final, TypeAlias
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
-from dtaidistance import dtw
 
 from app.audio.score_sound import (
     CHROMA_S,
@@ -33,35 +28,22 @@ from app.audio.score_sound import (
     score_chroma,
 )
 from app.audio.track import Samples
+from app.audio.warping import MISSING_S, Integers, Pins, Warped, along, covered, warped
 from app.errors import AppError, Cancelled
 from app.score.following import Following, Span
 from app.score.metre_map import MetreMap
 from app.score.model import Score
 
-Integers: TypeAlias = npt.NDArray[np.int64]
-
-_MOST_CELLS: Final = 60_000_000
-"""Of the matrix of the warping, 8 bytes each: longer ones are warped with coarser frames."""
-_EVEN: Final = 0.7
-"""What it costs to stand still in one of the two, beside the distance: the tempo changes where something says so."""
-_FILLER_S: Final = 2.2
-"""From one frame of silence to the next."""
-_LEAST_LIKENESS: Final = 0.25
-"""Frames less alike than this are no match."""
-_AROUND_S: Final = 1.5
-"""Half the width over which the warping is smoothed."""
 _ROUNDS: Final = ((0.1, 0.4, 0.01, 100.0), (0.03, 0.12, 0.004, 60.0))
 """Of the onsets: width of an onset's edge, reach and step of their shifts in seconds, cost of an uneven tempo."""
 _LEAST_GAP_S: Final = 0.02
 """Beats lie so far apart at least."""
 _NEIGHBOURS_BEATS: Final = 1.0
 """A beat is read off the onsets this far on both sides."""
-_MISSING_S: Final = 2.0
-"""Shorter stretches that only one of the two has are no cut and no repeat."""
-_BREAK_S: Final = 0.5
-"""Shorter breaks within such a stretch are part of it."""
-_SILENT, _LOUD = 0.15, 0.4
-"""Size of a frame's shape, 1 at the typical level: below the one nothing sounds, above the other something does."""
+_ALONG_BEATS: Final = 4
+"""So many beats around a pinned one go along with what it is away from where it would be read off."""
+_OF_PINS: Final = 1e6
+"""What a pinned beat counts where beats are in one another's way."""
 _LOCAL_S: Final = 2.5
 """Half the width over which a beat's confidence is measured."""
 _EVEN_BEATS: Final = 4
@@ -69,14 +51,22 @@ _USUAL_UNEVEN: Final = 0.4
 """Natural logarithm of the tempo against that of the whole, over so many beats: 1.5 times as fast or slow."""
 _SQUEEZED: Final = -0.6
 """The same where beats have little more than half their time: the recording leaves them out."""
-RECOGNISED: Final = 0.3
+RECOGNISED: Final = 0.4
 """Mean confidence below which it is rather a recording of another piece."""
+_WHOLE: Final = 0.8
+"""Mean confidence below which it is looked whether the recording has only a part of the piece."""
+_PARTIAL: Final = 0.9
+"""A part is at most so much of the piece."""
+_PART_RECOGNISED: Final = 0.6
+"""As `RECOGNISED` of a part, which is found wherever it is most alike."""
+_BETTER: Final = 0.1
+"""A part must be so much more sure than the whole."""
 
 
-def beats_of(metre_map: MetreMap, end_tick: int) -> Integers:
-    """The felt beats of a piece, the first at tick 0."""
+def beats_of(metre_map: MetreMap, end_tick: int, pinned: Iterable[int] = ()) -> Integers:
+    """The felt beats of a piece, the first at tick 0, and what else is pinned."""
     ticks = metre_map.felt_between(0, max(end_tick, 1))
-    return np.concatenate(([0], ticks[ticks > 0]))
+    return np.unique(np.concatenate(([0], ticks[ticks > 0], np.array([*pinned], np.int64))))
 
 
 def follow(
@@ -86,6 +76,7 @@ def follow(
     beat_ticks: Integers,
     progress: Callable[[float], None] = lambda share: None,
     stop_requested: Callable[[], bool] = lambda: False,
+    pinned: Mapping[int, float] | None = None,
 ) -> Following:
     """Find when every beat of a score sounds in a recording.
 
@@ -98,6 +89,8 @@ def follow(
         Called with the share 0..1 that is done.
     stop_requested : callable
         Asked now and then; true ends the work.
+    pinned : mapping of int to float, optional
+        Seconds of the recording by tick, of beats that were put there by hand; both rise.
 
     Raises
     ------
@@ -118,157 +111,84 @@ def follow(
     reached(0.0)
     recorded = recorded_sound(samples, rate_hz, lambda share: reached(0.6 * share))
     shapes = score_chroma(expected, 1.0)
-    warped = _warped(shapes, recorded.chroma)
-    if len(warped.score_s) < 2:
-        raise AppError("audio.not_followed", percent=0)
+    pins = _pins(score, pinned or {}).inside(len(samples) / rate_hz)
+    piece = _Heard(score, expected, recorded, shapes, beat_ticks, pins)
+    reached(0.65)
+    result = _followed(piece, slice(0, shapes.shape[1]))
     reached(0.8)
-    times, found = _on_onsets(expected, recorded, warped, lambda share: reached(0.8 + 0.15 * share))
-    beat_s = score.tempo_map.seconds(beat_ticks.astype(np.float64))
-    recording_s = _beats(beat_s, times, found, warped)
-    likely = _confidence(beat_s, recording_s, shapes, recorded, times, found)
-    squeezed = _squeezed(beat_s, _lengths(beat_s, recording_s))
-    missing = tuple(_ticks(score, span) for span in _joined((*warped.missing, *squeezed)))
-    result = Following(beat_ticks, recording_s + EARLY_S, likely, missing, warped.added)
-    if result.mean_confidence < RECOGNISED:
-        raise AppError("audio.not_followed", percent=round(100 * result.mean_confidence))
+    if result is None or result.mean_confidence < _WHOLE or result.missing:
+        part = covered(shapes, recorded.chroma)
+        if part.stop - part.start < _PARTIAL * shapes.shape[1]:
+            reached(0.85)
+            other = _followed(piece, part)
+            if other is not None and other.mean_confidence >= max(_PART_RECOGNISED, _better_than(result)):
+                result = other
+    if result is None or result.mean_confidence < RECOGNISED:
+        raise AppError("audio.not_followed", percent=0 if result is None else round(100 * result.mean_confidence))
     reached(1.0)
     return result
 
 
 @dataclass(frozen=True)
-class _Warped:
-    """Seconds of the score and of the recording that belong together, both rising; what only one has, in seconds."""
+class _Heard:
+    """A score and a recording of it, as they are compared."""
 
-    score_s: Floats
-    recording_s: Floats
-    missing: tuple[Span, ...]
-    added: tuple[Span, ...]
-
-    def at(self, score_s: Floats) -> Floats:
-        """Seconds of the recording at seconds of the score; beyond the ends at the tempo found near them."""
-        x, y = self.score_s, self.recording_s
-        near = min(80, len(x) - 1)
-        first = (y[near] - y[0]) / (x[near] - x[0])
-        last = (y[-1] - y[-1 - near]) / (x[-1] - x[-1 - near])
-        inner = np.interp(score_s, x, y)
-        before = np.where(score_s < x[0], y[0] + (score_s - x[0]) * first, inner)
-        result: Floats = np.where(score_s > x[-1], y[-1] + (score_s - x[-1]) * last, before)
-        return result
+    score: Score
+    expected: ExpectedSound
+    recorded: RecordedSound
+    shapes: Floats
+    beat_ticks: Integers
+    pins: Pins
 
 
-def _warped(score: Floats, recording: Floats) -> _Warped:
-    """Which frames belong together, by dynamic time warping.
-
-    Parameters
-    ----------
-    score, recording : (12, n) float64
-        Chroma as shapes, a frame every `CHROMA_S`.
-    """
-    pool = int(np.ceil(np.sqrt(max(score.shape[1] * recording.shape[1] / _MOST_CELLS, 1.0))))
-    frame_s = pool * CHROMA_S
-    ours, theirs = _pooled(score, pool), _pooled(recording, pool)
-    step = max(round(_FILLER_S / frame_s), 1)
-    filled, our_frame = _with_fillers(ours, step)
-    filled_theirs, their_frame = _with_fillers(theirs, step)
-    path = np.array(dtw.warping_path_fast(filled, filled_theirs, use_ndim=True, penalty=_EVEN))
-    one, other = our_frame[path[:, 0]], their_frame[path[:, 1]]
-    both = (one >= 0) & (other >= 0)
-    one, other = one[both], other[both]
-    missing = _runs(_alone(ours, one[_sounding(theirs, _SILENT)[other]]), frame_s)
-    added = _runs(_alone(theirs, other[_sounding(ours, _SILENT)[one]]), frame_s)
-    alike = (ours[one] * theirs[other]).sum(axis=1) > _LEAST_LIKENESS
-    one, other = one[alike], other[alike]
-    frames, places = np.unique(one, return_inverse=True)
-    middle = np.bincount(places, other) / np.maximum(np.bincount(places), 1)
-    # A match alone among others that are none is chance.
-    reach = round(2.0 / frame_s)
-    kept = np.searchsorted(frames, frames + reach) - np.searchsorted(frames, frames - reach) > reach
-    score_s, recording_s = (frames[kept] + 0.5) * frame_s, (middle[kept] + 0.5) * frame_s
-    if len(score_s) < 2:
-        return _Warped(score_s, recording_s, (), ())
-    inside = tuple(span for span in added if recording_s[0] < span.start and span.end < recording_s[-1])
-    return _Warped(score_s, _smoothed(score_s, recording_s), missing, inside)
+def _better_than(whole: Following | None) -> float:
+    return 0.0 if whole is None else whole.mean_confidence + _BETTER
 
 
-def _sounding(frames: Floats, least: float) -> npt.NDArray[np.bool_]:
-    """Which frames are more than near silence."""
-    result: npt.NDArray[np.bool_] = np.linalg.norm(frames, axis=1) > least
-    return result
+def _followed(heard: _Heard, part: slice) -> Following | None:
+    """Follow a recording that has some frames of the score at most; None where nothing is alike."""
+    score, recorded, expected = heard.score, heard.recorded, heard.expected
+    start_s, end_s = part.start * CHROMA_S, part.stop * CHROMA_S
+    pins = heard.pins.within(start_s, end_s)
+    rough = warped(heard.shapes[:, part], recorded.chroma, pins)
+    if len(rough.score_s) < 2:
+        return None
+    rough, pins = rough.later(start_s, heard.shapes.shape[1] * CHROMA_S), replace(pins, score_s=pins.score_s + start_s)
+    times, found = _on_onsets(expected, recorded, rough, pins)
+    beat_s = score.tempo_map.seconds(heard.beat_ticks.astype(np.float64))
+    recording_s = _beats(beat_s, times, found, rough, pins)
+    likely = _confidence(beat_s, recording_s, heard.shapes, recorded, times, found)
+    squeezed = _squeezed(beat_s, _lengths(beat_s, recording_s))
+    missing = tuple(_ticks(score, span) for span in _joined((*rough.missing, *squeezed)))
+    likely[np.searchsorted(beat_s, pins.score_s - 1e-6)] = 1.0
+    return Following(heard.beat_ticks, recording_s + EARLY_S, likely, missing, rough.added)
 
 
-def _alone(frames: Floats, matched: Integers) -> npt.NDArray[np.bool_]:
-    """Which frames sound without one of the other."""
-    alone = _sounding(frames, _LOUD)
-    alone[matched] = False
-    return alone
-
-
-def _runs(there: npt.NDArray[np.bool_], frame_s: float) -> tuple[Span, ...]:
-    """Where they are for `_MISSING_S` at least; short breaks between them are none."""
-    places = np.flatnonzero(there)
-    if not len(places):
-        return ()
-    breaks = np.flatnonzero(np.diff(places) > _BREAK_S / frame_s)
-    starts = places[np.concatenate(([0], breaks + 1))]
-    ends = places[np.concatenate((breaks, [len(places) - 1]))] + 1
-    return tuple(
-        Span(start * frame_s, end * frame_s)
-        for start, end in zip(starts.tolist(), ends.tolist(), strict=True)
-        if (end - start) * frame_s >= _MISSING_S
+def _pins(score: Score, pinned: Mapping[int, float]) -> Pins:
+    """What was pinned, as the analysis hears it."""
+    return Pins(
+        score.tempo_map.seconds(np.array([*pinned], np.float64)), np.array([*pinned.values()], np.float64) - EARLY_S
     )
 
 
-def _pooled(shapes: Floats, count: int) -> Floats:
-    """(n, 12): the mean of every so many frames."""
-    whole = shapes.shape[1] // count * count
-    result: Floats = np.ascontiguousarray(shapes[:, :whole].reshape(12, -1, count).mean(axis=2).T)
-    return result
-
-
-def _with_fillers(frames: Floats, step: int) -> tuple[Floats, Integers]:
-    """Frames with one of silence before every so many and at the end, and the place of each before, -1 of those."""
-    places = np.append(np.arange(0, len(frames), step), len(frames))
-    filled = np.insert(frames, places, 0.0, axis=0)
-    return np.ascontiguousarray(filled), np.insert(np.arange(len(frames)), places, -1)
-
-
-def _smoothed(x: Floats, y: Floats) -> Floats:
-    """Local lines through what was found, rising."""
-    result = np.empty_like(y)
-    first = np.searchsorted(x, x - _AROUND_S)
-    last = np.searchsorted(x, x + _AROUND_S)
-    for place in range(len(x)):
-        inside = slice(first[place], last[place])
-        result[place] = _line_at(x[inside] - x[place], y[inside], 1.0 - ((x[inside] - x[place]) / _AROUND_S) ** 2)
-    rising: Floats = np.maximum.accumulate(result)
-    return rising
-
-
-def _line_at(x: Floats, y: Floats, weights: Floats) -> float:
-    """At 0, the value of the line through weighted points."""
-    total = float(weights.sum())
-    mean_x, mean_y = float((weights * x).sum()) / total, float((weights * y).sum()) / total
-    spread = float((weights * (x - mean_x) ** 2).sum())
-    slope = float((weights * (x - mean_x) * (y - mean_y)).sum()) / spread if spread > 1e-9 else 0.0
-    return mean_y - slope * mean_x
-
-
-def _on_onsets(
-    expected: ExpectedSound, recorded: RecordedSound, warped: _Warped, progress: Callable[[float], None]
-) -> tuple[Floats, Floats]:
-    """Seconds of the score at which notes begin, and when each begins in the recording, both rising."""
-    times, counts = np.unique(np.round(expected.onset_s, 3), return_counts=True)
+def _on_onsets(expected: ExpectedSound, recorded: RecordedSound, warped: Warped, pins: Pins) -> tuple[Floats, Floats]:
+    """Seconds of the score at which notes begin or that are pinned, and when each is in the recording, both rising."""
+    fixed = np.round(pins.score_s, 3)
+    times, counts = np.unique(np.concatenate((np.round(expected.onset_s, 3), fixed)), return_counts=True)
     weights = np.sqrt(counts.astype(np.float64))
+    at_pins = np.searchsorted(times, fixed)
     gaps_s = np.maximum(np.diff(times), _LEAST_GAP_S)
     found = warped.at(times)
-    for number, (width_s, reach_s, step_s, uneven) in enumerate(_ROUNDS):
+    found[at_pins] = pins.recording_s
+    for width_s, reach_s, step_s, uneven in _ROUNDS:
         edges = onset_edges(recorded.onsets, width_s)
         shifts = np.arange(-reach_s, reach_s + 1e-9, step_s)
         at = (found[:, None] + shifts) / ONSET_S
         strength = np.interp(at.ravel(), np.arange(len(edges)), edges, left=0.0, right=0.0).reshape(at.shape)
-        chosen = _even_path(strength * weights[:, None], shifts, gaps_s, uneven)
+        strength *= weights[:, None]
+        strength[np.ix_(at_pins, np.abs(shifts) > step_s / 2)] = -np.inf
+        chosen = _even_path(strength, shifts, gaps_s, uneven)
         found = np.maximum.accumulate(found + shifts[chosen])
-        progress((number + 1) / len(_ROUNDS))
     return times, found
 
 
@@ -303,8 +223,9 @@ def _even_path(strength: Floats, shifts: Floats, gaps_s: Floats, uneven: float) 
     return path
 
 
-def _beats(beat_s: Floats, times: Floats, found: Floats, warped: _Warped) -> Floats:
-    """When the beats sound: by the onsets around each, else by the warping; at least `_LEAST_GAP_S` apart."""
+def _beats(beat_s: Floats, times: Floats, found: Floats, warped: Warped, pins: Pins) -> Floats:
+    """When the beats sound: by the onsets around each, else by the warping; at least `_LEAST_GAP_S` apart, and pinned
+    ones where they are pinned."""
     result = warped.at(beat_s)
     # What the onsets say beside the warping, so that between them its tempo goes on.
     aside = found - warped.at(times)
@@ -321,7 +242,12 @@ def _beats(beat_s: Floats, times: Floats, found: Floats, warped: _Warped) -> Flo
     from sklearn.isotonic import isotonic_regression  # heavy, and only here
 
     gaps_s = _LEAST_GAP_S * np.arange(len(result))
-    rising: Floats = isotonic_regression(result - gaps_s) + gaps_s
+    fixed = np.searchsorted(beat_s, pins.score_s - 1e-6)
+    numbers = np.arange(len(result), dtype=np.float64)
+    result += along(numbers, numbers[fixed], pins.recording_s - result[fixed], _ALONG_BEATS)
+    weights = np.ones(len(result))
+    weights[fixed] = _OF_PINS
+    rising: Floats = isotonic_regression(result - gaps_s, sample_weight=weights) + gaps_s
     return rising
 
 
@@ -370,14 +296,14 @@ def _squeezed(beat_s: Floats, lengths: Floats) -> tuple[Span, ...]:
     breaks = np.flatnonzero(np.diff(places) > _EVEN_BEATS)
     starts, ends = np.concatenate(([0], breaks + 1)), np.concatenate((breaks, [len(places) - 1]))
     spans = [Span(float(beat_s[places[a]]), float(beat_s[places[b]])) for a, b in zip(starts, ends, strict=True)]
-    return tuple(span for span in spans if span.end - span.start >= _MISSING_S)
+    return tuple(span for span in spans if span.end - span.start >= MISSING_S)
 
 
 def _joined(spans: Iterable[Span]) -> tuple[Span, ...]:
     """In order, those that touch as one."""
     result: list[Span] = []
     for span in sorted(spans, key=lambda one: one.start):
-        if result and span.start <= result[-1].end + _MISSING_S:
+        if result and span.start <= result[-1].end + MISSING_S:
             result[-1] = Span(result[-1].start, max(result[-1].end, span.end))
         else:
             result.append(span)

@@ -12,7 +12,7 @@ from app.cli.progress import Progress
 from app.cli.terminal import say, warn
 from app.errors import FileError, Message, UsageError
 from app.messages import filled, text
-from app.project.edit.follow import follow_recording
+from app.project.edit.follow import follow_recording, pins_for
 
 if TYPE_CHECKING:
     from app.project.model import Project
@@ -108,12 +108,14 @@ def _follow(project: Project, arguments: argparse.Namespace) -> Following:
         samples = recording.samples[first:last]
         if not len(samples):
             raise UsageError("align.nothing_between", file=str(arguments.recording), seconds=recording.duration_s)
+        pinned = {pin.tick: pin.recording_s - first / RATE_HZ for pin in pins_for(project, arguments.recording)}
         found = follow(
             samples,
             RATE_HZ,
             project.score,
-            beats_of(project.metre_map, project.score.end_tick),
+            beats_of(project.metre_map, project.score.end_tick, pinned),
             lambda share: progress(0.2 + 0.8 * share, label),
+            pinned=pinned,
         )
     finally:
         progress.clear()

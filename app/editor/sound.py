@@ -346,9 +346,11 @@ class Sound(QObject):
         if recording is None or project.audio is None:
             return
 
+        pinned = {pin.tick: pin.recording_s for pin in project.audio.pins}
+
         def work(progress: Progress, stop_requested: StopRequested) -> Following:
-            beats = beats_of(project.metre_map, project.score.end_tick)
-            return follow(recording.samples, RATE_HZ, project.score, beats, progress, stop_requested)
+            beats = beats_of(project.metre_map, project.score.end_tick, pinned)
+            return follow(recording.samples, RATE_HZ, project.score, beats, progress, stop_requested, pinned)
 
         def done(following: Following) -> None:
             audio, score = self._session.project.audio, self._session.project.score

@@ -50,11 +50,6 @@ class ReferenceVideo(QObject):
         session.playhead_changed.connect(self.refresh)
         session.video.changed.connect(self._state_changed)
 
-    @property
-    def is_read(self) -> bool:
-        """Whether the project has a video that can be shown."""
-        return self._facts is not None
-
     def refresh(self) -> None:
         """Show the picture of the playhead's time."""
         video, facts, reader = self._session.project.video, self._facts, self._reader

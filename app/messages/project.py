@@ -198,6 +198,15 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "there is no reference video; import one first",
         "参照ビデオがありません。先に読み込んでください",
     ),
+    "pins.before_the_piece": (
+        "only beats of the piece can be pinned to the audio",
+        "音源に固定できるのは曲の中の拍だけです",
+    ),
+    "pins.no_room": (
+        "there is no room between the pinned beats beside it; move those first",
+        "隣の固定された拍との間に余地がありません。先にそちらを動かしてください",
+    ),
+    "pins.none_here": ("no beat is pinned there", "そこに固定された拍はありません"),
     "piece.path_unusable": (
         "the path {path} cannot be stored in a project; rename or move the file",
         "パス {path} はプロジェクトに保存できません。ファイルの名前を変えるか、移動してください",

@@ -26,9 +26,11 @@ from app.project.fault import (
     unique,
     within,
 )
-from app.project.model import AudioTrack, PlayerTakes, Project, VideoTrack
+from app.project.model import PlayerTakes, Project
 from app.project.parameters import is_possible, range_text
 from app.project.performers import Player
+from app.project.recording import AudioTrack
+from app.project.video import VideoTrack
 from app.score.limits import too_long
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score
@@ -352,7 +354,7 @@ def _setting_faults(project: Project) -> Iterator[Fault]:
     if "\0" in project.source:
         yield "source", "must be the path of a MIDI file"
     if project.audio is not None:
-        yield from within("audio", _track_faults(project.audio))
+        yield from within("audio", _audio_faults(project.audio))
     if project.video is not None:
         yield from within("video", _track_faults(project.video))
     yield from unique("expressions", (expression.name for expression in project.expressions), "name")
@@ -367,6 +369,21 @@ def _track_faults(track: AudioTrack | VideoTrack) -> Iterator[Fault]:
     yield from between("offset_s", track.offset_s, limits.OFFSET_S)
     if track.confidence is not None:
         yield from between("confidence", track.confidence, (0.0, 1.0))
+
+
+def _audio_faults(audio: AudioTrack) -> Iterator[Fault]:
+    yield from _track_faults(audio)
+    for index, pin in enumerate(audio.pins):
+        yield from between(f"pins[{index}].tick", pin.tick, (0, limits.LAST_TICK))
+        yield from between(f"pins[{index}].recording_s", pin.recording_s, limits.OFFSET_S)
+    if any(one.tick >= two.tick or one.recording_s >= two.recording_s for one, two in pairwise(audio.pins)):
+        yield "pins", "ticks and seconds must rise"
+    for index, doubt in enumerate(audio.doubts):
+        yield from between(f"doubts[{index}].confidence", doubt.confidence, (0.0, 1.0))
+        if not 0 <= doubt.start_tick < doubt.end_tick <= limits.LAST_TICK:
+            yield f"doubts[{index}].start_tick", "must be before the end"
+    if any(one.end_tick > two.start_tick for one, two in pairwise(audio.doubts)):
+        yield "doubts", "must be in order and apart"
 
 
 def expression_faults(expression: Expression, place: str) -> Iterator[Fault]:

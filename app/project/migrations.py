@@ -58,9 +58,11 @@ def _with_takers(raw: Raw) -> Raw:
     return {**raw, "corrections": corrections, "conductor": None}
 
 
-def _with_video(raw: Raw) -> Raw:
-    """11 to 12: there may be a reference video."""
-    return {**raw, "video": None}
+def _with_video_and_pins(raw: Raw) -> Raw:
+    """11 to 12: there may be a reference video; beats may be pinned to the recording, and bars that following it was
+    not sure of are kept."""
+    audio = raw["audio"]
+    return {**raw, "video": None, "audio": None if audio is None else {**audio, "pins": [], "doubts": []}}
 
 
 def _with_parameters(raw: Raw, version: int) -> Raw:
@@ -89,7 +91,7 @@ STRUCTURE: Final[Mapping[int, Migration]] = {
     # There may be curves of the animator's among the corrections; an older file has none.
     10: _with_section_intensity,
     11: _with_takers,
-    12: _with_video,
+    12: _with_video_and_pins,
 }
 """By the version that they lead to. New parameters say themselves since which version they are there."""
 

@@ -32,6 +32,8 @@ from app.project.names import unique_names
 from app.project.parameters import Setting
 from app.project.parameters import with_settings as parameters_with
 from app.project.performers import Dancer, Player
+from app.project.recording import AudioTrack
+from app.project.video import VideoTrack
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.model import Character
 from app.score.choose import MapChoice
@@ -84,42 +86,6 @@ class PlayerTakes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
             if take.id == take_id:
                 return take
         raise KeyError(take_id)
-
-
-class AudioTrack(msgspec.Struct, frozen=True):
-    """The recording that plays with the piece.
-
-    Attributes
-    ----------
-    path : str
-        Absolute, as this machine knows it; a project's file keeps it relative to itself.
-    offset_s : float
-        Performance time (score second 0 is tick 0) at which the recording's first sample sounds.
-    confidence : float or None
-        0..1 of an estimated offset; None: set by hand.
-    """
-
-    path: str
-    offset_s: float = 0.0
-    confidence: float | None = None
-
-
-class VideoTrack(msgspec.Struct, frozen=True):
-    """The reference video that is seen with the performance.
-
-    Attributes
-    ----------
-    path : str
-        Absolute; a project's file keeps it relative to itself.
-    offset_s : float
-        Performance time at which its first picture is seen.
-    confidence : float or None
-        0..1 of an estimated offset; None: set by hand.
-    """
-
-    path: str
-    offset_s: float = 0.0
-    confidence: float | None = None
 
 
 @dataclass(frozen=True)

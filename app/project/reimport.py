@@ -8,7 +8,8 @@ part that is new gets a player; a player whose part is gone leaves, but stays, w
 corrections for them. Parts made in the editor stay, and so do notes drawn into the file's parts where they do not
 overlap what the file has there.
 
-Dancers stay; what was corrected of their dances moves like other corrections at places of the score.
+Dancers stay; what was corrected of their dances moves like other corrections at places of the score, and so do beats
+pinned to the recording.
 
 Corrections whose note is gone stay as they are and do nothing (`orphaned`), until they are given another note
 (`reattached`) or taken back.
@@ -47,6 +48,7 @@ from app.project.ids import (
 from app.project.limits import LAST_TICK
 from app.project.model import Project
 from app.project.performers import Player
+from app.project.recording import with_places
 from app.score.model import Note, Part, Score
 from app.score.parts import transposed
 from instrument_maps.model import InstrumentMap
@@ -472,7 +474,12 @@ def _with_players(
         for dancer, own in project.dance_corrections.items()
     }
     result = replace(
-        scored, players=promote_remaining(staying), corrections=corrections, takes=takes, dance_corrections=danced
+        scored,
+        players=promote_remaining(staying),
+        corrections=corrections,
+        takes=takes,
+        dance_corrections=danced,
+        audio=None if project.audio is None else with_places(project.audio, everywhere),
     )
     former = {part.id for part in project.score.parts}
     fresh = [part for part in parts if part.id not in former]

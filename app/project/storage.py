@@ -32,9 +32,11 @@ from app.project.check import faults
 from app.project.dance_corrections import DanceCorrection
 from app.project.ids import is_made_here
 from app.project.migrations import CURRENT, VERSION_KEY, Raw, migrated
-from app.project.model import AudioTrack, PlayerTakes, Project, VideoTrack
+from app.project.model import PlayerTakes, Project
 from app.project.performers import Dancer, Player
+from app.project.recording import AudioTrack
 from app.project.remarks import sayable
+from app.project.video import VideoTrack
 from app.rig.character_library import characters
 from app.score.model import Note, Score
 from instrument_maps.library import all_maps

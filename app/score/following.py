@@ -52,9 +52,7 @@ class Following:
     @property
     def mean_confidence(self) -> float:
         """Over all beats that the recording has."""
-        there = np.ones(len(self.ticks), np.bool_)
-        for span in self.missing:
-            there &= (self.ticks < span.start) | (self.ticks >= span.end)
+        there = self._there()
         return float(self.confidence[there].mean()) if there.any() else 0.0
 
     def later(self, seconds: float) -> Following:
@@ -62,18 +60,29 @@ class Following:
         added = tuple(Span(span.start + seconds, span.end + seconds) for span in self.added)
         return replace(self, recording_s=self.recording_s + seconds, added=added)
 
+    def bars(self, metre_map: MetreMap) -> list[tuple[int, float]]:
+        """The bars that the recording has at least in part: number, and mean confidence."""
+        there = self._there()
+        bars = metre_map.bar_of_tick(self.ticks[there])
+        numbers, places = np.unique(bars, return_inverse=True)
+        means = np.bincount(places, self.confidence[there]) / np.maximum(np.bincount(places), 1)
+        return list(zip(numbers.tolist(), means.tolist(), strict=True))
+
     def doubtful_bars(self, metre_map: MetreMap) -> list[tuple[int, int, int]]:
         """Runs of bars whose confidence is below `SURE`: first and last bar, and the mean confidence in per cent."""
+        runs: list[list[tuple[int, float]]] = []
+        before = None
+        for place, (number, mean) in enumerate(self.bars(metre_map)):
+            if mean < SURE:
+                if before != place - 1:
+                    runs.append([])
+                runs[-1].append((number, mean))
+                before = place
+        return [(run[0][0], run[-1][0], round(100 * sum(mean for _, mean in run) / len(run))) for run in runs]
+
+    def _there(self) -> npt.NDArray[np.bool_]:
+        """Which beats the recording has."""
         there = np.ones(len(self.ticks), np.bool_)
         for span in self.missing:
             there &= (self.ticks < span.start) | (self.ticks >= span.end)
-        bars = metre_map.bar_of_tick(self.ticks[there])
-        numbers, places = np.unique(bars, return_inverse=True)
-        means = np.bincount(places, self.confidence[there]) / np.bincount(places)
-        low = np.flatnonzero(means < SURE)
-        runs = np.split(low, np.flatnonzero(np.diff(numbers[low]) > 1) + 1)
-        return [
-            (int(numbers[run[0]]), int(numbers[run[-1]]), round(100 * float(means[run].mean())))
-            for run in runs
-            if len(run)
-        ]
+        return there

@@ -155,6 +155,7 @@ class ActionTable(QObject):
             session.listening.changed,
             session.recording.changed,
             session.streaming.changed,
+            session.video.changed,
             session.viewport.changed,
         ):
             signal.connect(self.refresh_soon)

@@ -31,8 +31,10 @@ from shiboken6 import isValid
 from app.capture.protocol import Opened, Ports
 from app.plan.corrections import AddExpression
 from app.project.edit.takes import add_takes, comp_whole
-from app.project.model import AudioTrack, Project, VideoTrack
+from app.project.model import Project
 from app.project.presets import Preset, save_preset
+from app.project.recording import AudioTrack
+from app.project.video import VideoTrack
 from app.score.model import Marker, Score
 from metadata.model import Expression
 from tests.support.canary import Canary

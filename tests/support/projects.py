@@ -14,8 +14,10 @@ from app.plan.parameters import PARAMETERS, Bounds, PlayerParameters
 from app.project import limits
 from app.project.casting import StagePosition
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
-from app.project.model import DANCER_PARAMETERS, AudioTrack, Project, VideoTrack
+from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer, Player
+from app.project.recording import AudioTrack
+from app.project.video import VideoTrack
 from app.score.limits import too_long
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Note, Part, PercussionHit, Score, UnplayedPart

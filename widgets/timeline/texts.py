@@ -265,10 +265,28 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "unit_button.frames": ("Frames", "フレーム"),
     "unit_button.seconds": ("Seconds", "秒"),
     "unit_button.what_ruler_counts": ("Ruler unit", "ルーラーの単位"),
-    "waveform_lane.drag_to_move_it_against": (
-        "Drag to move the audio against the score, hold Shift for fine steps. Double-click to type the offset.",
-        "ドラッグで音源を楽譜に対してずらします（Shift で微調整）。ダブルクリックでオフセットを入力します。",
+    "waveform_lane.bar_doubtful": (
+        "Bar {bar}: confidence {percent} %. Check it by ear.",
+        "第 {bar} 小節: 信頼度 {percent} %。耳で確認してください。",
     ),
+    "waveform_lane.bar_not_recorded": ("Bar {bar} is not in the recording.", "第 {bar} 小節は録音にありません。"),
+    "waveform_lane.drag_to_move_it_against": (
+        "Drag to move the audio against the score, hold Shift for fine steps. Double-click to type the offset. Drag a "
+        "triangle at the lower edge to where its bar or beat sounds.",
+        "ドラッグで音源を楽譜に対してずらします（Shift で微調整）。ダブルクリックでオフセットを入力します。"
+        "下端の三角をドラッグすると、その小節や拍を音の鳴る位置に固定できます。",
+    ),
+    "waveform_lane.drag_to_where_it_sounds": (
+        "Drag to where this beat sounds, hold Shift for fine steps. Double-click to pin it here.",
+        "この拍が鳴る位置までドラッグします（Shift で微調整）。ダブルクリックでこの位置に固定します。",
+    ),
+    "waveform_lane.pin_here": ("Pin Beat Here", "拍をここに固定"),
+    "waveform_lane.pinned_at": (
+        "Pinned at {seconds} s of the audio. Double-click or press Delete to remove the pin.",
+        "音源の {seconds} 秒に固定されています。ダブルクリックまたは Delete キーで固定を解除します。",
+    ),
+    "waveform_lane.remove_all_pins": ("Remove All Pins", "すべての固定を解除"),
+    "waveform_lane.remove_pin": ("Remove Pin", "固定を解除"),
     "waveform_lane.drop_recording_here_until_then": (
         "Drop an audio file here. Without audio the synthesiser plays the score.",
         "ここに音源をドロップしてください。音源がない間は、シンセサイザーが楽譜を再生します。",

@@ -6,13 +6,16 @@ Messages (`UsageError`): ``align.bars_missing``, ``tempo.outside``, those of `ap
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 
+import msgspec
 import numpy as np
 
 from app.errors import UsageError
 from app.project.edit.piece import set_audio, set_offset
 from app.project.edit.tempo import set_beats
 from app.project.model import Project
+from app.project.recording import BeatPin, Doubt
 from app.score.following import SURE, Following
 
 
@@ -33,13 +36,42 @@ def follow_recording(project: Project, following: Following, path: str | os.Path
     # Beats before the first note and after the last one are no bars that would have to wait for those left out.
     sounding = following.confidence >= SURE
     for span in following.missing:
-        before = bool(np.any(sounding & (following.ticks < span.start)))
-        after = bool(np.any(sounding & (following.ticks >= span.end)))
-        if before and after:
+        earlier = bool(np.any(sounding & (following.ticks < span.start)))
+        later = bool(np.any(sounding & (following.ticks >= span.end)))
+        if earlier and later:
             bar_of_tick = project.metre_map.bar_of_tick
             raise UsageError(
                 "align.bars_missing", first=bar_of_tick(int(span.start)), last=bar_of_tick(max(int(span.end) - 1, 0))
             )
+    pins = pins_for(project, path)
     project = set_beats(project, following.ticks, following.recording_s)
     project = set_audio(project, path)
-    return set_offset(project, -float(following.recording_s[0]), following.mean_confidence)
+    project = set_offset(project, -float(following.recording_s[0]), following.mean_confidence)
+    if project.audio is None:
+        raise UsageError("piece.no_recording")
+    audio = msgspec.structs.replace(project.audio, pins=pins, doubts=_doubts(project, following))
+    return replace(project, audio=audio)
+
+
+def pins_for(project: Project, path: str | os.PathLike[str]) -> tuple[BeatPin, ...]:
+    """The beats that were pinned to this recording, to follow it again."""
+    audio = project.audio
+    same = audio is not None and audio.path == os.path.abspath(path)  # noqa: PTH100 - as `set_audio` has it
+    return audio.pins if audio is not None and same else ()
+
+
+def _doubts(project: Project, following: Following) -> tuple[Doubt, ...]:
+    """Bars to be checked by ear, and those that the recording does not have."""
+    metre_map = project.metre_map
+    last = int(following.ticks[-1])
+    there = dict(following.bars(metre_map))
+    low = {number: mean for number, mean in there.items() if mean < SURE}
+    for span in following.missing:
+        first_bar, last_bar = metre_map.bar_of_tick(int(span.start)), metre_map.bar_of_tick(max(int(span.end) - 1, 0))
+        low.update({number: 0.0 for number in range(first_bar, last_bar + 1) if number not in there})
+    result = []
+    for number in sorted(low):
+        start, end = max(metre_map.tick_of_bar(number), 0), metre_map.tick_of_bar(number + 1)
+        if start <= last and end > start:
+            result.append(Doubt(start, end, min(max(low[number], 0.0), 1.0)))
+    return tuple(result)

@@ -20,8 +20,10 @@ from app.project import limits
 from app.project.casting import ConductorPlace
 from app.project.check import expression_faults
 from app.project.edit.tempo import set_metre, set_tempo
-from app.project.model import AudioTrack, Project, VideoTrack, conductor_of_new, preroll_of_new
+from app.project.model import Project, conductor_of_new, preroll_of_new
 from app.project.names import clean_name
+from app.project.recording import AudioTrack
+from app.project.video import VideoTrack
 from app.score.model import Score
 from app.score.tempo import TempoMap
 from metadata.load import names

@@ -28,7 +28,7 @@ def set_tempo(project: Project, tick: int, bpm: float) -> Project:
     _check_place(tick)
     changes = {change.tick: change for change in project.score.tempo_map.changes}
     changes[tick] = TempoChange(tick, 60e6 / bpm)
-    return _with_tempi(project, changes.values())
+    return replace_tempi(project, changes.values())
 
 
 def move_tempo(project: Project, tick: int, to_tick: int) -> Project:
@@ -44,7 +44,7 @@ def move_tempo(project: Project, tick: int, to_tick: int) -> Project:
     _check_place(to_tick)
     del changes[tick]
     changes[to_tick] = msgspec.structs.replace(moved, tick=to_tick)
-    return _with_tempi(project, changes.values())
+    return replace_tempi(project, changes.values())
 
 
 def remove_tempo(project: Project, tick: int) -> Project:
@@ -55,7 +55,7 @@ def remove_tempo(project: Project, tick: int) -> Project:
     kept = tuple(change for change in changes if change.tick != tick)
     if len(kept) == len(changes):
         raise UsageError("tempo.none_here", tick=tick)
-    return _with_tempi(project, kept)
+    return replace_tempi(project, kept)
 
 
 def scale_tempo(project: Project, ratio: float) -> Project:
@@ -72,7 +72,7 @@ def scale_tempo(project: Project, ratio: float) -> Project:
     slowest, fastest = limits.MICROSECONDS_PER_QUARTER[::-1]
     if not changes or not all(fastest <= change.microseconds_per_quarter <= slowest for change in changes):
         raise UsageError("tempo.outside", low=limits.BPM[0], high=limits.BPM[1])
-    return _with_tempi(project, changes)
+    return replace_tempi(project, changes)
 
 
 def set_beats(project: Project, ticks: npt.NDArray[np.int64], seconds: npt.NDArray[np.float64]) -> Project:
@@ -96,7 +96,7 @@ def set_beats(project: Project, ticks: npt.NDArray[np.int64], seconds: npt.NDArr
     if ticks[0] != 0 or not np.all((lengths_us >= low) & (lengths_us <= high)):
         raise UsageError("tempo.outside", low=limits.BPM[0], high=limits.BPM[1])
     tempi = zip(ticks[:-1].tolist(), lengths_us.tolist(), strict=True)
-    return _with_tempi(project, [TempoChange(tick, length_us) for tick, length_us in tempi])
+    return replace_tempi(project, [TempoChange(tick, length_us) for tick, length_us in tempi])
 
 
 def set_metre(project: Project, tick: int, numerator: int, denominator: int) -> Project:
@@ -180,7 +180,8 @@ def _is_same(one: Metre, other: Metre) -> bool:
     return (one.numerator, one.denominator) == (other.numerator, other.denominator)
 
 
-def _with_tempi(project: Project, changes: Iterable[TempoChange]) -> Project:
+def replace_tempi(project: Project, changes: Iterable[TempoChange]) -> Project:
+    """These tempi instead, in any order, one of them at tick 0; the very same project where they are as they were."""
     before = project.score.tempo_map
     ordered = tuple(sorted(changes, key=lambda change: change.tick))
     if ordered == before.changes:

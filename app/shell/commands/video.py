@@ -20,7 +20,8 @@ def _has_video(session: Session) -> bool:
 
 
 def _can_estimate(editor: Editor) -> bool:
-    return editor.video.is_read and editor.session.project.score.end_tick > 0
+    session = editor.session
+    return session.video.ratio > 0.0 and session.project.score.end_tick > 0
 
 
 def _placement(placement: Placement) -> Action:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import traceback
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from pathlib import Path
 
 import msgspec
@@ -28,7 +29,7 @@ from app.plan.model import PlayerPlan
 from app.project.autosave import Autosave
 from app.project.casting import StagePosition
 from app.project.edit.notes import move
-from app.project.edit.piece import set_audio
+from app.project.edit.piece import set_audio, set_video
 from app.project.edit.players import join, place, set_parameters
 from app.project.edit.takes import add_takes, comp_whole, set_cleaning
 from app.project.grid import Grid
@@ -46,6 +47,7 @@ from instrument_maps.load import bundled_maps
 from metadata.library import FOLDERS
 from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import Answers
+from tests.support.films import written
 from tests.support.recorder import EWI, RunningClock, SpokenFor
 from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
@@ -262,6 +264,14 @@ def has_recording(desk: Desk) -> None:
         tone = 0.1 * np.sin(np.arange(22_050) * 0.1)
         soundfile.write(path, tone, 22_050)
     desk.session.attempt(Message("edit.set_audio"), lambda project: set_audio(project, path))
+
+
+def has_video(desk: Desk) -> None:
+    path = desk.folder / "film.mp4"
+    if not path.exists():
+        sound = 0.1 * np.sin(np.arange(48_000) * 0.1)
+        written(path, Fraction(8), 8, np.stack([sound, sound], axis=1).astype(np.float32))
+    desk.session.attempt(Message("edit.set_video"), lambda project: set_video(project, path))
 
 
 def at(seconds: float) -> Deed:
@@ -533,6 +543,11 @@ CASES: dict[str, Case] = {
         lambda d: (has_recording(d), d.session.document.undo(), setattr(d.answers, "path", d.folder / "tone.wav")),
         edits=True,
     ),
+    "file.add_video": Case(
+        lambda d: d.project.video is not None and d.project.video.path.endswith("film.mp4"),
+        lambda d: (has_video(d), d.session.document.undo(), setattr(d.answers, "path", d.folder / "film.mp4")),
+        edits=True,
+    ),
     "file.export_midi": Case(
         lambda d: d.answers.asked == ["save"] and reads_back(d, d.folder / "piece.mid"),
         lambda d: setattr(d.answers, "path", d.folder / "piece"),
@@ -797,6 +812,18 @@ CASES: dict[str, Case] = {
     "play.follow_recording": Case(lambda d: "estimate" in last_work(d), has_recording),
     "play.fit_tempo": Case(lambda d: "estimate" in last_work(d), has_recording),
     "play.remove_recording": Case(lambda d: d.project.audio is None, has_recording, edits=True),
+    # The reference video
+    "video.beside": Case(
+        lambda d: d.session.video.placement == "beside",
+        lambda d: (has_video(d), d.session.video.set(placement="hidden")),
+    ),
+    "video.behind": Case(lambda d: d.session.video.placement == "behind", has_video),
+    "video.hidden": Case(lambda d: d.session.video.placement == "hidden", has_video),
+    "video.estimate_offset": Case(
+        lambda d: works(d) == d.seen["works"] + 1 and "estimate" in last_work(d),  # type: ignore[operator]
+        lambda d: (has_video(d), QApplication.processEvents(), d.seen.update(works=works(d))),
+    ),
+    "video.remove": Case(lambda d: d.project.video is None, has_video, edits=True),
     # Generating
     "generate.everyone": Case(lambda d: d.project.seed != d.before.seed, edits=True),
     "generate.players": Case(
@@ -948,6 +975,11 @@ def last_work(desk: Desk) -> str:
     tasks = desk.program.tasks
     assert isinstance(tasks, ImmediateTasks)
     return " ".join(name.id for name in tasks.names[-4:])
+
+
+def works(desk: Desk) -> int:
+    assert isinstance(desk.program.tasks, ImmediateTasks)
+    return len(desk.program.tasks.names)
 
 
 def shown(desk: Desk, widget: QWidget) -> bool:

@@ -18,7 +18,7 @@ from app.errors import Message
 from app.plan.corrections import PinFingering, SetEmbouchure
 from app.plan.model import FingeringEvent
 from app.project.edit import events as edit
-from app.project.model import AudioTrack
+from app.project.recording import AudioTrack
 from tests.gui.timeline.lane_hands import CTRL, SHIFT, click, double_click, drag, front_plan, shown_panel, viewport
 from widgets.common.chip import Chip
 from widgets.timeline.lanes.curves import CurvesLane

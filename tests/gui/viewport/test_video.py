@@ -17,7 +17,7 @@ from app.editor.session import Session, Severity
 from app.editor.video import ReferenceVideo
 from app.errors import Message
 from app.project.edit.piece import relocate, set_audio, set_offset, set_video, set_video_offset
-from app.project.model import VideoTrack
+from app.project.video import VideoTrack
 from tests.support.films import number_of, written
 from widgets.common.number_slider import NumberSlider
 from widgets.viewport.panel import ViewportPanel

@@ -50,9 +50,10 @@ def recorded() -> np.ndarray:
     return mixdown(truth(), 0.0, end_s(truth()) + 2.0)
 
 
-def followed(sound: np.ndarray, project: Project | None = None) -> Following:
+def followed(sound: np.ndarray, project: Project | None = None, pinned: dict[int, float] | None = None) -> Following:
     project = project or quartet()
-    return follow(as_samples(sound), RATE_HZ, project.score, beats_of(project.metre_map, project.score.end_tick))
+    beats = beats_of(project.metre_map, project.score.end_tick, pinned or {})
+    return follow(as_samples(sound), RATE_HZ, project.score, beats, pinned=pinned)
 
 
 def onset_errors_s(found: Following, earlier_s: float = 0.0, from_s: float = 0.0) -> np.ndarray:
@@ -172,6 +173,32 @@ def test_the_notes_lie_where_they_sound_and_keep_their_ticks() -> None:
     notes = np.array([note.onset_tick for note in project.score.parts[0].notes], np.float64)
     seconds = project.score.tempo_map.seconds(notes) - project.audio.offset_s
     assert np.median(np.abs(seconds - truth().score.tempo_map.seconds(notes))) <= MEDIAN_S
+
+
+def test_a_pinned_beat_stays_and_beats_far_away_do_not_feel_it() -> None:
+    tick = int(quartet().metre_map.tick_of_bar(9))
+    true_s = truth().score.tempo_map.seconds(float(tick))
+    free, pinned = followed(recorded()), followed(recorded(), pinned={tick: true_s + 0.15})
+    place = int(np.searchsorted(pinned.ticks, tick))
+    assert pinned.recording_s[place] == pytest.approx(true_s + 0.15, abs=1e-3)
+    assert np.all(np.diff(pinned.recording_s) > 0.0)
+    moved_s = np.abs(pinned.recording_s - free.recording_s)
+    assert np.percentile(moved_s[np.abs(np.arange(len(moved_s)) - place) > 12], 90) < 0.02
+
+
+def test_a_pin_says_where_it_goes_on_after_a_repeat() -> None:
+    """Of two places that sound alike the pinned one is taken."""
+    sound = recorded()
+    twice = np.concatenate([sound[: 50 * RATE_HZ], sound[28 * RATE_HZ :]])
+    bar = quartet().metre_map.bar_of_tick(int(truth().score.tempo_map.ticks(40.0)))
+    tick = int(quartet().metre_map.tick_of_bar(bar))
+    true_s = truth().score.tempo_map.seconds(float(tick))
+    for late_s, beside in ((0.0, (-4, 0)), (22.0, (0, 4))):
+        found = followed(twice, pinned={tick: true_s + late_s})
+        place = int(np.searchsorted(found.ticks, tick))
+        assert found.recording_s[place] == pytest.approx(true_s + late_s, abs=1e-3)
+        errors_s = found.recording_s - truth().score.tempo_map.seconds(found.ticks.astype(np.float64)) - late_s
+        assert np.abs(errors_s[place + beside[0] : place + beside[1] + 1]).max() < 0.06
 
 
 def test_another_piece_is_refused() -> None:

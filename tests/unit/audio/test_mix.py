@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from app.audio.mix import mixdown, place_gains, player_tracks
 from app.audio.track import RATE_HZ, Piece, Track, softened
 from app.errors import Cancelled, FileError
-from app.project.model import AudioTrack
+from app.project.recording import AudioTrack
 from tests.unit.audio.pieces import melody, piece, quartet, with_players
 
 DUET = piece(melody((0, 480, 70), (480, 480, 72)), melody((960, 960, 65)))

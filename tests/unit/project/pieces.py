@@ -26,8 +26,10 @@ from app.plan.corrections import (
 from app.plan.parameters import PlayerParameters
 from app.project.casting import ConductorPlace, StagePosition, stage_arc
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
-from app.project.model import AudioTrack, CompSpan, PlayerTakes, Project, VideoTrack
+from app.project.model import CompSpan, PlayerTakes, Project
 from app.project.performers import Dancer, Player
+from app.project.recording import AudioTrack, BeatPin, Doubt
+from app.project.video import VideoTrack
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score, UnplayedPart
 from app.score.take import Cleaning, ControllerMapping, Take
@@ -146,7 +148,9 @@ def full_project(folder: str = "/music") -> Project:
         conductor=ConductorPlace(-0.5, 1.75),
         felt_beat_quarters=1.5,
         fps=Fraction(30000, 1001),
-        audio=AudioTrack(f"{folder}/録音.wav", -0.132, 0.94),
+        audio=AudioTrack(
+            f"{folder}/録音.wav", -0.132, 0.94, (BeatPin(480, 0.75), BeatPin(1920, 2.5)), (Doubt(1920, 3840, 0.25),)
+        ),
         video=VideoTrack(f"{folder}/練習.mp4", 1.25, 0.8),
         expressions=(ANGRY,),
         source=f"{folder}/piece.mid",

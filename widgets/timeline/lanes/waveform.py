@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
+from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.audio.peaks import Peaks
@@ -20,6 +20,7 @@ from widgets.common.numbers import number_text
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import Floats, draw_lines, draw_text, shade, small_font
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
+from widgets.timeline.lanes.beat_anchors import Anchors, paint_doubts
 from widgets.timeline.lanes.number_field import NumberField
 
 DRAG_PX = 3.0
@@ -52,8 +53,10 @@ class _Waveform(LaneItem["WaveformLane"]):
         middle = lane.plot_rect.height() / 2
         painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
         painter.drawLine(QPointF(exposed.left(), middle), QPointF(exposed.right(), middle))
+        paint_doubts(lane, painter, exposed)
         if peaks is not None:
             self._paint_peaks(painter, exposed, peaks, audio.offset_s)
+        lane.anchors.paint(painter, exposed)
         text = lane.offset_text()
         box = lane.text_box()
         painter.fillRect(box.adjusted(-4.0, 0.0, 4.0, 0.0), shade(tokens.sunken, 215))
@@ -75,7 +78,8 @@ class _Waveform(LaneItem["WaveformLane"]):
 
 
 class WaveformLane(Lane):
-    """The recording. Dragging it moves it against the score; a double click on it types the offset."""
+    """The recording. Dragging it moves it against the score; a double click on it types the offset. The bar lines and
+    beats have handles at the lower edge: one that is dragged is pinned where it sounds."""
 
     id = "audio"
     preferred_height_px, least_height_px = EMPTY_PX, EMPTY_PX
@@ -83,6 +87,7 @@ class WaveformLane(Lane):
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
         self._drag: _Drag | None = None
+        self.anchors = Anchors(self)
         self.waveform = _Waveform(self)
         self.editor = NumberField(self)
         session.listening.waveform_changed.connect(self.update_items)
@@ -130,16 +135,20 @@ class WaveformLane(Lane):
             self.editor.close_field()
             self._ask_room()
             self.update_items()
+        if change.opened:
+            self.anchors.choose(None)
 
     # The mouse
 
     def press(self, mouse: LaneMouse) -> None:
         audio = self.session.project.audio
         self._drag = None
-        if audio is not None:
+        if audio is not None and not self.anchors.press(mouse):
             self._drag = _Drag(mouse, self.session.project, audio.offset_s, object())
 
     def drag(self, mouse: LaneMouse) -> None:
+        if self.anchors.drag(mouse):
+            return
         drag = self._drag
         if drag is None or (not drag.moved and abs(mouse.x_px - drag.at.x_px) < DRAG_PX):
             return
@@ -156,6 +165,7 @@ class WaveformLane(Lane):
         )
 
     def release(self, mouse: LaneMouse) -> None:
+        self.anchors.release(mouse)
         drag, self._drag = self._drag, None
         self.hover(mouse)
         if drag is not None and drag.moved:
@@ -163,6 +173,7 @@ class WaveformLane(Lane):
             self.update_items()
 
     def cancel(self) -> None:
+        self.anchors.cancel()
         drag, self._drag = self._drag, None
         if drag is not None and drag.moved:
             self.session.apply(Message("edit.set_offset"), drag.project, drag.token, self)
@@ -172,6 +183,12 @@ class WaveformLane(Lane):
     def double_click(self, mouse: LaneMouse) -> None:
         audio = self.session.project.audio
         self._drag = None
+        if audio is None or self.anchors.double_click(mouse):
+            return
+        self._type_offset()
+
+    def _type_offset(self) -> None:
+        audio = self.session.project.audio
         if audio is None:
             return
         self.editor.open(
@@ -179,17 +196,26 @@ class WaveformLane(Lane):
         )
 
     def hover(self, mouse: LaneMouse | None) -> None:
-        if mouse is not None and self.session.project.audio is not None:
-            self.plot.setCursor(Qt.CursorShape.OpenHandCursor)
-        else:
+        if mouse is None or self.session.project.audio is None:
             self.plot.unsetCursor()
+            self.plot.setToolTip("")
+            return
+        over = self.anchors.at(mouse) is not None
+        self.plot.setCursor(Qt.CursorShape.SizeHorCursor if over else Qt.CursorShape.OpenHandCursor)
+        self.plot.setToolTip(self.anchors.tip(mouse))
+
+    def claims(self, event: QKeyEvent) -> bool:
+        return self.anchors.claims(event)
+
+    def key(self, event: QKeyEvent) -> bool:
+        """See `Anchors.key`."""
+        return self.anchors.key(event)
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
         menu = QMenu(self)
         if self.session.project.audio is not None:
-            menu.addAction(self.tr("waveform_lane.type_offset")).triggered.connect(
-                lambda _=False: self.double_click(mouse)
-            )
+            self.anchors.fill_menu(menu, mouse)
+            menu.addAction(self.tr("waveform_lane.type_offset")).triggered.connect(lambda _=False: self._type_offset())
         add_actions(
             menu,
             self.session,

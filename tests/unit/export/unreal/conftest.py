@@ -20,8 +20,9 @@ from app.messages import text
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span
 from app.project.casting import StagePosition
-from app.project.model import AudioTrack, Project, map_choices, project_from_score
+from app.project.model import Project, map_choices, project_from_score
 from app.project.performers import Dancer
+from app.project.recording import AudioTrack
 from app.score.read import read_midi
 from instrument_maps.library import all_maps
 from tests.support.dances import model

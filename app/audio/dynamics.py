@@ -1,0 +1,202 @@
+"""How loud a recording is while players play, as a curve of their dynamics.
+
+Loudness is measured as broadcasters do (ITU-R BT.1770: a shelf and a high pass before the power), smoothed beyond
+vibrato. In a recording of everybody the number of those who sound is taken out of it: a quiet tutti may be louder than a
+loud solo. In one of a player alone it is what single pitches have more than others. What is left is put on the scale of controllers so that the piece as a whole keeps its middle,
+and its quiet and loud places keep their distance, as far as there is room for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from typing import Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+from scipy.ndimage import gaussian_filter1d
+from scipy.signal import sosfilt
+
+from app.audio.track import Samples
+from app.errors import AppError
+from app.score.model import ControllerCurve, Part, Score
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+
+STEP_S: Final = 0.02
+_SMOOTH_S: Final = 0.08
+"""Standard deviation of the smoothing: slower than a vibrato, faster than a crescendo."""
+_FLOOR_DB: Final = -70.0
+_MIDDLE: Final = 0.62
+"""Where the middle of a piece lies: mezzoforte."""
+_PER_DB: Final = 0.025
+"""Of the scale of controllers, for a decibel, where there is room: 10 dB, twice as loud, are a quarter of it."""
+_QUIETEST, _LOUDEST = 0.2, 0.95
+"""Quiet and loud places (one in twenty is beyond) lie within these."""
+_LEAST, _MOST = 0.1, 1.0
+_SHARE: Final = 0.05
+_SELDOM_S: Final = 4.0
+"""A pitch that sounds so long in all is believed by half to be louder or quieter than others."""
+_RESOLUTION: Final = 127
+"""Steps of a MIDI controller."""
+
+
+@dataclass(frozen=True)
+class Loudness:
+    """How loud a recording is.
+
+    Attributes
+    ----------
+    level_db : (N,) float64
+        Every `STEP_S` from the first sample on.
+    """
+
+    level_db: Floats
+
+    def at(self, seconds: Floats) -> Floats:
+        """Between the steps; beyond the ends it is silent."""
+        at_s = STEP_S * np.arange(len(self.level_db))
+        result: Floats = np.interp(seconds, at_s, self.level_db, left=_FLOOR_DB, right=_FLOOR_DB)
+        return result
+
+
+def loudness(samples: Samples, rate_hz: int) -> Loudness:
+    """How loud a recording is, moment by moment.
+
+    Parameters
+    ----------
+    samples : int16 array, shape (n, channels)
+    """
+    hop = max(round(STEP_S * rate_hz), 1)
+    count = len(samples) // hop
+    if not count:
+        return Loudness(np.full(1, _FLOOR_DB))
+    power = np.zeros(count)
+    for channel in samples[: count * hop].T:
+        heard = sosfilt(_weighting(rate_hz), channel.astype(np.float64) / 32768.0)
+        power += (heard**2).reshape(count, hop).mean(axis=1)
+    power = gaussian_filter1d(power / samples.shape[1], _SMOOTH_S * rate_hz / hop)
+    return Loudness(np.maximum(10.0 * np.log10(np.maximum(power, 1e-12)), _FLOOR_DB))
+
+
+def dynamics(
+    score: Score, offset_s: float, mix: Loudness | None, stems: Mapping[str, Loudness], parts: Collection[str]
+) -> dict[str, ControllerCurve]:
+    """Curves of the dynamics, by part.
+
+    Parameters
+    ----------
+    score : Score
+        As it lies on the recording: its second 0 is at ``-offset_s`` of it.
+    mix : Loudness or None
+        Of everybody; parts without a stem get their dynamics from it.
+    stems : mapping of str to Loudness
+        By part, of recordings that begin with that of everybody.
+    parts : collection of str
+        Of which parts.
+
+    Raises
+    ------
+    AppError
+        ``audio.nothing_to_compare``: nothing sounds where the score has notes.
+    """
+    sounding = {part.id: _Sounding.of(part, score) for part in score.parts if part.id in parts and part.notes}
+    if not sounding:
+        raise AppError("audio.nothing_to_compare")
+    result = {}
+    for part_id, notes in sounding.items():
+        heard = stems.get(part_id, mix)
+        if heard is None:
+            continue
+        levels = heard.at(notes.at_s - offset_s)
+        if part_id not in stems:
+            levels = levels - 10.0 * np.log10(np.maximum(_together(score, notes.at_s), 1))
+        audible = notes.sounds & (heard.at(notes.at_s - offset_s) > _FLOOR_DB)
+        if audible.any():
+            if part_id in stems:
+                levels = levels - _of_pitches(notes.pitch, levels, audible)
+            result[part_id] = notes.curve(score, _scaled(levels, audible), audible)
+    if not result:
+        raise AppError("audio.nothing_to_compare")
+    return result
+
+
+def _weighting(rate_hz: int) -> Floats:
+    """Second-order sections of K-weighting at any rate: the filters of BT.1770, by the bilinear transform."""
+    k = np.tan(np.pi * 1681.974450955533 / rate_hz)
+    gain, quality = 10.0 ** (3.999843853973347 / 20.0), 0.7071752369554196
+    band = gain**0.4996667741545416
+    shelf = [gain + band * k / quality + k * k, 2.0 * (k * k - gain), gain - band * k / quality + k * k]
+    shelf += [1.0 + k / quality + k * k, 2.0 * (k * k - 1.0), 1.0 - k / quality + k * k]
+    k, quality = np.tan(np.pi * 38.13547087602444 / rate_hz), 0.5003270373238773
+    low = 1.0 + k / quality + k * k
+    high = [1.0, -2.0, 1.0, 1.0, 2.0 * (k * k - 1.0) / low, (1.0 - k / quality + k * k) / low]
+    return np.array([np.array(shelf) / shelf[3], high])
+
+
+@dataclass(frozen=True)
+class _Sounding:
+    """When a part sounds: a grid of seconds of the score, and where in it a note is."""
+
+    at_s: Floats
+    sounds: npt.NDArray[np.bool_]
+    pitch: npt.NDArray[np.int64]
+    """Of the note that began last."""
+
+    @classmethod
+    def of(cls, part: Part, score: Score) -> _Sounding:
+        clock = score.tempo_map
+        start_s = clock.seconds(np.array([note.onset_tick for note in part.notes], np.float64))
+        end_s = clock.seconds(np.array([note.end_tick for note in part.notes], np.float64))
+        at_s = np.arange(float(start_s[0]), float(end_s.max()) + STEP_S, STEP_S)
+        pitches = np.array([note.pitch for note in part.notes], np.int64)
+        last = np.maximum(np.searchsorted(start_s, at_s, side="right") - 1, 0)
+        return cls(at_s, _count(start_s, end_s, at_s) > 0, pitches[last])
+
+    def curve(self, score: Score, values: Floats, audible: npt.NDArray[np.bool_]) -> ControllerCurve:
+        """Steps of a controller: in rests it goes on to what comes next."""
+        values = np.interp(self.at_s, self.at_s[audible], values[audible])
+        steps = np.round(_RESOLUTION * gaussian_filter1d(values, _SMOOTH_S / STEP_S, mode="nearest"))
+        ticks = np.maximum(np.round(score.tempo_map.ticks(self.at_s)), 0).astype(np.int64)
+        # Of several at one tick the last counts, and repetitions fall away.
+        last = np.append(np.diff(ticks) > 0, True)
+        ticks, steps = ticks[last], steps[last]
+        kept = np.append(True, np.diff(steps) != 0)
+        return ControllerCurve("breath", tuple(ticks[kept].tolist()), tuple((steps[kept] / _RESOLUTION).tolist()))
+
+
+def _together(score: Score, at_s: Floats) -> npt.NDArray[np.int64]:
+    """How many notes sound at once."""
+    seconds, notes = score.tempo_map.seconds, [note for part in score.parts for note in part.notes]
+    return _count(
+        np.sort(seconds(np.array([note.onset_tick for note in notes], np.float64))),
+        np.sort(seconds(np.array([note.end_tick for note in notes], np.float64))),
+        at_s,
+    )
+
+
+def _count(start_s: Floats, end_s: Floats, at_s: Floats) -> npt.NDArray[np.int64]:
+    begun = np.searchsorted(np.sort(start_s), at_s, side="right")
+    ended = np.searchsorted(np.sort(end_s), at_s, side="right")
+    result: npt.NDArray[np.int64] = begun - ended
+    return result
+
+
+def _of_pitches(pitch: npt.NDArray[np.int64], levels: Floats, audible: npt.NDArray[np.bool_]) -> Floats:
+    """How much louder each pitch sounds than the others whatever is played, as instruments and rooms have it: the mean
+    over the piece, drawn to 0 where a pitch sounds seldom."""
+    about = levels - np.median(levels[audible])
+    count = np.bincount(pitch[audible], minlength=128) * STEP_S
+    total = np.bincount(pitch[audible], about[audible], minlength=128) * STEP_S
+    result: Floats = (total / (count + _SELDOM_S))[pitch]
+    return result
+
+
+def _scaled(levels: Floats, audible: npt.NDArray[np.bool_]) -> Floats:
+    """Decibels on the scale of controllers."""
+    low, middle, high = np.quantile(levels[audible], [_SHARE, 0.5, 1.0 - _SHARE])
+    slope = min(
+        _PER_DB, (_MIDDLE - _QUIETEST) / max(middle - low, 1e-6), (_LOUDEST - _MIDDLE) / max(high - middle, 1e-6)
+    )
+    result: Floats = np.clip(_MIDDLE + slope * (levels - middle), _LEAST, _MOST)
+    return result

@@ -1,0 +1,256 @@
+"""Which moments of a score and of a recording belong together, by dynamic time warping of the chroma of both.
+
+By dtaidistance, which is far smaller than librosa: that needs numba and LLVM, 208 MB.
+
+Every few seconds of both stands a frame of silence, which costs as much as half a wrong chord: what only one of the two
+has (applause, a cut, a repeat) is put there instead of being stretched over the other. Pinned moments cut both into
+stretches, each of which is warped by itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+from dtaidistance import dtw
+
+from app.audio.score_sound import CHROMA_S, Floats
+from app.score.following import Span
+
+Integers: TypeAlias = npt.NDArray[np.int64]
+
+_MOST_CELLS: Final = 60_000_000
+"""Of the matrix of the warping, 8 bytes each: longer ones are warped with coarser frames."""
+_EVEN: Final = 0.7
+"""What it costs to stand still in one of the two, beside the distance: the tempo changes where something says so."""
+_FILLER_S: Final = 2.2
+"""From one frame of silence to the next."""
+_LEAST_LIKENESS: Final = 0.25
+"""Frames less alike than this are no match."""
+_AROUND_S: Final = 1.5
+"""Half the width over which the warping is smoothed."""
+_BREAK_S: Final = 0.5
+"""Shorter breaks within such a stretch are part of it."""
+MISSING_S: Final = 2.0
+"""Shorter stretches that only one of the two has are no cut and no repeat."""
+_SILENT, _LOUD = 0.15, 0.4
+"""Size of a frame's shape, 1 at the typical level: below the one nothing sounds, above the other something does."""
+
+
+_BESIDE_S: Final = 3.0
+_NEAR: Final = 80
+"""Frames from whose tempo it goes on beyond the ends."""
+
+
+@dataclass(frozen=True)
+class Pins:
+    """Seconds of the score, and of the recording, that were put on one another by hand; both rise strictly."""
+
+    score_s: Floats
+    recording_s: Floats
+
+    def inside(self, recording_s: float) -> Pins:
+        """Those within a recording of this length."""
+        there = (self.recording_s >= 0.0) & (self.recording_s <= recording_s)
+        return Pins(self.score_s[there], self.recording_s[there])
+
+    def within(self, start_s: float, end_s: float) -> Pins:
+        """Those in a part of the score, in seconds of that part."""
+        there = (self.score_s >= start_s) & (self.score_s < end_s)
+        return Pins(self.score_s[there] - start_s, self.recording_s[there])
+
+
+NO_PINS: Final = Pins(np.empty(0), np.empty(0))
+
+
+@dataclass(frozen=True)
+class Warped:
+    """Seconds of the score and of the recording that belong together, both rising; what only one has, in seconds."""
+
+    score_s: Floats
+    recording_s: Floats
+    missing: tuple[Span, ...]
+    added: tuple[Span, ...]
+    length_s: float
+    """Of the score."""
+
+    def later(self, score_s: float, end_s: float) -> Warped:
+        """The same, found in a part of a score that begins so much later than the whole, which lasts until ``end_s``;
+        what is beyond the part is missing."""
+        last_s = score_s + self.length_s
+        missing = tuple(Span(span.start + score_s, span.end + score_s) for span in self.missing)
+        outside = [Span(*span) for span in ((0.0, score_s), (last_s, end_s)) if span[1] - span[0] >= MISSING_S]
+        return replace(self, score_s=self.score_s + score_s, missing=(*missing, *outside), length_s=end_s)
+
+    def at(self, score_s: Floats) -> Floats:
+        """Seconds of the recording at seconds of the score; beyond the ends at the tempo found near them."""
+        x, y = self.score_s, self.recording_s
+        near = min(_NEAR, len(x) - 1)
+        first = (y[near] - y[0]) / (x[near] - x[0])
+        last = (y[-1] - y[-1 - near]) / (x[-1] - x[-1 - near])
+        inner = np.interp(score_s, x, y)
+        before = np.where(score_s < x[0], y[0] + (score_s - x[0]) * first, inner)
+        result: Floats = np.where(score_s > x[-1], y[-1] + (score_s - x[-1]) * last, before)
+        return result
+
+
+def warped(score: Floats, recording: Floats, pins: Pins = NO_PINS) -> Warped:
+    """Which frames belong together, by dynamic time warping.
+
+    Parameters
+    ----------
+    score, recording : (12, n) float64
+        Chroma as shapes, a frame every `CHROMA_S`.
+    """
+    pool = int(np.ceil(np.sqrt(max(score.shape[1] * recording.shape[1] / _MOST_CELLS, 1.0))))
+    frame_s, length_s = pool * CHROMA_S, score.shape[1] * CHROMA_S
+    ours, theirs = _pooled(score, pool), _pooled(recording, pool)
+    one, other = _path(ours, theirs, max(round(_FILLER_S / frame_s), 1), _cuts(ours, theirs, pins, frame_s))
+    missing = _runs(_alone(ours, one[_sounding(theirs, _SILENT)[other]]), frame_s)
+    added = _runs(_alone(theirs, other[_sounding(ours, _SILENT)[one]]), frame_s)
+    alike = (ours[one] * theirs[other]).sum(axis=1) > _LEAST_LIKENESS
+    one, other = one[alike], other[alike]
+    frames, places = np.unique(one, return_inverse=True)
+    middle = np.bincount(places, other) / np.maximum(np.bincount(places), 1)
+    # A match alone among others that are none is chance.
+    reach = round(2.0 / frame_s)
+    kept = np.searchsorted(frames, frames + reach) - np.searchsorted(frames, frames - reach) > reach
+    score_s, recording_s = (frames[kept] + 0.5) * frame_s, (middle[kept] + 0.5) * frame_s
+    if len(score_s) < 2:
+        return Warped(score_s, recording_s, (), (), length_s)
+    inside = tuple(span for span in added if recording_s[0] < span.start and span.end < recording_s[-1])
+    # Never across a pin, where the recording may jump.
+    stretches = np.split(np.arange(len(score_s)), np.searchsorted(score_s, pins.score_s))
+    recording_s = np.concatenate([_smoothed(score_s[stretch], recording_s[stretch]) for stretch in stretches])
+    return Warped(*_through(pins, score_s, recording_s), missing, inside, length_s)
+
+
+def covered(score: Floats, recording: Floats) -> slice:
+    """The frames of a score that a recording of only a part of it is most like, with some more on both sides."""
+    pool = int(np.ceil(np.sqrt(max(score.shape[1] * recording.shape[1] / _MOST_CELLS, 1.0))))
+    ours, theirs = _pooled(score, pool), _pooled(recording, pool)
+    free = [len(ours), len(ours), 0, 0]
+    path = np.array(dtw.warping_path_fast(ours, theirs, use_ndim=True, penalty=_EVEN, psi=free))
+    beside = round(_BESIDE_S / CHROMA_S)
+    first, last = int(path[0, 0]) * pool - beside, (int(path[-1, 0]) + 1) * pool + beside
+    return slice(max(first, 0), min(last, score.shape[1]))
+
+
+def _cuts(ours: Floats, theirs: Floats, pins: Pins, frame_s: float) -> list[tuple[int, int]]:
+    """Frames of both at which the path is cut: beginning, pins, end."""
+    places = [(round(a / frame_s), round(b / frame_s)) for a, b in zip(pins.score_s, pins.recording_s, strict=True)]
+    cuts = [(0, 0)]
+    for one, other in places:
+        if cuts[-1][0] < one < len(ours) and cuts[-1][1] < other < len(theirs):
+            cuts.append((one, other))
+    return [*cuts, (len(ours), len(theirs))]
+
+
+def _path(ours: Floats, theirs: Floats, step: int, cuts: list[tuple[int, int]]) -> tuple[Integers, Integers]:
+    """Frames that belong together, stretch by stretch."""
+    found = []
+    for (first, first_theirs), (last, last_theirs) in pairwise(cuts):
+        filled, our_frame = _with_fillers(ours[first:last], step)
+        filled_theirs, their_frame = _with_fillers(theirs[first_theirs:last_theirs], step)
+        path = np.array(dtw.warping_path_fast(filled, filled_theirs, use_ndim=True, penalty=_EVEN))
+        one, other = our_frame[path[:, 0]], their_frame[path[:, 1]]
+        both = (one >= 0) & (other >= 0)
+        found.append((one[both] + first, other[both] + first_theirs))
+    one, other = zip(*found, strict=True)
+    return np.concatenate(one), np.concatenate(other)
+
+
+def _through(pins: Pins, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    """A rising curve, put through the pins."""
+    if not len(pins.score_s):
+        return x, y
+    apart = np.abs(x[:, None] - pins.score_s).min(axis=1) > CHROMA_S
+    x, y = np.append(x[apart], pins.score_s), np.append(y[apart], pins.recording_s)
+    order = np.argsort(x)
+    x, y = x[order], y[order]
+    low = np.concatenate(([-np.inf], pins.recording_s))[np.searchsorted(pins.score_s, x, side="right")]
+    high = np.concatenate((pins.recording_s, [np.inf]))[np.searchsorted(pins.score_s, x, side="left")]
+    return x, np.maximum.accumulate(np.clip(y, low, high))
+
+
+def _sounding(frames: Floats, least: float) -> npt.NDArray[np.bool_]:
+    """Which frames are more than near silence."""
+    result: npt.NDArray[np.bool_] = np.linalg.norm(frames, axis=1) > least
+    return result
+
+
+def _alone(frames: Floats, matched: Integers) -> npt.NDArray[np.bool_]:
+    """Which frames sound without one of the other."""
+    alone = _sounding(frames, _LOUD)
+    alone[matched] = False
+    return alone
+
+
+def _runs(there: npt.NDArray[np.bool_], frame_s: float) -> tuple[Span, ...]:
+    """Where they are for `MISSING_S` at least; short breaks between them are none."""
+    places = np.flatnonzero(there)
+    if not len(places):
+        return ()
+    breaks = np.flatnonzero(np.diff(places) > _BREAK_S / frame_s)
+    starts = places[np.concatenate(([0], breaks + 1))]
+    ends = places[np.concatenate((breaks, [len(places) - 1]))] + 1
+    return tuple(
+        Span(start * frame_s, end * frame_s)
+        for start, end in zip(starts.tolist(), ends.tolist(), strict=True)
+        if (end - start) * frame_s >= MISSING_S
+    )
+
+
+def _pooled(shapes: Floats, count: int) -> Floats:
+    """(n, 12): the mean of every so many frames."""
+    whole = shapes.shape[1] // count * count
+    result: Floats = np.ascontiguousarray(shapes[:, :whole].reshape(12, -1, count).mean(axis=2).T)
+    return result
+
+
+def _with_fillers(frames: Floats, step: int) -> tuple[Floats, Integers]:
+    """Frames with one of silence before every so many and at the end, and the place of each before, -1 of those."""
+    places = np.append(np.arange(0, len(frames), step), len(frames))
+    filled = np.insert(frames, places, 0.0, axis=0)
+    return np.ascontiguousarray(filled), np.insert(np.arange(len(frames)), places, -1)
+
+
+def _smoothed(x: Floats, y: Floats) -> Floats:
+    """Local lines through what was found, rising."""
+    result = np.empty_like(y)
+    first = np.searchsorted(x, x - _AROUND_S)
+    last = np.searchsorted(x, x + _AROUND_S)
+    for place in range(len(x)):
+        inside = slice(first[place], last[place])
+        result[place] = _line_at(x[inside] - x[place], y[inside], 1.0 - ((x[inside] - x[place]) / _AROUND_S) ** 2)
+    rising: Floats = np.maximum.accumulate(result)
+    return rising
+
+
+def _line_at(x: Floats, y: Floats, weights: Floats) -> float:
+    """At 0, the value of the line through weighted points."""
+    total = float(weights.sum())
+    mean_x, mean_y = float((weights * x).sum()) / total, float((weights * y).sum()) / total
+    spread = float((weights * (x - mean_x) ** 2).sum())
+    slope = float((weights * (x - mean_x) * (y - mean_y)).sum()) / spread if spread > 1e-9 else 0.0
+    return mean_y - slope * mean_x
+
+
+def along(x: Floats, at: Floats, by: Floats, reach: float) -> Floats:
+    """How far places go along with some (``at``, rising) that are put right by so much: less the further away, and not
+    beyond a reach or the next of those."""
+    if not len(at):
+        return np.zeros(len(x))
+    places, amounts = [float(at[0]) - reach], [0.0]
+    for place, amount, following in zip(at.tolist(), by.tolist(), [*at[1:].tolist(), np.inf], strict=True):
+        places.append(place)
+        amounts.append(amount)
+        if following - place > 2 * reach:
+            ends = (place + reach, following - reach) if np.isfinite(following) else (place + reach,)
+            places += ends
+            amounts += [0.0] * len(ends)
+    result: Floats = np.interp(x, places, amounts)
+    return result

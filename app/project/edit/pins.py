@@ -1,0 +1,144 @@
+"""Beats pinned to the recording by hand: the tempo moves so that they lie where they sound. Notes keep their ticks.
+
+Messages (`UsageError`): ``piece.no_recording``, ``pins.before_the_piece``, ``pins.no_room``, ``pins.none_here``, those
+of `app.project.edit.tempo`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+from typing import Final, TypeAlias
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import UsageError
+from app.project import limits
+from app.project.edit.tempo import replace_tempi
+from app.project.model import Project
+from app.project.recording import AudioTrack, BeatPin
+from app.score.tempo import TempoChange
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+
+_REACH_BEATS: Final = 8
+"""Where no pin is nearer, beats this far away stay where they are."""
+_STEEPEST: Final = 0.7
+"""Of the time between beats, how much at most goes away next to one that is moved."""
+_LEAST_S: Final = 0.02
+"""Pins lie so far apart at least, in the recording."""
+
+
+def recording_second(project: Project, tick: int) -> float:
+    """Where in the recording a tick lies now. Raises UsageError without a recording."""
+    return project.score.tempo_map.seconds(float(tick)) - _audio(project).offset_s
+
+
+def pin_beat(project: Project, tick: int, recording_s: float | None = None) -> Project:
+    """Let a beat lie where it sounds in the recording, and stay there.
+
+    The beats around it go along, the less the further away they are, up to the next pin or `_REACH_BEATS`; the
+    beginning of the piece stays unless it is what is pinned. A beat goes as far as its neighbours leave time for.
+
+    Parameters
+    ----------
+    recording_s : float, optional
+        From the recording's first sample; where the beat lies now, if None.
+    """
+    audio = _audio(project)
+    if not 0 <= tick <= limits.LAST_TICK:
+        raise UsageError("pins.before_the_piece")
+    others = [pin for pin in audio.pins if pin.tick != tick]
+    now_s = recording_second(project, tick)
+    room = _room(project, tick, 0.0 if recording_s is None else recording_s - now_s)
+    shift_s = 0.0 if recording_s is None else min(max(recording_s - now_s, room.least_s), room.most_s)
+    at_s = now_s + shift_s
+    before = max((pin.recording_s for pin in others if pin.tick < tick), default=-np.inf)
+    after = min((pin.recording_s for pin in others if pin.tick > tick), default=np.inf)
+    if not before + _LEAST_S <= at_s <= after - _LEAST_S:
+        raise UsageError("pins.no_room")
+    pins = tuple(sorted((*others, BeatPin(tick, float(at_s))), key=lambda pin: pin.tick))
+    doubts = tuple(doubt for doubt in audio.doubts if not doubt.start_tick <= tick < doubt.end_tick)
+    if shift_s:
+        project = _moved(project, tick, shift_s, room)
+        audio = _audio(project)
+    return _with_audio(project, msgspec.structs.replace(audio, pins=pins, doubts=doubts))
+
+
+def remove_pins(project: Project, ticks: Collection[int] | None = None) -> Project:
+    """Let following move these beats again (None: all); where they lie they stay until then."""
+    audio = _audio(project)
+    kept = tuple(pin for pin in audio.pins if ticks is not None and pin.tick not in ticks)
+    if len(kept) == len(audio.pins):
+        raise UsageError("pins.none_here")
+    return _with_audio(project, msgspec.structs.replace(audio, pins=kept))
+
+
+@dataclass(frozen=True)
+class _Room:
+    """From where to where beats go along, in seconds of the score, and how far the beat itself may go."""
+
+    start_s: float
+    end_s: float
+    least_s: float
+    most_s: float
+
+
+def _room(project: Project, tick: int, shift_s: float) -> _Room:
+    clock, beat = project.score.tempo_map, project.metre_map.felt_ticks_at(tick)
+    at_s = clock.seconds(float(tick))
+    pinned = [pin.tick for pin in _audio(project).pins]
+    before = max((one for one in (0, *pinned) if one < tick), default=None)
+    after = min((one for one in pinned if one > tick), default=None)
+    # A cosine is steepest in its middle; without a pin there is as much room as keeps it half as steep as it may be.
+    steep = 0.5 * np.pi / _STEEPEST
+    wide_s = 2.0 * steep * abs(shift_s)
+    start_s = min(clock.seconds(float(tick - _REACH_BEATS * beat)), at_s - wide_s)
+    end_s = max(clock.seconds(float(tick + _REACH_BEATS * beat)), at_s + wide_s)
+    if before is not None:
+        start_s = max(start_s, clock.seconds(float(before)))
+    if after is not None:
+        end_s = min(end_s, clock.seconds(float(after)))
+    least_s = -limits.OFFSET_S[1] if before is None else -(at_s - start_s) / steep
+    return _Room(start_s, end_s, least_s, (end_s - at_s) / steep)
+
+
+def _moved(project: Project, tick: int, shift_s: float, room: _Room) -> Project:
+    """The beats around a tick later by what a cosine has there. Tick 0 is second 0 always: instead of it the recording
+    goes the other way."""
+    clock, changes = project.score.tempo_map, project.score.tempo_map.changes
+    first = max(round(clock.ticks(room.start_s)), 0)
+    last = max(round(clock.ticks(room.end_s)), tick + 1)
+    beats = project.metre_map.felt_between(first, last)
+    within = [change.tick for change in changes if first < change.tick < last]
+    knots = np.unique(np.array([first, tick, last, *within, *beats[(beats > first) & (beats < last)].tolist()]))
+    seconds = clock.seconds(knots)
+    at_s = clock.seconds(float(tick))
+    reach_s = np.where(seconds < at_s, at_s - room.start_s, room.end_s - at_s)
+    share = np.clip(np.abs(seconds - at_s) / np.maximum(reach_s, 1e-9), 0.0, 1.0)
+    moved_s = seconds + shift_s * 0.5 * (1.0 + np.cos(np.pi * share))
+    lengths_us = 1e6 * np.diff(moved_s) / (np.diff(knots) / clock.ticks_per_quarter)
+    low, high = limits.MICROSECONDS_PER_QUARTER
+    if not np.all((lengths_us >= low) & (lengths_us <= high)):
+        raise UsageError("tempo.outside", low=limits.BPM[0], high=limits.BPM[1])
+    going_on = next(change for change in reversed(changes) if change.tick <= last)
+    tempi = [change for change in changes if not first <= change.tick <= last]
+    tempi += [TempoChange(at, us) for at, us in zip(knots[:-1].tolist(), lengths_us.tolist(), strict=True)]
+    tempi.append(msgspec.structs.replace(going_on, tick=last))
+    audio = _audio(project)
+    project = replace_tempi(project, tempi)
+    if tick:
+        return project
+    return _with_audio(project, msgspec.structs.replace(audio, offset_s=audio.offset_s - shift_s, confidence=None))
+
+
+def _audio(project: Project) -> AudioTrack:
+    if project.audio is None:
+        raise UsageError("piece.no_recording")
+    return project.audio
+
+
+def _with_audio(project: Project, audio: AudioTrack) -> Project:
+    return project if audio == project.audio else replace(project, audio=audio)
