@@ -44,7 +44,7 @@ from app.shell.keyboard_buttons import KeyboardButtons
 from app.shell.language import Language
 from app.shell.questions import DialogQuestions
 from app.shell.rows import rows
-from app.shell.theme import apply_theme
+from app.shell.theme import apply_theme, unstyled
 from app.shell.window import Window
 from instrument_maps.library import begin
 from metadata.library import begin_metadata
@@ -147,7 +147,8 @@ class Program(QObject):
         self.recorder = (Recorder if recorder is None else recorder)(self.session, files, settings, sound)
         streamer = Streamer(self.session, settings, self.generator.live)
         table = ActionTable(self.session, settings, rows())
-        self.window = Window(self.session, files, settings, asked, table, self.generator)
+        with unstyled(application):
+            self.window = Window(self.session, files, settings, asked, table, self.generator)
         self.editor = Editor(
             self.session, settings, language, asked, files, sound, self.recorder, streamer, video, table, self.window
         )

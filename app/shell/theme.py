@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import atexit
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -30,6 +31,18 @@ def apply_theme(application: QApplication, tokens: Tokens) -> None:
         application.setStyle(QStyleFactory.create("Fusion"))
     application.setPalette(palette(tokens))
     application.setStyleSheet(rules)
+
+
+@contextmanager
+def unstyled(application: QApplication) -> Iterator[None]:
+    """Build widgets without the style sheet's rules, which all get at the end: Qt polishes a widget and everything in
+    it again whenever it comes into another one."""
+    rules = application.styleSheet()
+    application.setStyleSheet("")
+    try:
+        yield
+    finally:
+        application.setStyleSheet(rules)
 
 
 def palette(tokens: Tokens) -> QPalette:

@@ -84,7 +84,8 @@ def footprint() -> Footprint:
     application = QApplication.instance()
     assert isinstance(application, QApplication)
     found: dict[int, QObject] = {}
-    for top in (application, *QApplication.allWidgets()):
+    # What has parents is found below the topmost of them.
+    for top in (application, *(widget for widget in QApplication.allWidgets() if widget.parent() is None)):
         for each in (top, *top.findChildren(QObject)):
             found[id(each)] = each
     values: Counter[str] = Counter()

@@ -103,6 +103,8 @@ class ShortcutsPage(Retranslated, QWidget):
         self.list.blockSignals(True)
         self.list.clear()
         self._rows = {row.id: row for row in self._rows_now()}
+        current: QTreeWidgetItem | None = None
+        items = []
         for row in self._rows.values():
             item = QTreeWidgetItem([row.text, row.place, native(row.keys), row.context])
             item.setData(_TEXT, Qt.ItemDataRole.UserRole, row.id)
@@ -110,9 +112,13 @@ class ShortcutsPage(Retranslated, QWidget):
                 font = item.font(_KEYS)
                 font.setBold(True)
                 item.setFont(_KEYS, font)
-            self.list.addTopLevelItem(item)
+            items.append(item)
             if chosen is not None and row.id == chosen.id:
-                self.list.setCurrentItem(item)
+                current = item
+        # All at once: columns are as wide as what they hold, and are measured after each addition.
+        self.list.addTopLevelItems(items)
+        if current is not None:
+            self.list.setCurrentItem(current)
         self.list.blockSignals(False)
         self._filter(self.search.text())
         self._choose()

@@ -79,3 +79,19 @@ def test_slerp_goes_the_short_way_at_constant_speed(seed: int, share: float) -> 
     found = quaternion.slerp(a.as_quat(), b.as_quat(), share)
     whole, part = (a.inv() * b).magnitude(), (a.inv() * Rotation.from_quat(found)).magnitude()
     np.testing.assert_allclose(part, share * whole, atol=1e-7)
+
+
+@given(seeds, st.sampled_from([(None, None), (1, None), (None, 3), (5, 5), (1, 4), (4, 1)]))
+def test_few_are_the_same_to_the_bit_as_many(seed: int, shapes: tuple[int | None, int | None]) -> None:
+    generator = np.random.default_rng(seed)
+    turns, others, vectors = (
+        np.where(values < -1.5, -0.0, values)
+        for values in (
+            generator.normal(size=(*(() if count is None else (count,)), width))
+            for count, width in zip((shapes[0], shapes[1], shapes[1]), (4, 4, 3), strict=True)
+        )
+    )
+    for function, right in ((quaternion.multiply, others), (quaternion.rotate, vectors)):
+        few = function(turns, right)
+        many = function(np.broadcast_to(turns, (200, *np.broadcast_shapes((1, 4), turns.shape))), right)
+        assert few.tobytes() == many[0].reshape(few.shape).tobytes()

@@ -114,8 +114,8 @@ def test_bad_use_ends_with_2(run: Run, arguments: list[str], tmp_path: Path, mon
 
 
 def test_the_felt_beat_counts_in_pre_roll_cue_and_breaths(run: Run) -> None:
-    quarters = json.loads(run("inspect", LUTKIN, "--json")[1])
-    halves = json.loads(run("inspect", LUTKIN, "--json", "--felt-beat", "2")[1])
+    quarters = json.loads(run("inspect", LUTKIN, "--json", "--no-contacts")[1])
+    halves = json.loads(run("inspect", LUTKIN, "--json", "--no-contacts", "--felt-beat", "2")[1])
     beat_s = 60.0 / quarters["tempo"][0]["bpm"]
     first_s = min(note["onset_s"] for player in quarters["players"] for note in player["notes"])
     # A bar of four, or as many beats as give time to come up from rest.
@@ -136,7 +136,7 @@ def test_the_felt_beat_counts_in_pre_roll_cue_and_breaths(run: Run) -> None:
 
 
 def test_an_unknown_player_is_reported_who_there_is(run: Run) -> None:
-    names = [player["name"] for player in json.loads(run("inspect", QUARTET, "--json")[1])["players"]]
+    names = [player["name"] for player in json.loads(run("inspect", QUARTET, "--json", "--no-contacts")[1])["players"]]
     assert len(names) == 4
     _, _, err = run("inspect", QUARTET, "--set", "unknown.amplitude=1")
     assert all(name in err for name in names)
@@ -146,13 +146,13 @@ def test_inspect_lists_the_markers(run: Run, tmp_path: Path) -> None:
     file = mido.MidiFile(QUARTET)
     file.tracks.append(mido.MidiTrack([mido.MetaMessage("marker", text="A", time=file.ticks_per_beat)]))
     file.save(tmp_path / "marked.mid")
-    found = json.loads(run("inspect", str(tmp_path / "marked.mid"), "--json")[1])
+    found = json.loads(run("inspect", str(tmp_path / "marked.mid"), "--json", "--no-contacts")[1])
     beat_s = 60.0 / found["tempo"][0]["bpm"]
     assert found["markers"] == [{"tick": file.ticks_per_beat, "s": pytest.approx(beat_s), "text": "A"}]
 
 
 def test_inspect_has_exactly_these_keys(run: Run) -> None:
-    status, out, _ = run("inspect", QUARTET, "--json")
+    status, out, _ = run("inspect", QUARTET, "--json", "--fps", "24")
     assert status == 0
     found = json.loads(out)
     assert set(found) == {
@@ -215,7 +215,7 @@ def test_inspect_lists_articulation_bends_and_dynamics(run: Run, tmp_path: Path)
 
 
 def test_seconds_follow_the_tempo_that_mido_reads(run: Run) -> None:
-    found = json.loads(run("inspect", LUTKIN, "--json")[1])
+    found = json.loads(run("inspect", LUTKIN, "--json", "--no-contacts")[1])
     assert found["ticks_per_beat"] == mido.MidiFile(LUTKIN).ticks_per_beat
     onsets = {round(note["onset_s"], 6) for player in found["players"] for note in player["notes"]}
     time_s, truth = 0.0, set()
@@ -228,32 +228,31 @@ def test_seconds_follow_the_tempo_that_mido_reads(run: Run) -> None:
 
 def test_what_no_one_plays_is_listed(run: Run) -> None:
     organ = LUTKIN.with_name("trumpet_organ_brown_wedding_CCBY4.mid")
-    found = json.loads(run("inspect", organ, "--json")[1])
+    found = json.loads(run("inspect", organ, "--json", "--no-contacts")[1])
     assert len(found["players"]) == 1
     assert [set(part) for part in found["unplayed"]] == [{"name", "reason", "note_count"}] * 2
     assert all(part["note_count"] > 0 and part["reason"] for part in found["unplayed"])
 
 
 def test_settings_change_the_plan(run: Run) -> None:
-    plain = json.loads(run("inspect", QUARTET, "--json")[1])
-    same = json.loads(run("inspect", QUARTET, "--json")[1])
+    plain = json.loads(run("inspect", QUARTET, "--json", "--fps", "24")[1])
+    same = json.loads(run("inspect", QUARTET, "--json", "--fps", "24")[1])
     assert plain == same
-    changed = json.loads(run("inspect", QUARTET, "--json", "--set", "*.breath_min_beats=3")[1])
+    changed = json.loads(run("inspect", QUARTET, "--json", "--no-contacts", "--set", "*.breath_min_beats=3")[1])
     assert [p["notes"] for p in changed["players"]] == [p["notes"] for p in plain["players"]]
     assert [p["breaths"] for p in changed["players"]] != [p["breaths"] for p in plain["players"]]
     name = plain["players"][0]["name"]
-    swapped = json.loads(
-        run("inspect", QUARTET, "--json", "--set", f"{name}.instrument=trombone_tenor_F_attachment")[1]
-    )
+    swap = f"{name}.instrument=trombone_tenor_F_attachment"
+    swapped = json.loads(run("inspect", QUARTET, "--json", "--no-contacts", "--set", swap)[1])
     assert swapped["players"][0]["instrument"] == "trombone_tenor_F_attachment"
     assert {note["fingering"][-1] for note in swapped["players"][0]["notes"]} <= set("1234567")
 
 
 def test_the_table_for_people(run: Run) -> None:
-    status, out, _ = run("inspect", LUTKIN)
+    status, out, _ = run("inspect", LUTKIN, "--fps", "24")
     assert status == 0
     assert "trumpet" in out.lower()
-    status, out, _ = run("inspect", WITH_VIOLA)
+    status, out, _ = run("inspect", WITH_VIOLA, "--no-contacts")
     assert status == 0
     assert "not played" in out
 
@@ -276,7 +275,7 @@ def test_corrupt_files_end_in_a_sentence(run: Run, path: Path, command: str, tmp
 def test_awkward_files_open(run: Run, path: Path) -> None:
     # All motion of ten minutes of an orchestra is not what is asked for here.
     long = path.stat().st_size > 20_000
-    status, out, err = run("inspect", path, "--json", *(["--no-contacts"] if long else []))
+    status, out, err = run("inspect", path, "--json", *(["--no-contacts"] if long else ["--fps", "24"]))
     assert (status, err) == (0, "")
     json.loads(out)
 
@@ -313,7 +312,7 @@ def test_a_piece_of_months_is_refused(run: Run, tmp_path: Path) -> None:
 def test_names_from_a_file_stay_names(run: Run, tmp_path: Path) -> None:
     names = ["../../evil", "CON", "Trumpet 🎺", "Trumpet 🎺", "a/b\\c:d", ""]
     piece = named_piece(tmp_path / "piece.mid", *names)
-    status, out, _ = run("inspect", piece, "--json")
+    status, out, _ = run("inspect", piece, "--json", "--no-contacts")
     assert status == 0
     found = [player["name"] for player in json.loads(out)["players"]]
     assert len({name.casefold() for name in found}) == len(names)

@@ -51,7 +51,7 @@ def readable(printed: str) -> str:
 
 def test_pieces(run: Run, folder: Path) -> None:
     piece = odd(folder, ".mid")
-    status, out, _ = run("inspect", piece)
+    status, out, _ = run("inspect", piece, "--fps", "24")
     assert status == 0
     assert readable(out).startswith(f"{NAME}.mid: ")
     status, out, _ = run("midi", piece, "--to", odd(folder, ".out.mid"))

@@ -64,11 +64,11 @@ def test_inspect_lists_dancers(run: Run, tmp_path: Path) -> None:
         }
     ]  # fmt: skip
     assert len(found["players"]) == 2
-    assert "woman_adult" in run("inspect", tmp_path / "danced.suisou")[1]
+    assert "woman_adult" in run("inspect", tmp_path / "danced.suisou", "--no-contacts")[1]
 
 
 def test_options_come_on_top_of_a_project(run: Run, project: Path) -> None:
-    assert json.loads(run("inspect", project, "--json")[1])["first_frame_s"] == -2.0
+    assert json.loads(run("inspect", project, "--json", "--no-contacts")[1])["first_frame_s"] == -2.0
     settings = ("--set", "trombone.instrument=trumpet_Bb", "--felt-beat", "2", "--preroll", "8")
     status, out, _ = run("inspect", project, "--json", *settings)
     assert status == 0
@@ -82,7 +82,7 @@ SETTINGS = ("title", "fps_exact", "preroll_beats", "felt_beat_quarters", "seed")
 
 def test_settings_of_the_piece_come_on_top_of_a_project_or_a_midi_file(run: Run, project: Path) -> None:
     def settings(file: Path, *options: str) -> tuple[object, ...]:
-        status, out, _ = run("inspect", file, "--json", *options)
+        status, out, _ = run("inspect", file, "--json", "--no-contacts", *options)
         assert status == 0
         found = json.loads(out)
         assert found["fps"] == float(Fraction(found["fps_exact"]))
@@ -128,7 +128,7 @@ def test_what_only_midi_has_is_bad_use(run: Run, project: Path, option: str, val
 
 def test_written_pitches_sound_as_the_instrument_has_them(run: Run) -> None:
     def pitches(*options: str) -> dict[str, list[int]]:
-        status, out, _ = run("inspect", QUARTET, "--json", *options)
+        status, out, _ = run("inspect", QUARTET, "--json", "--no-contacts", *options)
         assert status == 0
         return {player["name"]: [note["pitch"] for note in player["notes"]] for player in json.loads(out)["players"]}
 
