@@ -3,19 +3,21 @@
 The deepest vertex of every frame is found by branch and bound. A block of frames is judged by its middle frame: how far
 a vertex moves from there is bounded by how far its joints and the instrument's parts move, and a distance changes by no
 more than a point moves. Vertices that cannot be the deepest in any frame of a block are dropped; for the others shorter
-blocks are judged, down to single frames. While a hand moves too far within a block, its vertices are judged in groups.
-Hand and parts are judged in the frame of the part on which the hand is steadiest: a hand goes with the slide it holds.
+blocks are judged, down to single frames. A block holds frames in which the hand is alike, whenever they are. While a
+hand moves too far within a block, its vertices are judged in groups. Hand and parts are judged in the frame of the part
+on which the hand is steadiest: a hand goes with the slide it holds.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
 
+from app.contacts.alike import alike
 from app.contacts.distance_field import DistanceField
 from app.contacts.hand_poses import (
     Carried,
@@ -42,6 +44,8 @@ STRETCH = 1.3
 """How much further from its middle than in the bind pose a vertex of a group may come when the hand bends."""
 STILL_M = 0.006
 """A group that moves less within a block is judged vertex by vertex."""
+_ARM_M = 0.02
+"""Frames are alike by where joints are, and what is this far from them."""
 _ROUNDING_M = np.float32(1e-6)
 """More than two ways of placing a vertex in single precision differ."""
 
@@ -54,33 +58,42 @@ class HandDepths:
     hand : Skin
         Of hand and fingers.
     bodies : sequence of Proxy
+
+    Attributes
+    ----------
+    joints : (J,) int
+        Those that carry a vertex.
     """
 
     def __init__(self, hand: Skin, bodies: Sequence[Proxy]) -> None:
         self._hand = carried(hand)
+        self.joints = self._hand.joints
         strongest = np.argmax(hand.weights, axis=1).astype(np.int32)
         self._groups = _groups(hand.positions_m.tobytes(), strongest.tobytes())
         self._nodes, self._field = _field(tuple(bodies))
 
     def depths_m(
         self,
-        world_from_joint: FloatArray,
+        world_from_joint: AnyFloatArray,
         morphs: Mapping[str, AnyFloatArray],
         world_from_node: Mapping[str, FloatArray],
         least_m: FloatArray | None = None,
+        least_of: Callable[[FloatArray], float] = lambda found_m: 0.0,
     ) -> FloatArray:
         """Greatest depth of any vertex in any body, at each of some frames.
 
         Parameters
         ----------
-        world_from_joint : (F, J, 4, 4) float64
-            Of the joints that the skin's numbers mean.
+        world_from_joint : (F, J, 3, 4)
+            Of `joints`.
         morphs : dict of str to (F,)
             Weights by morph name.
         world_from_node : dict of str to (F, 4, 4) float64
             Of the instrument's nodes.
         least_m : (F,) float64, optional
             What is no deeper need not be found; 0 if absent.
+        least_of : callable
+            The same for all frames, by how deep something is at least at each of them (F,): called as that is found.
 
         Returns
         -------
@@ -91,22 +104,29 @@ class HandDepths:
         if not frames or not self._nodes:
             return np.zeros(frames) if least_m is None else least_m
         sizes = [size for size in BLOCKS if size <= frames]
+        joints = world_from_joint.transpose(0, 2, 1, 3).astype(np.float32, order="C")
+        base = steadiest([world_from_node[node] for node in self._nodes], joints)
         # Whole blocks: the last frame is repeated.
-        padded = np.minimum(np.arange(-(-frames // sizes[0]) * sizes[0]), frames - 1)
-        depths_m = np.zeros(len(padded), dtype=np.float32)
+        order = np.minimum(np.arange(-(-frames // sizes[0]) * sizes[0]), frames - 1)
+        local = joints_in_node(world_from_node[self._nodes[base]], joints)[:, :, order]
+        features = (local[:, 3] + local[:, 0] * np.float32(_ARM_M)).transpose(1, 0, 2).reshape(len(order), -1)
+        order = order[alike(features, sizes[0], 4)]
+        depths_m = np.zeros(len(order), dtype=np.float32)
         if least_m is not None:
-            depths_m[:] = least_m[padded]
-        weights = {name: np.asarray(morphs[name], np.float32)[padded] for name in self._hand.morphs if name in morphs}
-        joints = world_from_joint[:, self._hand.joints, :3].transpose(0, 2, 1, 3).astype(np.float32, order="C")[padded]
-        nodes = [world_from_node[node][padded] for node in self._nodes]
-        search = _Search(self._hand, self._groups, self._field, joints, weights, nodes)
+            depths_m[:] = least_m[order]
+        weights = {name: np.asarray(morphs[name], np.float32)[order] for name in self._hand.morphs if name in morphs}
+        nodes = [world_from_node[node][order] for node in self._nodes]
+        search = _Search(self._hand, self._groups, self._field, joints[order], weights, nodes, base)
         search.begin(sizes[0], depths_m.reshape(-1, sizes[0]))
+        found_m = np.empty(frames)
         for size in sizes:
             search.judge_roughly(size, depths_m.reshape(-1, size))
             search.judge_exactly(depths_m.reshape(-1, size))
+            found_m[order] = depths_m
             if not search.open:
                 break
-        return depths_m[:frames].astype(np.float64)
+            np.maximum(depths_m, np.float32(least_of(found_m)), out=depths_m)
+        return found_m
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,7 +186,9 @@ class _Search:
     morphs : dict of str to (F,) float32
         Weights.
     world_from_node : list of (F, 4, 4) float64
-        By node. Of hand and nodes all that moves is judged in the frame of the one on which the hand is steadiest.
+        By node.
+    base : int
+        The node on which the hand is steadiest: in its frame all that moves is judged.
     """
 
     def __init__(
@@ -177,10 +199,10 @@ class _Search:
         world_from_joint: SingleArray,
         morphs: Mapping[str, SingleArray],
         world_from_node: list[FloatArray],
+        base: int,
     ) -> None:
         self._hand, self._groups, self._field = hand, groups, field
         self._world_from_joint, self._morphs, self._world_from_node = world_from_joint, morphs, world_from_node
-        base = steadiest(world_from_node, world_from_joint)
         self._poses = Poses(hand, joints_in_node(world_from_node[base], world_from_joint), morphs)
         self._parts = Parts(world_from_node, base, field.reaches_m)
         self._moved = self._parts.moves(1)

@@ -14,6 +14,7 @@ from functools import partial
 
 import msgspec
 import numpy as np
+import numpy.typing as npt
 
 from app.contacts.bounds import (
     FEET_MM,
@@ -51,6 +52,9 @@ TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
 
 _CHUNK = 1024
+"""Frames that are read at once ..."""
+_CHUNKS = 4
+"""... and so many chunks before depths are judged, of all their frames together."""
 _TORSO = ("hips", "neck")
 _SOLES = ("left.foot.sole", "right.foot.sole")
 _HANDS = ("left.hand", "right.hand")
@@ -220,7 +224,7 @@ def _read(
     beside: Callable[[], None],
     progress: Callable[[float], None],
 ) -> _Read:
-    """One walk over all frames, a chunk at a time, while something else is done beside it."""
+    """One walk over all frames, some chunks at a time, while something else is done beside it."""
     player = joints.playback
     frames = player.clip.frames
     requested = {contact.part for contact in instrument.contacts} | {*_SOLES, LIPS, UPPER_LIP}
@@ -241,7 +245,7 @@ def _read(
     lengths_m = np.linalg.norm(player.rest_m, axis=1)
     parents = np.array(player.parents)
 
-    def read(span: slice) -> None:
+    def read(span: slice) -> list[npt.NDArray[np.float32]]:
         first, last = span.start, span.stop
         world = player.world(first, last)
         for name, surface in surfaces.items():
@@ -255,22 +259,37 @@ def _read(
         found_m = np.linalg.norm(bones_m - bones_m[:, parents], axis=-1)
         deviation_m[span] = np.abs(found_m - lengths_m)[:, joints.rigid].max(axis=1)
         begin, end = np.searchsorted(played, [first, last]).tolist()
-        if begin == end:
-            return
-        at = played[begin:end] - first
-        here = {node: held_world[at, bone] for node, bone in node_bones.items()}
-        morphs = {name: weights[at] for name, weights in player.morphs(first, last).items()}
-        world = world[at]
-        least_m = np.maximum(depth_m[begin:end], reported_least_m(depth_m))
-        for hand in hands:
-            least_m = hand.depths_m(world, morphs, here, least_m)
-        depth_m[begin:end] = least_m
+        return [world[played[begin:end, None] - first, hand.joints, :3].astype(np.float32) for hand in hands]
 
-    spans = (slice(first, min(first + _CHUNK, frames)) for first in range(0, frames, _CHUNK))
-    tasks: list[Callable[[], None]] = [beside, *(partial(read, span) for span in spans)]
+    def judge(first: int) -> None:
+        last = min(first + _CHUNKS * _CHUNK, frames)
+        read_back = [read(slice(at, min(at + _CHUNK, last))) for at in range(first, last, _CHUNK)]
+        own = slice(*np.searchsorted(played, [first, last]).tolist())
+        at = played[own]
+        here = {node: _with_last_row(placed[at]) for node, placed in nodes.items()}
+        morphs = {name: weights[at - first] for name, weights in player.morphs(first, last).items()}
+
+        def least_of(found_m: FloatArray) -> float:
+            np.maximum(depth_m[own], found_m, out=depth_m[own])
+            return reported_least_m(depth_m)
+
+        for hand, carriers in zip(hands, zip(*read_back, strict=True), strict=True):
+            if len(at):
+                least_m = np.maximum(depth_m[own], reported_least_m(depth_m))
+                depth_m[own] = hand.depths_m(np.concatenate(carriers), morphs, here, least_m, least_of)
+
+    tasks: list[Callable[[], None]] = [
+        beside,
+        *(partial(judge, first) for first in range(0, frames, _CHUNKS * _CHUNK)),
+    ]
     done = itertools.count(1)
     in_threads(tasks, lambda index: progress(next(done) / len(tasks)))
     return _Read(Traces(landmarks, nodes), torso, deviation_m, depth_m)
+
+
+def _with_last_row(matrices: FloatArray) -> FloatArray:
+    """Transforms (F, 3, 4) as (F, 4, 4)."""
+    return np.concatenate([matrices, np.broadcast_to([0.0, 0.0, 0.0, 1.0], (len(matrices), 1, 4))], axis=1)
 
 
 def slid_m(sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str, body: Body) -> FloatArray:

@@ -80,7 +80,7 @@ def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
     count = int(np.ceil((frame.end_s + AFTER_S) / STEP_S)) - first
     at_s = (first + np.arange(count, dtype=np.float64)) * STEP_S
     if not plan.embouchures:
-        return Spline(first, STEP_S, np.zeros((len(Exertion._fields), 1)))
+        return Spline(first, STEP_S, np.zeros((len(Exertion._fields), 1), np.int16), float(ONE))
     starts_s = np.array([event.start_s for event in plan.embouchures])
     ends_s = np.minimum(np.array([event.end_s for event in plan.embouchures]), np.append(starts_s[1:], np.inf))
     note = np.searchsorted(starts_s, at_s, side="right") - 1
@@ -101,7 +101,7 @@ def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
         _tired(load),
     )
     low = np.array([[-ONE if name in ("contour", "swell") else 0] for name in Exertion._fields])
-    return Spline(first, STEP_S, np.clip(np.stack(rows), low, ONE) / float(ONE))
+    return Spline(first, STEP_S, np.clip(np.stack(rows), low, ONE).astype(np.int16), float(ONE))
 
 
 def _asked(

@@ -271,5 +271,5 @@ def _head(plan: PlayerPlan, at_s: FloatArray, yaw: FloatArray, pitch: FloatArray
         for _ in range(2):
             total = np.concatenate(([0], np.cumsum(np.concatenate((np.full(steps, whole[0]), whole)))))
             whole = (total[steps + 1 :] - total[: -steps - 1]) // (steps + 1)
-        rows.append(whole / 1e6)
-    return Spline(first, HEAD_STEP_S, np.stack(rows))
+        rows.append(whole)
+    return Spline(first, HEAD_STEP_S, np.stack(rows).astype(np.int32), 1e6)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from app.motion.curve import EVERYWHERE, FloatArray
 
@@ -25,13 +26,16 @@ class Spline:
     first : int
         Point k is at ``(first + k) * step_s``.
     step_s : float
-    values : (C, K) float64
-        A row for each value; at least one point.
+    values : (C, K) float64, or whole numbers
+        A row for each value; at least one point. Whole numbers of a few bytes are a fraction of an hour's memory.
+    one : float
+        What 1 is among the values.
     """
 
     first: int
     step_s: float
-    values: FloatArray
+    values: FloatArray | npt.NDArray[np.int16] | npt.NDArray[np.int32]
+    one: float = 1.0
 
     def sample(self, times_s: FloatArray) -> FloatArray:
         """(C, F) at any times."""
@@ -50,12 +54,12 @@ class Spline:
         last = self.values.shape[1] - 1
         result = np.zeros((len(self.values), len(times_s)))
         for number, weight in enumerate(weights):
-            result += weight * self.values[:, np.clip(row + number, 0, last)]
+            result += weight * (self.values[:, np.clip(row + number, 0, last)] / self.one)
         return result
 
     def changed_s(self, other: Spline) -> FloatArray:
         """Spans (K, 2) outside of which both have the very same values."""
-        if other.step_s != self.step_s or len(other.values) != len(self.values):
+        if (other.step_s, other.one, len(other.values)) != (self.step_s, self.one, len(self.values)):
             return EVERYWHERE
         first = min(self.first, other.first)
         count = max(self.first + self.values.shape[1], other.first + other.values.shape[1]) - first

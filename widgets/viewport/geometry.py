@@ -51,21 +51,23 @@ class Face:
     count : int
         Vertices that any of them moves: the first ones.
     names : tuple of str
-    deltas : (len(names), count * 6) float32
-        Displacement and change of normal, interleaved as in `SHAPE`.
-    rest : (count * 6,) float32
+    targets : tuple of ((K,) int32, (K, 6) float32)
+        By name: the vertices that it moves, and how: displacement and change of normal as in `SHAPE`. Most move few.
+    rest : (count, 6) float32
     """
 
     count: int
     names: tuple[str, ...]
-    deltas: Floats
+    targets: tuple[tuple[npt.NDArray[np.int32], Floats], ...]
     rest: Floats
 
     def morphed(self, weights: npt.NDArray[np.float32]) -> npt.NDArray[np.void]:
         """The first vertices under these weights (len(names),), as `SHAPE` records."""
-        used = np.flatnonzero(np.abs(weights) > 1e-4)
-        shape = self.rest + weights[used] @ self.deltas[used] if len(used) else self.rest
-        return np.ascontiguousarray(shape).view(SHAPE)
+        shape = self.rest.copy()
+        for index in np.flatnonzero(np.abs(weights) > 1e-4).tolist():
+            vertices, deltas = self.targets[index]
+            shape[vertices] += weights[index] * deltas
+        return shape.view(SHAPE).reshape(-1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -358,15 +360,14 @@ class _Whole:
         return self._surface[order[first]], surface_of.reshape(-1).astype(np.uint16)
 
     def _face(self, names: tuple[str, ...], shape: npt.NDArray[np.void], place: Ints, count: int) -> Face:
-        deltas = np.zeros((len(names), count, 6), np.float32)
-        for row, name in enumerate(names):
+        targets = []
+        for name in names:
             vertices, moves, turns = self._morphs[name]
             own = place[vertices]
             here = own >= 0
-            deltas[row, own[here], :3] = moves[here]
-            deltas[row, own[here], 3:] = turns[here]
-        rest = np.ascontiguousarray(shape[:count]).view(np.float32).reshape(-1).copy()
-        return Face(count, names, deltas.reshape(len(names), -1), rest)
+            targets.append((own[here].astype(np.int32), np.concatenate([moves[here], turns[here]], axis=1)))
+        rest = np.ascontiguousarray(shape[:count]).view(np.float32).reshape(count, -1).copy()
+        return Face(count, names, tuple(targets), rest)
 
     def _clustered(self, cell_m: float, thin_share: float) -> tuple[Ints, Ints]:
         """Vertices kept, and triangles between them: of those in one cell and of one surface the first one stays."""

@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+from app.contacts.bounds import NEARLY_ALL, reported_least_m
 from app.contacts.depths import HandDepths
 from app.contacts.distance_field import FAR_M, NEAR_M, DistanceField
 from app.contacts.touches import world_from_nodes
@@ -94,7 +95,7 @@ def test_no_vertex_of_a_hand_is_left_out(index: int, push_m: tuple[float, float,
     deepest = 0.0
     for skin in scene.hands:
         judge = HandDepths(skin, scene.instrument.proxy)
-        found = judge.depths_m(scene.world, scene.morphs, scene.nodes)
+        found = judge.depths_m(scene.world[:, judge.joints, :3], scene.morphs, scene.nodes)
         points_m = deform(skin, scene.joints, scene.morphs)
         for frame in range(0, len(found), 9):
             slow = max(
@@ -107,7 +108,7 @@ def test_no_vertex_of_a_hand_is_left_out(index: int, push_m: tuple[float, float,
         # It does not matter which frames are judged together.
         part = slice(40, 71)
         few = judge.depths_m(
-            scene.world[part],
+            scene.world[part][:, judge.joints, :3],
             {name: values[part] for name, values in scene.morphs.items()},
             {name: matrices[part] for name, matrices in scene.nodes.items()},
         )
@@ -119,7 +120,8 @@ def test_no_vertex_of_a_hand_is_left_out(index: int, push_m: tuple[float, float,
 def test_the_search_finds_what_the_search_by_groups_finds(instrument_id: str) -> None:
     scene = played(2, (0.004, -0.003, 0.002), 8.0, instrument_id)
     for skin in scene.hands:
-        found = HandDepths(skin, scene.instrument.proxy).depths_m(scene.world, scene.morphs, scene.nodes)
+        judge = HandDepths(skin, scene.instrument.proxy)
+        found = judge.depths_m(scene.world[:, judge.joints, :3], scene.morphs, scene.nodes)
         expected = GroupedDepths(skin, scene.instrument.proxy).depths_m(scene.world, scene.morphs, scene.nodes)
         np.testing.assert_allclose(found, expected, atol=SINGLE_PRECISION_M)
         assert expected.max() > 0.0
@@ -130,10 +132,23 @@ def test_what_is_less_than_asked_for_may_be_left_out(share: float) -> None:
     scene = played(2, (0.004, -0.003, 0.002), 4.0, "flute")
     for skin in scene.hands:
         judge = HandDepths(skin, scene.instrument.proxy)
-        every = judge.depths_m(scene.world, scene.morphs, scene.nodes)
+        every = judge.depths_m(scene.world[:, judge.joints, :3], scene.morphs, scene.nodes)
         least_m = np.full(len(every), np.quantile(every, share))
-        found = judge.depths_m(scene.world, scene.morphs, scene.nodes, least_m)
+        found = judge.depths_m(scene.world[:, judge.joints, :3], scene.morphs, scene.nodes, least_m)
         np.testing.assert_allclose(found, np.maximum(every, least_m), atol=SINGLE_PRECISION_M)
+
+
+def test_the_deepest_of_all_frames_are_as_without_a_least_depth() -> None:
+    """What is found of some frames says what need not be found of others."""
+    scene = played(2, (0.004, -0.003, 0.002), 8.0, "sax_alto_Eb")
+    for skin in scene.hands:
+        judge = HandDepths(skin, scene.instrument.proxy)
+        world = scene.world[:, judge.joints, :3]
+        every = np.sort(judge.depths_m(world, scene.morphs, scene.nodes))
+        found = np.sort(judge.depths_m(world, scene.morphs, scene.nodes, least_of=reported_least_m))
+        deepest = (len(every) - 1) * NEARLY_ALL // 100
+        np.testing.assert_array_equal(found[deepest:], every[deepest:])
+        assert (found[:deepest] <= every[deepest]).all()
 
 
 def test_hands_whose_vertices_morphs_move() -> None:
@@ -146,7 +161,8 @@ def test_hands_whose_vertices_morphs_move() -> None:
         outward = skin.normals * 0.002
         swollen = Patch(**{**vars(skin), "morphs": {"swollen": outward}})
         morphs = {"swollen": swelling}
-        found = HandDepths(swollen, scene.instrument.proxy).depths_m(scene.world, morphs, scene.nodes)
+        judge = HandDepths(swollen, scene.instrument.proxy)
+        found = judge.depths_m(scene.world[:, judge.joints, :3], morphs, scene.nodes)
         expected = GroupedDepths(swollen, scene.instrument.proxy).depths_m(scene.world, morphs, scene.nodes)
         np.testing.assert_allclose(found, expected, atol=SINGLE_PRECISION_M)
 

@@ -1,0 +1,52 @@
+"""Frames in an order in which those that are near each other are alike."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+SingleArray = npt.NDArray[np.float32]
+IntArray = npt.NDArray[np.intp]
+
+
+def alike(places_m: SingleArray, block: int, least: int) -> IntArray:
+    """Order frames so that some points are near the same places throughout a block.
+
+    The frames are halved again and again by the coordinate that differs most among them.
+
+    Parameters
+    ----------
+    places_m : (F, N) float32
+        Coordinates of the points.
+    block : int
+        Frames of a block, a power of two; F is a multiple of it.
+    least : int
+        So few frames are left as they are.
+
+    Returns
+    -------
+    (F,) int
+        Frames in their new order. Within a block those of each half, quarter and so on are alike, too.
+    """
+    order = np.arange(len(places_m))
+    ranges = [(0, len(order) // block)]
+    while ranges:
+        first, last = ranges.pop()
+        if last - first < 2:
+            continue
+        half = (first + last) // 2
+        rows = order[first * block : last * block]
+        widest = int(np.argmax(places_m[rows].var(axis=0)))
+        order[first * block : last * block] = rows[
+            np.argpartition(places_m[rows, widest], (half - first) * block, kind="introselect")
+        ]
+        ranges += [(first, half), (half, last)]
+    size = block
+    while size > least:
+        parts = order.reshape(-1, size)
+        values = places_m[parts]
+        widest_of = np.argmax(values.var(axis=1), axis=1)
+        chosen = np.take_along_axis(values, widest_of[:, None, None], axis=2)[..., 0]
+        order = np.take_along_axis(parts, np.argsort(chosen, axis=1, kind="stable"), axis=1).ravel()
+        size //= 2
+    return order
