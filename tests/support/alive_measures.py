@@ -20,7 +20,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.signal import butter, periodogram, sosfiltfilt
 from scipy.spatial import ConvexHull
-from scipy.stats import spearmanr
+from scipy.stats import rankdata, spearmanr
 
 from app.export.playback import Playback, Surface
 from app.export.request import Request
@@ -126,7 +126,8 @@ def effort_correlations(read: Read) -> tuple[float, float, float]:
     long = (last - first >= 3) & (read.end_s - read.onset_s >= 0.1)
     means = np.array([np.mean(shown[a:b]) for a, b in zip(first[long], last[long], strict=True)])
     loudness, pitch = read.loudness[long], read.pitch[long]
-    both = loudness.argsort().argsort() + pitch.argsort().argsort()
+    # Equal ones share a rank: constant loudness says nothing, and not the order of the notes.
+    both = rankdata(loudness) + rankdata(pitch)
     with np.errstate(all="ignore"):
         results = [
             spearmanr(means, other).statistic if len(means) > 4 and np.ptp(other) > 0 and np.ptp(means) > 0 else np.nan
