@@ -386,7 +386,8 @@ def body_motion(
     total.turn(NECK_SHARES, deg(sizes.wander("head_turn", sway.head_deg, times_s)))
 
     inhaled = acting.breath * at_amplitude(body.breath.shown, parameters.amplitude) * inhaled
-    breathing = deg(body.breath.torso_back_deg) * inhaled - deg(body.breath.preparation_forward_deg) * lean
+    with_trunk, with_shoulders = sizes.breathing
+    breathing = deg(with_trunk * body.breath.torso_back_deg) * inhaled - deg(body.breath.preparation_forward_deg) * lean
     total.forward(TRUNK_SHARES, -breathing)
     total.forward(NECK_SHARES, -deg(body.breath.head_back_deg) * inhaled + 0.4 * breathing)
 
@@ -407,7 +408,10 @@ def body_motion(
 
     feet = feet_moved(levels.feet, body, parameters.amplitude, acting.footwork, steps=steps)
     hips_forward_rad, hips_ahead_m = angles.pelvis, _ahead_m(levels, sizes, acting, feet, times_s)
-    shoulders, elbows = deg(body.breath.shoulder_lift_deg) * inhaled, deg(body.breath.elbow_out_deg) * inhaled
+    shoulders, elbows = (
+        deg(with_shoulders * body.breath.shoulder_lift_deg) * inhaled,
+        deg(body.breath.elbow_out_deg) * inhaled,
+    )
     if levels.concert is not None:
         done = beside_playing(levels.concert, body.concert, parameters.amplitude, shown, seated or not steps)
         total.forward(TRUNK_SHARES, done.trunk_rad)

@@ -29,6 +29,10 @@ WEIGHT_IN_CHEST = 0.2
 """Share of the hips' roll that the chest has."""
 ACCENT_IN_HIPS = 0.35
 """Pelvis on an accent, as a share of that of a lean."""
+BREATHES_WITH_TRUNK = (0.3, 1.0)
+"""Players breathe together, but not alike: with so much of the trunk's motion each ..."""
+SHOULDERS_INSTEAD = 0.6
+"""... and who has less of it by one lifts the shoulders more by this share."""
 SEATED_ROLL = 0.5
 """Who sits leans the pelvis aside by this share of what who stands does, and does not turn it."""
 
@@ -52,7 +56,14 @@ class Sizes:
     @property
     def aslant(self) -> float:
         """1 for who goes ahead with the weight on the left foot, -1 for who goes back."""
-        return _aslant(self.player_id, self.parameters.seed)
+        return 1.0 if _own(self.player_id, self.parameters.seed, "aslant") < 0.5 else -1.0
+
+    @property
+    def breathing(self) -> tuple[float, float]:
+        """How much this player breathes with the trunk, and how much with the shoulders instead."""
+        low, high = BREATHES_WITH_TRUNK
+        share = low + (high - low) * _own(self.player_id, self.parameters.seed, "breathes")
+        return share, 1.0 + SHOULDERS_INSTEAD * (0.5 * (low + high) - share)
 
     def wander(self, layer: str, scale: AmplitudeScale, times_s: FloatArray) -> FloatArray:
         """Noise of this player's layer: the residue, and a share of the planned motion's size."""
@@ -66,8 +77,8 @@ def _noise(player_id: str, seed: int, layer: str, low_hz: float) -> Noise:
 
 
 @lru_cache(maxsize=4096)
-def _aslant(player_id: str, seed: int) -> float:
-    return 1.0 if generator(player_id, seed, "aslant").random() < 0.5 else -1.0
+def _own(player_id: str, seed: int, what: str) -> float:
+    return float(generator(player_id, seed, what).random())
 
 
 @dataclass

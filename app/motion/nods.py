@@ -17,6 +17,8 @@ DIP_BEATS = 0.5
 """Half width of the dip around the beat, in beats ..."""
 DIP_S, SLOW_BEATS = 0.15, 0.2
 """... in slow tempi less: so many seconds and so much of a beat, or the drop would mark no beat."""
+AFTER = 1.9
+"""Head and instrument come up from the dip in so much more time than they dropped in: nothing heavy is back at once."""
 LIFT_BEATS = 0.85
 """Half width of the lift before it, where there is room."""
 NOD_BEATS = 1.5
@@ -62,7 +64,7 @@ class Nods:
             here = slice(first[index], last[index])
             beat_s, lift_s = float(self.beat_s[index]), float(self.lift_s[index])
             amount = float(self.amount[index])
-            np.maximum(dip[here], amount * bump(times_s[here], beat_s, float(self.half_s[index])), out=dip[here])
+            np.maximum(dip[here], amount * _dip(times_s[here], beat_s, float(self.half_s[index])), out=dip[here])
             np.maximum(lift[here], amount * bump(times_s[here], beat_s - LIFT_LAG * lift_s, lift_s), out=lift[here])
         return dip, lift
 
@@ -76,5 +78,12 @@ class Nods:
     @property
     def _spans_s(self) -> FloatArray:
         first_s = np.minimum(self.beat_s - (1.0 + LIFT_LAG) * self.lift_s, self.beat_s - self.half_s)
-        last_s = self.beat_s + np.maximum(self.half_s, (1.0 - LIFT_LAG) * self.lift_s)
+        last_s = self.beat_s + np.maximum(AFTER * self.half_s, (1.0 - LIFT_LAG) * self.lift_s)
         return np.stack((first_s, last_s), axis=1)
+
+
+def _dip(times_s: FloatArray, beat_s: float, half_s: float) -> FloatArray:
+    """A bump whose way back is stretched; about the beat both halves have the same acceleration."""
+    after = np.maximum(times_s - beat_s, 0.0) / half_s
+    stretched = after / (1.0 + after * (AFTER - 1.0) / AFTER)
+    return bump(np.minimum(times_s, beat_s) + half_s * stretched, beat_s, half_s)

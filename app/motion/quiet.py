@@ -9,9 +9,9 @@ from app.chance import chance
 from app.motion.curve import Curve, moves
 from app.plan.model import GestureEvent
 
-LEAST_S: Final = 7.0
+LEAST_S: Final = 6.0
 """In a shorter time nothing of it is seen."""
-FROM_S, UNTIL_S = 1.8, 2.4
+FROM_S, UNTIL_S = 1.8, 1.6
 """It begins so long after the instrument goes down, and ends so long before it is up again."""
 WAYS = ((1.3, 1.8), (1.6, 2.3), (0.3, 1.1), (0.6, 1.0))
 """Bounds of the seconds in, out and of the pause, and of the depth."""

@@ -44,12 +44,17 @@ HELD_S, HELD_BEATS = 3.0, 3.0
 """What all hold so long, in seconds and in beats, and leave together, was held by a fermata."""
 HELD_SILENCE_BEATS = 0.5
 """From this silence on it was left; one of `LEAST_BEATS` is a rest that is counted."""
+LONG_HELD_S, LONG_HELD_BEATS = 6.0, 6.0
+"""What all hold so long no one counts: they need a cue even where they go on without any silence."""
 OTHER_TEMPO = 1.15
 """A tempo that is faster or slower by this factor is another one."""
 STEADY_TEMPO, STEADY_BEATS = 1.1, 4
 """A new tempo holds for so many beats, within this factor; one that goes on changing is followed, not given."""
 HELD_TEMPO = 1.5
 """A beat that is longer by this factor, for no more than `STEADY_BEATS`, is held by a fermata."""
+LIVE_TEMPO, LIVE_HELD_TEMPO = 1.35, 2.0
+"""Where the tempo was played, and so never steady: beats within the one factor are one tempo, and what is longer by the
+other was held."""
 
 LONG_REST_S, LONG_REST_BARS = 8.0, 4
 """After a rest of either length a player is brought in ..."""
@@ -98,6 +103,7 @@ def entries(all_times: tuple[Rhythm, ...], piece: Piece, musicians: tuple[str, .
         return ()
     lines = _Spans.of([_stretches(times) for _, times in sounding])
     found = {entry.tick: entry for entry in _tempo_entries(sounding, lines, piece)}
+    found |= {entry.tick: entry for entry in _held_entries(sounding, piece)}
     found |= {entry.tick: entry for entry in _common_entries(sounding, lines, piece)}
     shared: list[Entry] = []
     for entry in sorted(found.values(), key=lambda entry: entry.tick):
@@ -199,6 +205,31 @@ def _silence(sounding: list[tuple[int, Rhythm]], end: int, tick: int, rest_s: fl
     return "cue.after_fermata" if left else None
 
 
+def _held_entries(sounding: list[tuple[int, Rhythm]], piece: Piece) -> list[Entry]:
+    """Where all go on at once after notes that all held so long that no one counts them."""
+    held: dict[int, int] = {}
+    for _, times in sounding:
+        ends, beats = times.played_end_tick[:-1], piece.beat_ticks_at(times.onset_tick[:-1])
+        long = (times.duration_s[:-1] >= LONG_HELD_S) & (ends - times.onset_tick[:-1] >= LONG_HELD_BEATS * beats)
+        long &= times.onset_tick[1:] - ends < HELD_SILENCE_BEATS * beats
+        for begin, tick in zip(times.onset_tick[:-1][long].tolist(), times.onset_tick[1:][long].tolist(), strict=True):
+            held[tick] = max(held.get(tick, begin), begin)
+    heard = _Spans.of([tuple(np.array(piece.accompaniment, np.int64).reshape(-1, 2).T)])  # type: ignore[list-item]
+    found = []
+    for tick, begin in held.items():
+        alone = all(_nothing_begins(times, begin, tick) for _, times in sounding)
+        if alone and not heard.sounds_before(tick, tick - begin):
+            players = _coming_in(sounding, tick, _together(piece, tick))
+            found.append(Entry(tick, "cue.after_fermata", None, players))
+    return found
+
+
+def _nothing_begins(times: Rhythm, begin: int, tick: int) -> bool:
+    """Whether a line begins nothing between two ticks, nor sounds on at the second."""
+    index = int(np.searchsorted(times.onset_tick, tick)) - 1
+    return index < 0 or bool(times.onset_tick[index] <= begin and times.played_end_tick[index] <= tick)
+
+
 def _tempo_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece) -> list[Entry]:
     """Where a new tempo begins and stays, or the old one goes on after a fermata."""
     beats = piece.metre_map.felt_between(int(lines.starts[0]), int(lines.ends[-1]))
@@ -223,10 +254,12 @@ def _tempo_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Pie
 def _new_tempo(lasts_s: FloatArray, place: int) -> Literal["cue.tempo", "cue.after_fermata"] | None:
     """What begins at a beat, by how long a tick lasts in each beat."""
     following = lasts_s[place : place + STEADY_BEATS]
-    if len(following) < 2 or following.max() > STEADY_TEMPO * following.min():
+    if len(following) < 2:
         return None
     here = float(np.median(following))
     before = lasts_s[max(place - STEADY_BEATS - 1, 0) : place] / here
+    if following.max() > STEADY_TEMPO * following.min():
+        return "cue.after_fermata" if _held_while_live(before, following) else None
     other = np.maximum(before, 1.0 / before) >= OTHER_TEMPO
     if not other[-1]:
         return None
@@ -235,6 +268,16 @@ def _new_tempo(lasts_s: FloatArray, place: int) -> Literal["cue.tempo", "cue.aft
         # The tempo was the same shortly before: that was a fermata, or only a delay.
         return "cue.after_fermata" if before[-stretch:].max() >= HELD_TEMPO else None
     return "cue.tempo"
+
+
+def _held_while_live(before: FloatArray, following: FloatArray) -> bool:
+    """Whether the last of the beats before, relative to the tempo that follows, were held, and the others were not,
+    where no two beats are alike."""
+    if following.max() > LIVE_TEMPO * following.min():
+        return False
+    slow = before >= LIVE_TEMPO
+    stretch = int(np.argmin(slow[::-1])) if not slow.all() else len(slow)
+    return 0 < stretch < len(slow) and bool(before[-stretch:].max() >= LIVE_HELD_TEMPO)
 
 
 def _joining(

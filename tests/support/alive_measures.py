@@ -20,7 +20,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.signal import butter, periodogram, sosfiltfilt
 from scipy.spatial import ConvexHull
-from scipy.stats import spearmanr
+from scipy.stats import rankdata, spearmanr
 
 from app.export.playback import Playback, Surface
 from app.export.request import Request
@@ -126,7 +126,8 @@ def effort_correlations(read: Read) -> tuple[float, float, float]:
     long = (last - first >= 3) & (read.end_s - read.onset_s >= 0.1)
     means = np.array([np.mean(shown[a:b]) for a, b in zip(first[long], last[long], strict=True)])
     loudness, pitch = read.loudness[long], read.pitch[long]
-    both = loudness.argsort().argsort() + pitch.argsort().argsort()
+    # Equal ones share a rank: constant loudness says nothing, and not the order of the notes.
+    both = rankdata(loudness) + rankdata(pitch)
     with np.errstate(all="ignore"):
         results = [
             spearmanr(means, other).statistic if len(means) > 4 and np.ptp(other) > 0 and np.ptp(means) > 0 else np.nan
@@ -197,9 +198,10 @@ def accents_lag_s(read: Read) -> tuple[float, int]:
     return float(np.median(np.abs(nearest))), len(accented)
 
 
-def overlap_ms(read: Read) -> tuple[float, float]:
-    """How much later chest and head do what the hips did, and the head what the chest did: the lag of the greatest
-    correlation of their sideways leans (0.15 to 3 Hz), ms."""
+def overlap_ms(read: Read) -> tuple[str, str]:
+    """How much later the chest does what the hips did, and the head what the chest did: the lag of the greatest
+    correlation of their sideways leans (0.15 to 3 Hz), ms, and that correlation. Where that is below about 0.8 each
+    moves mostly by itself, and the lag is a matter of chance."""
     lags = []
     for before, after in (("hips", "upperChest"), ("upperChest", "head")):
         one, other = (_bandpass(read.side_rad(name), read.fps, 0.15, 3.0) for name in (before, after))
@@ -208,7 +210,7 @@ def overlap_ms(read: Read) -> tuple[float, float]:
             abs(np.corrcoef(one[reach : len(one) - reach], np.roll(other, -lag)[reach : len(one) - reach])[0, 1])
             for lag in range(-reach, reach + 1)
         ]
-        lags.append(1000.0 * (int(np.argmax(found)) - reach) / read.fps)
+        lags.append(f"{1000.0 * (int(np.argmax(found)) - reach) / read.fps:.0f} ({max(found):.2f})")
     return lags[0], lags[1]
 
 

@@ -34,7 +34,10 @@ def test_the_acceleration_peaks_on_the_downbeat_and_nothing_falls_before(length_
         # The tempo is how long it takes: from the first rise to rest.
         moving = TIMES_S[np.abs(up) > 1e-6]
         assert moving[0] == pytest.approx(2.0 - 1.4 * length_s, abs=0.2 * length_s)
-        assert moving[-1] == pytest.approx(2.0 + 0.4 * length_s, abs=0.15 * length_s)
+        # It comes up more slowly than it dropped, and is there before the next beat.
+        assert 0.5 * length_s < moving[-1] - 2.0 < length_s
+        speed = np.gradient(up, TIMES_S)
+        assert speed[TIMES_S > 2.0].max() < -0.7 * speed.min()
 
 
 def test_before_a_pickup_it_drops_on_the_beat_that_the_pickup_lies_in() -> None:

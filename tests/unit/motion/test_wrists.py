@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -12,12 +13,14 @@ from app.export.joints import anatomical_angles
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves, prepare
 from app.motion.posture import Side
+from app.motion.solve import Curves, arms_of, helped, needs, upper_body
 from app.motion.wrists import wrists_of
 from app.plan.model import GestureEvent
 from app.plan.parameters import PlayerParameters
 from app.rig.character_library import character_named
 from app.rig.hold import hand_targets
 from app.rig.hold_file import hold_for
+from app.rig.ik import arm
 from app.rig.skeleton import forward
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Posture
@@ -87,3 +90,27 @@ def test_a_wrist_well_within_its_range_is_left_alone(side: Side) -> None:
     assert not wrist.beyond_rad(np.deg2rad(np.linspace(-26.0, 16.0, 50))).any()
     out = np.deg2rad(np.linspace(21.0, 36.0, 50))
     assert np.allclose(out - wrist.beyond_rad(out), np.minimum(out, np.deg2rad(20.0)), atol=np.deg2rad(0.5))
+
+
+@pytest.mark.parametrize("character_id", ["man_adult", "woman_adult"])
+@pytest.mark.parametrize(
+    "instrument_id", ["sax_baritone_Eb", "clarinet_bass_Bb", "english_horn", "sax_soprano_Bb", "sax_tenor_Bb"]
+)
+def test_seated_players_rest_with_wrists_within_their_range(instrument_id: str, character_id: str) -> None:
+    curves, _ = _shown(instrument_id, character_id, "seated")
+    player = curves.player
+    usual = Curves(player.still, {}, {}, np.zeros(1))
+    body = helped(player, player.still, needs(player, usual))
+    upper = upper_body(player, replace(usual, body=body))
+    arms = arms_of(player, upper.trunk, body, upper.carried, {}, {})
+    for side, wrist in player.wrists.items():
+        assert wrist.outside_rad(arms[arm(player.skeleton, side).end]).max() < np.deg2rad(0.5), side
+
+
+def test_no_elbow_is_flung_up_by_a_nod() -> None:
+    curves, motion = _shown("horn_double_F_Bb", "man_adult", "standing")
+    skeleton = curves.player.skeleton
+    joints = forward(skeleton, motion.rotations.astype(np.float64), motion.hips_m.astype(np.float64))
+    along_m = joints.of(skeleton.index("rightLowerArm"))[0] - joints.of(skeleton.index("rightUpperArm"))[0]
+    up_deg = np.degrees(np.arcsin(along_m[:, 1] / np.linalg.norm(along_m, axis=1)))
+    assert up_deg.max() < -18.0

@@ -160,6 +160,43 @@ HELD_OUT = (
         tempi=((0, 72),),
     ),
     Row(
+        "all hold a chord of two bars, no one counts it, and they go on without a breath",
+        (
+            ("tpt", TRUMPET, [*run(0, 8, 72), (8, 8, 76), *run(16, 12, 72)]),
+            ("hn", HORN, [*run(0, 8, 60), (9, 7, 64), *run(16, 12, 60)]),
+            ("tba", TUBA, [*run(0, 7, 40), *run(16, 12, 40)]),
+        ),
+        ((0, "tpt", 60 / 66), (16, "tpt", 60 / 66)),
+        tempi=((0, 66),),
+    ),
+    Row(
+        "one of them moves in the long chord, and so counts for all",
+        (
+            ("tpt", TRUMPET, [*run(0, 8, 72), (8, 8, 76), *run(16, 12, 72)]),
+            ("hn", HORN, run(0, 28, 60)),
+        ),
+        ((0, "tpt", 60 / 66),),
+        tempi=((0, 66),),
+    ),
+    Row(
+        "a fermata in a tempo that was played and is never steady",
+        (("tpt", TRUMPET, run(0, 32, 72)), ("hn", HORN, run(0, 32, 60))),
+        ((0, "tpt", 60 / 104), (16, "tpt", 60 / 112)),
+        tempi=(
+            *((at, 120 if at % 2 else 104) for at in range(14)),
+            (14, 90),
+            (15, 44),
+            (16, 112),
+            *((at, 106 if at % 2 else 120) for at in range(17, 32)),
+        ),
+    ),
+    Row(
+        "beats that come and go in a tempo that was played are no fermata",
+        (("tpt", TRUMPET, run(0, 32, 72)), ("hn", HORN, run(0, 32, 60))),
+        ((0, "tpt", 0.5),),
+        tempi=tuple((at, (120, 104, 88, 112)[at % 4]) for at in range(32)),
+    ),
+    Row(
         "the old tempo after a ritardando",
         (("fl", FLUTE, run(0, 32, 76)), ("cl", CLARINET, run(0, 32, 64))),
         ((0, "fl", 0.5), (16, "fl", 0.5)),
