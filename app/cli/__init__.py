@@ -17,6 +17,7 @@ import app.cli.align
 import app.cli.characters
 import app.cli.choreography
 import app.cli.edit
+import app.cli.evaluate
 import app.cli.export
 import app.cli.film
 import app.cli.inspect
@@ -46,6 +47,7 @@ examples:
   suisou export quartet.mid --to out --set "*.amplitude=0.8" --set "trombone.posture=seated"
   suisou film quartet.mid --to hands.mp4 --view hands --player "Trumpet 1" --from-bar 1 --to-bar 4
   suisou film quartet.mid --sheet hands.png --every 0.1 --view hands --to-bar 2
+  suisou evaluate quartet.mid --film concert.mp4 --to evaluation
   suisou midi session.suisou --to session.mid
   suisou align quartet.mid concert.flac --to concert.suisou
   suisou stream quartet.mid --player horn --loop
@@ -79,6 +81,7 @@ def parser() -> argparse.ArgumentParser:
     app.cli.inspect.add_command(commands)
     app.cli.export.add_command(commands)
     app.cli.film.add_command(commands)
+    app.cli.evaluate.add_command(commands)
     app.cli.midi.add_command(commands)
     app.cli.align.add_command(commands)
     app.cli.instruments.add_command(commands)
