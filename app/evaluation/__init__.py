@@ -1,0 +1,1 @@
+"""A performance judged against real players: clips, questionnaire, answers, statistics."""
