@@ -1,1 +1,1 @@
-"""A performance judged against real players: clips, questionnaire, answers, statistics."""
+"""A performance judged by viewers against real players: blinded clips, the questionnaire, its statistics."""
