@@ -7,7 +7,8 @@ from typing import Final
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "evaluation.not_a_key": (
         "{file} is not the key of an evaluation ({detail}); choose the key.json that 'suisou evaluate' wrote",
-        "{file} は評価のキーファイルではありません（{detail}）。'suisou evaluate' が書き出した key.json を選んでください",
+        "{file} は評価のキーファイルではありません（{detail}）。'suisou evaluate' が書き出した key.json を選んでく"
+        "ださい",
     ),
     "evaluation.newer_key": (
         "{file} was written by a newer version of Suisou; update Suisou to read it",
