@@ -17,6 +17,7 @@ from app.messages import (
     choreography,
     edit,
     evaluation,
+    evaluation_conclusions,
     evaluation_results,
     files,
     formats,
@@ -46,6 +47,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     **choreography.WORDINGS,
     **edit.WORDINGS,
     **evaluation.WORDINGS,
+    **evaluation_conclusions.WORDINGS,
     **evaluation_results.WORDINGS,
     **files.WORDINGS,
     **formats.WORDINGS,
@@ -87,7 +89,7 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
 """Arguments that are MIDI numbers of pitches: they are named, in the editor as its user chose."""
 
 
-TEXTS: Final = frozenset({"parameter"})
+TEXTS: Final = frozenset({"parameter", "variant", "beside", "presentation", "aspect", "scale"})
 """Arguments that may be ids of texts themselves."""
 
 
