@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from app.cli.options import Commands, add_file_options, open_project
 from app.cli.summary import columns
@@ -18,10 +18,16 @@ if TYPE_CHECKING:
     from app.evaluation.tables import Table
 
 
+RESULTS: Final = "evaluate results"
+MEASURES: Final = "evaluate measures"
+COMMANDS: Final = frozenset({RESULTS, MEASURES})
+"""Of two words; a piece with such a name is written "./results"."""
+
+
 def add_results(commands: Commands) -> None:
-    """Declare ``results``."""
+    """Declare the sub-command ``evaluate results``."""
     command = commands.add_parser(
-        "results",
+        RESULTS,
         help="what viewers answered",
         description="Reads the files that the page wrote, one for each viewer, and says how every variant was judged, "
         "which differences are shown, how far viewers agree, and what may and may not be concluded.",
@@ -41,9 +47,9 @@ def add_results(commands: Commands) -> None:
 
 
 def add_measures(commands: Commands) -> None:
-    """Declare ``measures``."""
+    """Declare the sub-command ``evaluate measures``."""
     command = commands.add_parser(
-        "measures",
+        MEASURES,
         help="what can be measured of a piece without viewers",
         description="Measures every player: lag of what is seen behind what is heard, motion of the head, breaths that "
         "show, and contact.",

@@ -18,6 +18,7 @@ from app.contacts.judge import ContactJudge
 from app.errors import FileError
 from app.evaluation.key import Variant
 from app.evaluation.onset_lag import LagMeasure, measure_lag
+from app.evaluation.variants import OURS, performance_of
 from app.formats.atomic import atomic_write
 from app.formats.files import read_file
 from app.motion.model import Motion
@@ -26,6 +27,7 @@ from app.performance.ensemble import Performance
 from app.performance.motion import player_motion, playing_of
 from app.performance.span import whole_span
 from app.plan.model import BreathEvent, FingeringEvent
+from app.project.model import Project
 from app.rig.skeleton import forward
 from metadata.model import BREATH_MORPHS
 
@@ -117,23 +119,51 @@ def measure(
 
     Parameters
     ----------
+    performance : Performance
+        When notes sound and breaths are drawn.
     motions : mapping of str to Motion, optional
-        By player id, what is seen: that of the performance, or something made of it. Players who are not there are not
-        measured. Without it, the whole performance is made at `FPS`.
+        By player id, what is seen, where it is not this performance; players who are not there are not measured.
     progress : callable
         Called with the share 0..1 that is done; what it raises stops the work.
     """
+    motions = _motions(performance) if motions is None else motions
     performers = performers_of(performance, performance.project.players).made
     found = []
-    for done, (player_id, performer) in enumerate(performers.items()):
-        progress(done / len(performers))
-        if motions is None:
-            span = whole_span(performance.time_frame, FPS)
-            found.append(measure_player(performance, performer, player_motion(performance, performer, span)))
-        elif player_id in motions:
-            found.append(measure_player(performance, performer, motions[player_id]))
+    for done, player_id in enumerate(motions):
+        progress(done / len(motions))
+        found.append(measure_player(performance, performers[player_id], motions[player_id]))
     progress(1.0)
     return VariantMeasures(variant, tuple(found))
+
+
+def measure_variants(
+    project: Project, variants: Sequence[Variant], progress: Callable[[float], None] = lambda share: None
+) -> tuple[VariantMeasures, ...]:
+    """Measure those of an evaluation's variants that are ours, each against when the notes sound.
+
+    Parameters
+    ----------
+    progress : callable
+        Called with the share 0..1 that is done; what it raises stops the work.
+    """
+    ours = [variant for variant in OURS if variant in variants]
+    sounding = Performance(project)
+    found = []
+    for number, variant in enumerate(ours):
+
+        def shown(share: float, number: int = number) -> None:
+            progress((number + share) / len(ours))
+
+        seen = performance_of(project, variant)
+        found.append(measure(sounding if variant == "shifted" else seen, variant, _motions(seen), shown))
+    return tuple(found)
+
+
+def _motions(performance: Performance) -> dict[str, Motion]:
+    """What is seen of everyone, at `FPS`, by player id."""
+    span = whole_span(performance.time_frame, FPS)
+    performers = performers_of(performance, performance.project.players).made
+    return {player_id: player_motion(performance, performer, span) for player_id, performer in performers.items()}
 
 
 def measure_player(performance: Performance, performer: Performer, motion: Motion) -> PlayerMeasures:

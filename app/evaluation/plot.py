@@ -38,7 +38,12 @@ def plot(results: Results, language: str) -> str:
         f'height="{height:.0f}" font-family="Noto Sans CJK JP, Noto Sans, Yu Gothic, Hiragino Sans, sans-serif" '
         'font-size="13">',
         f'<rect width="{width:.0f}" height="{height:.0f}" fill="#ffffff"/>',
-        _text(_EDGE, _EDGE + 8.0, text(Message("results.title", {"piece": shortened(results.piece, 50)}), language), 'font-size="17"'),
+        _text(
+            _EDGE,
+            _EDGE + 8.0,
+            text(Message("results.title", {"piece": shortened(results.piece, 50)}), language),
+            'font-size="17"',
+        ),
         _text(_EDGE, _EDGE + 28.0, text(Message("results.plot"), language), 'fill="#555555"'),
         *_legend(presentations, width, language),
     ]

@@ -11,7 +11,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "Answers from 1 (worst) to 5 (best). Every viewer counts once, with the mean of his or her answers; mean, "
         "median, "
         "standard deviation and the 95 % interval (Student's t) are over viewers.",
-        "回答は 1（最低）〜 5（最高）。視聴者ごとに回答を平均し、その値の平均・中央値・標準偏差・95 % 信頼区間"
+        "回答は 1（最低）〜 5（最高）。参加者ごとに回答を平均し、その値の平均・中央値・標準偏差・95 % 信頼区間"
         "（スチューデントの t）を求めています。",
     ),
     "results.contrasts": ("Comparisons", "比較"),
@@ -21,17 +21,17 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "signed-rank test, two-sided; corrected by Holm for the comparisons of the same question. Effect: "
         "rank-biserial "
         "correlation, -1 to 1.",
-        "同じ視聴者の「前者 − 後者」（ペアでは並べて見た 2 本、単独では同じ箇所どうし）。ウィルコクソンの符号付順"
+        "同じ参加者の「前者 − 後者」（ペアでは並べて見た 2 本、単独では同じ箇所どうし）。ウィルコクソンの符号付順"
         "位検定"
         "（両側）、補正は同じ質問の中の比較についてホルム法。効果量は順位双列相関（-1 〜 1）。",
     ),
-    "results.agreements": ("Agreement of viewers", "視聴者間の一致度"),
+    "results.agreements": ("Agreement of viewers", "参加者間の一致度"),
     "results.agreements_note": (
         "Krippendorff's alpha for ordinal answers: 1 all agree, 0 as by chance; 0.8 is reliable, below 0.667 is not.",
         "クリッペンドルフの α（順序尺度）: 1 は完全な一致、0 は偶然と同程度。0.8 以上で信頼でき、0.667 未満では"
         "信頼できません。",
     ),
-    "results.measures": ("Measures without viewers", "視聴者によらない測定値"),
+    "results.measures": ("Measures without viewers", "参加者によらない測定値"),
     "results.measures_note": (
         "Lag: action seen minus note heard; ITU-R BT.1359-1: detected beyond -125 and +45 ms, not accepted beyond "
         "-185 "
@@ -46,11 +46,11 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "results.may": ("What may be concluded", "結論できること"),
     "results.may_not": ("What may not be concluded", "結論できないこと"),
-    "results.variant": ("variant", "種類"),
+    "results.variant": ("variant", "バリエーション"),
     "results.presentation": ("shown", "提示"),
     "results.aspect": ("aspect", "観点"),
     "results.scale": ("scale", "尺度"),
-    "results.viewers_head": ("viewers", "視聴者"),
+    "results.viewers_head": ("viewers", "参加者"),
     "results.answers_head": ("answers", "回答"),
     "results.not_judged_head": ("cannot judge", "判断不能"),
     "results.mean": ("mean", "平均"),
@@ -87,7 +87,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "results.scale_synchrony": ("synchrony", "音との同期"),
     "results.answered": (
         '{viewers} {viewers:viewer|viewers}, {answers} {answers:answer|answers}; "cannot judge": {not_judged}.',
-        "視聴者 {viewers} 名、回答 {answers} 件、「判断できない」{not_judged} 件。",
+        "参加者 {viewers} 名、回答 {answers} 件、「判断できない」{not_judged} 件。",
     ),
     "results.better": (
         '{presentation}: "{variant}" was judged better than "{beside}" in {count} of {total} '
@@ -97,7 +97,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "results.none_better": (
         "No variant was shown to be judged better than another.",
-        "どの種類についても、他より高く評価されたとは示されませんでした。",
+        "どのバリエーションについても、他より高く評価されたとは示されませんでした。",
     ),
     "results.control_noticed": (
         "Control ({presentation}): fingers that are 200 ms late were judged less in time than ours "
@@ -107,7 +107,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "lags below 200 ms are not tested by that.",
         "対照（{presentation}）: 200 ms 遅れた指は、生成したものより同期が低く評価されました（{difference:+.2f}、"
         "片側 {p}、"
-        "視聴者 {viewers} 名）。視聴者は 200 ms に気づいているので、指のタイミングについての回答は有効です。200 "
+        "参加者 {viewers} 名）。参加者は 200 ms に気づいているので、指のタイミングについての回答は有効です。200 "
         "ms 未満の"
         "遅れはこれでは確かめられません。",
     ),
@@ -118,7 +118,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "do not "
         "conclude from good scores that fingers are in time.",
         "対照（{presentation}）: 200 ms 遅れた指は、生成したものより同期が低く評価されましたが（{difference:+.2f}）、"
-        "有意ではありません（片側 {p}、視聴者 {viewers} 名）。視聴者が 200 ms に気づくとは示されていないため、評点"
+        "有意ではありません（片側 {p}、参加者 {viewers} 名）。参加者が 200 ms に気づくとは示されていないため、評点"
         "が高くても"
         "指が音に合っているとは結論できません。",
     ),
@@ -129,7 +129,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "the timing of fingers say nothing.",
         "対照（{presentation}）: 200 ms 遅れた指の同期は、生成したものより低く評価されませんでした（"
         "{difference:+.2f}、"
-        "片側 {p}、視聴者 {viewers} 名）。視聴者は 200 ms に気づいていないため、指のタイミングについての回答からは"
+        "片側 {p}、参加者 {viewers} 名）。参加者は 200 ms に気づいていないため、指のタイミングについての回答からは"
         "何も"
         "言えません。",
     ),
@@ -137,7 +137,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "Control ({presentation}): nobody judged the synchrony of both ours and the late fingers. It is not known "
         "whether "
         "viewers notice 200 ms.",
-        "対照（{presentation}）: 生成したものと遅れた指の両方の同期を評価した視聴者がいません。200 ms に気づくかど"
+        "対照（{presentation}）: 生成したものと遅れた指の両方の同期を評価した参加者がいません。200 ms に気づくかど"
         "うかは"
         "わかりません。",
     ),
@@ -145,28 +145,29 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "Without the control (fingers 200 ms late), or without questions about its synchrony, it is not known "
         "what lag "
         "these viewers notice.",
-        "対照（指を 200 ms 遅らせたもの）またはその同期の質問がないため、視聴者がどの程度の遅れに気づくかはわかり"
+        "対照（指を 200 ms 遅らせたもの）またはその同期の質問がないため、参加者がどの程度の遅れに気づくかはわかり"
         "ません。",
     ),
     "results.one_viewer": (
         "One viewer: means are this viewer's opinion. There are no intervals and no tests; ask more viewers.",
-        "視聴者が 1 名のため、平均はその人の意見です。信頼区間も検定もありません。視聴者を増やしてください。",
+        "参加者が 1 名のため、平均はその人の意見です。信頼区間も検定もありません。参加者を増やしてください。",
     ),
     "results.too_few": (
         "Too few viewers for any difference: all {viewers} of one opinion give only {p} after correction for "
         "{comparisons} {comparisons:comparison|comparisons}. Ask at least {least}.",
-        "視聴者が少なすぎて、どんな差も示せません。{viewers} 名全員が一致しても、比較 {comparisons} 件の補正後は "
+        "参加者が少なすぎて、どんな差も示せません。{viewers} 名全員が一致しても、比較 {comparisons} 件の補正後は "
         "{p} です。"
         "少なくとも {least} 名に依頼してください。",
     ),
     "results.few": (
         "With {viewers} viewers only large differences show; ITU-R BT.500 asks for at least 15.",
-        "視聴者 {viewers} 名では大きな差しか示せません。ITU-R BT.500 は 15 名以上を求めています。",
+        "参加者 {viewers} 名では大きな差しか示せません。ITU-R BT.500 は 15 名以上を求めています。",
     ),
     "results.not_equal": (
         "Comparisons that are not significant: {count} of {total}. They do not show that two variants are equal: the "
         "interval of each difference says how large it may be.",
-        "有意でない比較は {total} 件中 {count} 件です。これは 2 つの種類が同等であることを示しません。差がどこまで"
+        "有意でない比較は {total} 件中 {count} 件です。これは 2 つのバリエーションが同等であることを示しません。差"
+        "がどこまで"
         "大きく"
         "なりうるかは、差の信頼区間を見てください。",
     ),
@@ -181,7 +182,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "results.intervals": (
         "Whether two intervals of means overlap decides nothing, because the same viewers judged both: look at the "
         "comparisons. An interval without width means only that all viewers' means are the same.",
-        "同じ視聴者が両方を評価しているため、平均の信頼区間が重なるかどうかでは差を判断できません。比較の表を見て"
+        "同じ参加者が両方を評価しているため、平均の信頼区間が重なるかどうかでは差を判断できません。比較の表を見て"
         "ください。"
         "幅のない区間は、全員の平均が同じことを示すだけです。",
     ),
@@ -196,9 +197,9 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "Viewers agree little (alpha below 0.667) about {count} of {total} questions: a mean may hide opposite "
         "opinions, "
         "and small differences of means say little about a single viewer.",
-        "質問 {total} 個中 {count} 個で視聴者の一致度が低く（α が 0.667 未満）、平均の裏に反対の意見が隠れている可"
+        "質問 {total} 個中 {count} 個で参加者の一致度が低く（α が 0.667 未満）、平均の裏に反対の意見が隠れている可"
         "能性が"
-        "あります。平均の小さな差は、個々の視聴者については多くを語りません。",
+        "あります。平均の小さな差は、個々の参加者については多くを語りません。",
     ),
     "results.later": (
         "{presentation}: answers in the second half of a session are {difference:+.2f} steps different (95 % "
@@ -208,11 +209,12 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "exact.",
         "{presentation}: 後半の回答は前半と {difference:+.2f} 段階違います（95 % 信頼区間 {low:.2f} 〜 "
         "{high:.2f}）。順序は"
-        "均等に割り付けられているので種類の間の比較には同じように影響しますが、評点そのものは正確ではありません。",
+        "均等に割り付けられているのでバリエーション間の比較には同じように影響しますが、評点そのものは正確ではあり"
+        "ません。",
     ),
     "results.order_open": (
         "{presentation}: no effect of the order was shown; with few viewers that does not exclude one.",
-        "{presentation}: 順序の影響は示されませんでしたが、視聴者が少ない場合は影響がないとは言えません。",
+        "{presentation}: 順序の影響は示されませんでしたが、参加者が少ない場合は影響がないとは言えません。",
     ),
     "results.not_pooled": (
         "Pairs are judged in sight of the other clip, which makes differences larger; clips on their own are "
@@ -224,17 +226,17 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "results.incomplete": (
         "Viewers with fewer answers than others: {count} ({ids}). Their means rest on fewer clips.",
-        "他より回答の少ない視聴者: {count} 名（{ids}）。その平均は少ないクリップによるものです。",
+        "他より回答の少ない参加者: {count} 名（{ids}）。その平均は少ないクリップによるものです。",
     ),
     "results.unvaried": (
         "Viewers who gave the same answer to everything: {count} ({ids}). They are counted, but tell nothing about "
         "differences.",
-        "すべてに同じ回答をした視聴者: {count} 名（{ids}）。集計に含めていますが、差については何も示しません。",
+        "すべてに同じ回答をした参加者: {count} 名（{ids}）。集計に含めていますが、差については何も示しません。",
     ),
     "results.scope": (
         "All of it is about these excerpts, views and viewers. Another piece, camera or audience may judge "
         "differently.",
-        "以上はこの抜粋・視点・視聴者についてのものです。曲やカメラ、観客が違えば、評価も違う可能性があります。",
+        "以上はこの抜粋・視点・参加者についてのものです。曲やカメラ、観客が違えば、評価も違う可能性があります。",
     ),
-    "results.plot": ("Means with 95 % intervals over viewers", "平均と 95 % 信頼区間（視聴者間）"),
+    "results.plot": ("Means with 95 % intervals over viewers", "平均と 95 % 信頼区間（参加者間）"),
 }

@@ -15,7 +15,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file}, line 1: these are not the answers of a viewer: the first line must be {expected}; use the file "
         "that the "
         "page wrote",
-        "{file} 1 行目: 視聴者の回答ファイルではありません。1 行目は {expected} でなければなりません。ページが書き"
+        "{file} 1 行目: 参加者の回答ファイルではありません。1 行目は {expected} でなければなりません。ページが書き"
         "出した"
         "ファイルを使ってください",
     ),
@@ -24,7 +24,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "viewer for "
         "the file that the page wrote",
         "{file} {line} 行目: 項目が {expected} 個ではなく {found} 個です。途中で切れているか編集されています。"
-        "ページが書き出したファイルを視聴者から受け取ってください",
+        "ページが書き出したファイルを参加者から受け取ってください",
     ),
     "results.value": (
         "{file}, line {line}: {column} is {found!r}, not one of: {expected}; ask the viewer for the file that the "
@@ -44,7 +44,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "results.cut_off": (
         "{file}, line {line}: the file is cut off: its last line does not end; ask the viewer to send it again",
-        "{file} {line} 行目: 最終行に改行がなく、途中で切れています。視聴者にもう一度送ってもらってください",
+        "{file} {line} 行目: 最終行に改行がなく、途中で切れています。参加者にもう一度送ってもらってください",
     ),
     "results.empty": (
         "{file} contains no answers; leave it out",
@@ -54,14 +54,14 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file}, line {line}: a second viewer or evaluation begins here; give one file for each viewer, as the "
         "page wrote "
         "it",
-        "{file} {line} 行目: ここから別の視聴者または別の評価の回答です。視聴者ごとに 1 ファイル、ページが書き出した"
+        "{file} {line} 行目: ここから別の参加者または別の評価の回答です。参加者ごとに 1 ファイル、ページが書き出した"
         "まま指定してください",
     ),
     "results.repeated": (
         "{file}, line {line}: this question was answered in line {first} already; ask the viewer for the file "
         "that the "
         "page wrote",
-        "{file} {line} 行目: この質問は {first} 行目で回答済みです。ページが書き出したファイルを視聴者から受け取って"
+        "{file} {line} 行目: この質問は {first} 行目で回答済みです。ページが書き出したファイルを参加者から受け取って"
         "ください",
     ),
     "results.other_evaluation": (
@@ -74,7 +74,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "results.same_viewer": (
         "{file} and {other} are of the same viewer; leave one of them out",
-        "{file} と {other} は同じ視聴者の回答です。どちらかを除いてください",
+        "{file} と {other} は同じ参加者の回答です。どちらかを除いてください",
     ),
     "results.unknown_clip": (
         "{file}, line {line}: the key has no clip {code}; choose the key.json that was written with the page (--key)",

@@ -35,4 +35,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "export.done": ("files written to {folder}: {count}", "{folder} に書き出したファイル: {count} 個"),
     "video.done": ("video saved: {file}", "動画を保存しました: {file}"),
     "video.failed": ("the video {file} cannot be written: {detail}", "動画 {file} を書き出せません: {detail}"),
+    "video.not_readable": (
+        "cannot read video file {file} ({detail}); convert it to MP4 (H.264)",
+        "動画 {file} を読み込めません（{detail}）。MP4（H.264）に変換してください",
+    ),
+    "video.no_pictures": (
+        "{file} has no video, only audio; choose a video file",
+        "{file} には映像がなく、音声だけです。動画ファイルを選んでください",
+    ),
+    "video.no_sound": (
+        "{file} has no audio; choose a video with audio, or set its offset by hand",
+        "{file} には音声がありません。音声付きの動画を選ぶか、オフセットを手動で設定してください",
+    ),
 }

@@ -1,0 +1,182 @@
+"""Reading films: which picture is seen when, judged by films whose pictures carry their number."""
+
+from __future__ import annotations
+
+import subprocess
+from fractions import Fraction
+from pathlib import Path
+
+import imageio_ffmpeg
+import numpy as np
+import pytest
+import soundfile
+
+from app.errors import Cancelled, FileError
+from app.export.video import video_into
+from app.formats.video import Picture, VideoFacts, sound_into, video_facts, video_pictures
+
+BITS = 8
+SIZE = (8 * BITS, 48)
+PICTURES = 200
+PLACES = (0, 1, 2, 47, 99, 100, 198, 199)
+
+
+def numbered(number: int) -> Picture:
+    """A picture with a number in it: a column for each bit."""
+    bits = [255 * (number >> bit & 1) for bit in range(BITS)]
+    return np.broadcast_to(np.repeat(bits, 8).astype(np.uint8)[None, :, None], (SIZE[1], SIZE[0], 3)).copy()
+
+
+def number_of(picture: Picture) -> int:
+    columns = picture[8:-8].mean(axis=(0, 2)).reshape(BITS, -1).mean(axis=1)
+    return sum(1 << bit for bit in range(BITS) if columns[bit] > 127)
+
+
+def written(path: Path, rate: Fraction, click_s: float | None = None) -> Path:
+    sound = None
+    if click_s is not None:
+        sound = np.zeros((int(PICTURES / rate * 48000), 2), np.float32)
+        sound[int(click_s * 48000) :][:480] = 0.8
+    with video_into(path, SIZE, rate, sound) as film:
+        for number in range(PICTURES):
+            film.write(numbered(number))
+    return path
+
+
+def converted(source: Path, to: Path, *options: str) -> Path:
+    subprocess.run(
+        [imageio_ffmpeg.get_ffmpeg_exe(), "-loglevel", "error", "-i", str(source), *options, str(to)], check=True
+    )
+    return to
+
+
+@pytest.fixture(scope="module")
+def film(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return written(tmp_path_factory.mktemp("film") / "演奏 %d 'x'.mp4", Fraction(24), click_s=2.0)
+
+
+def numbers_from(path: Path, first: int, count: int = 3) -> list[int]:
+    facts = video_facts(str(path))
+    with video_pictures(str(path), facts.rate, SIZE, first) as pictures:
+        read = [picture for _ in range(count) if (picture := pictures.read()) is not None]
+    return [number_of(picture) for picture in read]
+
+
+@pytest.mark.parametrize("rate", [Fraction(24), Fraction(30000, 1001), Fraction(60)])
+def test_any_picture_is_found_and_what_follows_it(tmp_path: Path, rate: Fraction) -> None:
+    path = written(tmp_path / "film.mp4", rate)
+    assert video_facts(str(path)).rate == rate
+    for place in PLACES:
+        assert numbers_from(path, place) == list(range(place, min(place + 3, PICTURES)))
+
+
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [
+        ("film.mkv", ("-c:v", "libx264", "-bf", "3", "-g", "60")),
+        ("film.webm", ("-c:v", "libvpx", "-crf", "8", "-b:v", "2M")),
+        ("film.avi", ("-c:v", "mpeg4")),
+        ("film.mov", ("-c:v", "mjpeg")),
+    ],
+)
+def test_cameras_and_browsers_write_other_files(
+    film: Path, tmp_path: Path, name: str, options: tuple[str, ...]
+) -> None:
+    path = converted(film, tmp_path / name, "-an", *options)
+    assert not video_facts(str(path)).has_sound
+    for place in PLACES:
+        assert numbers_from(path, place) == list(range(place, min(place + 3, PICTURES)))
+
+
+def test_pictures_can_be_sampled_at_another_rate(film: Path) -> None:
+    with video_pictures(str(film), Fraction(12), SIZE, 5) as pictures:
+        assert [number_of(picture) for _ in range(4) if (picture := pictures.read()) is not None] == [10, 12, 14, 16]
+
+
+def test_facts_of_a_film(film: Path) -> None:
+    facts = video_facts(str(film))
+    assert facts.duration_s == pytest.approx(PICTURES / 24, abs=0.05)
+    assert facts == VideoFacts(*SIZE, Fraction(24), facts.duration_s, True)
+    assert facts.fitted(32, 32) == (32, 24)
+    assert facts.fitted(1000, 1000) == SIZE
+
+
+def test_a_phone_held_upright(film: Path, tmp_path: Path) -> None:
+    turned = converted(film, tmp_path / "turned.mp4", "-c", "copy")
+    upright = tmp_path / "upright.mp4"
+    subprocess.run(
+        [
+            *(imageio_ffmpeg.get_ffmpeg_exe(), "-loglevel", "error", "-display_rotation", "90"),
+            *("-i", str(turned), "-c", "copy", str(upright)),
+        ],
+        check=True,
+    )
+    facts = video_facts(str(upright))
+    assert (facts.width, facts.height) == (SIZE[1], SIZE[0])
+
+
+def test_sound_keeps_the_time_of_the_pictures(film: Path, tmp_path: Path) -> None:
+    # The sound begins a second after the pictures.
+    later = tmp_path / "later.mkv"
+    command = ["-i", str(film), "-itsoffset", "1.0", "-i", str(film), "-map", "0:v", "-map", "1:a", "-c", "copy"]
+    subprocess.run([imageio_ffmpeg.get_ffmpeg_exe(), "-loglevel", "error", *command, str(later)], check=True)
+    for path, click_s in ((film, 2.0), (later, 3.0)):
+        wave = tmp_path / f"{path.stem}.wav"
+        sound_into(str(path), wave, 48000, 3600.0)
+        samples, rate_hz = soundfile.read(wave)
+        assert rate_hz == 48000
+        assert samples.shape[1] == 2
+        assert np.argmax(np.abs(samples[:, 0]) > 0.3) / 48000 == pytest.approx(click_s, abs=0.005)
+
+
+def test_reading_can_be_stopped(film: Path, tmp_path: Path) -> None:
+    with pytest.raises(Cancelled):
+        sound_into(str(film), tmp_path / "sound.wav", 48000, 3600.0, lambda: True)
+
+
+def test_a_playlist_opens_no_other_file(film: Path, tmp_path: Path) -> None:
+    for name, text in (
+        ("list.m3u8", f"#EXTM3U\n#EXTINF:1,\n{film}\n"),
+        ("list.mp4", f"ffconcat version 1.0\nfile '{film}'\n"),
+        ("list.mkv", "http://127.0.0.1:9/film.mp4\n"),
+    ):
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        with pytest.raises(FileError, match=r"video\.not_readable"):
+            video_facts(str(path))
+
+
+@pytest.mark.parametrize("content", [b"", b"RIFF", b"\0" * 4096, bytes(range(256)) * 64])
+def test_what_is_no_film_is_refused(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "film.mp4"
+    path.write_bytes(content)
+    with pytest.raises(FileError, match=r"video\.not_readable") as refused:
+        video_facts(str(path))
+    assert str(path) in str(refused.value)
+
+
+def test_sound_or_pictures_can_be_absent(film: Path, tmp_path: Path) -> None:
+    # A title that looks like a report of ffmpeg changes nothing.
+    title = "title=a\n  Stream #0:5: Video: h264\n  Duration: 09:00:00.00"
+    heard = converted(film, tmp_path / "heard.m4a", "-vn", "-metadata", title)
+    with pytest.raises(FileError, match=r"video\.no_pictures"):
+        video_facts(str(heard))
+    silent = converted(film, tmp_path / "silent.mp4", "-an", "-c:v", "copy", "-metadata", title)
+    assert video_facts(str(silent)).duration_s < 10.0
+    with pytest.raises(FileError, match=r"video\.no_sound"):
+        sound_into(str(silent), tmp_path / "sound.wav", 48000, 3600.0)
+
+
+def test_half_a_file_gives_the_pictures_it_has(film: Path, tmp_path: Path) -> None:
+    whole = converted(film, tmp_path / "whole.mkv", "-c:v", "mjpeg", "-an")
+    half = tmp_path / "half.mkv"
+    half.write_bytes(whole.read_bytes()[: whole.stat().st_size // 2])
+    assert numbers_from(half, 0) == [0, 1, 2]
+    assert numbers_from(half, 190) == []
+
+
+def test_a_file_that_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match=r"file\.cannot_read"):
+        video_facts(str(tmp_path / "gone.mp4"))
+    with pytest.raises(FileError, match=r"file\.not_regular"):
+        video_facts(str(tmp_path))
