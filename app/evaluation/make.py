@@ -16,13 +16,14 @@ from typing import Final, TypeAlias
 
 from app.audio.mix import mixdown
 from app.audio.track import RATE_HZ, Block
-from app.errors import AppError, FileError, Message
+from app.errors import AppError, Cancelled, FileError, Message
 from app.evaluation.clips import CRF, Framing, Scene, Stages, cut_video, draw_ours
 from app.evaluation.design import codes, new_id, orders, pairs_of
 from app.evaluation.excerpts import Excerpt, choose_excerpts, practice_of
 from app.evaluation.imported import ImportedVideo, import_video
 from app.evaluation.key import KEY_FILE, VERSION, Clip, Key, Variant, write_key
 from app.evaluation.loudness import equally_loud
+from app.evaluation.measures import MEASURES_FILE, measure_variants, write_measures
 from app.evaluation.page import PAGE_FILE, page
 from app.evaluation.request import Request, aspects_of, variants_of
 from app.evaluation.variants import OURS
@@ -139,6 +140,13 @@ def make_evaluation(
             beside(clips / f"{left}-{right}.mp4", clips / f"{left}.mp4", clips / f"{right}.mp4", CRF)
         report(0.95, Message("evaluate.step_page"))
         (new / PAGE_FILE).write_bytes(page(key, table, clips))
+
+        def measured(share: float) -> None:
+            if stop_requested():
+                raise Cancelled("work.stopped")
+            report(0.95 + 0.05 * share, Message("evaluate.step_measures"))
+
+        write_measures(measure_variants(project, variants, measured), new / MEASURES_FILE)
         write_key(key, new / KEY_FILE)
     return Made(folder, key, len(pairs), len(table), tuple(left_out), videos.get("film"))
 

@@ -83,4 +83,5 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "evaluate.step_pairs": ("clips side by side", "並べた映像を作成中"),
     "evaluate.step_page": ("the page", "ページを作成中"),
+    "evaluate.step_measures": ("measures of the motion", "動きを測定中"),
 }
