@@ -60,7 +60,7 @@ def add_command(commands: Commands) -> None:
         "evaluate",
         help="make a questionnaire in which viewers judge the performance against real players",
         description="Writes a folder with clips, a page that asks viewers about them, and a key that says which "
-        "variant each clip shows. Viewers get the page (evaluation.html) alone; it works without a network and saves one "
+        "variant each clip shows. Viewers get the page (evaluation.html) alone; it works without a network and saves a "
         "CSV file for each viewer. 'suisou evaluate results' evaluates these files. Either everything is written or "
         "nothing. It needs OpenGL 2, and on Linux a display: without one, 'xvfb-run -a suisou evaluate ...'.",
     )
@@ -163,7 +163,7 @@ def evaluate(arguments: argparse.Namespace) -> int:
 
 
 def _check_options(arguments: argparse.Namespace) -> None:
-    """Raise UsageError (``picture.film_option``, ``picture.odd_size``, ``evaluation.one_choice``) for what means
+    """Raise UsageError (``picture.film_option``, ``picture.odd_size``, ``evaluate.one_choice``) for what means
     nothing."""
     needing: Final = (
         ("--film-offset", arguments.film_offset is not None, "--film", arguments.film),
@@ -179,7 +179,7 @@ def _check_options(arguments: argparse.Namespace) -> None:
         pairs.append((option, "--from-bar/--to-bar", bars and value is not None))
     for option, other, both in pairs:
         if both:
-            raise UsageError("evaluation.one_choice", option=option, other=other)
+            raise UsageError("evaluate.one_choice", option=option, other=other)
     if any(side % 2 for side in arguments.size):
         raise UsageError("picture.odd_size", width=arguments.size[0], height=arguments.size[1])
 

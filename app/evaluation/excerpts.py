@@ -1,9 +1,4 @@
-"""Which seconds of a piece are judged: bars that are asked for, or places with much to see and hear.
-
-Messages
---------
-evaluation.no_excerpt(file), evaluation.film_too_short(file, from_s, until_s, first_s, last_s).
-"""
+"""Which seconds of a piece are judged: bars that are asked for, or places with much to see and hear."""
 
 from __future__ import annotations
 

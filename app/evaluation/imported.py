@@ -2,8 +2,8 @@
 
 Messages
 --------
-evaluation.silent_video(file, option), evaluation.other_piece(file, percent, option),
-evaluation.other_tempo(file, percent), evaluation.not_covered(file, from_s, until_s, first_s, last_s).
+evaluate.silent_video(file, option), evaluate.other_piece(file, percent, option),
+evaluate.other_tempo(file, percent), evaluate.not_covered(file, from_s, until_s, first_s, last_s).
 """
 
 from __future__ import annotations
@@ -74,11 +74,11 @@ class ImportedVideo:
         return mix.read(round(excerpt.from_s * RATE_HZ), round(excerpt.duration_s * RATE_HZ))
 
     def require_covered(self, excerpt: Excerpt) -> None:
-        """Raise FileError (``evaluation.not_covered``) where the video does not show all of an excerpt."""
+        """Raise FileError (``evaluate.not_covered``) where the video does not show all of an excerpt."""
         first_s, last_s = self.covered_s
         if excerpt.from_s < first_s - _EARLY_S or excerpt.until_s > last_s + _EARLY_S:
             raise FileError(
-                "evaluation.not_covered",
+                "evaluate.not_covered",
                 file=str(self.path),
                 from_s=excerpt.from_s,
                 until_s=excerpt.until_s,
@@ -118,7 +118,7 @@ def import_video(
     facts = video_facts(str(path))
     if not facts.has_sound:
         if offset_s is None or follow:
-            raise FileError("evaluation.silent_video", file=str(path), option=option)
+            raise FileError("evaluate.silent_video", file=str(path), option=option)
         return ImportedVideo(path, offset_s, facts, None), project
     samples = _sound(path, stop_requested)
     progress(0.3)
@@ -131,12 +131,12 @@ def import_video(
     found = estimate_offset(samples, RATE_HZ, project.score, lambda share: progress(0.3 + 0.7 * share), stop_requested)
     percent = round(100 * found.confidence)
     if found.confidence < RECOGNISED:
-        raise FileError("evaluation.other_piece", file=str(path), percent=percent, option=option)
+        raise FileError("evaluate.other_piece", file=str(path), percent=percent, option=option)
     score = project.score
     drift_s = abs(found.tempo_ratio - 1.0) * float(score.tempo_map.seconds(float(score.end_tick)))
     if drift_s > MOST_DRIFT_S:
         faster = round(100.0 * (found.tempo_ratio - 1.0), 1)
-        raise FileError("evaluation.other_tempo", file=str(path), percent=faster)
+        raise FileError("evaluate.other_tempo", file=str(path), percent=faster)
     return ImportedVideo(path, found.offset_s, facts, samples, found.confidence), project
 
 

@@ -2,7 +2,7 @@
 
 Messages
 --------
-evaluation.not_a_key(file, detail), evaluation.newer_key(file).
+evaluate.not_a_key(file, detail), evaluate.newer_key(file).
 """
 
 from __future__ import annotations
@@ -104,16 +104,16 @@ def read_key(path: Path) -> Key:
     Raises
     ------
     FileError
-        ``evaluation.not_a_key``, ``evaluation.newer_key``; those of `app.formats.files.read_file`.
+        ``evaluate.not_a_key``, ``evaluate.newer_key``; those of `app.formats.files.read_file`.
     """
     content = read_file(path, _MOST_BYTES)
     try:
         if msgspec.json.decode(content, type=_Head).version > VERSION:
-            raise FileError("evaluation.newer_key", file=str(path))
+            raise FileError("evaluate.newer_key", file=str(path))
         key = msgspec.json.decode(content, type=Key)
     except (msgspec.DecodeError, RecursionError) as error:
-        raise FileError("evaluation.not_a_key", file=str(path), detail=str(error)) from error
+        raise FileError("evaluate.not_a_key", file=str(path), detail=str(error)) from error
     codes = [clip.code for clip in key.clips]
     if len(set(codes)) != len(codes):
-        raise FileError("evaluation.not_a_key", file=str(path), detail="two clips have the same code")
+        raise FileError("evaluate.not_a_key", file=str(path), detail="two clips have the same code")
     return key

@@ -2,7 +2,7 @@
 
 Messages
 --------
-evaluation.there_already(file), evaluation.no_excerpt; progress: evaluation.step_video and others.
+evaluate.there_already(file), evaluate.no_excerpt; progress: evaluate.step_video and others.
 """
 
 from __future__ import annotations
@@ -16,13 +16,14 @@ from typing import Final, TypeAlias
 
 from app.audio.mix import mixdown
 from app.audio.track import RATE_HZ, Block
-from app.errors import AppError, FileError, Message
+from app.errors import AppError, Cancelled, FileError, Message
 from app.evaluation.clips import CRF, Framing, Scene, Stages, cut_video, draw_ours
 from app.evaluation.design import codes, new_id, orders, pairs_of
 from app.evaluation.excerpts import Excerpt, choose_excerpts, practice_of
 from app.evaluation.imported import ImportedVideo, import_video
 from app.evaluation.key import KEY_FILE, VERSION, Clip, Key, Variant, write_key
 from app.evaluation.loudness import equally_loud
+from app.evaluation.measures import MEASURES_FILE, measure_variants, write_measures
 from app.evaluation.page import PAGE_FILE, page
 from app.evaluation.request import Request, aspects_of, variants_of
 from app.evaluation.variants import OURS
@@ -87,10 +88,10 @@ def make_evaluation(
     variants = variants_of(request)
     folder = Path(request.folder)
     if os.path.lexists(folder / KEY_FILE):
-        raise FileError("evaluation.there_already", file=str(folder))
+        raise FileError("evaluate.there_already", file=str(folder))
     project, videos = _videos(project, request, variants, report, stop_requested)
     performance = Performance(project)
-    performance.hold(stop_requested, lambda share: report(0.2 + 0.05 * share, Message("evaluation.step_holds")))
+    performance.hold(stop_requested, lambda share: report(0.2 + 0.05 * share, Message("evaluate.step_holds")))
     scenes = _scenes(performance, request, videos, report, stop_requested)
     framing = Framing(request.view, request.player_ids, request.size, request.theme)
     drawn = _clips(project, request, variants, scenes[:-1])
@@ -117,7 +118,7 @@ def make_evaluation(
                 files[clips / f"{_PRACTICE}.mp4"] = scenes[-1]
 
             def shown(share: float, number: int = number) -> None:
-                said = Message("evaluation.step_clips", {"number": number + 1, "count": len(variants)})
+                said = Message("evaluate.step_clips", {"number": number + 1, "count": len(variants)})
                 report(0.3 + 0.6 * (number + share) / len(variants), said)
 
             if variant in OURS:
@@ -135,10 +136,17 @@ def make_evaluation(
             else:
                 cut_video(videos[variant], request.size, files, shown, stop_requested)
         for number, (left, right) in enumerate(pairs):
-            report(0.9 + 0.05 * number / len(pairs), Message("evaluation.step_pairs"))
+            report(0.9 + 0.05 * number / len(pairs), Message("evaluate.step_pairs"))
             beside(clips / f"{left}-{right}.mp4", clips / f"{left}.mp4", clips / f"{right}.mp4", CRF)
-        report(0.95, Message("evaluation.step_page"))
+        report(0.95, Message("evaluate.step_page"))
         (new / PAGE_FILE).write_bytes(page(key, table, clips))
+
+        def measured(share: float) -> None:
+            if stop_requested():
+                raise Cancelled("work.stopped")
+            report(0.95 + 0.05 * share, Message("evaluate.step_measures"))
+
+        write_measures(measure_variants(project, variants, measured), new / MEASURES_FILE)
         write_key(key, new / KEY_FILE)
     return Made(folder, key, len(pairs), len(table), tuple(left_out), videos.get("film"))
 
@@ -157,7 +165,7 @@ def _videos(
             Path(request.film),
             "--film-offset",
             request.film_offset_s,
-            lambda share: report(0.15 * share, Message("evaluation.step_video", {"file": Path(request.film).name})),
+            lambda share: report(0.15 * share, Message("evaluate.step_video", {"file": Path(request.film).name})),
             stop_requested,
             request.follow_film,
         )
@@ -168,7 +176,7 @@ def _videos(
             path,
             "--keyframes-offset",
             request.keyframes_offset_s,
-            lambda share: report(0.15 + 0.05 * share, Message("evaluation.step_video", {"file": path.name})),
+            lambda share: report(0.15 + 0.05 * share, Message("evaluate.step_video", {"file": path.name})),
             stop_requested,
         )
     return project, found
@@ -191,7 +199,7 @@ def _scenes(
             sounds.append(
                 mixdown(performance.project, span.first_frame_s, span.end_s, RATE_HZ, stop_requested=stop_requested)
             )
-        report(0.25 + 0.05 * (number + 1) / len(spans), Message("evaluation.step_sound"))
+        report(0.25 + 0.05 * (number + 1) / len(spans), Message("evaluate.step_sound"))
     loud = equally_loud(sounds)
     return [Scene(span, sound, {}) for span, sound in zip(spans, loud, strict=True)]
 
@@ -207,7 +215,7 @@ def _spans(performance: Performance, request: Request, videos: dict[Variant, Imp
         within = (max(first for first, _ in covered), min(last for _, last in covered)) if covered else None
         excerpts = choose_excerpts(performance.project, request.excerpts, request.excerpt_s, within)
     if not excerpts:
-        raise AppError("evaluation.no_excerpt")
+        raise AppError("evaluate.no_excerpt")
     for video in videos.values():
         for excerpt in excerpts:
             video.require_covered(excerpt)

@@ -19,7 +19,7 @@ from app.evaluation.key import SCALES, STEPS, Key
 from app.messages import LANGUAGES, WORDINGS
 
 PAGE_FILE: Final = "evaluation.html"
-_TEXTS: Final = "evaluation.page_"
+_TEXTS: Final = "evaluate.page_"
 _RESOURCES: Final = "evaluation"
 
 

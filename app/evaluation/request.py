@@ -2,7 +2,7 @@
 
 Messages (`UsageError`)
 --------
-evaluation.needs_file(variant, option), evaluation.too_few().
+evaluate.needs_file(variant, option), evaluate.too_few().
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ def variants_of(request: Request) -> tuple[Variant, ...]:
     Raises
     ------
     UsageError
-        ``evaluation.needs_file``: of one there is no video; ``evaluation.too_few``: fewer than two cannot be compared.
+        ``evaluate.needs_file``: of one there is no video; ``evaluate.too_few``: fewer than two cannot be compared.
     """
     videos: dict[Variant, tuple[str, str]] = {
         "film": (request.film, "--film"),
@@ -101,11 +101,11 @@ def variants_of(request: Request) -> tuple[Variant, ...]:
     }
     for variant, (file, option) in videos.items():
         if variant in request.variants and not file:
-            raise UsageError("evaluation.needs_file", variant=variant, option=option)
+            raise UsageError("evaluate.needs_file", variant=variant, option=option)
     possible = [variant for variant in VARIANTS if variant not in videos or videos[variant][0]]
     found = tuple(variant for variant in possible if not request.variants or variant in request.variants)
     if len(found) < 2:
-        raise UsageError("evaluation.too_few")
+        raise UsageError("evaluate.too_few")
     return found
 
 
