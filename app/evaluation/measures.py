@@ -268,5 +268,5 @@ def read_measures(path: Path) -> tuple[VariantMeasures, ...]:
     except (msgspec.DecodeError, RecursionError) as error:
         raise FileError("results.not_measures", file=str(path), detail=str(error)) from error
     if found.version > VERSION:
-        raise FileError("evaluation.newer_key", file=str(path))
+        raise FileError("evaluate.newer_key", file=str(path))
     return found.variants
