@@ -109,3 +109,21 @@ def test_nothing_to_judge() -> None:
     rests = notes((0.0, 0.5, {}), (2.0, 2.5, {VALVES[0].name: 1.0}))
     assert measured(0.0, rests) == LagMeasure(0, 0, None, None, None, None)
     assert measure_lag([], VALVES, {}, TIMES_S) == LagMeasure(0, 0, None, None, None, None)
+
+
+def test_a_finger_that_is_lifted_in_a_rest_is_not_awaited() -> None:
+    valve = VALVES[0].name
+    rested = notes((0.0, 0.5, {valve: 1.0}), (2.5, 2.7, {}), (2.7, 3.0, {valve: 1.0}), (3.0, 3.3, {}))
+    values = np.interp(TIMES_S, [-0.06, -0.01, 0.5, 0.55, 2.64, 2.69, 2.94, 2.99], [0, 1, 1, 0, 0, 1, 1, 0])
+    found = measure_lag(rested, VALVES[:1], {valve: values}, TIMES_S)
+    assert (found.notes, found.missed) == (2, 0)
+    assert found.median_ms == pytest.approx(-15.0, abs=WITHIN_MS)
+
+
+def test_a_small_way_is_not_done_when_it_begins() -> None:
+    """A tuning slide that moves 8 mm is within 5 mm of its place early on."""
+    [slide] = [control for control in MAPS["trumpet_Bb"].controls if control.name == "first_slide"]
+    assert slide.travel_m is not None
+    tuned = notes((0.0, 0.5, {}), (0.5, 1.0, {slide.name: 0.008 / slide.travel_m}))
+    found = measure_lag(tuned, [slide], {slide.name: moved(tuned, slide.name, 0.0, takes_s=0.25)}, TIMES_S)
+    assert found.median_ms == pytest.approx(-25.0, abs=WITHIN_MS)
