@@ -27,6 +27,7 @@ from app.cli.options import (
 from app.cli.progress import Progress
 from app.cli.status import NO_DISPLAY, report_left_out
 from app.cli.terminal import say, warn
+from app.encoding import stored
 from app.errors import AppError, Cancelled, UsageError
 from app.evaluation.design import PRESENTATIONS
 from app.evaluation.key import KEY_FILE, VARIANTS, Variant
@@ -158,7 +159,7 @@ def evaluate(arguments: argparse.Namespace) -> int:
             return NO_DISPLAY
         finally:
             progress.clear()
-    _report(made, request)
+    _report(made)
     return report_left_out((one.player.name, text(one.reason)) for one in made.left_out)
 
 
@@ -189,10 +190,10 @@ def _request(arguments: argparse.Namespace, project: Project) -> Request:
     if arguments.view is None and not arguments.players and len(project.seen) == 1:
         view, player_ids = "front", (project.seen[0].id,)
     return Request(
-        folder=str(arguments.to),
+        folder=stored(arguments.to),
         title=project.score.title or arguments.file.stem,
-        film="" if arguments.film is None else str(arguments.film),
-        keyframes="" if arguments.keyframes is None else str(arguments.keyframes),
+        film="" if arguments.film is None else stored(arguments.film),
+        keyframes="" if arguments.keyframes is None else stored(arguments.keyframes),
         film_offset_s=arguments.film_offset,
         keyframes_offset_s=arguments.keyframes_offset,
         follow_film=arguments.follow_film,
@@ -216,10 +217,10 @@ def _bars(arguments: argparse.Namespace, project: Project) -> tuple[int, int] | 
     return requested_bars(Performance(project), arguments)
 
 
-def _report(made: Made, request: Request) -> None:
+def _report(made: Made) -> None:
     clips = made.key.clips
     said = {
-        "folder": request.folder,
+        "folder": made.folder,
         "clips": len(clips),
         "pairs": made.pairs,
         "variants": len({clip.variant for clip in clips}),
@@ -239,7 +240,7 @@ def _report(made: Made, request: Request) -> None:
     if made.video is not None and made.video.confidence is not None:
         placed = {"offset_s": made.video.offset_s, "percent": round(100 * made.video.confidence)}
         say(filled("the film begins at {offset_s:.3f} s of the performance, confidence {percent} %", placed))
-    page = os.path.join(request.folder, "evaluation.html")  # noqa: PTH118 - as the user wrote the folder
+    page = os.path.join(made.folder, "evaluation.html")  # noqa: PTH118 - as the user wrote the folder
     say(f"give viewers {page} alone; {KEY_FILE} says which variant each clip shows")
 
 

@@ -51,8 +51,9 @@ class Stage(Protocol):
         view: Any,
         player_ids: tuple[str, ...],
         cameras: dict[float, Any] | None = None,
+        marked: bool = True,
     ) -> Draw:
-        """What draws a film; ``cameras``: see `widgets.viewport.panel.ViewportPanel.film`."""
+        """What draws a film: see `widgets.viewport.offscreen.Offscreen.film`."""
         ...
 
 
@@ -109,7 +110,7 @@ def draw_ours(
             refuse(stage.left_out)
         for path, scene in files.items():
             span_s = (scene.span.first_frame_s, scene.span.end_s)
-            draw = stage.film(framing.size, span_s, framing.view, framing.player_ids, scene.cameras)
+            draw = stage.film(framing.size, span_s, framing.view, framing.player_ids, scene.cameras, marked=False)
             _write(path, scene, framing.size, draw, shares, stop_requested)
         return tuple(stage.left_out)
 

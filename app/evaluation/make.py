@@ -16,6 +16,7 @@ from typing import Final, TypeAlias
 
 from app.audio.mix import mixdown
 from app.audio.track import RATE_HZ, Block
+from app.encoding import restored
 from app.errors import AppError, Cancelled, FileError, Message
 from app.evaluation.clips import CRF, Framing, Scene, Stages, cut_video, draw_ours
 from app.evaluation.design import codes, new_id, orders, pairs_of
@@ -86,7 +87,7 @@ def make_evaluation(
     Cancelled
     """
     variants = variants_of(request)
-    folder = Path(request.folder)
+    folder = Path(restored(request.folder))
     if os.path.lexists(folder / KEY_FILE):
         raise FileError("evaluate.there_already", file=str(folder))
     project, videos = _videos(project, request, variants, report, stop_requested)
@@ -162,15 +163,17 @@ def _videos(
     if request.film:
         found["film"], project = import_video(
             project,
-            Path(request.film),
+            Path(restored(request.film)),
             "--film-offset",
             request.film_offset_s,
-            lambda share: report(0.15 * share, Message("evaluate.step_video", {"file": Path(request.film).name})),
+            lambda share: report(
+                0.15 * share, Message("evaluate.step_video", {"file": Path(restored(request.film)).name})
+            ),
             stop_requested,
             request.follow_film,
         )
     if "keyframes" in variants:
-        path = Path(request.keyframes)
+        path = Path(restored(request.keyframes))
         found["keyframes"], _ = import_video(
             project,
             path,

@@ -33,27 +33,30 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "抜粋できる範囲に演奏がありません。小節を手動で選ぶか、動画のオフセットを変更してください",
     ),
     "evaluate.silent_video": (
-        "{file} has no sound to find its place in the piece by; give the place by hand with {option}",
-        "{file} には音声がないため、曲の中の位置を検出できません。{option} で位置を指定してください",
+        "{file} has no sound to find its place in the piece by; give the place by hand (on the command line: {option})",
+        (
+            "{file} には音声がないため、曲の中の位置を検出できません。"
+            "位置を指定してください（コマンドラインでは {option}）"
+        ),
     ),
     "evaluate.other_piece": (
         (
             "the sound of {file} does not fit this piece at a steady tempo (confidence {percent} %); choose a video of "
-            "this piece, follow its tempo with --follow-film, or give its place by hand with {option}"
+            "this piece, follow its tempo (--follow-film), or give its place by hand ({option})"
         ),
         (
             "{file} の音声は一定のテンポではこの曲に一致しません（信頼度 {percent} %）。この曲の動画を選ぶか、"
-            "--follow-film でテンポを動画に合わせるか、{option} で位置を指定してください"
+            "テンポを動画に合わせるか（--follow-film）、位置を指定してください（{option}）"
         ),
     ),
     "evaluate.other_tempo": (
         (
             "{file} keeps another tempo than the piece ({percent} %), so that sound and picture would drift apart; "
-            "follow its tempo with --follow-film"
+            "follow its tempo (on the command line: --follow-film)"
         ),
         (
             "{file} のテンポは曲と異なる（{percent} %）ため、音と映像がずれていきます。"
-            "--follow-film でテンポを動画に合わせてください"
+            "テンポを動画に合わせてください（コマンドラインでは --follow-film）"
         ),
     ),
     "evaluate.not_covered": (

@@ -73,9 +73,7 @@
 
   function showHeader() {
     const count = order().length, at = state.step - FIRST;
-    const inside = at >= 0 && at < count;
-    const said = state.step === PRACTICE ? text("practice") : inside ? text("progress", { number: at + 1, count }) : "";
-    document.getElementById("progress").textContent = said;
+    document.getElementById("piece").textContent = state.step === WELCOME ? "" : data.piece;
     document.getElementById("bar").value = Math.min(Math.max(at, 0) / count, 1);
     const box = document.getElementById("languages");
     box.setAttribute("aria-label", text("language"));
@@ -141,7 +139,7 @@
     const said = [text("about", { count: order().length }), text("time", { minutes }), text("headphones"), keeps ? text("keeps") : text("keeps_nothing"), text("file"), text("keys")];
     show(
       make("h1", {}, text("welcome")),
-      make("p", { id: "piece" }, text("piece", { piece: data.piece })),
+      make("p", {}, text("piece", { piece: data.piece })),
       ...said.map((line) => make("p", {}, line)),
       make("div", { class: "field number" }, make("label", { for: "number" }, text("number")), number),
       wrong,
@@ -285,7 +283,7 @@
     const asked = text(`${aspect}_${scale}`);
     if (codes.length === 1) return [group(codes[0], position, aspect, scale, asked, false)];
     return [
-      make("p", {}, asked),
+      make("p", { class: "asked" }, asked),
       ...codes.map((code, index) => group(code, position, aspect, scale, `${"AB"[index]}`, asked)),
     ];
   }
@@ -306,8 +304,8 @@
       "fieldset",
       { class: within ? "twice" : "", "data-group": id },
       make("legend", within ? { "aria-label": `${legend}: ${within}` } : {}, legend),
-      make("div", { class: "steps" }, ...labels),
-      make("div", { class: "ends", "aria-hidden": "true" }, make("span", {}, ends[0]), make("span", {}, ends[1]))
+      make("div", { class: "ends", "aria-hidden": "true" }, make("span", {}, ends[0]), make("span", {}, ends[1])),
+      make("div", { class: "steps" }, ...labels)
     );
 
     function answer(value) {

@@ -50,9 +50,13 @@ class Offscreen:
         view: View,
         player_ids: tuple[str, ...],
         cameras: dict[float, Camera] | None = None,
+        marked: bool = True,
     ) -> Draw:
-        """What draws a film: see `ViewportPanel.film`. Dancers among them are not selected in the window."""
-        self._session.set_players(tuple(own for own in player_ids if own not in self._session.project.dancer_ids))
+        """What draws a film: see `ViewportPanel.film`. Dancers among them are not selected in the window. Without
+        marks no names are drawn, and no rings around those that the view is about."""
+        selected = tuple(own for own in player_ids if own not in self._session.project.dancer_ids)
+        self._session.set_players(selected if marked else ())
+        self._session.viewport.show("names", marked)
         return self._panel.film(*size, span_s, view, player_ids, cameras)
 
     @property

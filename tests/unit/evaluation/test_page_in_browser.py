@@ -60,7 +60,7 @@ def test_it_is_answered_by_keyboard(width: int, language: str, tmp_path: Path) -
         page.load((tmp_path / PAGE_FILE).as_uri() + "#2")
         assert page.value("document.documentElement.lang") == language
         assert page.value("document.querySelector('h1').textContent") == WORDINGS["evaluate.page_welcome"][place]
-        assert TITLE in page.value("document.getElementById('piece').textContent")
+        assert TITLE in page.value("document.querySelector('h1 + p').textContent")
         assert fits(page)
         press_until_focused(page, "consent")
         page.press(" ")
