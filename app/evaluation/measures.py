@@ -126,7 +126,7 @@ def measure(
     progress : callable
         Called with the share 0..1 that is done; what it raises stops the work.
     """
-    motions = _motions(performance) if motions is None else motions
+    motions = motions_of(performance) if motions is None else motions
     performers = performers_of(performance, performance.project.players).made
     found = []
     for done, player_id in enumerate(motions):
@@ -155,11 +155,11 @@ def measure_variants(
             progress((number + share) / len(ours))
 
         seen = performance_of(project, variant)
-        found.append(measure(sounding if variant == "shifted" else seen, variant, _motions(seen), shown))
+        found.append(measure(sounding if variant == "shifted" else seen, variant, motions_of(seen), shown))
     return tuple(found)
 
 
-def _motions(performance: Performance) -> dict[str, Motion]:
+def motions_of(performance: Performance) -> dict[str, Motion]:
     """What is seen of everyone, at `FPS`, by player id."""
     span = whole_span(performance.time_frame, FPS)
     performers = performers_of(performance, performance.project.players).made

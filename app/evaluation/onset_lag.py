@@ -94,41 +94,41 @@ def _lags(
     Arrivals are taken in the order of the notes, each once, so that a trill which is seen late is not taken for its
     next note.
     """
-    arrivals: dict[float, FloatArray] = {}
-    before, free_s = control.rest_value, -np.inf
+    arrivals: dict[tuple[float, float], FloatArray] = {}
+    before, free_s, ended_s = control.rest_value, -np.inf, -np.inf
     for index, note in enumerate(fingerings):
         target = note.controls.get(control.name, control.rest_value)
-        goes = not bool(in_place(control, np.array([before]), np.array([target]))[0])
+        change, after_rest_s = (before, target), note.start_s - ended_s
+        # In a rest fingers leave for the next note when the last one ends.
+        first_s = min(note.start_s, ended_s) - _AROUND_S
         vented = note.vent is not None and control.name in note.vent.controls
-        before = control.rest_value if vented else target
-        if not goes or note.start_s - _AROUND_S < times_s[0] or note.start_s + _AROUND_S > times_s[-1]:
+        before, ended_s = control.rest_value if vented else target, note.end_s
+        if bool(in_place(control, np.array([change[0]]), np.array([target]))[0]):
             continue
-        if target not in arrivals:
-            arrivals[target] = _arrivals_s(control, values, target, times_s)
-        all_s = arrivals[target]
-        first = int(np.searchsorted(all_s, max(free_s, note.start_s - _AROUND_S), side="right"))
-        found = first < len(all_s) and all_s[first] <= note.start_s + _AROUND_S
+        if note.start_s - _AROUND_S < times_s[0] or note.start_s + _AROUND_S > times_s[-1]:
+            continue
+        if change not in arrivals:
+            arrivals[change] = _arrivals_s(control, values, *change, times_s)
+        all_s = arrivals[change]
+        place = int(np.searchsorted(all_s, max(free_s, first_s), side="right"))
+        found = place < len(all_s) and all_s[place] <= note.start_s + _AROUND_S
         if found:
-            free_s = float(all_s[first])
-        if index and note.start_s - fingerings[index - 1].end_s <= _PHRASE_S:
+            free_s = float(all_s[place])
+        if after_rest_s <= _PHRASE_S:
             yield index, free_s - note.start_s if found else np.inf
 
 
-def _arrivals_s(control: Control, values: FloatArray, target: float, times_s: FloatArray) -> FloatArray:
-    """When a control comes to a place, ascending: between the last frame away from it and the first one there."""
-    there = in_place(control, values, np.full(len(values), target))
-    after = np.flatnonzero(there[1:] & ~there[:-1]) + 1
-    # The bound is crossed between two frames: as far along as the motion there is, were it even.
-    far, near = np.abs(values[after - 1] - target), np.abs(values[after] - target)
-    bound = _bound(control)
-    share = np.clip((far - bound) / np.maximum(far - near, 1e-12), 0.0, 1.0)
+def _arrivals_s(control: Control, values: FloatArray, before: float, target: float, times_s: FloatArray) -> FloatArray:
+    """When a control comes to a place, ascending: where the last tenth of its way from ``before`` begins, or where it
+    touches (`app.contacts.bounds.in_place`), if that is later; between the last frame away and the first one there."""
+    touches = SLIDE_M / control.travel_m if control.kind == "slide" and control.travel_m else 1.0 - PRESSED
+    bound = min(touches, (1.0 - PRESSED) * abs(target - before)) + 1e-9
+    off = np.abs(values - target)
+    after = np.flatnonzero((off[1:] <= bound) & (off[:-1] > bound)) + 1
+    # As far along between the frames as if the motion were even there.
+    share = (off[after - 1] - bound) / (off[after - 1] - off[after])
     crossed: FloatArray = times_s[after - 1] + share * (times_s[after] - times_s[after - 1])
     return crossed
-
-
-def _bound(control: Control) -> float:
-    """The largest distance from a place at which a control is there (`app.contacts.bounds.in_place`)."""
-    return SLIDE_M / control.travel_m if control.kind == "slide" and control.travel_m else 1.0 - PRESSED
 
 
 def _share_outside(lags_s: FloatArray, bounds_s: tuple[float, float]) -> float | None:

@@ -24,6 +24,7 @@ from app.formats.files import cannot_write
 from app.messages import LANGUAGES, text
 
 VERSION: Final = 1
+_STEM: Final = "results"
 _SCORES: Final = (
     *("presentation", "aspect", "scale", "variant", "viewers", "answers", "not_judged"),
     *("mean", "median", "deviation", "low", "high"),
@@ -51,11 +52,11 @@ def write_results(results: Results, measures: Sequence[VariantMeasures], folder:
     """
     contents = {}
     for language in LANGUAGES:
-        stem = "results" if language == "en" else f"results_{language}"
+        stem = _STEM if language == "en" else f"{_STEM}_{language}"
         contents[f"{stem}.md"] = markdown(results, measures, language, f"{stem}.svg").encode()
         contents[f"{stem}.svg"] = plot(results, language).encode()
-    contents["results.csv"] = _scores(results)
-    contents["results.json"] = _json(results, measures)
+    contents[f"{_STEM}.csv"] = _scores(results)
+    contents[f"{_STEM}.json"] = _json(results, measures)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -39,11 +39,13 @@ def variant_name(variant: Variant, language: str) -> str:
     return text(Message(f"results.variant_{variant}"), language)
 
 
-def _table(id: str, head: Sequence[str], rows: Sequence[tuple[str, ...]], names: int, language: str) -> Table:
-    def word(name: str) -> str:
-        return text(Message(f"results.{name}"), language)
+def _table(
+    title: str, note: str, head: Sequence[str], rows: Sequence[tuple[str, ...]], names: int, language: str
+) -> Table:
+    def word(id: str) -> str:
+        return text(Message(id), language)
 
-    return Table(word(id), word(f"{id}_note"), tuple(word(name) for name in head), tuple(rows), names)
+    return Table(word(title), word(note), tuple(word(f"results.{name}") for name in head), tuple(rows), names)
 
 
 def _asked(question: Question, language: str) -> tuple[str, str, str]:
@@ -69,7 +71,14 @@ def _scores(results: Results, language: str) -> Table:
             )
         )
     head = ("viewers_head", "answers_head", "not_judged_head", "mean", "median", "deviation", "interval")
-    return _table("scores", ("presentation", "aspect", "scale", "variant", *head), rows, 4, language)
+    return _table(
+        "results.scores",
+        "results.scores_note",
+        ("presentation", "aspect", "scale", "variant", *head),
+        rows,
+        4,
+        language,
+    )
 
 
 def _contrasts(results: Results, language: str) -> Table:
@@ -90,14 +99,28 @@ def _contrasts(results: Results, language: str) -> Table:
             )
         )
     head = ("viewers_head", "difference", "interval", "p", "corrected", "effect")
-    return _table("contrasts", ("presentation", "aspect", "scale", "compared", *head), rows, 4, language)
+    return _table(
+        "results.contrasts",
+        "results.contrasts_note",
+        ("presentation", "aspect", "scale", "compared", *head),
+        rows,
+        4,
+        language,
+    )
 
 
 def _agreements(results: Results, language: str) -> Table:
     rows = [
         (*_asked(one.question, language), str(one.clips), _number(one.alpha, signed=True)) for one in results.agreements
     ]
-    return _table("agreements", ("presentation", "aspect", "scale", "clips", "alpha"), rows, 3, language)
+    return _table(
+        "results.agreements",
+        "results.agreements_note",
+        ("presentation", "aspect", "scale", "clips", "alpha"),
+        rows,
+        3,
+        language,
+    )
 
 
 def measures_table(measures: Sequence[VariantMeasures], language: str) -> Table:
@@ -120,7 +143,7 @@ def measures_table(measures: Sequence[VariantMeasures], language: str) -> Table:
                 )
             )
     head = ("lag", "detected", "unaccepted", "head", "shoulders", "mouth_opens", "contact")
-    return _table("measures", ("variant", "player", *head), rows, 2, language)
+    return _table("results.measures", "results.measures_note", ("variant", "player", *head), rows, 2, language)
 
 
 def _number(value: float | None, digits: int = 2, signed: bool = False) -> str:

@@ -40,7 +40,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "notes with every fingertip within 1 mm of its place.",
         "遅れ: 動作が見える時刻 − 音が鳴る時刻。ITU-R BT.1359-1 では -125 ms・+45 ms を超えると気づかれ、-185 ms・"
         "+90 ms "
-        "を超えると許容されません。頭: 速さの実効値（0.3〜15 Hz）。肩と口: 息継ぎ中／その間の動きの幅。接触: すべ"
+        "を超えると許容されません。頭: 速さの実効値（0.3〜15 Hz）。肩と口元: 息継ぎ中／その間の動きの幅。接触: すべ"
         "ての指先が"
         "所定の位置から 1 mm 以内にある音の割合。",
     ),
@@ -70,7 +70,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "results.unaccepted": ("not accepted %", "許容外 %"),
     "results.head": ("head mm/s", "頭 mm/s"),
     "results.shoulders": ("shoulders mm", "肩 mm"),
-    "results.mouth_opens": ("mouth %", "口 %"),
+    "results.mouth_opens": ("mouth %", "口元 %"),
     "results.contact": ("contact %", "接触 %"),
     "results.variant_film": ("film", "実演の映像"),
     "results.variant_generated": ("generated", "生成"),
@@ -81,8 +81,8 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "results.presentation_pair": ("pair", "ペア"),
     "results.aspect_fingers_arms": ("fingers and arms", "指と腕"),
     "results.aspect_body": ("body", "体"),
-    "results.aspect_mouth": ("mouth", "口"),
-    "results.aspect_ensemble": ("ensemble", "合奏"),
+    "results.aspect_mouth": ("mouth", "口元"),
+    "results.aspect_ensemble": ("ensemble", "アンサンブル"),
     "results.scale_naturalness": ("naturalness", "自然さ"),
     "results.scale_synchrony": ("synchrony", "音との同期"),
     "results.answered": (
