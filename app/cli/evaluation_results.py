@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -78,7 +79,7 @@ def results(arguments: argparse.Namespace) -> None:
     key = read_key(key_file)
     found = tabulate(key, [read_answers(path) for path in arguments.files])
     measured_file = key_file.with_name(MEASURES_FILE)
-    measured = read_measures(measured_file) if measured_file.is_file() else ()
+    measured = read_measures(measured_file) if os.path.isfile(measured_file) else ()
     say(text(Message("results.title", {"piece": found.piece})))
     for table in tables(found, measured, "en"):
         say("", *_lines(table))
@@ -106,7 +107,7 @@ def _key_of(files: Sequence[Path]) -> Path:
 
     folder = files[0].absolute().parent
     for place in (folder, folder.parent):
-        if (place / KEY_FILE).is_file():
+        if os.path.isfile(place / KEY_FILE):
             return place / KEY_FILE
     raise FileError("results.no_key", file=str(files[0]), name=KEY_FILE)
 

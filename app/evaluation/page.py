@@ -8,6 +8,7 @@ from __future__ import annotations
 import base64
 import html
 import json
+import os
 from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
@@ -70,7 +71,7 @@ def _shown_files(table: Sequence[Order], clips: Path) -> list[Path]:
     for shown in {shown for order in table for shown in order}:
         turned = f"{shown.right}-{shown.left}"
         there = f"{shown.left}-{shown.right}" if shown.right else shown.left
-        names.add(turned if (clips / f"{turned}.mp4").is_file() else there)
+        names.add(turned if os.path.isfile(clips / f"{turned}.mp4") else there)
     return [clips / f"{name}.mp4" for name in sorted(names)]
 
 
