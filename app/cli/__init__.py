@@ -17,6 +17,8 @@ import app.cli.align
 import app.cli.characters
 import app.cli.choreography
 import app.cli.edit
+import app.cli.evaluate
+import app.cli.evaluation_results
 import app.cli.export
 import app.cli.film
 import app.cli.inspect
@@ -46,6 +48,8 @@ examples:
   suisou export quartet.mid --to out --set "*.amplitude=0.8" --set "trombone.posture=seated"
   suisou film quartet.mid --to hands.mp4 --view hands --player "Trumpet 1" --from-bar 1 --to-bar 4
   suisou film quartet.mid --sheet hands.png --every 0.1 --view hands --to-bar 2
+  suisou evaluate quartet.mid --film concert.mp4 --to evaluation
+  suisou evaluate results evaluation/answers-*.csv --to evaluation
   suisou midi session.suisou --to session.mid
   suisou align quartet.mid concert.flac --to concert.suisou
   suisou stream quartet.mid --player horn --loop
@@ -79,6 +83,9 @@ def parser() -> argparse.ArgumentParser:
     app.cli.inspect.add_command(commands)
     app.cli.export.add_command(commands)
     app.cli.film.add_command(commands)
+    app.cli.evaluate.add_command(commands)
+    app.cli.evaluation_results.add_results(commands)
+    app.cli.evaluation_results.add_measures(commands)
     app.cli.midi.add_command(commands)
     app.cli.align.add_command(commands)
     app.cli.instruments.add_command(commands)
@@ -95,7 +102,7 @@ def main(arguments: Sequence[str]) -> int:
     """Run the program with these arguments (without its own name) and return the exit status."""
     _speak_utf8()
     try:
-        parsed = parser().parse_args(arguments, argparse.Namespace(given=tuple(arguments)))
+        parsed = parser().parse_args(_joined(arguments), argparse.Namespace(given=tuple(arguments)))
         if parsed.command is None:
             parser().print_help()
             return DONE
@@ -116,6 +123,12 @@ def main(arguments: Sequence[str]) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
     return DONE if status is None else status
+
+
+def _joined(arguments: Sequence[str]) -> list[str]:
+    """The arguments, with a command of two words as one."""
+    first = " ".join(arguments[:2])
+    return [first, *arguments[2:]] if first in app.cli.evaluation_results.COMMANDS else list(arguments)
 
 
 _OTHERWISE_PLACED: Final = frozenset({"file", "folder", "host"})

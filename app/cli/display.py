@@ -18,10 +18,13 @@ X_PORT: Final = 6000
 ANSWER_S: Final = 3.0
 INSTEAD: Final = "'suisou export' and 'suisou inspect' work without one; 'suisou --help' lists all commands."
 
-VIRTUAL: Final = "A virtual one does: install xvfb, then 'xvfb-run -a suisou film ...'."
-"""For what is only drawn, and looked at in a file."""
 
 _DISPLAY = re.compile(r"^(?:(?P<host>[^:/]*)(?:/\w+)?|(?P<path>/.*)):(?P<number>\d+)(?:\.\d+)?$")
+
+
+def virtual(command: str) -> str:
+    """What to do without a display for what is only drawn, and looked at in a file."""
+    return f"A virtual one does: install xvfb, then 'xvfb-run -a suisou {command} ...'."
 
 
 def why_no_display(

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import argparse
 import os
-import signal
 import sys
-import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from app.cli.bars import add_bar_options, requested_span
-from app.cli.display import VIRTUAL, why_no_display
+from app.cli.display import virtual, why_no_display
+from app.cli.drawing import StopRequested, nearest, require_writable, seen, stoppable
 from app.cli.edit import MOST_PX, THEMES, VIEWS
 from app.cli.options import (
     Commands,
@@ -30,11 +28,9 @@ from app.cli.options import (
 from app.cli.progress import Progress, find_holds
 from app.cli.status import NO_DISPLAY, report_left_out
 from app.cli.terminal import say, warn
-from app.encoding import shown
 from app.errors import AppError, Cancelled, FileError, Message, UsageError
 from app.messages import LANGUAGES, error_text, filled, text
 from app.project.frame_rate import USUAL_FILM_RATE, exact_number, frame_rate_text
-from app.project.parameters import select_players
 
 if TYPE_CHECKING:
     from app.editor.viewport_state import View
@@ -47,11 +43,8 @@ LEAST_PX: Final = (64, 64)
 FILM_PX, SHEET_PX = (1280, 720), (320, 180)
 USUAL_EVERY_S: Final = Fraction(1, 2)
 MOST_COLUMNS: Final = 200
-_OF_PLAYERS: Final = ("hands", "mouth")
-"""Views that need an instrument."""
 
 Kind: TypeAlias = Literal["mp4", "folder", "sheet"]
-StopRequested: TypeAlias = Callable[[], bool]
 
 _every = within(Fraction(1, 120), Fraction(3600), "a number of seconds", exact_number)
 _columns = within(1, MOST_COLUMNS, "a number of columns", int)
@@ -166,19 +159,19 @@ def film(arguments: argparse.Namespace) -> int:
     project = open_project(arguments)
     if not project.performers:
         raise UsageError("picture.no_players", file=str(arguments.file))
-    view, player_ids = _seen(arguments, project)
+    view, player_ids = seen(arguments, project)
     performance = Performance(project)
     span = requested_span(performance, arguments, _rate(arguments, project, kind))
     size = arguments.size or (SHEET_PX if kind == "sheet" else FILM_PX)
     columns = _columns_of_sheet(arguments, span)
     requested = _Film(arguments, kind, performance, view, player_ids, span, size, columns)
     _check_target(requested)
-    reason = why_no_display(what="'suisou film'", instead=VIRTUAL)
+    reason = why_no_display(what="'suisou film'", instead=virtual("film"))
     if reason is not None:
         warn(reason)
         return NO_DISPLAY
     find_holds(performance, project.players)
-    with _stoppable() as stop_requested:
+    with stoppable() as stop_requested:
         try:
             return _draw(requested, stop_requested)
         except AppError as error:
@@ -252,19 +245,6 @@ def _check_options(arguments: argparse.Namespace, kind: Kind) -> None:
         raise UsageError("picture.odd_size", width=arguments.size[0], height=arguments.size[1])
 
 
-def _seen(arguments: argparse.Namespace, project: Project) -> tuple[View, tuple[str, ...]]:
-    """The view, and ids of whom it is about. Raises UsageError (``player.unknown``, ``picture.dancer_view``)."""
-    everyone = project.performers
-    view: View = arguments.view or ("front" if arguments.players else "ensemble")
-    if not arguments.players and view == "ensemble":
-        return view, ()
-    indices = select_players(arguments.players, [one.name for one in everyone]) if arguments.players else (0,)
-    chosen = [everyone[index] for index in indices]
-    if view in _OF_PLAYERS and chosen[0].id in project.dancer_ids:
-        raise UsageError("picture.dancer_view", dancer=chosen[0].name, view=view)
-    return view, tuple(one.id for one in chosen)
-
-
 def _rate(arguments: argparse.Namespace, project: Project, kind: Kind) -> Fraction:
     if kind == "sheet":
         return 1 / (arguments.every or USUAL_EVERY_S)
@@ -283,7 +263,7 @@ def _check_target(film: _Film) -> None:
     from app.export.pictures import MOST_SHEET_PX, require_no_other_frames, sheet_size
 
     if film.kind == "folder":
-        _require_writable(film.path, _nearest(film.path))
+        require_writable(film.path, nearest(film.path))
         require_no_other_frames(film.path, film.span.first, film.span.count)
         return
     _require_folder(film.path)
@@ -298,20 +278,7 @@ def _require_folder(path: Path) -> None:
     """Raise FileError (``file.cannot_write``) where no file can be put into its folder: long before it is drawn."""
     if os.path.isdir(path):
         raise FileError("file.cannot_write", file=str(path), reason="it is a folder")
-    _require_writable(path, path.parent)
-
-
-def _require_writable(path: Path, folder: Path) -> None:
-    """Raise FileError (``file.cannot_write``) where a folder cannot take a file or folder."""
-    if not os.path.isdir(folder):
-        raise FileError("file.cannot_write", file=str(path), reason=f"{shown(folder)} is not a folder")
-    if not os.access(folder, os.W_OK):
-        raise FileError("file.cannot_write", file=str(path), reason=f"{shown(folder)} cannot be written to")
-
-
-def _nearest(path: Path) -> Path:
-    """What there is of a path."""
-    return next((place for place in (path, *path.parents) if os.path.exists(place)), path)
+    require_writable(path, path.parent)
 
 
 @contextmanager
@@ -370,19 +337,3 @@ def caption_texts(performance: Performance, times_s: Sequence[float], language: 
         time_text = f"{time_s:.2f}".replace("-", "−")
         found.append((text(Message("picture.time", {"time": time_text, "frame": frame}), language), metres.label(tick)))
     return found
-
-
-@contextmanager
-def _stoppable() -> Iterator[StopRequested]:
-    """Whether Ctrl-C or a request to end (SIGTERM) came: an exception of it would get lost in what Qt calls."""
-    stopped = threading.Event()
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        stopped.set()
-
-    before = [(number, signal.signal(number, stop)) for number in (signal.SIGINT, signal.SIGTERM)]
-    try:
-        yield stopped.is_set
-    finally:
-        for number, handler in before:
-            signal.signal(number, handler)

@@ -139,11 +139,12 @@ def look_at(warnings: Sequence[str]) -> list[str]:
     return ["", "to look at:", *(f"  {warning}" for warning in warnings)] if warnings else []
 
 
-def columns(rows: Iterable[tuple[str, ...]], of_numbers: bool = True) -> list[str]:
-    """Rows as columns two spaces apart; all but the first are ``of_numbers``, on the right of their columns."""
+def columns(rows: Iterable[tuple[str, ...]], of_numbers: bool = True, names: int = 1) -> list[str]:
+    """Rows as columns two spaces apart; all but the first ``names`` are ``of_numbers``, on the right of their
+    columns."""
     table = [tuple(map(shown, row)) for row in rows]
     widths = [max(len(row[column]) for row in table) for column in range(len(table[0]))]
-    placed = [str.ljust, *([str.rjust if of_numbers else str.ljust] * (len(widths) - 1))]
+    placed = [str.ljust] * names + [str.rjust if of_numbers else str.ljust] * (len(widths) - names)
     return [
         "  ".join(place(cell, width) for place, cell, width in zip(placed, row, widths, strict=True)).rstrip()
         for row in table

@@ -65,6 +65,7 @@ def video_into(
     fps: Fraction,
     sound: npt.NDArray[np.float32] | None = None,
     sound_rate: int = SOUND_RATE_HZ,
+    crf: int = QUALITY_CRF,
 ) -> Iterator[VideoWriter]:
     """A film that appears whole when the block is done, or not at all.
 
@@ -79,6 +80,8 @@ def video_into(
         -1..1; it begins with the first picture.
     sound_rate : int
         Samples per second.
+    crf : int
+        x264's constant rate factor.
 
     Raises
     ------
@@ -101,7 +104,7 @@ def video_into(
                     soundfile.write(wave, sound, sound_rate, subtype="PCM_16")
                 complaint = stack.enter_context((folder / "complaint.txt").open("w+b"))
                 encoder = subprocess.Popen(
-                    _command(partial, size, fps, wave if sound is not None else None),
+                    _command(partial, size, fps, wave if sound is not None else None, crf),
                     stdin=subprocess.PIPE,
                     stdout=subprocess.DEVNULL,
                     stderr=complaint,
@@ -129,12 +132,41 @@ def video_into(
                 raise FileError("video.failed", file=str(path), detail=detail or f"status {status}")
 
 
-def _command(path: Path, size: tuple[int, int], fps: Fraction, wave: Path | None) -> list[str]:
+def beside(path: Path, left: Path, right: Path, crf: int = QUALITY_CRF) -> None:
+    """Two films of the same height and length side by side in one, with the sound of the left one.
+
+    Raises
+    ------
+    FileError
+        ``video.failed``
+    """
+    films = ["-i", f"file:{left}", "-i", f"file:{right}"]
+    joined = ["-filter_complex", "[0:v][1:v]hstack=inputs=2[v]", "-map", "[v]", "-map", "0:a?", "-c:a", "copy"]
+    try:
+        done = subprocess.run(
+            [*_ffmpeg(), *films, *joined, *_coded(crf), *_into(path)], stdin=subprocess.DEVNULL, capture_output=True
+        )
+    except (OSError, RuntimeError) as error:
+        raise FileError("video.failed", file=str(path), detail=str(error)) from error
+    if done.returncode:
+        detail = done.stderr.decode(errors="replace").strip()[-_TOLD:]
+        raise FileError("video.failed", file=str(path), detail=detail or f"status {done.returncode}")
+
+
+def _command(path: Path, size: tuple[int, int], fps: Fraction, wave: Path | None, crf: int) -> list[str]:
     pictures = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}", "-framerate", str(fps), "-i", "-"]
     listened = ["-i", str(wave), "-c:a", "aac", "-b:a", "192k", "-shortest"] if wave is not None else []
-    coded = ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", str(QUALITY_CRF), "-preset", "fast"]
+    return [*_ffmpeg(), *pictures, *listened, *_coded(crf), *_into(path)]
+
+
+def _ffmpeg() -> list[str]:
+    return [imageio_ffmpeg.get_ffmpeg_exe(), "-hide_banner", "-loglevel", "error", "-y"]
+
+
+def _coded(crf: int) -> list[str]:
+    return ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", str(crf), "-preset", "fast"]
+
+
+def _into(path: Path) -> list[str]:
     # The index at the front: a browser plays it while it loads.
-    return [
-        *(imageio_ffmpeg.get_ffmpeg_exe(), "-hide_banner", "-loglevel", "error", "-y"),
-        *(*pictures, *listened, *coded, "-movflags", "+faststart", "-f", "mp4", f"file:{path}"),
-    ]
+    return ["-movflags", "+faststart", "-f", "mp4", f"file:{path}"]

@@ -16,6 +16,10 @@ from app.messages import (
     capture,
     choreography,
     edit,
+    evaluation,
+    evaluation_conclusions,
+    evaluation_page,
+    evaluation_results,
     files,
     formats,
     notes,
@@ -43,6 +47,10 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     **capture.WORDINGS,
     **choreography.WORDINGS,
     **edit.WORDINGS,
+    **evaluation.WORDINGS,
+    **evaluation_conclusions.WORDINGS,
+    **evaluation_page.WORDINGS,
+    **evaluation_results.WORDINGS,
     **files.WORDINGS,
     **formats.WORDINGS,
     **notes.WORDINGS,
@@ -83,7 +91,7 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
 """Arguments that are MIDI numbers of pitches: they are named, in the editor as its user chose."""
 
 
-TEXTS: Final = frozenset({"parameter"})
+TEXTS: Final = frozenset({"parameter", "variant", "beside", "presentation", "aspect", "scale"})
 """Arguments that may be ids of texts themselves."""
 
 

@@ -31,6 +31,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "work.compare_skeleton": ("comparing skeletons with {file}…", "スケルトンを {file} と比較中…"),
     "work.export_midi": ("exporting MIDI…", "MIDI を書き出し中…"),
     "work.playblast": ("creating video…", "動画を作成中…"),
+    "work.evaluation": ("creating evaluation…", "評価を作成中…"),
     "work.synthesise": ("synthesising audio…", "音声を合成中…"),
     "work.read_motion": ("reading {file}…", "{file} を読み込み中…"),
     "work.read_recording": ("reading {file}…", "{file} を読み込み中…"),

@@ -22,6 +22,7 @@ from scipy.signal import butter, periodogram, sosfiltfilt
 from scipy.spatial import ConvexHull
 from scipy.stats import rankdata, spearmanr
 
+from app.evaluation.measures import quantity_of_motion_mm_s
 from app.export.playback import Playback, Surface
 from app.export.request import Request
 from app.export.run import export
@@ -49,7 +50,6 @@ STILL_WEIGHT = 0.01
 """Lips that move by less in a held note are a plateau."""
 SMALLEST = 0.05
 """Of smaller weights no difference between left and right is seen."""
-SEEN_HZ = (0.3, 15.0)
 BEAT_SHARE = 0.05
 SLAB_M = 0.015
 
@@ -269,11 +269,8 @@ def girth_cm(read: Read) -> float:
 
 def head_mm_s(read: Read) -> float:
     """Quantity of motion: RMS speed of the head's joint between 0.3 and 15 Hz while there are notes, mm/s."""
-    head = read.place_m("head")
-    top = min(SEEN_HZ[1], 0.45 * read.fps)
-    moved = np.stack([_bandpass(head[:, axis], read.fps, SEEN_HZ[0], top) for axis in range(3)], axis=1)
-    speed = np.linalg.norm(np.gradient(moved, axis=0), axis=1) * read.fps * 1000.0
-    return float(np.sqrt(np.mean(np.square(speed[read.playing]))))
+    found = quantity_of_motion_mm_s(read.place_m("head"), read.fps, read.playing)
+    return np.nan if found is None else found
 
 
 def pairwise(reads: list[Read]) -> float:

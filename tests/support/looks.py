@@ -287,6 +287,7 @@ class Look:
             "export": lambda: self.do("export.files"),
             "learn": lambda: self.do("dancers.learn"),
             "playblast": lambda: self.do("export.playblast"),
+            "evaluation": lambda: self.do("file.evaluation"),
             "reimport": lambda: self.do("file.reimport"),
             "import": self._import,
             "midi_devices": lambda: self.do("record.devices"),

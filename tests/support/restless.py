@@ -38,7 +38,12 @@ QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
 
 LEFT_ALONE = frozenset(("file.quit",))
 """The one thing this user never does."""
-ASKS_THE_SYSTEM = frozenset(("export_browse", "playblast_browse", "swatch"))
+ASKS_THE_SYSTEM = frozenset(
+    (
+        *("export_browse", "playblast_browse", "swatch"),
+        *("evaluation_browse", "evaluation_browse_film", "evaluation_browse_keyframes"),
+    )
+)
 """Buttons that open a dialog of the system, which no test can close."""
 KEYS = (
     *(Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Home, Qt.Key.Key_End),

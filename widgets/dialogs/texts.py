@@ -183,6 +183,50 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "cut_panel.snap": ("Snap", "スナップ"),
     "cut_panel.undo_ctrl_z": ("Undo (Ctrl+Z)", "元に戻す（Ctrl+Z）"),
     "cut_panel.whole_motion_f": ("Show whole motion (F)", "モーション全体を表示（F）"),
+    "evaluation_dialog.by_hand": ("At a given time", "時刻を指定"),
+    "evaluation_dialog.by_sound": ("Found by its sound", "音声から検出"),
+    "evaluation_dialog.choose": ("Browse...", "参照..."),
+    "evaluation_dialog.done": (
+        (
+            "Evaluation created: {clips} clips, {pairs} pairs.\nGive viewers this file alone: {page}\n"
+            "Keep key.json: it says which variant each clip shows."
+        ),
+        (
+            "評価を作成しました（映像 {clips} 本、ペア {pairs} 組）。\n"
+            "参加者にはこのファイルだけを渡してください: {page}\n"
+            "key.json は各映像のバリエーションを示すため、手元に保管してください。"
+        ),
+    ),
+    "evaluation_dialog.excerpts": ("Number of excerpts", "抜粋の数"),
+    "evaluation_dialog.film": ("Film of real players", "実際の奏者の動画"),
+    "evaluation_dialog.folder": ("Folder", "フォルダー"),
+    "evaluation_dialog.followed": (
+        "Found by its sound; the piece follows its tempo",
+        "音声から検出し、曲のテンポを合わせる",
+    ),
+    "evaluation_dialog.keyframes": ("Other animation", "他のアニメーションの動画"),
+    "evaluation_dialog.length": ("Length of an excerpt", "抜粋の長さ"),
+    "evaluation_dialog.make": ("Create Evaluation", "評価を作成"),
+    "evaluation_dialog.place": ("Position of the film", "動画の位置"),
+    "evaluation_dialog.placed": (
+        "The film begins at {offset_s:.2f} s of the piece (confidence {percent} %).",
+        "動画は曲の {offset_s:.2f} 秒から始まります（信頼度 {percent} %）。",
+    ),
+    "evaluation_dialog.presentation": ("Presentation", "提示方法"),
+    "evaluation_dialog.presentation_both": ("One at a time, then side by side", "1 本ずつ、その後に並べて"),
+    "evaluation_dialog.presentation_pair": ("Side by side", "並べて"),
+    "evaluation_dialog.presentation_single": ("One at a time", "1 本ずつ"),
+    "evaluation_dialog.seconds": (" s", " 秒"),
+    "evaluation_dialog.size": ("Size of a clip", "映像のサイズ"),
+    "evaluation_dialog.title": ("Evaluation", "評価"),
+    "evaluation_dialog.variant_film": ("Real players", "実際の奏者"),
+    "evaluation_dialog.variant_generated": ("This performance", "この演奏"),
+    "evaluation_dialog.variant_keyframes": ("Other animation", "他のアニメーション"),
+    "evaluation_dialog.variant_shifted": ("Fingers 200 ms late (control)", "指を 200 ms 遅らせる（対照）"),
+    "evaluation_dialog.variant_still": ("Amplitude 0", "動きの大きさ 0"),
+    "evaluation_dialog.variants": ("Compare", "比較するもの"),
+    "evaluation_dialog.videos": ("Videos", "動画"),
+    "evaluation_dialog.view": ("View", "ビュー"),
     "export_dialog.all_or_none": ("Select/deselect all", "すべて選択/解除"),
     "export_dialog.beats": (" beats", " 拍"),
     "export_dialog.bone_names_in_bvh": ("Bone names in BVH", "BVH のボーン名"),

@@ -22,6 +22,7 @@ from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion, PlayerFault
 from app.project.performers import Player
 from widgets.common.font import apply_font
+from widgets.viewport.camera import Camera
 from widgets.viewport.canvas import pixels, why_no_gl
 from widgets.viewport.panel import Draw, ViewportPanel
 
@@ -42,10 +43,21 @@ class Offscreen:
         self._session.set_tokens(THEMES[theme])
         self._panel = ViewportPanel(self._session, _MadePoses(self._live, stop_requested))
 
-    def film(self, size: tuple[int, int], span_s: tuple[float, float], view: View, player_ids: tuple[str, ...]) -> Draw:
-        """What draws a film: see `ViewportPanel.film`. Dancers among them are not selected in the window."""
-        self._session.set_players(tuple(own for own in player_ids if own not in self._session.project.dancer_ids))
-        return self._panel.film(*size, span_s, view, player_ids)
+    def film(
+        self,
+        size: tuple[int, int],
+        span_s: tuple[float, float],
+        view: View,
+        player_ids: tuple[str, ...],
+        cameras: dict[float, Camera] | None = None,
+        marked: bool = True,
+    ) -> Draw:
+        """What draws a film: see `ViewportPanel.film`. Dancers among them are not selected in the window. Without
+        marks no names are drawn, and no rings around those that the view is about."""
+        selected = tuple(own for own in player_ids if own not in self._session.project.dancer_ids)
+        self._session.set_players(selected if marked else ())
+        self._session.viewport.show("names", marked)
+        return self._panel.film(*size, span_s, view, player_ids, cameras)
 
     @property
     def left_out(self) -> list[LeftOut]:

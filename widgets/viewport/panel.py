@@ -204,6 +204,7 @@ class ViewportPanel(Retranslated, QWidget):
         span_s: tuple[float, float],
         view: View | None = None,
         player_ids: tuple[str, ...] | None = None,
+        cameras: dict[float, Camera] | None = None,
     ) -> Draw:
         """What draws a film's pictures, in their order, with the names and marks that are shown.
 
@@ -217,6 +218,8 @@ class ViewportPanel(Retranslated, QWidget):
             The camera as it stands if absent.
         player_ids : tuple of str, optional
             Players or dancers that the view is about; the selected players if absent.
+        cameras : dict of float to Camera, optional
+            A first film of the span puts the camera of every picture there; another one is then seen the same way.
 
         Returns
         -------
@@ -229,7 +232,11 @@ class ViewportPanel(Retranslated, QWidget):
             ``picture.no_gl`` (reason), ``picture.loading``; what is returned raises them too.
         """
         self._require_stage()
-        shot = self._shot(view, width / height, span_s, self._session.players if player_ids is None else player_ids)
+        chosen = self._session.players if player_ids is None else player_ids
+        if cameras and view is not None:
+            shot = Shot(view, self._eye.camera, chosen, cameras=cameras)
+        else:
+            shot = self._shot(view, width / height, span_s, chosen, cameras)
         return partial(self._render, width, height, shot)
 
     def _require_stage(self) -> tuple[Canvas, Stage]:
@@ -263,7 +270,14 @@ class ViewportPanel(Retranslated, QWidget):
             self._elsewhere = None
             self.scene.take(shown)
 
-    def _shot(self, view: View | None, aspect: float, span_s: tuple[float, float], player_ids: tuple[str, ...]) -> Shot:
+    def _shot(
+        self,
+        view: View | None,
+        aspect: float,
+        span_s: tuple[float, float],
+        player_ids: tuple[str, ...],
+        cameras: dict[float, Camera] | None,
+    ) -> Shot:
         """How a film is seen: by a view, or as the window's camera stands."""
         if view is None:
             return Shot(self._eye.view, self._eye.camera, player_ids, self._eye.centred(np.zeros(3)))
@@ -278,7 +292,8 @@ class ViewportPanel(Retranslated, QWidget):
 
         try:
             camera = replace(self._eye.camera, fov_deg=Camera().fov_deg)
-            return Shot(view, steady_camera(view, posed(), stage.rows(player_ids), camera, aspect), player_ids)
+            steady = steady_camera(view, posed(), stage.rows(player_ids), camera, aspect)
+            return Shot(view, steady, player_ids, cameras=cameras)
         finally:
             self.scene.take(shown)
 

@@ -32,23 +32,35 @@ class Shot:
         Those that are filmed; a close-up shows the first.
     shift_m : (3,) float, optional
         Of what a close-up shows against the middle of the picture.
+    cameras : dict of float to Camera, optional
+        By time: those that are there are used, the others put there.
     """
 
     def __init__(
-        self, view: View, camera: Camera, player_ids: tuple[str, ...], shift_m: npt.ArrayLike = (0.0, 0.0, 0.0)
+        self,
+        view: View,
+        camera: Camera,
+        player_ids: tuple[str, ...],
+        shift_m: npt.ArrayLike = (0.0, 0.0, 0.0),
+        cameras: dict[float, Camera] | None = None,
     ) -> None:
         self.view, self.player_ids = view, player_ids
         self._camera = camera
+        self._cameras = cameras
         self._shift_m = np.asarray(shift_m, np.float64)
         self._last_s = -math.inf
 
     def camera_at(self, stage: Stage, time_s: float) -> Camera:
         """The camera for the poses that the stage shows at a time after the last one; the first one is centred."""
+        if self._cameras is not None and time_s in self._cameras:
+            return self._cameras[time_s]
         rows = stage.rows(self.player_ids)
         middle_m = tracked(self.view, stage, rows[0]) if rows else None
         if middle_m is not None:
             self._camera = followed(self._camera, middle_m + self._shift_m, time_s - self._last_s)
         self._last_s = time_s
+        if self._cameras is not None:
+            self._cameras[time_s] = self._camera
         return self._camera
 
 

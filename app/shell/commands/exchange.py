@@ -4,6 +4,7 @@ out."""
 from __future__ import annotations
 
 import os
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import Qt
@@ -24,6 +25,9 @@ from app.version import program_version
 from instrument_maps.library import all_maps
 from widgets.common.text import message_text, note_text
 from widgets.inspector.words import correction_title
+
+EVALUATION_WORKER = "app.cli.evaluation_worker"
+"""Run as a program of its own: the window stays alive meanwhile."""
 
 
 def read_again(editor: Editor) -> None:
@@ -168,6 +172,26 @@ def playblast(editor: Editor) -> None:
     dialog.show()
 
 
+def evaluation(editor: Editor) -> None:
+    """Ask what viewers are to judge, and make the clips and the page for them."""
+    session = editor.session
+    from app.evaluation.process import made_by_process
+    from widgets.dialogs.evaluation import EvaluationDialog
+
+    dialog = EvaluationDialog(
+        session,
+        partial(made_by_process, EVALUATION_WORKER),
+        Path(editor.files.folder) / f"{editor.files.stem}-evaluation",
+        session.project.score.title or editor.files.stem,
+        editor.window,
+    )
+    dialog.show()
+
+
+def _can_draw(editor: Editor) -> bool:
+    return _can_export(editor) and editor.window.viewport.has_gl
+
+
 def _can_export(editor: Editor) -> bool:
     return bool(editor.session.project.players) and editor.files.is_open
 
@@ -176,13 +200,14 @@ ACTIONS: tuple[EditorAction, ...] = (
     EditorAction("file.reimport", read_again, "file", "Ctrl+Shift+I", enabled=is_open),
     EditorAction("file.reimport_other", read_another, "file", enabled=is_open),
     EditorAction("file.export_midi", export_midi, "file", enabled=_can_export),
+    EditorAction("file.evaluation", evaluation, "file", enabled=_can_draw),
     EditorAction("export.files", export_files, "export", "Ctrl+E", enabled=_can_export, icon="export"),
     EditorAction(
         "export.playblast",
         playblast,
         "export",
         "Ctrl+Shift+E",
-        enabled=lambda editor: _can_export(editor) and editor.window.viewport.has_gl,
+        enabled=_can_draw,
         icon="film",
     ),
 )

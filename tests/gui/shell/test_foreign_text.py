@@ -52,7 +52,8 @@ SHOWN = {
 """Fields that the walk must come across."""
 DIALOGS = (
     *("application.about", "application.preferences", "application.shortcuts", "application.instruments"),
-    *("application.characters", "export.files", "export.playblast", "file.reimport", "record.devices"),
+    *("application.characters", "export.files", "export.playblast", "file.evaluation"),
+    *("file.reimport", "record.devices"),
     *("record.latency", "stream.settings", "dancers.learn", "file.piece_settings"),
 )
 

@@ -575,6 +575,7 @@ CASES: dict[str, Case] = {
     "file.piece_settings": Case(lambda d: d.dialog("piece_settings")),
     "export.files": Case(lambda d: d.dialog("export_files")),
     "export.playblast": Case(lambda d: d.dialog("playblast")),
+    "file.evaluation": Case(lambda d: d.dialog("evaluation")),
     # Notes
     "edit.undo": Case(lambda d: d.project is d.seen["first"], lambda d: (d.seen.update(first=d.project), louder(d))),
     "edit.redo": Case(
@@ -1126,7 +1127,10 @@ def test_every_action_has_an_expectation() -> None:
 
 
 NEED_PLAYERS_DRAWN = frozenset(
-    {*(row.id for row in rows() if row.id.startswith("viewport.") or row.context == "viewport"), "export.playblast"}
+    {
+        *(row.id for row in rows() if row.id.startswith("viewport.") or row.context == "viewport"),
+        *("export.playblast", "file.evaluation"),
+    }
 )
 
 

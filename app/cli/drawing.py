@@ -1,0 +1,68 @@
+"""What commands that draw players have in common: who is seen, where it may be written, and how it is stopped."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING, Final, TypeAlias
+
+from app.encoding import shown
+from app.errors import FileError, UsageError
+from app.project.parameters import select_players
+
+if TYPE_CHECKING:
+    from app.editor.viewport_state import View
+    from app.project.model import Project
+
+StopRequested: TypeAlias = Callable[[], bool]
+
+_OF_PLAYERS: Final = ("hands", "mouth")
+"""Views that need an instrument."""
+
+
+def seen(arguments: argparse.Namespace, project: Project) -> tuple[View, tuple[str, ...]]:
+    """The view, and ids of whom it is about. Raises UsageError (``player.unknown``, ``picture.dancer_view``)."""
+    everyone = project.performers
+    view: View = arguments.view or ("front" if arguments.players else "ensemble")
+    if not arguments.players and view == "ensemble":
+        return view, ()
+    indices = select_players(arguments.players, [one.name for one in everyone]) if arguments.players else (0,)
+    chosen = [everyone[index] for index in indices]
+    if view in _OF_PLAYERS and chosen[0].id in project.dancer_ids:
+        raise UsageError("picture.dancer_view", dancer=chosen[0].name, view=view)
+    return view, tuple(one.id for one in chosen)
+
+
+def require_writable(path: Path, folder: Path) -> None:
+    """Raise FileError (``file.cannot_write``) where a folder cannot take a file or folder."""
+    if not os.path.isdir(folder):
+        raise FileError("file.cannot_write", file=str(path), reason=f"{shown(folder)} is not a folder")
+    if not os.access(folder, os.W_OK):
+        raise FileError("file.cannot_write", file=str(path), reason=f"{shown(folder)} cannot be written to")
+
+
+def nearest(path: Path) -> Path:
+    """What there is of a path."""
+    return next((place for place in (path, *path.parents) if os.path.exists(place)), path)
+
+
+@contextmanager
+def stoppable() -> Iterator[StopRequested]:
+    """Whether Ctrl-C or a request to end (SIGTERM) came: an exception of it would get lost in what Qt calls."""
+    stopped = threading.Event()
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        stopped.set()
+
+    before = [(number, signal.signal(number, stop)) for number in (signal.SIGINT, signal.SIGTERM)]
+    try:
+        yield stopped.is_set
+    finally:
+        for number, handler in before:
+            signal.signal(number, handler)

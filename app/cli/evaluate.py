@@ -1,0 +1,248 @@
+"""``suisou evaluate``: clips and a questionnaire, so that viewers judge a performance against real players."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import secrets
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from app.cli.bars import add_bar_options, requested_bars
+from app.cli.display import virtual, why_no_display
+from app.cli.drawing import nearest, require_writable, seen, stoppable
+from app.cli.edit import THEMES, VIEWS
+from app.cli.options import (
+    Commands,
+    add_players_option,
+    add_source_options,
+    frame_rate,
+    open_project,
+    picture_size,
+    seconds,
+    whole_number,
+    within,
+)
+from app.cli.progress import Progress
+from app.cli.status import NO_DISPLAY, report_left_out
+from app.cli.terminal import say, warn
+from app.encoding import stored
+from app.errors import AppError, Cancelled, UsageError
+from app.evaluation.design import PRESENTATIONS
+from app.evaluation.key import KEY_FILE, VARIANTS, Variant
+from app.evaluation.request import EXCERPTS, FPS, LEAST_S, MOST_EXCERPTS, MOST_S, SECONDS, SIZE, Request, variants_of
+from app.messages import error_text, filled, text
+
+if TYPE_CHECKING:
+    from app.evaluation.make import Made
+    from app.project.model import Project
+
+LEAST_PX, MOST_PX = (64, 64), (1920, 1920)
+
+_excerpts = within(1, MOST_EXCERPTS, "a number of excerpts", int)
+_length = within(LEAST_S, MOST_S, "a number of seconds", float)
+
+
+def variants(said: str) -> tuple[Variant, ...]:
+    """The type of an option that takes names of variants with commas between them."""
+    names = [name.strip().casefold() for name in said.split(",") if name.strip()]
+    found = tuple(variant for variant in VARIANTS if variant in names)
+    unknown = [name for name in names if name not in VARIANTS]
+    if unknown or not found:
+        wrong = unknown[0] if unknown else said
+        raise argparse.ArgumentTypeError(f"{wrong[:40]!r} is not one of {', '.join(VARIANTS)}")
+    return found
+
+
+def add_command(commands: Commands) -> None:
+    """Declare the sub-command."""
+    command = commands.add_parser(
+        "evaluate",
+        help="make a questionnaire in which viewers judge the performance against real players",
+        description="Writes a folder with clips, a page that asks viewers about them, and a key that says which "
+        "variant each clip shows. Viewers get the page (evaluation.html) alone; it works without a network and saves a "
+        "CSV file for each viewer. 'suisou evaluate results' evaluates these files. Either everything is written or "
+        "nothing. It needs OpenGL 2, and on Linux a display: without one, 'xvfb-run -a suisou evaluate ...'.",
+    )
+    add_source_options(command)
+    command.add_argument(
+        "--to", type=Path, required=True, metavar="DIR", help="the folder; it must not have a key.json"
+    )
+    command.add_argument("--film", type=Path, metavar="VIDEO", help="real players who play the piece")
+    command.add_argument(
+        "--film-offset",
+        type=seconds,
+        metavar="S",
+        help="second of the performance at which the film begins (default: found by its sound)",
+    )
+    command.add_argument(
+        "--follow-film", action="store_true", help="perform the piece at the tempo of the film, beat by beat"
+    )
+    command.add_argument("--keyframes", type=Path, metavar="VIDEO", help="animation of the piece made in another way")
+    command.add_argument(
+        "--keyframes-offset",
+        type=seconds,
+        metavar="S",
+        help="second of the performance at which it begins (default: found by its sound)",
+    )
+    command.add_argument(
+        "--variants",
+        type=variants,
+        default=(),
+        metavar="NAMES",
+        help="what is compared, with commas between: film (real players), generated (the performance), still (with "
+        "amplitude 0), shifted (fingers, slides and keys 200 ms late, a control), keyframes (default: all there are)",
+    )
+    add_bar_options(command)
+    command.add_argument(
+        "--excerpts", type=_excerpts, metavar="N", help=f"how many excerpts are chosen (default: {EXCERPTS})"
+    )
+    command.add_argument("--seconds", type=_length, metavar="S", help=f"of a chosen excerpt (default: {SECONDS:g})")
+    command.add_argument(
+        "--view", choices=VIEWS, help="how the players are seen (default: ensemble; with --player front)"
+    )
+    add_players_option(command, "the player that the view is about; repeatable; a close-up shows the first")
+    command.add_argument(
+        "--presentation", choices=PRESENTATIONS, default="both", help="clips one at a time, in pairs, or both (default)"
+    )
+    command.add_argument(
+        "--size",
+        type=picture_size(LEAST_PX, MOST_PX),
+        default=SIZE,
+        metavar="WxH",
+        help=f"of a clip (default {SIZE[0]}x{SIZE[1]})",
+    )
+    command.add_argument(
+        "--fps", dest="rate", type=frame_rate, metavar="RATE", help=f"frames per second (default: {FPS})"
+    )
+    command.add_argument(
+        "--draw", type=whole_number, metavar="N", help="seed that codes are drawn with (default: at random)"
+    )
+    command.add_argument("--theme", choices=THEMES, default=THEMES[0], help=f"colours (default: {THEMES[0]})")
+    command.set_defaults(run=evaluate)
+
+
+def evaluate(arguments: argparse.Namespace) -> int:
+    """Write the evaluation, and name the excluded players; the exit status."""
+    from app.evaluation.make import make_evaluation
+    from app.export.tree import clean_up
+
+    _check_options(arguments)
+    clean_up()
+    project = open_project(arguments)
+    if not project.performers:
+        raise UsageError("picture.no_players", file=str(arguments.file))
+    request = _request(arguments, project)
+    variants_of(request)
+    require_writable(arguments.to, nearest(arguments.to))
+    reason = why_no_display(what="'suisou evaluate'", instead=virtual("evaluate"))
+    if reason is not None:
+        warn(reason)
+        return NO_DISPLAY
+    # All of Qt.
+    from widgets.viewport.offscreen import offscreen
+
+    progress = Progress(sys.stderr)
+    with stoppable() as stop_requested:
+        try:
+            made = make_evaluation(
+                project, request, offscreen, text, lambda share, said: progress(share, text(said)), stop_requested
+            )
+        except AppError as error:
+            # ffmpeg has got the same Ctrl-C, and then refuses what it gets.
+            if stop_requested() or isinstance(error, Cancelled):
+                raise KeyboardInterrupt from error
+            if error.message.id not in ("picture.film_no_gl", "picture.no_gl"):
+                raise
+            warn(error_text(error))
+            return NO_DISPLAY
+        finally:
+            progress.clear()
+    _report(made)
+    return report_left_out((one.player.name, text(one.reason)) for one in made.left_out)
+
+
+def _check_options(arguments: argparse.Namespace) -> None:
+    """Raise UsageError (``picture.film_option``, ``picture.odd_size``, ``evaluate.one_choice``) for what means
+    nothing."""
+    needing: Final = (
+        ("--film-offset", arguments.film_offset is not None, "--film", arguments.film),
+        ("--follow-film", arguments.follow_film, "--film", arguments.film),
+        ("--keyframes-offset", arguments.keyframes_offset is not None, "--keyframes", arguments.keyframes),
+    )
+    for option, given, needs, there in needing:
+        if given and there is None:
+            raise UsageError("picture.film_option", option=option, needs=needs)
+    pairs = [("--film-offset", "--follow-film", arguments.film_offset is not None and arguments.follow_film)]
+    bars = arguments.from_bar is not None or arguments.to_bar is not None
+    for option, value in (("--excerpts", arguments.excerpts), ("--seconds", arguments.seconds)):
+        pairs.append((option, "--from-bar/--to-bar", bars and value is not None))
+    for option, other, both in pairs:
+        if both:
+            raise UsageError("evaluate.one_choice", option=option, other=other)
+    if any(side % 2 for side in arguments.size):
+        raise UsageError("picture.odd_size", width=arguments.size[0], height=arguments.size[1])
+
+
+def _request(arguments: argparse.Namespace, project: Project) -> Request:
+    view, player_ids = seen(arguments, project)
+    if arguments.view is None and not arguments.players and len(project.seen) == 1:
+        view, player_ids = "front", (project.seen[0].id,)
+    return Request(
+        folder=stored(arguments.to),
+        title=project.score.title or arguments.file.stem,
+        film="" if arguments.film is None else stored(arguments.film),
+        keyframes="" if arguments.keyframes is None else stored(arguments.keyframes),
+        film_offset_s=arguments.film_offset,
+        keyframes_offset_s=arguments.keyframes_offset,
+        follow_film=arguments.follow_film,
+        variants=arguments.variants,
+        bars=_bars(arguments, project),
+        excerpts=arguments.excerpts or EXCERPTS,
+        excerpt_s=arguments.seconds or SECONDS,
+        view=view,
+        player_ids=player_ids,
+        size=arguments.size,
+        fps=(FPS, 1) if arguments.rate is None else arguments.rate.as_integer_ratio(),
+        presentation=arguments.presentation,
+        seed=secrets.randbits(31) if arguments.draw is None else arguments.draw,
+        theme=arguments.theme,
+    )
+
+
+def _bars(arguments: argparse.Namespace, project: Project) -> tuple[int, int] | None:
+    from app.performance.ensemble import Performance
+
+    return requested_bars(Performance(project), arguments)
+
+
+def _report(made: Made) -> None:
+    clips = made.key.clips
+    said = {
+        "folder": made.folder,
+        "clips": len(clips),
+        "pairs": made.pairs,
+        "variants": len({clip.variant for clip in clips}),
+        "excerpts": len({clip.excerpt for clip in clips}),
+        "viewers": made.viewers,
+    }
+    say(
+        filled(
+            "{folder}: {clips} {clips:clip|clips} ({excerpts} {excerpts:excerpt|excerpts}, {variants} variants) and "
+            "{pairs} {pairs:pair|pairs}; the order is balanced over {viewers} {viewers:viewer|viewers}",
+            said,
+        )
+    )
+    for excerpt in sorted({clip.excerpt for clip in clips}):
+        clip = next(clip for clip in clips if clip.excerpt == excerpt)
+        say(filled("excerpt {number}: {from_s:.1f} s to {until_s:.1f} s", _times(excerpt, clip.from_s, clip.until_s)))
+    if made.video is not None and made.video.confidence is not None:
+        placed = {"offset_s": made.video.offset_s, "percent": round(100 * made.video.confidence)}
+        say(filled("the film begins at {offset_s:.3f} s of the performance, confidence {percent} %", placed))
+    page = os.path.join(made.folder, "evaluation.html")  # noqa: PTH118 - as the user wrote the folder
+    say(f"give viewers {page} alone; {KEY_FILE} says which variant each clip shows")
+
+
+def _times(number: int, from_s: float, until_s: float) -> dict[str, object]:
+    return {"number": number, "from_s": from_s, "until_s": until_s}

@@ -1,0 +1,117 @@
+"""``suisou evaluate results``: what viewers answered, as tables and in words; ``suisou evaluate measures``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from app.cli.options import Commands, add_file_options, open_project
+from app.cli.summary import columns
+from app.cli.terminal import say
+from app.encoding import shown
+from app.errors import FileError, Message
+from app.messages import text
+
+if TYPE_CHECKING:
+    from app.evaluation.tables import Table
+
+
+RESULTS: Final = "evaluate results"
+MEASURES: Final = "evaluate measures"
+COMMANDS: Final = frozenset({RESULTS, MEASURES})
+"""Of two words; a piece with such a name is written "./results"."""
+
+
+def add_results(commands: Commands) -> None:
+    """Declare the sub-command ``evaluate results``."""
+    command = commands.add_parser(
+        RESULTS,
+        help="what viewers answered",
+        description="Reads the files that the page wrote, one for each viewer, and says how every variant was judged, "
+        "which differences are shown, how far viewers agree, and what may and may not be concluded.",
+    )
+    command.add_argument("files", type=Path, nargs="+", metavar="FILE.csv", help="the answers of a viewer")
+    command.add_argument(
+        "--key", type=Path, metavar="KEY.json", help="the key (by default the one beside the answers or a folder above)"
+    )
+    command.add_argument(
+        "--to",
+        type=Path,
+        metavar="DIR",
+        help="write text, picture and tables into this folder: results.md, .svg, .csv and .json, in Japanese "
+        "results_ja.md and .svg",
+    )
+    command.set_defaults(run=results)
+
+
+def add_measures(commands: Commands) -> None:
+    """Declare the sub-command ``evaluate measures``."""
+    command = commands.add_parser(
+        MEASURES,
+        help="what can be measured of a piece without viewers",
+        description="Measures every player: lag of what is seen behind what is heard, motion of the head, breaths that "
+        "show, and contact.",
+    )
+    add_file_options(command)
+    command.set_defaults(run=measures, settings=[])
+
+
+def results(arguments: argparse.Namespace) -> None:
+    """Tabulate the answers, print the tables and write the report.
+
+    Raises
+    ------
+    AppError
+        Those of `app.evaluation.answers`, `results`, `key` and `measures`; ``results.no_key``.
+    """
+    from app.evaluation.answers import read_answers
+    from app.evaluation.conclusions import conclude
+    from app.evaluation.key import read_key
+    from app.evaluation.measures import MEASURES_FILE, read_measures
+    from app.evaluation.report import write_results
+    from app.evaluation.results import tabulate
+    from app.evaluation.tables import tables
+
+    key_file = arguments.key or _key_of(arguments.files)
+    key = read_key(key_file)
+    found = tabulate(key, [read_answers(path) for path in arguments.files])
+    measured_file = key_file.with_name(MEASURES_FILE)
+    measured = read_measures(measured_file) if os.path.isfile(measured_file) else ()
+    say(text(Message("results.title", {"piece": found.piece})))
+    for table in tables(found, measured, "en"):
+        say("", *_lines(table))
+    conclusions = conclude(found)
+    for heading, said in (("results.may", conclusions.may), ("results.may_not", conclusions.may_not)):
+        say("", f"{text(Message(heading))}:", *(f"- {text(message)}" for message in said))
+    if arguments.to is not None:
+        written = write_results(found, measured, arguments.to)
+        say("", f"{shown(arguments.to)}: {', '.join(path.name for path in written)}")
+
+
+def measures(arguments: argparse.Namespace) -> None:
+    """Measure a piece and print the table."""
+    from app.evaluation.measures import measure
+    from app.evaluation.tables import measures_table
+    from app.performance.ensemble import Performance
+
+    performance = Performance(open_project(arguments))
+    say(*_lines(measures_table([measure(performance)], "en")))
+
+
+def _key_of(files: Sequence[Path]) -> Path:
+    """The key beside the answers, or in the folder above."""
+    from app.evaluation.key import KEY_FILE
+
+    folder = files[0].absolute().parent
+    for place in (folder, folder.parent):
+        if os.path.isfile(place / KEY_FILE):
+            return place / KEY_FILE
+    raise FileError("results.no_key", file=str(files[0]), name=KEY_FILE)
+
+
+def _lines(table: Table) -> list[str]:
+    """A table, numbers on the right of their columns."""
+    return [table.title, *columns([table.head, *table.rows], names=table.names), f"({table.note})"]

@@ -1,0 +1,213 @@
+"""What viewers answered: the files that the questionnaire page writes, one for each viewer.
+
+A file is read as the page writes it or as a spreadsheet saves it again: with or without a byte order mark, with commas,
+semicolons or tabs between the fields, and with decimal commas. Whatever else is wrong with it is refused.
+
+Messages of `FileError`, all with ``file``: ``results.not_text``, ``results.header`` (expected), ``results.row``
+(line, found, expected), ``results.value`` (line, column, found, expected), ``results.cut_off`` (line),
+``results.empty``, ``results.viewers`` (line), ``results.repeated`` (line, first), ``results.side`` (line).
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Final, Literal
+
+import msgspec
+from msgspec import Meta
+
+from app.errors import FileError, shortened
+from app.evaluation.key import STEPS, Aspect, Presentation, Scale
+from app.formats.files import read_file
+
+MOST_BYTES: Final = 4_000_000
+MOST_S: Final = 1e7
+_SEPARATORS: Final = ",;\t"
+_LONGEST: Final = 60
+"""Of what was found in the place of a value, so much is quoted."""
+
+
+class Answer(msgspec.Struct, frozen=True, kw_only=True, gc=False):
+    """One answer of one viewer about one clip.
+
+    Attributes
+    ----------
+    evaluation : str
+        Id of the evaluation, as in its key.
+    viewer : str
+        Id that the page gave this viewer.
+    language : {"en", "ja"}
+        In which the page was read.
+    position : int
+        Place in the order in which this viewer saw clips or pairs, from 1.
+    presentation : {"single", "pair"}
+    side : {"left", "right", ""}
+        Where in a pair; empty for a clip on its own.
+    clip : str
+        Code of the clip, as in the key.
+    aspect, scale : str
+        What was asked about.
+    answer : int or None
+        1 (worst) to `STEPS` (best); None where the viewer chose "cannot judge".
+    seconds : float
+        From the first showing to the answer.
+    """
+
+    evaluation: Annotated[str, Meta(pattern="^[0-9a-f]{8}$")]
+    viewer: Annotated[str, Meta(pattern="^[0-9a-f]{8}$")]
+    language: Literal["en", "ja"]
+    position: Annotated[int, Meta(ge=1, le=100_000)]
+    presentation: Presentation
+    side: Literal["left", "right", ""]
+    clip: Annotated[str, Meta(pattern="^c[0-9]{2,4}$")]
+    aspect: Aspect
+    scale: Scale
+    answer: Annotated[int, Meta(ge=1, le=STEPS)] | None
+    seconds: Annotated[float, Meta(ge=0.0, le=MOST_S)]
+
+    @property
+    def question(self) -> tuple[int, str, str, str, str]:
+        """What was answered: a viewer answers it once."""
+        return self.position, self.side, self.clip, self.aspect, self.scale
+
+
+COLUMNS: Final = Answer.__struct_fields__
+"""The header of the file, in this order."""
+
+_EXPECTED: Final = {
+    "evaluation": "8 hexadecimal digits",
+    "viewer": "8 hexadecimal digits",
+    "language": "en, ja",
+    "position": "1, 2, 3 ...",
+    "presentation": "single, pair",
+    "side": "left, right",
+    "clip": "c01, c02 ...",
+    "aspect": "fingers_arms, body, mouth, ensemble",
+    "scale": "naturalness, synchrony",
+    "answer": "1, 2, 3, 4, 5",
+    "seconds": "12.3",
+}
+
+
+class ViewerFile(msgspec.Struct, frozen=True):
+    """The answers of one viewer.
+
+    Attributes
+    ----------
+    path : Path
+    answers : tuple of Answer
+        At least one, all of the same viewer.
+    lines : tuple of int
+        Line of each in the file, from 1.
+    """
+
+    path: Path
+    answers: tuple[Answer, ...]
+    lines: tuple[int, ...]
+
+    @property
+    def viewer(self) -> str:
+        """The viewer's id."""
+        return self.answers[0].viewer
+
+    @property
+    def evaluation(self) -> str:
+        """The evaluation's id."""
+        return self.answers[0].evaluation
+
+
+def read_answers(path: Path) -> ViewerFile:
+    """Read the file of one viewer.
+
+    Raises
+    ------
+    FileError
+        See the module's messages, and those of `app.formats.files.read_file`.
+    """
+    return decode_answers(read_file(path, MOST_BYTES), path)
+
+
+def decode_answers(content: bytes, path: Path) -> ViewerFile:
+    """The answers in a file's content; ``path`` is what errors name. Raises as `read_answers`."""
+    file = str(path)
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FileError("results.not_text", file=file) from error
+    if "\0" in text:
+        raise FileError("results.not_text", file=file)
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    header = lines[0]
+    separator = max(_SEPARATORS, key=header.count)
+    if tuple(_fields(header, separator)) != COLUMNS:
+        raise FileError("results.header", file=file, expected=",".join(COLUMNS))
+    if lines[-1]:
+        # The line's last field may have lost digits.
+        raise FileError("results.cut_off", file=file, line=len(lines))
+    rows = [
+        (number, _fields(line, separator))
+        for number, line in enumerate(lines[1:], start=2)
+        if line.strip(_SEPARATORS + " ")  # A spreadsheet may leave rows without content.
+    ]
+    if not rows:
+        raise FileError("results.empty", file=file)
+    found = ViewerFile(path, tuple(_answer(row, line, file) for line, row in rows), tuple(line for line, _ in rows))
+    _check_whole(found)
+    return found
+
+
+def encode_answers(answers: Sequence[Answer]) -> bytes:
+    """A file as the page writes it."""
+    lines = [",".join(COLUMNS)]
+    for answer in answers:
+        values = msgspec.structs.asdict(answer) | {"seconds": f"{answer.seconds:.1f}"}
+        lines.append(",".join("" if value is None else str(value) for value in values.values()))
+    return ("\ufeff" + "".join(f"{line}\r\n" for line in lines)).encode()
+
+
+def _fields(line: str, separator: str) -> list[str]:
+    """Fields of a line; no value of ours holds a line end, so that a quote which is not closed harms its line alone."""
+    try:
+        rows = list(csv.reader([line], delimiter=separator))
+    except csv.Error:
+        return [line]
+    return [field.strip() for field in rows[0]] if rows else []
+
+
+def _answer(row: Sequence[str], line: int, file: str) -> Answer:
+    if len(row) != len(COLUMNS):
+        raise FileError("results.row", file=file, line=line, found=len(row), expected=len(COLUMNS))
+    values: dict[str, object] = {}
+    for column, field in zip(COLUMNS, row, strict=True):
+        raw = field.replace(",", ".") if column == "seconds" else field
+        try:
+            # "Cannot judge" is an empty field; the kind without None would take the word "null" for it.
+            empty = column == "answer" and not raw
+            values[column] = None if empty else msgspec.convert(raw, _KINDS[column], strict=False)
+        except msgspec.ValidationError as error:
+            quoted, expected = shortened(field, _LONGEST), _EXPECTED[column]
+            raise FileError(
+                "results.value", file=file, line=line, column=column, found=quoted, expected=expected
+            ) from error
+    answer = Answer(**values)  # type: ignore[arg-type]
+    if (answer.presentation == "pair") != bool(answer.side):
+        raise FileError("results.side", file=file, line=line)
+    return answer
+
+
+def _check_whole(found: ViewerFile) -> None:
+    """One viewer, one evaluation, and no question answered twice."""
+    known: dict[tuple[int, str, str, str, str], int] = {}
+    for answer, line in zip(found.answers, found.lines, strict=True):
+        if (answer.viewer, answer.evaluation) != (found.viewer, found.evaluation):
+            raise FileError("results.viewers", file=str(found.path), line=line)
+        first = known.setdefault(answer.question, line)
+        if first != line:
+            raise FileError("results.repeated", file=str(found.path), line=line, first=first)
+
+
+_KINDS: Final = {field.name: field.type for field in msgspec.structs.fields(Answer)} | {
+    "answer": Annotated[int, Meta(ge=1, le=STEPS)]
+}

@@ -1,0 +1,180 @@
+"""What may be concluded of results, and what may not: messages, which the command line and the report word."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator
+from typing import Final
+
+import msgspec
+
+from app.errors import Argument, Message
+from app.evaluation.key import STEPS, Presentation, Variant
+from app.evaluation.results import Control, Question, Results
+from app.evaluation.statistics import SIGNIFICANT, smallest_p
+
+ENOUGH_VIEWERS: Final = 15
+"""ITU-R BT.500, number of observers."""
+RELIABLE_ALPHA: Final = 0.667
+"""Below it Krippendorff draws no conclusions."""
+
+
+class Conclusions(msgspec.Struct, frozen=True):
+    """Sentences, in the order of reading."""
+
+    may: tuple[Message, ...]
+    may_not: tuple[Message, ...]
+
+
+def conclude(results: Results) -> Conclusions:
+    """Say in words what the tables hold, and what they do not."""
+    return Conclusions(tuple(_may(results)), tuple(_may_not(results)))
+
+
+def p_text(p: float) -> str:
+    """A probability as it is reported."""
+    return "p < 0.001" if p < 0.001 else f"p = {p:.3f}"
+
+
+def said_of(question: Question) -> dict[str, Argument]:
+    """A question as arguments of a message."""
+    return {
+        "presentation": f"results.presentation_{question.presentation}",
+        "aspect": f"results.aspect_{question.aspect}",
+        "scale": f"results.scale_{question.scale}",
+    }
+
+
+def _may(results: Results) -> Iterator[Message]:
+    counts: dict[str, Argument] = {"answers": results.answers, "not_judged": results.not_judged}
+    yield Message("results.answered", {"viewers": len(results.viewers), **counts})
+    for control in results.controls:
+        if control.verdict == "noticed":
+            yield _of_control(control)
+    yield from _better(results)
+
+
+def _may_not(results: Results) -> Iterator[Message]:
+    yield from _viewers(results)
+    for control in results.controls:
+        if control.verdict != "noticed":
+            yield _of_control(control)
+    if not results.controls:
+        yield Message("results.no_control")
+    yield from _open(results)
+    yield from _agreement(results)
+    yield from _orders(results)
+    if len({score.question.presentation for score in results.scores}) > 1:
+        yield Message("results.not_pooled")
+    if results.incomplete:
+        yield Message("results.incomplete", _listed(results.incomplete))
+    if results.unvaried:
+        yield Message("results.unvaried", _listed(results.unvaried))
+    yield Message("results.scope")
+
+
+def _shown(steps: float) -> float:
+    """As exact as it is reported, and never "-0"."""
+    return round(steps, 2) + 0.0
+
+
+def _listed(ids: tuple[str, ...]) -> dict[str, Argument]:
+    return {"count": len(ids), "ids": ", ".join(ids)}
+
+
+def _of_control(control: Control) -> Message:
+    presentation = f"results.presentation_{control.presentation}"
+    if control.difference is None:
+        return Message("results.control_unjudged", {"presentation": presentation})
+    found: dict[str, Argument] = {
+        "presentation": presentation,
+        "difference": _shown(control.difference),
+        "p": p_text(1.0 if control.p is None else control.p),
+        "viewers": control.viewers,
+    }
+    if control.verdict == "noticed":
+        return Message("results.control_noticed", found)
+    if control.verdict == "unclear":
+        return Message("results.control_unclear", found)
+    return Message("results.control_unnoticed", found)
+
+
+def _better(results: Results) -> Iterator[Message]:
+    """Which variants were judged better than which, and in how many questions."""
+    total: dict[tuple[Presentation, frozenset[Variant]], int] = defaultdict(int)
+    found: dict[tuple[Presentation, Variant, Variant], list[float]] = defaultdict(list)
+    for contrast in results.contrasts:
+        presentation, mean = contrast.question.presentation, contrast.comparison.mean
+        total[presentation, frozenset((contrast.first, contrast.second))] += 1
+        if contrast.significant:
+            order = (contrast.first, contrast.second) if mean > 0.0 else (contrast.second, contrast.first)
+            found[presentation, *order].append(abs(mean))
+    for (presentation, better, worse), means in found.items():
+        said: dict[str, Argument] = {
+            "presentation": f"results.presentation_{presentation}",
+            "variant": f"results.variant_{better}",
+            "beside": f"results.variant_{worse}",
+            "count": len(means),
+            "total": total[presentation, frozenset((better, worse))],
+        }
+        yield Message("results.better", {**said, "most": max(means)})
+    if not found:
+        yield Message("results.none_better")
+
+
+def _viewers(results: Results) -> Iterator[Message]:
+    """Whether there are enough of them for anything."""
+    viewers = len(results.viewers)
+    if viewers == 1:
+        yield Message("results.one_viewer")
+        return
+    counts: dict[Question, int] = {}
+    for contrast in results.contrasts:
+        counts[contrast.question] = counts.get(contrast.question, 0) + 1
+    # The question with the fewest comparisons is corrected least.
+    comparisons = min(counts.values(), default=1)
+    least_p = min(1.0, comparisons * smallest_p(viewers))
+    if least_p >= SIGNIFICANT:
+        least = 2 + math.floor(math.log2(comparisons / SIGNIFICANT))
+        said: dict[str, Argument] = {"viewers": viewers, "p": p_text(least_p)}
+        yield Message("results.too_few", {**said, "comparisons": comparisons, "least": least})
+    elif viewers < ENOUGH_VIEWERS:
+        yield Message("results.few", {"viewers": viewers})
+
+
+def _open(results: Results) -> Iterator[Message]:
+    """What is not shown is not shown to be equal."""
+    tested = [contrast for contrast in results.contrasts if contrast.comparison.viewers > 1]
+    unshown = [contrast for contrast in tested if not contrast.significant]
+    if unshown:
+        yield Message("results.not_equal", {"count": len(unshown), "total": len(tested)})
+    of_film = [one for one in unshown if (one.first, one.second) == ("film", "generated")]
+    if of_film:
+        widest = max(of_film, key=lambda one: one.difference.high or 0.0)
+        worse = min(max(widest.difference.high or 0.0, 0.0), float(STEPS - 1))
+        yield Message("results.film_open", {**said_of(widest.question), "count": len(of_film), "worse": worse})
+    if tested:
+        yield Message("results.intervals")
+    questions = len({contrast.question for contrast in tested})
+    if questions > 1:
+        yield Message("results.uncorrected", {"questions": questions})
+
+
+def _agreement(results: Results) -> Iterator[Message]:
+    known = [one.alpha for one in results.agreements if one.alpha is not None]
+    low = sum(alpha < RELIABLE_ALPHA for alpha in known)
+    if low:
+        yield Message("results.disagree", {"count": low, "total": len(known)})
+
+
+def _orders(results: Results) -> Iterator[Message]:
+    for order in results.orders:
+        presentation, later = f"results.presentation_{order.presentation}", order.later
+        if later.low is None or later.high is None:
+            continue
+        if later.low > 0.0 or later.high < 0.0:
+            span: dict[str, Argument] = {"difference": later.mean, "low": _shown(later.low), "high": _shown(later.high)}
+            yield Message("results.later", {"presentation": presentation, **span})
+        else:
+            yield Message("results.order_open", {"presentation": presentation})

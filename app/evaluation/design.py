@@ -1,0 +1,108 @@
+"""The design of an evaluation: codes that say nothing, and orders in which no clip has an advantage.
+
+Orders are Williams squares (Williams 1949, Australian Journal of Scientific Research A2): every clip is equally often
+at every position, and every clip comes equally often directly before every other one.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+import secrets
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final, Literal, TypeAlias
+
+from app.evaluation.key import Variant
+
+PRESENTATIONS: Final = ("both", "single", "pair")
+Presentations: TypeAlias = Literal["both", "single", "pair"]
+_FIRST_DIGITS: Final = "abcdf"
+"""A spreadsheet takes 12345e67 and 00123456 for numbers."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A clip, or two beside each other, as a viewer sees it.
+
+    Attributes
+    ----------
+    left : str
+        The code of the clip; of a pair that of the left one.
+    right : str
+        Of a pair; empty for a single clip.
+    """
+
+    left: str
+    right: str = ""
+
+
+Order: TypeAlias = tuple[Shown, ...]
+
+
+def new_id() -> str:
+    """8 hexadecimal digits that no program takes for a number."""
+    return secrets.choice(_FIRST_DIGITS) + secrets.token_hex(4)[1:]
+
+
+def codes(count: int, seed: int) -> tuple[str, ...]:
+    """Codes ``c01`` and on, drawn in random order."""
+    width = max(2, len(str(count)))
+    drawn = [f"c{number:0{width}d}" for number in range(1, count + 1)]
+    random.Random(seed).shuffle(drawn)
+    return tuple(drawn)
+
+
+def williams(count: int) -> tuple[tuple[int, ...], ...]:
+    """A square of orders of 0 .. count - 1, twice as high where the count is odd.
+
+    Every number is equally often at every position, and every number equally often directly before every other one.
+    """
+    if count < 1:
+        return ((),)
+    # 0, 1, n - 1, 2, n - 2, ...: neighbours differ by every distance once.
+    first = [0]
+    for step in range(1, count):
+        first.append((step + 1) // 2 if step % 2 else count - step // 2)
+    rows = [tuple((value + shift) % count for value in first) for shift in range(count)]
+    if count % 2 and count > 1:
+        rows += [row[::-1] for row in rows]
+    return tuple(rows)
+
+
+def pairs_of(clips: Sequence[tuple[str, Variant, int]]) -> tuple[tuple[str, str], ...]:
+    """Which clips are shown beside each other: what the evaluation is about with every other variant, each pair in one
+    of the excerpts, in turn.
+
+    Parameters
+    ----------
+    clips : sequence of (code, variant, excerpt)
+    """
+    by_place = {(variant, excerpt): code for code, variant, excerpt in clips}
+    variants = list(dict.fromkeys(variant for _, variant, _ in clips))
+    excerpts = sorted({excerpt for _, _, excerpt in clips})
+    one: Variant = "generated" if "generated" in variants else variants[0]
+    others = [variant for variant in variants if variant != one]
+    found = []
+    for number, other in enumerate(others):
+        excerpt = excerpts[number % len(excerpts)]
+        found.append((by_place[one, excerpt], by_place[other, excerpt]))
+    return tuple(found)
+
+
+def orders(singles: Sequence[str], pairs: Sequence[tuple[str, str]]) -> tuple[Order, ...]:
+    """The order of every viewer, by number: first single clips, then pairs; after the last one they begin again.
+
+    Over all of them singles and pairs are balanced, and both clips of a pair are equally often at the left.
+    """
+    rows, pair_rows = williams(len(singles)), williams(len(pairs))
+    sides = 2 if pairs else 1
+    found = []
+    for viewer in range(math.lcm(len(rows), sides * len(pair_rows))):
+        order = [Shown(singles[place]) for place in rows[viewer % len(rows)]]
+        turned = viewer // len(pair_rows)
+        for place in pair_rows[viewer % len(pair_rows)]:
+            left, right = pairs[place] if (turned + place) % 2 == 0 else pairs[place][::-1]
+            order.append(Shown(left, right))
+        found.append(tuple(order))
+    return tuple(found)

@@ -1,0 +1,92 @@
+"""Which seconds of a piece are judged: bars that are asked for, or places with much to see and hear."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.project.model import Project
+
+Floats = npt.NDArray[np.float64]
+
+_STEP_S: Final = 0.25
+"""Excerpts are looked for at these distances."""
+_LEAD_IN_S: Final = 0.5
+"""An excerpt begins before a note: a viewer sees it prepared."""
+
+
+@dataclass(frozen=True)
+class Excerpt:
+    """Seconds of the performance."""
+
+    from_s: float
+    until_s: float
+
+    @property
+    def duration_s(self) -> float:
+        """Its length."""
+        return self.until_s - self.from_s
+
+
+def choose_excerpts(
+    project: Project, count: int, length_s: float, within_s: tuple[float, float] | None = None
+) -> tuple[Excerpt, ...]:
+    """Excerpts that contain playing, in order: the piece is cut into as many parts, and the fullest place of each is
+    taken. Fewer, or one that is shorter, where the piece does not hold so many.
+
+    Parameters
+    ----------
+    project : Project
+    count : int
+    length_s : float
+    within_s : (float, float), optional
+        Seconds that there is a film of.
+
+    Returns
+    -------
+    tuple of Excerpt
+        Empty where nothing is played.
+    """
+    starts_s, ends_s = _notes_s(project)
+    if not len(starts_s):
+        return ()
+    first_s, last_s = float(starts_s.min()) - _LEAD_IN_S, float(ends_s.max())
+    if within_s is not None:
+        first_s, last_s = max(first_s, within_s[0]), min(last_s, within_s[1])
+    if last_s <= first_s:
+        return ()
+    length_s = min(length_s, last_s - first_s)
+    count = max(1, min(count, int((last_s - first_s) / length_s + 1e-9)))
+    edges = np.linspace(first_s, last_s, count + 1)
+    found = list[Excerpt]()
+    for left_s, right_s in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
+        places = np.arange(left_s, right_s - length_s + 1e-6, _STEP_S)
+        played = [_played_s(starts_s, ends_s, place, place + length_s) for place in places.tolist()]
+        best = float(places[int(np.argmax(played))])
+        if max(played) > 0.0:
+            found.append(Excerpt(best, best + length_s))
+    return tuple(found)
+
+
+def _played_s(starts_s: Floats, ends_s: Floats, from_s: float, until_s: float) -> float:
+    """How many seconds of notes sound within these."""
+    return float(np.clip(np.minimum(ends_s, until_s) - np.maximum(starts_s, from_s), 0.0, None).sum())
+
+
+def _notes_s(project: Project) -> tuple[Floats, Floats]:
+    """When all notes of the players begin and end."""
+    notes = [note for player in project.players for note in project.part(player).notes]
+    clock = project.score.tempo_map
+    starts = np.array([note.onset_tick for note in notes], np.float64)
+    ends = np.array([note.end_tick for note in notes], np.float64)
+    return np.asarray(clock.seconds(starts), np.float64), np.asarray(clock.seconds(ends), np.float64)
+
+
+def practice_of(excerpts: Sequence[Excerpt], longest_s: float = 4.0) -> Excerpt:
+    """What is shown for practice: the beginning of the last excerpt."""
+    last = excerpts[-1]
+    return Excerpt(last.from_s, min(last.from_s + longest_s, last.until_s))

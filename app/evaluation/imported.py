@@ -1,0 +1,204 @@
+"""Videos that a performance is compared with: real players, or animation from elsewhere; placed by their sound.
+
+Messages
+--------
+evaluate.silent_video(file, option), evaluate.other_piece(file, percent, option),
+evaluate.other_tempo(file, percent), evaluate.not_covered(file, from_s, until_s, first_s, last_s).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.audio.decode import decode
+from app.audio.track import RATE_HZ, Block, Mix, Piece, Samples, Track
+from app.errors import FileError
+from app.evaluation.excerpts import Excerpt
+from app.formats.scratch import scratch_folder
+from app.formats.video import VideoFacts, VideoPictures, sound_into, video_facts, video_pictures
+from app.project.model import Project
+
+Picture = npt.NDArray[np.uint8]
+
+RECOGNISED: Final = 0.5
+"""Confidence below which a video's sound is rather that of another piece."""
+MOST_DRIFT_S: Final = 0.1
+"""A video whose sound comes to lie farther off than this by the end of the piece keeps another tempo."""
+MOST_S: Final = 2 * 3600.0
+"""What sounds later is not looked at."""
+_EARLY_S: Final = 0.05
+"""A video may begin so much later than what is shown of it."""
+
+
+@dataclass(frozen=True, eq=False)
+class ImportedVideo:
+    """A video at its place in the piece.
+
+    Attributes
+    ----------
+    offset_s : float
+        Performance time of its first picture.
+    facts : VideoFacts
+    samples : (N, 2) int16 or None
+        Its sound at `RATE_HZ`; None: it has none.
+    confidence : float or None
+        0..1 of the place; None: given by hand.
+    """
+
+    path: Path
+    offset_s: float
+    facts: VideoFacts
+    samples: Samples | None
+    confidence: float | None = None
+
+    @property
+    def covered_s(self) -> tuple[float, float]:
+        """Seconds of the performance that it shows."""
+        length_s = self.facts.duration_s
+        if length_s <= 0.0:
+            length_s = math.inf if self.samples is None else len(self.samples) / RATE_HZ
+        return self.offset_s, self.offset_s + length_s
+
+    def sound(self, excerpt: Excerpt) -> Block:
+        """Its sound during an excerpt (N, 2)."""
+        assert self.samples is not None
+        mix = Mix([Track([Piece(round(self.offset_s * RATE_HZ), self.samples)])])
+        return mix.read(round(excerpt.from_s * RATE_HZ), round(excerpt.duration_s * RATE_HZ))
+
+    def require_covered(self, excerpt: Excerpt) -> None:
+        """Raise FileError (``evaluate.not_covered``) where the video does not show all of an excerpt."""
+        first_s, last_s = self.covered_s
+        if excerpt.from_s < first_s - _EARLY_S or excerpt.until_s > last_s + _EARLY_S:
+            raise FileError(
+                "evaluate.not_covered",
+                file=str(self.path),
+                from_s=excerpt.from_s,
+                until_s=excerpt.until_s,
+                first_s=first_s,
+                last_s=last_s,
+            )
+
+
+def import_video(
+    project: Project,
+    path: Path,
+    option: str,
+    offset_s: float | None,
+    progress: Callable[[float], None],
+    stop_requested: Callable[[], bool],
+    follow: bool = False,
+) -> tuple[ImportedVideo, Project]:
+    """A video at its place, and the project at the video's tempo if that was asked for.
+
+    Parameters
+    ----------
+    option : str
+        What its place can be given with by hand, for messages.
+    offset_s : float or None
+        None: its sound is compared with the piece.
+    follow : bool
+        Whether the piece is to keep the video's tempo.
+
+    Raises
+    ------
+    FileError
+        Those of `app.formats.video`, and this module's.
+    AppError
+        Those of `app.audio.follow`.
+    Cancelled
+    """
+    facts = video_facts(str(path))
+    if not facts.has_sound:
+        if offset_s is None or follow:
+            raise FileError("evaluate.silent_video", file=str(path), option=option)
+        return ImportedVideo(path, offset_s, facts, None), project
+    samples = _sound(path, stop_requested)
+    progress(0.3)
+    if follow:
+        return _followed(project, path, facts, samples, lambda share: progress(0.3 + 0.7 * share), stop_requested)
+    if offset_s is not None:
+        return ImportedVideo(path, offset_s, facts, samples), project
+    from app.audio.offset import estimate_offset
+
+    found = estimate_offset(samples, RATE_HZ, project.score, lambda share: progress(0.3 + 0.7 * share), stop_requested)
+    percent = round(100 * found.confidence)
+    if found.confidence < RECOGNISED:
+        raise FileError("evaluate.other_piece", file=str(path), percent=percent, option=option)
+    score = project.score
+    drift_s = abs(found.tempo_ratio - 1.0) * float(score.tempo_map.seconds(float(score.end_tick)))
+    if drift_s > MOST_DRIFT_S:
+        faster = round(100.0 * (found.tempo_ratio - 1.0), 1)
+        raise FileError("evaluate.other_tempo", file=str(path), percent=faster)
+    return ImportedVideo(path, found.offset_s, facts, samples, found.confidence), project
+
+
+def _sound(path: Path, stop_requested: Callable[[], bool]) -> Samples:
+    with scratch_folder() as folder:
+        wave = folder / "sound.wav"
+        sound_into(str(path), wave, RATE_HZ, MOST_S, stop_requested)
+        return decode(str(wave), stop_requested=stop_requested).samples
+
+
+def _followed(
+    project: Project,
+    path: Path,
+    facts: VideoFacts,
+    samples: Samples,
+    progress: Callable[[float], None],
+    stop_requested: Callable[[], bool],
+) -> tuple[ImportedVideo, Project]:
+    from app.audio.follow import beats_of, follow
+    from app.project.edit.follow import follow_recording
+
+    score = project.score
+    following = follow(samples, RATE_HZ, score, beats_of(project.metre_map, score.end_tick), progress, stop_requested)
+    followed = follow_recording(project, following, path)
+    assert followed.audio is not None
+    video = ImportedVideo(path, followed.audio.offset_s, facts, samples, following.mean_confidence)
+    # The video is no recording that the synthesiser's place could take.
+    return video, replace(followed, audio=project.audio)
+
+
+@contextlib.contextmanager
+def pictures_of(video: ImportedVideo, from_s: float, size: tuple[int, int]) -> Iterator[Callable[[float], Picture]]:
+    """What draws a video's pictures at ascending times of the performance, whole and in the middle of a frame."""
+    facts = video.facts
+    share = min(size[0] / facts.width, size[1] / facts.height)
+    inner = (max(round(facts.width * share / 2) * 2, 2), max(round(facts.height * share / 2) * 2, 2))
+    first = _number(video, from_s)
+    with video_pictures(str(video.path), facts.rate, inner, first) as pictures:
+        yield _Framed(video, pictures, size, inner)
+
+
+class _Framed:
+    """Puts pictures into a frame; the last one stays where there are no more."""
+
+    def __init__(
+        self, video: ImportedVideo, pictures: VideoPictures, size: tuple[int, int], inner: tuple[int, int]
+    ) -> None:
+        self._video, self._pictures = video, pictures
+        self._frame = np.zeros((size[1], size[0], 3), np.uint8)
+        left, top = (size[0] - inner[0]) // 2, (size[1] - inner[1]) // 2
+        self._place = slice(top, top + inner[1]), slice(left, left + inner[0])
+
+    def __call__(self, time_s: float) -> Picture:
+        """What a player shows at a time."""
+        number, picture = _number(self._video, time_s), None
+        while self._pictures.next <= number and (found := self._pictures.read()) is not None:
+            picture = found
+        if picture is not None:
+            self._frame[self._place] = picture
+        return self._frame
+
+
+def _number(video: ImportedVideo, time_s: float) -> int:
+    """Which of a video's pictures is seen at a time of the performance."""
+    return max(math.floor((time_s - video.offset_s) * video.facts.rate + 1e-3), 0)

@@ -1,0 +1,119 @@
+"""Which variant is behind which clip: the file of the one who evaluates, never given to viewers.
+
+Messages
+--------
+evaluate.not_a_key(file, detail), evaluate.newer_key(file).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Final, Literal, TypeAlias
+
+import msgspec
+
+from app.errors import FileError
+from app.formats.atomic import atomic_write
+from app.formats.files import read_file
+
+KEY_FILE: Final = "key.json"
+VERSION: Final = 1
+_MOST_BYTES: Final = 4_000_000
+
+Variant: TypeAlias = Literal["film", "generated", "still", "shifted", "keyframes"]
+Aspect: TypeAlias = Literal["fingers_arms", "body", "mouth", "ensemble"]
+Scale: TypeAlias = Literal["naturalness", "synchrony"]
+Presentation: TypeAlias = Literal["single", "pair"]
+
+VARIANTS: Final[tuple[Variant, ...]] = ("film", "generated", "still", "shifted", "keyframes")
+"""Real players; ours; ours with amplitude 0; ours with late fingers, a control; animation from elsewhere."""
+ASPECTS: Final[tuple[Aspect, ...]] = ("fingers_arms", "body", "mouth", "ensemble")
+SCALES: Final[tuple[Scale, ...]] = ("naturalness", "synchrony")
+STEPS: Final = 5
+
+Code = Annotated[str, msgspec.Meta(pattern=r"^c[0-9]{2,4}$")]
+
+
+class Clip(msgspec.Struct, frozen=True):
+    """What is behind a code.
+
+    Attributes
+    ----------
+    code : str
+        ``c01`` and on; all that viewers get to know.
+    excerpt : int
+        Which excerpt of the piece, from 1.
+    from_s, until_s : float
+        The excerpt in seconds of the performance.
+    view : str
+        How the players are seen, as ``suisou film --view``.
+    player : str
+        Whom a close-up shows; empty: everyone.
+    """
+
+    code: Code
+    variant: Variant
+    excerpt: Annotated[int, msgspec.Meta(ge=1)]
+    from_s: float
+    until_s: float
+    view: str
+    player: str = ""
+
+
+class Key(msgspec.Struct, frozen=True):
+    """An evaluation.
+
+    Attributes
+    ----------
+    evaluation : str
+        Id, 8 hexadecimal digits, as in the answers.
+    piece : str
+        Its title.
+    seed : int
+        Codes and orders were drawn with it.
+    """
+
+    format: Literal["suisou-evaluation"]
+    version: int
+    evaluation: Annotated[str, msgspec.Meta(pattern=r"^[0-9a-f]{8}$")]
+    piece: str
+    seed: int
+    clips: tuple[Clip, ...]
+    aspects: tuple[Aspect, ...] = ASPECTS
+
+
+class _Head(msgspec.Struct):
+    format: Literal["suisou-evaluation"]
+    version: int
+
+
+def encoded_key(key: Key) -> bytes:
+    """The key as JSON that a person can read."""
+    return msgspec.json.format(msgspec.json.encode(key), indent=1) + b"\n"
+
+
+def write_key(key: Key, path: Path) -> None:
+    """Write a key whole or not at all. Raises FileError (``file.cannot_write``)."""
+    with atomic_write(path) as stream:
+        stream.write(encoded_key(key))
+
+
+def read_key(path: Path) -> Key:
+    """Read a key.
+
+    Raises
+    ------
+    FileError
+        ``evaluate.not_a_key``, ``evaluate.newer_key``; those of `app.formats.files.read_file`.
+    """
+    content = read_file(path, _MOST_BYTES)
+    try:
+        if msgspec.json.decode(content, type=_Head).version > VERSION:
+            raise FileError("evaluate.newer_key", file=str(path))
+        key = msgspec.json.decode(content, type=Key)
+    except (msgspec.DecodeError, RecursionError) as error:
+        raise FileError("evaluate.not_a_key", file=str(path), detail=str(error)) from error
+    codes = [clip.code for clip in key.clips]
+    if len(set(codes)) != len(codes):
+        raise FileError("evaluate.not_a_key", file=str(path), detail="two clips have the same code")
+    return key

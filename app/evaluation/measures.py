@@ -1,0 +1,272 @@
+"""What can be measured of a variant without viewers: lag, quantity of motion, breaths that show, contact."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import Final, Literal
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+from scipy.signal import butter, sosfiltfilt
+
+from app.contacts.breaks import Break
+from app.contacts.controls import NoteFrames
+from app.contacts.judge import ContactJudge
+from app.errors import FileError
+from app.evaluation.key import Variant
+from app.evaluation.onset_lag import LagMeasure, measure_lag
+from app.evaluation.variants import OURS, performance_of
+from app.formats.atomic import atomic_write
+from app.formats.files import read_file
+from app.motion.model import Motion
+from app.performance.cast import Performer, performers_of
+from app.performance.ensemble import Performance
+from app.performance.motion import player_motion, playing_of
+from app.performance.span import whole_span
+from app.plan.model import BreathEvent, FingeringEvent
+from app.project.model import Project
+from app.rig.skeleton import forward
+from metadata.model import BREATH_MORPHS
+
+MEASURES_FILE: Final = "measures.json"
+FPS: Final = Fraction(60)
+SEEN_HZ: Final = (0.3, 15.0)
+"""Slower motion is drift, faster is not seen."""
+VERSION: Final = 1
+_MOST_BYTES: Final = 16_000_000
+_AROUND_BREATH_S: Final = 0.05
+_LEAST_FRAMES: Final = 3
+
+FloatArray = npt.NDArray[np.float64]
+BoolArray = npt.NDArray[np.bool_]
+
+
+class Visible(msgspec.Struct, frozen=True):
+    """How far something moves while breaths are drawn, and in spans of the same lengths between them.
+
+    Both are medians over the breaths of highest minus lowest; None without a breath.
+    """
+
+    at_breaths: float | None
+    between: float | None
+
+
+class BreathVisibility(msgspec.Struct, frozen=True):
+    """What shows of breathing.
+
+    Attributes
+    ----------
+    breaths : int
+    chest_mm, shoulders_mm : Visible
+        Height above the hips of the upper chest, and of the shoulders' middle.
+    ribs, mouth : Visible
+        Weights of the shapes of a widened chest and of an open jaw, 0..1.
+    """
+
+    breaths: int
+    chest_mm: Visible
+    shoulders_mm: Visible
+    ribs: Visible
+    mouth: Visible
+
+
+class PlayerMeasures(msgspec.Struct, frozen=True):
+    """One player of a variant.
+
+    Attributes
+    ----------
+    lag : LagMeasure
+    head_mm_s : float or None
+        Quantity of motion, see `quantity_of_motion_mm_s`.
+    breath : BreathVisibility
+    notes : int
+        Notes in the frames that were measured.
+    contact : float or None
+        Share 0..1 of them during which every fingertip is where the judge of the exports wants it, within 1 mm.
+    """
+
+    player: str
+    lag: LagMeasure
+    head_mm_s: float | None
+    breath: BreathVisibility
+    notes: int
+    contact: float | None
+
+
+class VariantMeasures(msgspec.Struct, frozen=True):
+    """A variant; players who cannot be seen are not among its ``players``."""
+
+    variant: Variant
+    players: tuple[PlayerMeasures, ...]
+
+
+class _File(msgspec.Struct, frozen=True):
+    format: Literal["suisou-measures"]
+    version: int
+    variants: tuple[VariantMeasures, ...]
+
+
+def measure(
+    performance: Performance,
+    variant: Variant = "generated",
+    motions: Mapping[str, Motion] | None = None,
+    progress: Callable[[float], None] = lambda share: None,
+) -> VariantMeasures:
+    """Measure every player of a performance.
+
+    Parameters
+    ----------
+    performance : Performance
+        When notes sound and breaths are drawn.
+    motions : mapping of str to Motion, optional
+        By player id, what is seen, where it is not this performance; players who are not there are not measured.
+    progress : callable
+        Called with the share 0..1 that is done; what it raises stops the work.
+    """
+    motions = motions_of(performance) if motions is None else motions
+    performers = performers_of(performance, performance.project.players).made
+    found = []
+    for done, player_id in enumerate(motions):
+        progress(done / len(motions))
+        found.append(measure_player(performance, performers[player_id], motions[player_id]))
+    progress(1.0)
+    return VariantMeasures(variant, tuple(found))
+
+
+def measure_variants(
+    project: Project, variants: Sequence[Variant], progress: Callable[[float], None] = lambda share: None
+) -> tuple[VariantMeasures, ...]:
+    """Measure those of an evaluation's variants that are ours, each against when the notes sound.
+
+    Parameters
+    ----------
+    progress : callable
+        Called with the share 0..1 that is done; what it raises stops the work.
+    """
+    ours = [variant for variant in OURS if variant in variants]
+    sounding = Performance(project)
+    found = []
+    for number, variant in enumerate(ours):
+
+        def shown(share: float, number: int = number) -> None:
+            progress((number + share) / len(ours))
+
+        seen = performance_of(project, variant)
+        found.append(measure(sounding if variant == "shifted" else seen, variant, motions_of(seen), shown))
+    return tuple(found)
+
+
+def motions_of(performance: Performance) -> dict[str, Motion]:
+    """What is seen of everyone, at `FPS`, by player id."""
+    span = whole_span(performance.time_frame, FPS)
+    performers = performers_of(performance, performance.project.players).made
+    return {player_id: player_motion(performance, performer, span) for player_id, performer in performers.items()}
+
+
+def measure_player(performance: Performance, performer: Performer, motion: Motion) -> PlayerMeasures:
+    """Measure a motion against what its player plays."""
+    plan = performance.plan(performer.player)
+    fps = float(motion.fps)
+    times_s = motion.first_frame_s + np.arange(motion.frames) / fps
+    sounding = NoteFrames(times_s, plan.fingerings).sounding
+    skeleton = performer.character.skeleton
+    names: list[str] = [name for name in ("head", *_CHEST, *_SHOULDERS, "hips") if name in skeleton.names]
+    joints = forward(skeleton, motion.rotations, motion.hips_m, [skeleton.index(name) for name in names])
+    places: dict[str, FloatArray] = {name: joints.of(skeleton.index(name))[0] for name in names}
+    breaks = ContactJudge(playing_of(performance, performer), performer.character, performer.model).breaks(motion)
+    notes = [note for note in plan.fingerings if times_s[0] <= note.start_s and note.end_s <= times_s[-1]]
+    return PlayerMeasures(
+        player=performer.player.name,
+        lag=measure_lag(plan.fingerings, performer.instrument.controls, motion.controls, times_s),
+        head_mm_s=quantity_of_motion_mm_s(places["head"], fps, sounding),
+        breath=_breath_visibility(plan.breaths, times_s, places, motion.morphs),
+        notes=len(notes),
+        contact=_contact(notes, breaks),
+    )
+
+
+def quantity_of_motion_mm_s(place_m: FloatArray, fps: float, counted: BoolArray) -> float | None:
+    """RMS speed of a point between 0.3 and 15 Hz, or what the frame rate can hold of that, in mm/s.
+
+    Parameters
+    ----------
+    place_m : (F, 3) float64
+    counted : (F,) bool
+        Frames that count, usually those with a note; None is returned where there are none, or too few to filter.
+    """
+    period_frames = fps / SEEN_HZ[0]
+    if not counted.any() or len(place_m) < period_frames:
+        return None
+    top_hz = min(SEEN_HZ[1], 0.45 * fps)
+    sections = butter(2, (SEEN_HZ[0], top_hz), "band", fs=fps, output="sos")
+    moved = np.asarray(sosfiltfilt(sections, place_m, axis=0))
+    speed = np.linalg.norm(np.gradient(moved, axis=0), axis=1) * fps * 1000.0
+    return round(float(np.sqrt(np.mean(np.square(speed[counted])))), 2)
+
+
+_CHEST: Final = ("upperChest", "chest")
+_SHOULDERS: Final = ("leftUpperArm", "rightUpperArm")
+
+
+def _breath_visibility(
+    breaths: Sequence[BreathEvent],
+    times_s: FloatArray,
+    places: Mapping[str, FloatArray],
+    morphs: Mapping[str, npt.NDArray[np.float32]],
+) -> BreathVisibility:
+    drawn = [event for event in breaths if event.kind == "breath"]
+    spans, rests = [], []
+    for event, following in zip(drawn, [*drawn[1:], None], strict=True):
+        begin_s, end_s = event.start_s - _AROUND_BREATH_S, event.end_s + _AROUND_BREATH_S
+        if begin_s >= times_s[0] and end_s <= times_s[-1]:
+            spans.append(_frames(times_s, begin_s, end_s))
+        until_s = min(times_s[-1], following.start_s - _AROUND_BREATH_S if following is not None else times_s[-1])
+        middle_s, half_s = 0.5 * (end_s + until_s), 0.5 * (end_s - begin_s)
+        if middle_s - half_s >= max(end_s, times_s[0]) and middle_s + half_s <= until_s:
+            rests.append(_frames(times_s, middle_s - half_s, middle_s + half_s))
+    still = np.zeros(len(times_s))
+    hips = places["hips"][:, 1]
+    chest = next((places[name][:, 1] - hips for name in _CHEST if name in places), still)
+    sides = [places[name][:, 1] - hips for name in _SHOULDERS if name in places]
+    shoulders = np.mean(sides, axis=0) if sides else still
+    curves = (1000.0 * chest, 1000.0 * shoulders, morphs.get(BREATH_MORPHS[0], still), morphs.get("jawOpen", still))
+    return BreathVisibility(len(spans), *(Visible(_range(curve, spans), _range(curve, rests)) for curve in curves))
+
+
+def _frames(times_s: FloatArray, begin_s: float, end_s: float) -> slice:
+    first, last = np.searchsorted(times_s, (begin_s, end_s))
+    return slice(int(first), max(int(last), int(first) + _LEAST_FRAMES))
+
+
+def _range(curve: npt.NDArray[np.floating], spans: Sequence[slice]) -> float | None:
+    return round(float(np.median([np.ptp(curve[span]) for span in spans])), 4) if spans else None
+
+
+def _contact(notes: Sequence[FingeringEvent], breaks: Sequence[Break]) -> float | None:
+    """Share of the notes within which no finger and no hand has left its place."""
+    if not notes:
+        return None
+    off = [(found.start_s, found.end_s) for found in breaks if found.kind in ("touch", "hand")]
+    kept = sum(not any(start_s < note.end_s and end_s >= note.start_s for start_s, end_s in off) for note in notes)
+    return round(kept / len(notes), 4)
+
+
+def write_measures(variants: Sequence[VariantMeasures], path: Path) -> None:
+    """Write measures whole or not at all. Raises FileError (``file.cannot_write``)."""
+    content = msgspec.json.encode(_File("suisou-measures", VERSION, tuple(variants)))
+    with atomic_write(path) as stream:
+        stream.write(msgspec.json.format(content, indent=1) + b"\n")
+
+
+def read_measures(path: Path) -> tuple[VariantMeasures, ...]:
+    """Read measures. Raises FileError (``results.not_measures``; those of `read_file`)."""
+    try:
+        found = msgspec.json.decode(read_file(path, _MOST_BYTES), type=_File)
+    except (msgspec.DecodeError, RecursionError) as error:
+        raise FileError("results.not_measures", file=str(path), detail=str(error)) from error
+    if found.version > VERSION:
+        raise FileError("evaluate.newer_key", file=str(path))
+    return found.variants

@@ -1,0 +1,139 @@
+"""When valves, keys, holes and slides arrive where a note needs them, against when it sounds.
+
+Thresholds are those of ITU-R BT.1359-1 (1998) for sound and vision in broadcasting: on average viewers detect sound
+that is 45 ms ahead of the picture or 125 ms behind it, and accept up to 90 and 185 ms. A positive lag is an action that
+is seen after its note is heard.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Final
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.contacts.bounds import PRESSED, SLIDE_M, in_place
+from app.plan.model import FingeringEvent
+from instrument_maps.model import Control
+
+DETECTED_S: Final = (-0.125, 0.045)
+ACCEPTED_S: Final = (-0.185, 0.090)
+_AROUND_S: Final = 0.5
+"""An arrival belongs to a note at most so far from it."""
+_PHRASE_S: Final = 0.15
+"""After a longer rest fingers are in place early, unheard: such a note says nothing about lag."""
+
+FloatArray = npt.NDArray[np.float64]
+
+
+class LagMeasure(msgspec.Struct, frozen=True):
+    """Lags of the notes within phrases for which anything moves.
+
+    Attributes
+    ----------
+    notes : int
+        Judged notes. A note's lag is that of its last control.
+    missed : int
+        Those of which a control never arrives; they are in neither lag, and outside both pairs of thresholds.
+    median_ms, latest_ms : float or None
+        None where nothing arrives.
+    detectable, unacceptable : float or None
+        Share 0..1 of the judged notes that are outside; None without any.
+    """
+
+    notes: int
+    missed: int
+    median_ms: float | None
+    latest_ms: float | None
+    detectable: float | None
+    unacceptable: float | None
+
+
+def measure_lag(
+    fingerings: Sequence[FingeringEvent],
+    controls: Sequence[Control],
+    values: Mapping[str, npt.NDArray[np.floating]],
+    times_s: FloatArray,
+) -> LagMeasure:
+    """Compare what is seen with what is heard.
+
+    Parameters
+    ----------
+    fingerings : sequence of FingeringEvent
+        Of the notes as they sound, by onset.
+    controls : sequence of Control
+        Of the instrument; those without ``values`` are not seen.
+    values : mapping of str to (F,)
+        Of the motion, by control.
+    times_s : (F,) float64
+    """
+    last_s: dict[int, float] = {}
+    for control in controls:
+        if control.name in values:
+            for note, lag_s in _lags(fingerings, control, np.asarray(values[control.name], np.float64), times_s):
+                last_s[note] = max(last_s.get(note, -np.inf), lag_s)
+    lags_s = np.array(list(last_s.values()))
+    arrived_s = lags_s[np.isfinite(lags_s)]
+    return LagMeasure(
+        notes=len(lags_s),
+        missed=len(lags_s) - len(arrived_s),
+        median_ms=round(1000.0 * float(np.median(arrived_s)), 1) if len(arrived_s) else None,
+        latest_ms=round(1000.0 * float(arrived_s.max()), 1) if len(arrived_s) else None,
+        detectable=_share_outside(lags_s, DETECTED_S),
+        unacceptable=_share_outside(lags_s, ACCEPTED_S),
+    )
+
+
+def _lags(
+    fingerings: Sequence[FingeringEvent], control: Control, values: FloatArray, times_s: FloatArray
+) -> Iterator[tuple[int, float]]:
+    """Index of every judged note for which the control moves, and its lag; infinite where it never arrives.
+
+    Arrivals are taken in the order of the notes, each once, so that a trill which is seen late is not taken for its
+    next note.
+    """
+    arrivals: dict[tuple[float, float], FloatArray] = {}
+    before, free_s, ended_s = control.rest_value, -np.inf, -np.inf
+    for index, note in enumerate(fingerings):
+        target = note.controls.get(control.name, control.rest_value)
+        change, after_rest_s = (before, target), note.start_s - ended_s
+        # In a rest fingers leave for the next note when the last one ends.
+        first_s = min(note.start_s, ended_s) - _AROUND_S
+        vented = note.vent is not None and control.name in note.vent.controls
+        before, ended_s = control.rest_value if vented else target, note.end_s
+        if bool(in_place(control, np.array([change[0]]), np.array([target]))[0]):
+            continue
+        if note.start_s - _AROUND_S < times_s[0] or note.start_s + _AROUND_S > times_s[-1]:
+            continue
+        if change not in arrivals:
+            arrivals[change] = _arrivals_s(control, values, *change, times_s)
+        all_s = arrivals[change]
+        place = int(np.searchsorted(all_s, max(free_s, first_s), side="right"))
+        found = place < len(all_s) and all_s[place] <= note.start_s + _AROUND_S
+        if found:
+            free_s = float(all_s[place])
+        if after_rest_s <= _PHRASE_S:
+            yield index, free_s - note.start_s if found else np.inf
+
+
+def _arrivals_s(control: Control, values: FloatArray, before: float, target: float, times_s: FloatArray) -> FloatArray:
+    """When a control comes to a place, ascending: where the last tenth of its way from ``before`` begins, or where it
+    touches (`app.contacts.bounds.in_place`), if that is later; between the last frame away and the first one there."""
+    touches = SLIDE_M / control.travel_m if control.kind == "slide" and control.travel_m else 1.0 - PRESSED
+    bound = min(touches, (1.0 - PRESSED) * abs(target - before)) + 1e-9
+    off = np.abs(values - target)
+    after = np.flatnonzero((off[1:] <= bound) & (off[:-1] > bound)) + 1
+    # As far along between the frames as if the motion were even there.
+    share = (off[after - 1] - bound) / (off[after - 1] - off[after])
+    crossed: FloatArray = times_s[after - 1] + share * (times_s[after] - times_s[after - 1])
+    return crossed
+
+
+def _share_outside(lags_s: FloatArray, bounds_s: tuple[float, float]) -> float | None:
+    if not len(lags_s):
+        return None
+    # A lag on a bound is inside; frames are not more exact than this.
+    outside = (lags_s < bounds_s[0] - 1e-9) | (lags_s > bounds_s[1] + 1e-9)
+    return round(float(np.count_nonzero(outside)) / len(lags_s), 4)

@@ -1,0 +1,173 @@
+"""What is computed of answers: intervals, rank tests, agreement. Values of one viewer are never mixed with another's.
+
+Nothing here is NaN, and nothing warns: what cannot be computed is None.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Final, Literal
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+from scipy import stats
+
+LEVEL: Final = 0.95
+SIGNIFICANT: Final = 0.05
+_EXACT: Final = 200
+"""Of more differences the normal approximation is as good."""
+
+FloatArray = npt.NDArray[np.float64]
+
+
+class Summary(msgspec.Struct, frozen=True):
+    """Mean and spread over viewers.
+
+    Attributes
+    ----------
+    viewers : int
+    mean, median : float
+    deviation : float or None
+        Standard deviation of the sample; None for a single viewer.
+    low, high : float or None
+        Interval of the mean at `LEVEL`, by Student's t; None for a single viewer. Without any spread it has no width.
+    """
+
+    viewers: int
+    mean: float
+    median: float
+    deviation: float | None
+    low: float | None
+    high: float | None
+
+
+class Comparison(msgspec.Struct, frozen=True):
+    """Differences of two conditions, paired by viewer.
+
+    Attributes
+    ----------
+    viewers : int
+        Who judged both.
+    differing : int
+        Whose difference is not zero: only they are ranked.
+    mean : float
+        Mean difference, first minus second.
+    statistic : float or None
+        Wilcoxon's signed-rank statistic, the smaller sum of ranks; None where no difference is left.
+    p : float or None
+        Two-sided.
+    effect : float or None
+        Matched-pairs rank-biserial correlation, -1 to 1: positive where the first is judged better.
+    """
+
+    viewers: int
+    differing: int
+    mean: float
+    statistic: float | None
+    p: float | None
+    effect: float | None
+
+
+def summary(values: Sequence[float]) -> Summary | None:
+    """Of one value for each viewer; None of nobody."""
+    if not values:
+        return None
+    given = np.asarray(values, np.float64)
+    mean, median = float(given.mean()), float(np.median(given))
+    if len(given) == 1:
+        return Summary(1, mean, median, None, None, None)
+    deviation = float(given.std(ddof=1))
+    half = float(stats.t.ppf(0.5 + LEVEL / 2.0, len(given) - 1)) * deviation / math.sqrt(len(given))
+    return Summary(len(given), mean, median, deviation, mean - half, mean + half)
+
+
+def compared(differences: Sequence[float]) -> Comparison | None:
+    """Wilcoxon's signed-rank test of one difference for each viewer; None of nobody.
+
+    Zeros are left out (Wilcoxon's own way). Differences that are equal up to rounding of the mean share a rank.
+    """
+    if not differences:
+        return None
+    given = np.round(np.asarray(differences, np.float64), 9)
+    mean, ranked = float(given.mean()), given[given != 0.0]
+    if not len(ranked):
+        return Comparison(len(given), 0, mean, None, None, None)
+    ranks = stats.rankdata(np.abs(ranked))
+    above, below = float(ranks[ranked > 0.0].sum()), float(ranks[ranked < 0.0].sum())
+    p = float(_wilcoxon_p(ranked, "two-sided"))
+    return Comparison(len(given), len(ranked), mean, min(above, below), p, (above - below) / (above + below))
+
+
+def lower_p(differences: Sequence[float]) -> float | None:
+    """Wilcoxon's p that differences are below zero, one-sided; None where all are zero."""
+    given = np.round(np.asarray(differences, np.float64), 9)
+    ranked = given[given != 0.0]
+    return float(_wilcoxon_p(ranked, "less")) if len(ranked) else None
+
+
+def _wilcoxon_p(ranked: FloatArray, alternative: Literal["two-sided", "less"]) -> float:
+    """Wilcoxon's p of differences without zeros.
+
+    Exact with ties too, which there always are among means of a few steps: scipy can only enumerate all signs then,
+    which takes a second for a single comparison of 13 viewers, and is not exact for more.
+    """
+    if len(ranked) > _EXACT:
+        return min(1.0, float(stats.wilcoxon(ranked, alternative=alternative, method="approx").pvalue))
+    # Ranks of ties are halves.
+    doubled = np.rint(2.0 * stats.rankdata(np.abs(ranked))).astype(np.int64)
+    chances = np.zeros(int(doubled.sum()) + 1)
+    chances[0] = 1.0
+    for rank in doubled.tolist():
+        # Each rank is above zero or below with the same chance.
+        chances[rank:] = chances[rank:] + chances[: len(chances) - rank]
+        chances *= 0.5
+    above = int(doubled[ranked > 0.0].sum())
+    below_p, above_p = float(chances[: above + 1].sum()), float(chances[above:].sum())
+    return min(1.0, below_p if alternative == "less" else 2.0 * min(below_p, above_p))
+
+
+def smallest_p(differing: int) -> float:
+    """The smallest two-sided p that so many viewers can give, if all agree."""
+    return min(1.0, 2.0 ** (1 - differing))
+
+
+def holm(ps: Sequence[float]) -> list[float]:
+    """Holm's correction for several comparisons (1979), in the order given."""
+    order = sorted(range(len(ps)), key=lambda index: ps[index])
+    corrected, least = [0.0] * len(ps), 0.0
+    for rank, index in enumerate(order):
+        least = max(least, min(1.0, (len(ps) - rank) * ps[index]))
+        corrected[index] = least
+    return corrected
+
+
+def ordinal_alpha(ratings: Mapping[object, Sequence[int]]) -> float | None:
+    """Krippendorff's alpha for ordinal data (Krippendorff 2011, "Computing Krippendorff's alpha-reliability").
+
+    Parameters
+    ----------
+    ratings : mapping of unit to sequence of int
+        What viewers said of each unit; a viewer who said nothing is not among them.
+
+    Returns
+    -------
+    float or None
+        1: all agree; 0: as by chance. None where no unit has two ratings, or all ratings are the same.
+    """
+    pairable = [given for given in ratings.values() if len(given) > 1]
+    values = sorted({value for given in pairable for value in given})
+    if len(values) < 2:
+        return None
+    place = {value: index for index, value in enumerate(values)}
+    coincidences = np.zeros((len(values), len(values)))
+    for given in pairable:
+        counts = np.bincount([place[value] for value in given], minlength=len(values)).astype(np.float64)
+        coincidences += (np.outer(counts, counts) - np.diag(counts)) / (len(given) - 1)
+    totals = coincidences.sum(axis=1)
+    # The distance of two steps is how many ratings lie between them, half of their own included.
+    middles = np.cumsum(totals) - totals / 2.0
+    distances = np.square(middles[:, None] - middles[None, :])
+    expected = float((np.outer(totals, totals) * distances).sum()) / (float(totals.sum()) - 1.0)
+    return 1.0 - float((coincidences * distances).sum()) / expected

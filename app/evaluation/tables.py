@@ -1,0 +1,173 @@
+"""Results as tables of texts, in a language: for the terminal, for Markdown and for CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import msgspec
+
+from app.errors import Message
+from app.evaluation.conclusions import p_text, said_of
+from app.evaluation.key import Variant
+from app.evaluation.measures import VariantMeasures, Visible
+from app.evaluation.results import Question, Results
+from app.messages import WORDINGS, text
+
+NONE = "-"
+"""Where there is nothing to tell."""
+
+
+class Table(msgspec.Struct, frozen=True):
+    """A table: what it is called, what its columns are, and what they mean."""
+
+    title: str
+    note: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    names: int
+    """So many columns from the left are names, the others numbers."""
+
+
+def tables(results: Results, measures: Sequence[VariantMeasures], language: str) -> list[Table]:
+    """All of them; that of the measures only where there are any."""
+    found = [_scores(results, language), _contrasts(results, language), _agreements(results, language)]
+    return [*found, *([measures_table(measures, language)] if measures else [])]
+
+
+def variant_name(variant: Variant, language: str) -> str:
+    """What a variant is called."""
+    return text(Message(f"results.variant_{variant}"), language)
+
+
+def _table(
+    title: str, note: str, head: Sequence[str], rows: Sequence[tuple[str, ...]], names: int, language: str
+) -> Table:
+    def word(id: str) -> str:
+        return text(Message(id), language)
+
+    return Table(word(title), word(note), tuple(word(f"results.{name}") for name in head), tuple(rows), names)
+
+
+def _asked(question: Question, language: str) -> tuple[str, str, str]:
+    place = 0 if language == "en" else 1
+    said = [WORDINGS[str(id)][place] for id in said_of(question).values()]
+    return said[0], said[1], said[2]
+
+
+def _scores(results: Results, language: str) -> Table:
+    rows = []
+    for score in results.scores:
+        over = score.over_viewers
+        spread = (None, None, None) if over is None else (over.mean, over.median, over.deviation)
+        rows.append(
+            (
+                *_asked(score.question, language),
+                variant_name(score.variant, language),
+                str(0 if over is None else over.viewers),
+                str(score.answers),
+                str(score.not_judged),
+                *(_number(value) for value in spread),
+                NONE if over is None else _interval(over.low, over.high),
+            )
+        )
+    head = ("viewers_head", "answers_head", "not_judged_head", "mean", "median", "deviation", "interval")
+    return _table(
+        "results.scores",
+        "results.scores_note",
+        ("presentation", "aspect", "scale", "variant", *head),
+        rows,
+        4,
+        language,
+    )
+
+
+def _contrasts(results: Results, language: str) -> Table:
+    rows = []
+    for contrast in results.contrasts:
+        comparison, spread = contrast.comparison, contrast.difference
+        pair = f"{variant_name(contrast.first, language)} − {variant_name(contrast.second, language)}"
+        rows.append(
+            (
+                *_asked(contrast.question, language),
+                pair,
+                str(comparison.viewers),
+                f"{comparison.mean:+.2f}",
+                _interval(spread.low, spread.high, signed=True),
+                _p(comparison.p),
+                _p(contrast.corrected_p) + ("*" if contrast.significant else ""),
+                _number(comparison.effect, signed=True),
+            )
+        )
+    head = ("viewers_head", "difference", "interval", "p", "corrected", "effect")
+    return _table(
+        "results.contrasts",
+        "results.contrasts_note",
+        ("presentation", "aspect", "scale", "compared", *head),
+        rows,
+        4,
+        language,
+    )
+
+
+def _agreements(results: Results, language: str) -> Table:
+    rows = [
+        (*_asked(one.question, language), str(one.clips), _number(one.alpha, signed=True)) for one in results.agreements
+    ]
+    return _table(
+        "results.agreements",
+        "results.agreements_note",
+        ("presentation", "aspect", "scale", "clips", "alpha"),
+        rows,
+        3,
+        language,
+    )
+
+
+def measures_table(measures: Sequence[VariantMeasures], language: str) -> Table:
+    """What was measured, a row for every player of every variant."""
+    rows = []
+    for variant in measures:
+        for player in variant.players:
+            lag, breath = player.lag, player.breath
+            rows.append(
+                (
+                    variant_name(variant.variant, language),
+                    player.player,
+                    _number(lag.median_ms, 0, signed=True),
+                    _percent(lag.detectable),
+                    _percent(lag.unacceptable),
+                    _number(player.head_mm_s, 1),
+                    _visible(breath.shoulders_mm, 1.0, 1),
+                    _visible(breath.mouth, 100.0, 0),
+                    _percent(player.contact),
+                )
+            )
+    head = ("lag", "detected", "unaccepted", "head", "shoulders", "mouth_opens", "contact")
+    return _table("results.measures", "results.measures_note", ("variant", "player", *head), rows, 2, language)
+
+
+def _number(value: float | None, digits: int = 2, signed: bool = False) -> str:
+    if value is None:
+        return NONE
+    # Never "-0".
+    rounded = round(value, digits) + 0.0
+    return f"{rounded:+.{digits}f}" if signed else f"{rounded:.{digits}f}"
+
+
+def _percent(share: float | None) -> str:
+    return NONE if share is None else f"{100.0 * share:.1f}"
+
+
+def _visible(found: Visible, factor: float, digits: int) -> str:
+    both = (found.at_breaths, found.between)
+    return " / ".join(NONE if value is None else f"{factor * value:.{digits}f}" for value in both)
+
+
+def _interval(low: float | None, high: float | None, signed: bool = False) -> str:
+    if low is None or high is None:
+        return NONE
+    return f"{_number(low, signed=signed)} … {_number(high, signed=signed)}"
+
+
+def _p(p: float | None) -> str:
+    return NONE if p is None else p_text(p).removeprefix("p ").removeprefix("= ")

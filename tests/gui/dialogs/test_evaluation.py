@@ -1,0 +1,164 @@
+"""The evaluation dialog: what is chosen is asked for, and it is made beside the window."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton
+from pytestqt.qtbot import QtBot
+
+from app.editor.session import Session
+from app.editor.tasks import ThreadTasks
+from app.errors import AppError, Cancelled, Message
+from app.evaluation.process import Finished, made_by_process
+from app.evaluation.request import Request
+from app.project.model import Project
+from tests.gui.conftest import quartet_project
+from widgets.common.paths import PathEdit
+from widgets.dialogs.evaluation import EvaluationDialog, Make
+
+
+@pytest.fixture
+def threaded(qt_app: object) -> Iterator[Session]:
+    tasks = ThreadTasks()
+    session = Session(quartet_project(), tasks)
+    yield session
+    tasks.cancel_all(5.0)
+    session.deleteLater()
+
+
+def dialog_of(session: Session, make: Make, folder: Path) -> EvaluationDialog:
+    dialog = EvaluationDialog(session, make, folder, "Quartet")
+    dialog.show()
+    return dialog
+
+
+def press(dialog: EvaluationDialog, name: str) -> None:
+    QTest.mouseClick(dialog.findChild(QPushButton, name), Qt.MouseButton.LeftButton)
+
+
+def said(dialog: EvaluationDialog) -> str:
+    state = dialog.findChild(QLabel, "evaluation_state")
+    assert state is not None
+    return state.text()
+
+
+def enabled(dialog: EvaluationDialog) -> bool:
+    button = dialog.findChild(QPushButton, "evaluation_start")
+    assert button is not None
+    return button.isEnabled()
+
+
+def test_what_is_chosen_is_asked_for(threaded: Session, qtbot: QtBot, tmp_path: Path) -> None:
+    asked: list[Request] = []
+
+    def make(
+        project: Project, request: Request, report: Callable[[float, Message], None], stop: Callable[[], bool]
+    ) -> Finished:
+        assert project is threaded.project
+        asked.append(request)
+        report(0.5, Message("evaluate.step_sound"))
+        return Finished(12, 3, (("Horn", Message("picture.loading")),), -3.25, 0.875)
+
+    dialog = dialog_of(threaded, make, tmp_path / "made")
+    film = dialog.findChild(PathEdit, "evaluation_film")
+    place = dialog.findChild(QComboBox, "evaluation_place")
+    view = dialog.findChild(QComboBox, "evaluation_view")
+    assert film is not None
+    assert place is not None
+    assert view is not None
+    assert not place.isEnabled()
+    film.set_path(tmp_path / "film.mp4")
+    place.setCurrentIndex(place.findData("follow"))
+    view.setCurrentIndex(view.findData("hands"))
+    press(dialog, "evaluation_start")
+    qtbot.waitUntil(lambda: "evaluation.html" in said(dialog))
+    (request,) = asked
+    assert request.folder == str(tmp_path / "made")
+    assert request.variants == ("film", "generated", "still", "shifted")
+    assert (request.film, request.follow_film, request.film_offset_s) == (str(tmp_path / "film.mp4"), True, None)
+    assert (request.view, request.player_ids) == ("hands", (threaded.project.bodies[0].id,))
+    assert (request.title, request.excerpts, request.size) == ("Quartet", 3, (640, 360))
+    for part in ("-3.25 s", "88 %", "Horn", "made"):
+        assert part in said(dialog)
+    dialog.close()
+
+
+def test_it_is_not_begun_without_two_variants_or_onto_another(threaded: Session, tmp_path: Path) -> None:
+    (tmp_path / "key.json").write_text("{}")
+
+    def make(*asked: object) -> Finished:
+        raise AssertionError("nothing is to be made")
+
+    dialog = dialog_of(threaded, make, tmp_path / "made")
+    assert enabled(dialog)
+    for name in ("evaluation_still", "evaluation_shifted"):
+        box = dialog.findChild(QCheckBox, name)
+        assert box is not None
+        box.setChecked(False)
+    assert not enabled(dialog)
+    assert "at least two" in said(dialog)
+    box.setChecked(True)
+    assert enabled(dialog)
+    folder = dialog.findChild(PathEdit, "evaluation_folder")
+    assert folder is not None
+    folder.set_path(tmp_path)
+    assert not enabled(dialog)
+    assert "choose another folder" in said(dialog)
+    dialog.close()
+
+
+def test_a_trouble_is_said_and_cancelling_ends_it(threaded: Session, qtbot: QtBot, tmp_path: Path) -> None:
+    begun: list[bool] = []
+
+    def make(
+        project: Project, request: Request, report: Callable[[float, Message], None], stop: Callable[[], bool]
+    ) -> Finished:
+        if not begun:
+            begun.append(True)
+            raise AppError("evaluate.no_excerpt")
+        while not stop():
+            report(0.25, Message("evaluate.step_pairs"))
+        raise Cancelled("work.stopped")
+
+    dialog = dialog_of(threaded, make, tmp_path / "made")
+    press(dialog, "evaluation_start")
+    qtbot.waitUntil(lambda: "nothing is played" in said(dialog))
+    press(dialog, "evaluation_start")
+    qtbot.waitUntil(lambda: said(dialog) == "clips side by side")
+    press(dialog, "evaluation_close")
+    qtbot.waitUntil(lambda: enabled(dialog))
+    dialog.close()
+
+
+@pytest.mark.drawn
+@pytest.mark.skipif(not os.environ.get("DISPLAY"), reason="no display")
+def test_another_process_makes_it_stops_and_refuses(tmp_path: Path) -> None:
+    project = quartet_project()
+    request = Request(
+        str(tmp_path / "made"), "Quartet", variants=("generated", "still"), excerpts=1, excerpt_s=1.0,
+        view="front", player_ids=(project.bodies[0].id,), size=(64, 64), fps=(2, 1), presentation="pair",
+    )  # fmt: skip
+    shares: list[float] = []
+    module = "app.cli.evaluation_worker"
+    made = made_by_process(module, project, request, lambda share, said: shares.append(share), lambda: False)
+    assert (made.clips, made.pairs, made.left_out) == (2, 1, ())
+    assert shares == sorted(shares)
+    names = sorted(path.name for path in (tmp_path / "made").iterdir())
+    assert names == ["clips", "evaluation.html", "key.json", "measures.json"]
+    with pytest.raises(AppError, match="there_already"):
+        made_by_process(module, project, request, lambda share, said: None, lambda: False)
+    with pytest.raises(Cancelled):
+        made_by_process(
+            module,
+            project,
+            Request(str(tmp_path / "other"), "Quartet", excerpts=3, size=(64, 64)),
+            lambda share, said: shares.append(share + 1.0),
+            lambda: shares[-1] > 1.2,
+        )
+    assert not (tmp_path / "other").exists()

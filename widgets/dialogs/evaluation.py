@@ -1,0 +1,290 @@
+"""Evaluation: clips and a questionnaire for viewers, beside a film of real players."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections.abc import Callable
+from pathlib import Path
+from typing import Final, TypeAlias
+
+from PySide6.QtCore import QSize, QTimer
+from PySide6.QtWidgets import QDoubleSpinBox, QLayout, QSpinBox, QWidget
+
+from app.editor.session import Session, Severity
+from app.editor.tasks import Progress, StopRequested
+from app.encoding import restored, shown, stored
+from app.errors import AppError, Message
+from app.evaluation.key import KEY_FILE, Variant
+from app.evaluation.process import Finished, Report
+from app.evaluation.request import EXCERPTS, LEAST_S, MOST_EXCERPTS, MOST_S, SECONDS, Request
+from app.formats.video import SUFFIXES
+from app.project.model import Project
+from widgets.common.controls import Button, Caption, Check, named, selectable, wrapped
+from widgets.common.layouts import in_column, in_form, in_row
+from widgets.common.paths import PathEdit, ask_for_file, ask_for_folder, show_folder
+from widgets.common.plain import ComboBox, Label
+from widgets.common.text import message_text
+from widgets.dialogs.working import WorkingDialog
+
+Make: TypeAlias = Callable[[Project, Request, Report, StopRequested], Finished]
+"""Makes an evaluation beside the window; see `app.evaluation.process.made_by_process`."""
+
+SIZES: Final = ((640, 360), (960, 540), (1280, 720), (360, 640))
+_BY_SOUND, _FOLLOWED, _BY_HAND = "sound", "follow", "hand"
+_LONGEST_S: Final = 24 * 3600.0
+_OF_FILES: Final[tuple[Variant, ...]] = ("film", "keyframes")
+_VARIANTS: Final[dict[Variant, str]] = {
+    "film": "evaluation_dialog.variant_film",
+    "generated": "evaluation_dialog.variant_generated",
+    "still": "evaluation_dialog.variant_still",
+    "shifted": "evaluation_dialog.variant_shifted",
+    "keyframes": "evaluation_dialog.variant_keyframes",
+}
+_PLACES: Final = {
+    _BY_SOUND: "evaluation_dialog.by_sound",
+    _FOLLOWED: "evaluation_dialog.followed",
+    _BY_HAND: "evaluation_dialog.by_hand",
+}
+_VIEWS: Final = {
+    "ensemble": "playblast_dialog.ensemble",
+    "front": "playblast_dialog.front",
+    "side": "playblast_dialog.side",
+    "hands": "playblast_dialog.hands",
+    "mouth": "playblast_dialog.mouth",
+    "feet": "playblast_dialog.feet",
+}
+_PRESENTATIONS: Final = {
+    "both": "evaluation_dialog.presentation_both",
+    "single": "evaluation_dialog.presentation_single",
+    "pair": "evaluation_dialog.presentation_pair",
+}
+"""What is chosen: by value the id of its text."""
+
+
+class EvaluationDialog(WorkingDialog):
+    """Makes an evaluation.
+
+    Parameters
+    ----------
+    make : Make
+        Called in a thread.
+    folder : path
+        Proposed.
+    """
+
+    def __init__(self, session: Session, make: Make, folder: Path, title: str, parent: QWidget | None = None) -> None:
+        super().__init__("evaluation", "evaluation", parent)
+        self._session, self._make, self._title = session, make, title
+        self._now: list[tuple[float, Message]] = []
+        """How much is done and what is being done: the thread says it, the window shows it."""
+        self._timer = QTimer(self, interval=100)
+        self._timer.timeout.connect(self._show_progress)
+        self._film = named(PathEdit(), "evaluation_film")
+        self._place = named(ComboBox(), "evaluation_place")
+        self._offset = _seconds(-_LONGEST_S, _LONGEST_S, 0.0, "evaluation_offset")
+        self._keyframes = named(PathEdit(), "evaluation_keyframes")
+        self._variants = {
+            variant: named(Check(text_id), f"evaluation_{variant}") for variant, text_id in _VARIANTS.items()
+        }
+        self._excerpts = named(QSpinBox(), "evaluation_excerpts")
+        self._excerpts.setRange(1, MOST_EXCERPTS)
+        self._excerpts.setValue(EXCERPTS)
+        self._length = _seconds(LEAST_S, MOST_S, SECONDS, "evaluation_length")
+        self._view = named(ComboBox(), "evaluation_view")
+        self._presentation = named(ComboBox(), "evaluation_presentation")
+        self._size = named(ComboBox(), "evaluation_size")
+        for width, height in SIZES:
+            self._size.addItem(f"{width} × {height}", (width, height))
+        self._folder = named(PathEdit(folder), "evaluation_folder")
+        self._state = selectable(wrapped(named(Label(), "evaluation_state")))
+        self._state.setMinimumHeight(60)
+        self._lay_out()
+        for variant, check in self._variants.items():
+            check.setChecked(variant not in _OF_FILES)
+            check.toggled.connect(self._show_state)
+        for variant, field in (("film", self._film), ("keyframes", self._keyframes)):
+            field.textChanged.connect(lambda text, variant=variant: self._file_changed(variant, bool(text.strip())))
+        self._folder.textChanged.connect(self._show_state)
+        self._place.currentIndexChanged.connect(self._show_state)
+        self.retranslate()
+
+    def _lay_out(self) -> None:
+        film_button = Button("evaluation_dialog.choose", lambda: self._choose(self._film), "evaluation_browse_film")
+        keyframes_button = Button(
+            "evaluation_dialog.choose", lambda: self._choose(self._keyframes), "evaluation_browse_keyframes"
+        )
+        folder_button = Button("evaluation_dialog.choose", self._choose_folder, "evaluation_browse")
+        variants: QLayout = in_column(*self._variants.values(), spacing=2)
+        form = in_form(
+            {
+                "evaluation_dialog.film": in_row((self._film, 1), film_button),
+                "evaluation_dialog.place": in_row((self._place, 1), self._offset),
+                "evaluation_dialog.keyframes": in_row((self._keyframes, 1), keyframes_button),
+                "evaluation_dialog.excerpts": self._excerpts,
+                "evaluation_dialog.length": self._length,
+                "evaluation_dialog.view": self._view,
+                "evaluation_dialog.presentation": self._presentation,
+                "evaluation_dialog.size": self._size,
+                "evaluation_dialog.folder": in_row((self._folder, 1), folder_button),
+            }
+        )
+        form.insertRow(3, Caption("evaluation_dialog.variants"), variants)
+        self.fields = (
+            *(self._film, self._place, self._offset, self._keyframes, *self._variants.values(), self._excerpts),
+            *(self._length, self._view, self._presentation, self._size, self._folder),
+            *(film_button, keyframes_button, folder_button),
+        )
+        buttons = self._box("evaluation_dialog.make", self.start, self._show_folder)
+        in_column(form, (self._state, 1), self._progress, buttons, of=self)
+
+    def start(self) -> None:
+        """Begin the evaluation."""
+        if self._running or not self._start.isEnabled():
+            return
+        request, project, make = self.request(), self._session.project, self._make
+        # Each work gets its own: one that was cancelled may still say something.
+        self._now = now = [(0.0, Message("work.evaluation"))]
+        self._show.hide()
+        self._set_running(True)
+        self._timer.start()
+        stop = self._stop
+
+        def work(progress: Progress, stop_requested: StopRequested) -> Finished:
+            def report(share: float, message: Message) -> None:
+                now[0] = (share, message)
+                progress(share)
+
+            return make(project, request, report, lambda: stop.is_set() or stop_requested())
+
+        self._session.tasks.run(
+            Message("work.evaluation"), work, self._done, self._failed, key="evaluation", ended=self._finish
+        )
+
+    def request(self) -> Request:
+        """What is chosen."""
+        film, keyframes, folder = self._film.path, self._keyframes.path, self._folder.path
+        assert folder is not None, "the button is disabled without one"
+        place, view = self._place.currentData(), self._view.currentData()
+        players = self._session.players[:1] if view != "ensemble" else ()
+        if view != "ensemble" and not players:
+            players = tuple(player.id for player in self._session.project.bodies[:1])
+        return Request(
+            folder=stored(folder),
+            title=self._title,
+            film="" if film is None else stored(film),
+            keyframes="" if keyframes is None else stored(keyframes),
+            film_offset_s=self._offset.value() if film is not None and place == _BY_HAND else None,
+            follow_film=film is not None and place == _FOLLOWED,
+            variants=self._chosen(),
+            excerpts=self._excerpts.value(),
+            excerpt_s=self._length.value(),
+            view=view,
+            player_ids=tuple(players),
+            size=self._size.currentData(),
+            presentation=self._presentation.currentData(),
+            seed=secrets.randbits(31),
+        )
+
+    def _chosen(self) -> tuple[Variant, ...]:
+        return tuple(variant for variant, check in self._variants.items() if check.isChecked() and self._there(variant))
+
+    def _there(self, variant: Variant) -> bool:
+        """Whether there is what a variant is made of."""
+        field = {"film": self._film, "keyframes": self._keyframes}.get(variant)
+        return field is None or field.path is not None
+
+    def _file_changed(self, variant: Variant, there: bool) -> None:
+        self._variants[variant].setChecked(there)
+        self._show_state()
+
+    def _done(self, made: Finished) -> None:
+        page = f"{shown(restored(self.request().folder))}{os.sep}evaluation.html"
+        lines = [self.tr("evaluation_dialog.done").format(page=page, clips=made.clips, pairs=made.pairs)]
+        if made.confidence is not None and made.offset_s is not None:
+            placed = {"offset_s": made.offset_s, "percent": round(100 * made.confidence)}
+            lines.append(self.tr("evaluation_dialog.placed").format(**placed))
+        for player, reason in made.left_out:
+            left_out = Message("player.left_out", {"player": player, "reason": message_text(reason)})
+            lines.append(message_text(left_out))
+            self._session.notice(left_out, Severity.WARNING)
+        self._state.setText("\n".join(lines))
+        self._show.show()
+
+    def _failed(self, error: AppError) -> None:
+        self._state.setText(message_text(error.message))
+
+    def _finish(self) -> None:
+        self._timer.stop()
+        self._set_running(False)
+
+    def _choose(self, field: PathEdit) -> None:
+        kinds = f"{self.tr('evaluation_dialog.videos')} ({' '.join(f'*{suffix}' for suffix in SUFFIXES)})"
+        start = field.path or (None if self._folder.path is None else self._folder.path.parent)
+        chosen = ask_for_file(self, self.tr("evaluation_dialog.film"), start, kinds)
+        if chosen is not None:
+            field.set_path(chosen)
+
+    def _choose_folder(self) -> None:
+        chosen = ask_for_folder(self, self.tr("evaluation_dialog.folder"), self._folder.path)
+        if chosen is not None:
+            self._folder.set_path(chosen)
+
+    def _show_folder(self) -> None:
+        if self._folder.path is not None:
+            show_folder(self._folder.path)
+
+    def _show_state(self) -> None:
+        """What can be chosen, and what is still lacking."""
+        if self._running:
+            return
+        film, folder = self._film.path is not None, self._folder.path
+        self._place.setEnabled(film)
+        self._offset.setEnabled(film and self._place.currentData() == _BY_HAND)
+        for variant in _OF_FILES:
+            self._variants[variant].setEnabled(self._there(variant))
+        lacking = ""
+        if folder is not None and os.path.lexists(folder / KEY_FILE):
+            lacking = message_text(Message("evaluate.there_already", {"file": str(folder)}))
+        elif len(self._chosen()) < 2:
+            lacking = message_text(Message("evaluate.too_few", {}))
+        self._start.setEnabled(folder is not None and not lacking)
+        self._state.setText(lacking)
+
+    def _show_progress(self) -> None:
+        share, message = self._now[0]
+        self._show_share(share)
+        self._state.setText(message_text(message))
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        self.setWindowTitle(self.tr("evaluation_dialog.title"))
+        super().retranslate()
+        self._length.setSuffix(self.tr("evaluation_dialog.seconds"))
+        self._offset.setSuffix(self.tr("evaluation_dialog.seconds"))
+        for box, choices in ((self._place, _PLACES), (self._view, _VIEWS), (self._presentation, _PRESENTATIONS)):
+            _refill(box, {value: self.tr(text_id) for value, text_id in choices.items()})
+        if not self._running and not self._show.isVisible():
+            self._show_state()
+
+    def sizeHint(self) -> QSize:
+        return QSize(680, 620)
+
+
+def _seconds(least: float, most: float, value: float, name: str) -> QDoubleSpinBox:
+    box = named(QDoubleSpinBox(), name)
+    box.setRange(least, most)
+    box.setDecimals(2)
+    box.setSingleStep(0.5)
+    box.setValue(value)
+    return box
+
+
+def _refill(box: ComboBox, texts: dict[str, str]) -> None:
+    chosen = box.currentData()
+    box.blockSignals(True)
+    box.clear()
+    for data, text in texts.items():
+        box.addItem(text, data)
+    box.setCurrentIndex(max(box.findData(chosen), 0))
+    box.blockSignals(False)
