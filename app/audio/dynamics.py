@@ -15,8 +15,6 @@ from typing import Final, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
-from scipy.ndimage import gaussian_filter1d
-from scipy.signal import sosfilt
 
 from app.audio.track import Samples
 from app.errors import AppError
@@ -68,6 +66,9 @@ def loudness(samples: Samples, rate_hz: int) -> Loudness:
     ----------
     samples : int16 array, shape (n, channels)
     """
+    from scipy.ndimage import gaussian_filter1d  # heavy, and not needed to begin
+    from scipy.signal import sosfilt
+
     hop = max(round(STEP_S * rate_hz), 1)
     count = len(samples) // hop
     if not count:
@@ -156,6 +157,8 @@ class _Sounding:
 
     def curve(self, score: Score, values: Floats, audible: npt.NDArray[np.bool_]) -> ControllerCurve:
         """Steps of a controller: in rests it goes on to what comes next."""
+        from scipy.ndimage import gaussian_filter1d
+
         values = np.interp(self.at_s, self.at_s[audible], values[audible])
         steps = np.round(_RESOLUTION * gaussian_filter1d(values, _SMOOTH_S / STEP_S, mode="nearest"))
         ticks = np.maximum(np.round(score.tempo_map.ticks(self.at_s)), 0).astype(np.int64)
