@@ -1,9 +1,10 @@
 """How loud a recording is while players play, as a curve of their dynamics.
 
 Loudness is measured as broadcasters do (ITU-R BT.1770: a shelf and a high pass before the power), smoothed beyond
-vibrato. In a recording of everybody the number of those who sound is taken out of it: a quiet tutti may be louder than a
-loud solo. In one of a player alone it is what single pitches have more than others. What is left is put on the scale of controllers so that the piece as a whole keeps its middle,
-and its quiet and loud places keep their distance, as far as there is room for it.
+vibrato. In a recording of everybody the number of those who sound is taken out of it, as a quiet tutti may be louder
+than a loud solo; in one of a player alone what single pitches have more than others. What is left is put on the scale
+of controllers so that the piece as a whole keeps its middle, and its quiet and loud places keep their distance, as far
+as there is room for it.
 """
 
 from __future__ import annotations
@@ -14,8 +15,6 @@ from typing import Final, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
-from scipy.ndimage import gaussian_filter1d
-from scipy.signal import sosfilt
 
 from app.audio.track import Samples
 from app.errors import AppError
@@ -67,6 +66,9 @@ def loudness(samples: Samples, rate_hz: int) -> Loudness:
     ----------
     samples : int16 array, shape (n, channels)
     """
+    from scipy.ndimage import gaussian_filter1d  # heavy, and not needed to begin
+    from scipy.signal import sosfilt
+
     hop = max(round(STEP_S * rate_hz), 1)
     count = len(samples) // hop
     if not count:
@@ -155,6 +157,8 @@ class _Sounding:
 
     def curve(self, score: Score, values: Floats, audible: npt.NDArray[np.bool_]) -> ControllerCurve:
         """Steps of a controller: in rests it goes on to what comes next."""
+        from scipy.ndimage import gaussian_filter1d
+
         values = np.interp(self.at_s, self.at_s[audible], values[audible])
         steps = np.round(_RESOLUTION * gaussian_filter1d(values, _SMOOTH_S / STEP_S, mode="nearest"))
         ticks = np.maximum(np.round(score.tempo_map.ticks(self.at_s)), 0).astype(np.int64)

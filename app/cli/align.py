@@ -12,9 +12,9 @@ from app.cli.progress import Progress
 from app.cli.terminal import say, warn
 from app.errors import FileError, Message, UsageError
 from app.messages import filled, text
-from app.project.edit.follow import follow_recording, pins_for
 
 if TYPE_CHECKING:
+    from app.audio.followed import Followed
     from app.project.model import Project
     from app.score.following import Following
 
@@ -45,6 +45,19 @@ def add_command(commands: Commands) -> None:
         "--until", dest="until_s", type=_seconds, metavar="S", help="only what is recorded before this second"
     )
     command.add_argument(
+        "--dynamics",
+        action="store_true",
+        help="let the players' dynamics follow the loudness of the recording",
+    )
+    command.add_argument(
+        "--stems",
+        action="append",
+        default=[],
+        metavar="PLAYER=FILE",
+        help="a recording of one player alone, which begins with RECORDING: their dynamics follow it (implies "
+        "--dynamics); may be given several times",
+    )
+    command.add_argument(
         "--to",
         type=Path,
         required=True,
@@ -60,9 +73,10 @@ def align(arguments: argparse.Namespace) -> None:
     Raises
     ------
     AppError
-        Those of reading and writing, of `app.audio.follow` and of `follow_recording`; ``align.kind``,
-        ``align.onto_itself``, ``align.nothing_between``.
+        Those of reading and writing and of `app.audio.followed`; ``align.kind``, ``align.onto_itself``,
+        ``align.nothing_between``, ``align.no_such_player``.
     """
+    from app.audio.followed import take_over
     from app.project.midi_out import export_midi
     from app.project.storage import save
     from instrument_maps.library import library
@@ -74,14 +88,14 @@ def align(arguments: argparse.Namespace) -> None:
     if any(_same(target, one) for one in (arguments.file, arguments.recording)):
         raise FileError("align.onto_itself", file=str(target))
     project = open_project(arguments)
-    following = _follow(project, arguments)
-    aligned = follow_recording(project, following, arguments.recording)
+    followed = _follow(project, arguments)
+    aligned = take_over(project, followed, arguments.recording)
     if kind == _PROJECT:
         save(aligned, target)
     else:
         for warning in export_midi(aligned, target, library().maps):
             warn(text(warning))
-    _report(aligned, following, target)
+    _report(aligned, followed.following, target)
 
 
 def _same(one: Path, other: Path) -> bool:
@@ -91,12 +105,14 @@ def _same(one: Path, other: Path) -> bool:
         return False  # what is written is not there yet
 
 
-def _follow(project: Project, arguments: argparse.Namespace) -> Following:
-    """The beats in seconds of the whole recording, whatever part of it was asked for."""
+def _follow(project: Project, arguments: argparse.Namespace) -> Followed:
+    """What the recording says, in seconds of the whole recording, whatever part of it was asked for."""
     from app.audio.decode import decode
-    from app.audio.follow import beats_of, follow
+    from app.audio.followed import Wishes, listen
     from app.audio.track import RATE_HZ
 
+    stems = dict(_stem(project, text) for text in arguments.stems)
+    wishes = Wishes(dynamics=arguments.dynamics or bool(stems), stems=stems)
     progress = Progress(sys.stderr)
     label = filled("listening to {file}", {"file": arguments.recording.name})
     try:
@@ -108,18 +124,25 @@ def _follow(project: Project, arguments: argparse.Namespace) -> Following:
         samples = recording.samples[first:last]
         if not len(samples):
             raise UsageError("align.nothing_between", file=str(arguments.recording), seconds=recording.duration_s)
-        pinned = {pin.tick: pin.recording_s - first / RATE_HZ for pin in pins_for(project, arguments.recording)}
-        found = follow(
+        return listen(
+            project,
             samples,
-            RATE_HZ,
-            project.score,
-            beats_of(project.metre_map, project.score.end_tick, pinned),
+            arguments.recording,
+            wishes,
             lambda share: progress(0.2 + 0.8 * share, label),
-            pinned=pinned,
+            begins_s=first / RATE_HZ,
         )
     finally:
         progress.clear()
-    return found.later(first / RATE_HZ)
+
+
+def _stem(project: Project, given: str) -> tuple[str, str]:
+    """Player id and path of ``PLAYER=FILE``; a player by name, or by number from 1 on."""
+    name, _, path = given.partition("=")
+    for number, player in enumerate(project.players, 1):
+        if name.casefold() in (player.name.casefold(), player.id.casefold(), str(number)):
+            return player.id, path
+    raise UsageError("align.no_such_player", player=name, known=", ".join(one.name for one in project.players) or "-")
 
 
 def _report(project: Project, following: Following, target: Path) -> None:

@@ -11,13 +11,14 @@ from PySide6.QtCore import QObject, Qt, QTimer
 
 from app.audio.click import click_track
 from app.audio.decode import Recording, decode
-from app.audio.follow import beats_of, follow
+from app.audio.followed import Wishes
 from app.audio.mix import recording_track
 from app.audio.offset import Estimate, estimate_offset
 from app.audio.peaks import Peaks
 from app.audio.playback import Playback
 from app.audio.track import RATE_HZ, Mix, Track
 from app.editor.listening import RecordedTake
+from app.editor.recording_follower import follow_in_background
 from app.editor.session import Session, Severity
 from app.editor.stems import Stems
 from app.editor.tasks import Progress, StopRequested
@@ -25,13 +26,11 @@ from app.errors import AppError, Message
 from app.plan.generate import frame_around
 from app.plan.model import TimeFrame
 from app.project.document import Change
-from app.project.edit.follow import follow_recording
 from app.project.edit.piece import set_offset
 from app.project.edit.players import change as change_players
 from app.project.edit.takes import comp_whole
 from app.project.edit.tempo import scale_tempo
 from app.project.model import Project
-from app.score.following import Following
 
 _FRAME_MS = 16
 _TAKE_WAIT_MS = 1000
@@ -340,44 +339,10 @@ class Sound(QObject):
 
         self._session.tasks.run(Message("work.estimate_offset"), work, done, key="estimate")
 
-    def follow(self) -> None:
+    def follow(self, wishes: Wishes | None = None) -> None:
         """Put every beat where the recording has it, as an edit; what is doubtful is reported."""
-        recording, project = self._recording, self._session.project
-        if recording is None or project.audio is None:
-            return
-
-        pinned = {pin.tick: pin.recording_s for pin in project.audio.pins}
-
-        def work(progress: Progress, stop_requested: StopRequested) -> Following:
-            beats = beats_of(project.metre_map, project.score.end_tick, pinned)
-            return follow(recording.samples, RATE_HZ, project.score, beats, progress, stop_requested, pinned)
-
-        def done(following: Following) -> None:
-            audio, score = self._session.project.audio, self._session.project.score
-            if audio is None or audio.path != recording.path or score is not project.score:
-                return
-            self._take_following(following, recording.path)
-
-        self._session.tasks.run(Message("work.follow_recording"), work, done, key="estimate")
-
-    def _take_following(self, following: Following, path: str) -> None:
-        session = self._session
-        if not session.attempt(
-            Message("edit.follow_recording"), lambda project: follow_recording(project, following, path)
-        ):
-            return
-        metre_map = session.project.metre_map
-        doubtful = following.doubtful_bars(metre_map)
-        bars = ", ".join(f"{first}" if first == last else f"{first}-{last}" for first, last, _ in doubtful)
-        percent = round(100 * following.mean_confidence)
-        id = "audio.followed_but" if doubtful else "audio.followed"
-        severity = Severity.WARNING if doubtful else Severity.INFORMATION
-        session.notice(Message(id, {"percent": percent, **({"bars": bars} if doubtful else {})}), severity)
-        for span in following.missing:
-            first, last = metre_map.bar_of_tick(int(span.start)), metre_map.bar_of_tick(max(int(span.end) - 1, 0))
-            session.notice(Message("align.bars_outside", {"first": first, "last": last}), Severity.WARNING)
-        for span in following.added:
-            session.notice(Message("align.only_recorded", {"start_s": span.start, "end_s": span.end}), Severity.WARNING)
+        if self._recording is not None and self._session.project.audio is not None:
+            follow_in_background(self._session, self._recording, wishes or Wishes())
 
     def _take_estimate(self, estimate: Estimate, unasked: bool, with_tempo: bool) -> None:
         session = self._session

@@ -79,6 +79,14 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} has {seconds:.1f} s: nothing lies between --from and --until",
         "{file} の長さは {seconds:.1f} 秒です。--from と --until の間に音がありません",
     ),
+    "align.no_such_player": (
+        "there is no player {player}; there are: {known}",
+        "奏者 {player} はいません。いる奏者: {known}",
+    ),
+    "dynamics.no_curve": (
+        "the part has no such curve; take dynamics from a recording, or record a take first",
+        "パートにその曲線がありません。先に録音から強弱を取り込むか、テイクを録音してください",
+    ),
     "align.bars_missing": (
         (
             "the recording leaves out bars {first} to {last}, which cannot sound in no time: take them out of the "

@@ -86,8 +86,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "curves_lane.curve_that_is_edited_or": ("Active curve", "編集・表示するカーブ"),
     "curves_lane.curves": ("Curves", "カーブ"),
     "curves_lane.drag_notes_value_up_or": (
-        "Drag a note's value up or down. Hold Shift for fine steps.",
-        "音符の値を上下にドラッグします。Shift で微調整できます。",
+        "Drag a note's value up or down. Hold Shift for fine steps, and Alt to change a controller at one place.",
+        "音符の値を上下にドラッグします。Shift で微調整、Alt でコントローラーをその位置だけ変更できます。",
     ),
     "curves_lane.effort": ("Effort", "力の入り具合"),
     "curves_lane.expression": ("Expression", "エクスプレッション"),

@@ -5,7 +5,7 @@ Messages (`UsageError`): ``dynamics.no_curve``.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 import msgspec
@@ -16,8 +16,6 @@ from app.project.edit.length import with_score
 from app.project.model import Project
 from app.score.model import ControllerCurve, CurveKind, Part
 
-_BLEND_BEATS: Final = 0.25
-"""Over so many felt beats beside corrected notes a curve goes back to what it was."""
 _RESOLUTION: Final = 127
 
 
@@ -33,8 +31,15 @@ def set_dynamics(project: Project, curves: Mapping[str, ControllerCurve]) -> Pro
     )
 
 
-def change_level(project: Project, player_id: str, kind: CurveKind, note_ids: Collection[str], by: float) -> Project:
-    """Let a controller say more or less (``by`` of 0..1) while notes sound; beside them it blends back.
+def change_level(
+    project: Project, player_id: str, kind: CurveKind, spans: Sequence[tuple[int, int]], by: float, blend_beats: float
+) -> Project:
+    """Let a controller say more or less (``by`` of 0..1) in some spans of ticks.
+
+    Parameters
+    ----------
+    blend_beats : float
+        Over so many felt beats beside a span the curve goes back to what it was.
 
     Raises
     ------
@@ -45,16 +50,17 @@ def change_level(project: Project, player_id: str, kind: CurveKind, note_ids: Co
     curve = next((curve for curve in part.curves if curve.kind == kind), None)
     if curve is None:
         raise UsageError("dynamics.no_curve")
-    spans = [(note.onset_tick, note.end_tick) for note in part.notes if note.id in note_ids]
     if not spans or not by:
         return project
-    changed = _shifted(curve, spans, by, _BLEND_BEATS * project.metre_map.felt_ticks_at(spans[0][0]))
+    changed = _shifted(curve, spans, by, blend_beats * project.metre_map.felt_ticks_at(spans[0][0]))
     if changed == curve:
         return project
     return _with_curves(project, {part.id: tuple(changed if item is curve else item for item in part.curves)})
 
 
-def _shifted(curve: ControllerCurve, spans: list[tuple[int, int]], by: float, blend_ticks: float) -> ControllerCurve:
+def _shifted(
+    curve: ControllerCurve, spans: Sequence[tuple[int, int]], by: float, blend_ticks: float
+) -> ControllerCurve:
     ticks = np.array(curve.ticks, np.int64)
     # A blend has steps of its own, whatever the curve has there.
     ramp = np.unique(np.round(np.linspace(0.0, blend_ticks, 7)).astype(np.int64))

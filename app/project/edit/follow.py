@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
+from typing import Final
 
 import msgspec
 import numpy as np
@@ -16,7 +17,10 @@ from app.project.edit.piece import set_audio, set_offset
 from app.project.edit.tempo import set_beats
 from app.project.model import Project
 from app.project.recording import BeatPin, Doubt
-from app.score.following import SURE, Following
+from app.score.following import SURE, Following, Span
+
+_LEAST_TIME: Final = 0.7
+"""Of the usual time of bars: with less, the recording leaves some out."""
 
 
 def follow_recording(project: Project, following: Following, path: str | os.PathLike[str]) -> Project:
@@ -33,13 +37,9 @@ def follow_recording(project: Project, following: Following, path: str | os.Path
         ``align.bars_missing`` (first, last) where the recording leaves out bars between others: they would have no
         time to sound in.
     """
-    # Beats before the first note and after the last one are no bars that would have to wait for those left out.
-    sounding = following.confidence >= SURE
+    bar_of_tick = project.metre_map.bar_of_tick
     for span in following.missing:
-        earlier = bool(np.any(sounding & (following.ticks < span.start)))
-        later = bool(np.any(sounding & (following.ticks >= span.end)))
-        if earlier and later:
-            bar_of_tick = project.metre_map.bar_of_tick
+        if _leaves_no_time(project, following, span):
             raise UsageError(
                 "align.bars_missing", first=bar_of_tick(int(span.start)), last=bar_of_tick(max(int(span.end) - 1, 0))
             )
@@ -51,6 +51,21 @@ def follow_recording(project: Project, following: Following, path: str | os.Path
         raise UsageError("piece.no_recording")
     audio = msgspec.structs.replace(project.audio, pins=pins, doubts=_doubts(project, following))
     return replace(project, audio=audio)
+
+
+def _leaves_no_time(project: Project, following: Following, span: Span) -> bool:
+    """Whether the recording goes on at once after bars that it does not have; else something else sounds there."""
+    # Beats before the first note and after the last one are no bars that would have to wait for those left out.
+    sounding = following.confidence >= SURE
+    earlier = np.flatnonzero(sounding & (following.ticks < span.start))
+    later = np.flatnonzero(sounding & (following.ticks >= span.end))
+    if not len(earlier) or not len(later):
+        return False
+    seconds = project.score.tempo_map.seconds(following.ticks)
+    before, after = earlier[-1], later[0]
+    usual = np.median(np.diff(following.recording_s) / np.maximum(np.diff(seconds), 1e-6))
+    there_s = following.recording_s[after] - following.recording_s[before]
+    return bool(there_s < _LEAST_TIME * usual * (seconds[after] - seconds[before]))
 
 
 def pins_for(project: Project, path: str | os.PathLike[str]) -> tuple[BeatPin, ...]:

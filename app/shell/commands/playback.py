@@ -108,6 +108,15 @@ def remove_recording(session: Session) -> None:
     session.attempt(Message("edit.remove_audio"), lambda project: set_audio(project, None))
 
 
+def follow_recording(editor: Editor) -> None:
+    """Ask what is taken from the recording, and follow it."""
+    from widgets.dialogs.follow_recording import FollowRecordingDialog
+
+    dialog = FollowRecordingDialog(editor.session, editor.window)
+    dialog.wished.connect(editor.sound.follow)
+    dialog.open()
+
+
 def _speed(percent: int) -> Action:
     return Action(
         f"play.speed_{percent}",
@@ -229,7 +238,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     EditorAction(
         "play.follow_recording",
-        lambda editor: editor.sound.follow(),
+        follow_recording,
         "play/recording",
         enabled=_recording_ready,
         icon="tempo",

@@ -810,7 +810,7 @@ CASES: dict[str, Case] = {
     "play.scrub": toggled("play.scrub", lambda d: d.session.listening.scrub_sound),
     "play.follow": toggled("play.follow", lambda d: d.session.follow),
     "play.estimate_offset": Case(lambda d: "estimate" in last_work(d), has_recording),
-    "play.follow_recording": Case(lambda d: "estimate" in last_work(d), has_recording),
+    "play.follow_recording": Case(lambda d: d.dialog("follow_recording"), has_recording),
     "play.fit_tempo": Case(lambda d: "estimate" in last_work(d), has_recording),
     "play.remove_recording": Case(lambda d: d.project.audio is None, has_recording, edits=True),
     # The reference video

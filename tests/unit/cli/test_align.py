@@ -12,8 +12,9 @@ import soundfile
 from app.audio.track import RATE_HZ
 from app.cli import main
 from app.cli.status import BAD_INPUT, BAD_USE, DONE
+from app.project.edit.pins import pin_beat, recording_second
 from app.project.model import map_choices
-from app.project.storage import load
+from app.project.storage import load, save
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
 from tests.unit.audio.test_follow import recorded, truth
@@ -63,6 +64,38 @@ def test_a_midi_file_has_its_tempo(quartet: Path, concert: Path, tmp_path: Path)
     assert main(["align", str(quartet), str(concert), "--to", str(target)]) == DONE
     steps = errors_s(target, 3.0)
     assert np.percentile(np.abs(steps - np.median(steps)), 90) < 0.05
+
+
+def test_dynamics_and_stems_become_curves(
+    quartet: Path, concert: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    swelling = np.concatenate([np.zeros((3 * RATE_HZ, 2)), np.clip(recorded(), -1.0, 1.0)])
+    swelling *= np.linspace(0.1, 1.0, len(swelling))[:, None]
+    soundfile.write(tmp_path / "second.flac", swelling, RATE_HZ)
+    target = tmp_path / "concert.suisou"
+    stem = f"2={tmp_path / 'second.flac'}"
+    assert main(["align", str(quartet), str(concert), "--from", "1", "--stems", stem, "--to", str(target)]) == DONE
+    project = load(target)
+    curves = [next(curve for curve in part.curves if curve.kind == "breath") for part in project.score.parts]
+    halves = [np.array(curve.values)[np.array(curve.ticks) > project.score.end_tick / 2].mean() for curve in curves]
+    firsts = [np.array(curve.values)[np.array(curve.ticks) < project.score.end_tick / 2].mean() for curve in curves]
+    assert halves[1] - firsts[1] > 0.1
+    assert halves[1] - firsts[1] > halves[0] - firsts[0] + 0.05
+    capsys.readouterr()
+    assert main(["align", str(quartet), str(concert), "--stems", "Anna=x.wav", "--to", str(target)]) == BAD_USE
+    assert "no player Anna" in capsys.readouterr().err
+
+
+def test_pinned_beats_stay_where_they_are(quartet: Path, concert: Path, tmp_path: Path) -> None:
+    target, again = tmp_path / "concert.suisou", tmp_path / "again.suisou"
+    assert main(["align", str(quartet), str(concert), "--to", str(target)]) == DONE
+    project = load(target)
+    tick = int(project.metre_map.tick_of_bar(9))
+    at_s = recording_second(project, tick) + 0.1
+    save(pin_beat(project, tick, at_s), target)
+    assert main(["align", str(target), str(concert), "--from", "2", "--to", str(again)]) == DONE
+    assert recording_second(load(again), tick) == pytest.approx(at_s, abs=2e-3)
+    assert load(again).audio.pins == load(target).audio.pins  # type: ignore[union-attr]
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Final
 
 import numpy as np
 from PySide6.QtCore import QRectF, Qt
@@ -14,7 +15,7 @@ from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import EmbouchureEvent, PlayerPlan
 from app.project.document import Change
-from app.score.model import Part
+from app.score.model import CurveKind, Part
 from widgets.common.controls import named
 from widgets.common.menus import add_actions
 from widgets.common.plain import ComboBox, verbatim
@@ -23,11 +24,13 @@ from widgets.timeline.axis import TimeAxis
 from widgets.timeline.drawing import draw_lines, draw_mark, draw_path, draw_rects, draw_text, shade, small_font
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.number_field import NumberField
-from widgets.timeline.model.curves import LIPS, DragCurve, Lips, controller_steps, lips, with_values
+from widgets.timeline.model.curves import LIPS, DragController, DragCurve, Lips, controller_steps, lips, with_values
 from widgets.timeline.model.geometry import Floats, Steps, step_path
 
-CONTROLLERS = ("breath", "bite", "expression", "volume", "aftertouch", "pitch_bend")
+CONTROLLERS: Final[tuple[CurveKind, ...]] = ("breath", "bite", "expression", "volume", "aftertouch", "pitch_bend")
 MARGIN_PX = 4.0
+BESIDE_BEATS, PLACE_BEATS = 0.25, 1.0
+"""Felt beats over which a corrected controller blends back: beside notes, and from a single place."""
 
 
 class _Curves(LaneItem["CurvesLane"]):
@@ -105,7 +108,7 @@ class _Curves(LaneItem["CurvesLane"]):
 
 
 class CurvesLane(Lane):
-    """Lips and dynamics. The chosen curve of the lips is dragged up and down, for all selected notes together."""
+    """Lips and dynamics. The chosen curve is dragged up and down, for all selected notes together."""
 
     id = "curves"
     preferred_height_px = 64
@@ -118,7 +121,7 @@ class CurvesLane(Lane):
         self.curve = "tension"
         self._plan: PlayerPlan | None = None
         self._part: Part | None = None
-        self._drag: DragCurve | None = None
+        self._drag: DragCurve | DragController | None = None
         self.choice = named(ComboBox(self.header), "curve_choice")
         self.choice.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.choice.activated.connect(self._chosen)
@@ -227,14 +230,26 @@ class CurvesLane(Lane):
             self.session.select(Selection(notes=notes ^ {event.note_id}))
         elif event.note_id not in notes:
             self.session.select(Selection(notes=frozenset({event.note_id})))
-        if self.curve not in LIPS or self.lips is None:
-            return
         chosen = self.session.selection.notes
+        if self._plan is None or self.lips is None:
+            return
+        if self.curve not in LIPS:
+            self._drag = self._controller_drag(mouse, self._plan.player_id, chosen)
+            return
         starts = {item.note_id: self.value_of(item) for item in self.lips.events if item.note_id in chosen}
-        if self._plan is not None:
-            height_px = self.plot_rect.height() - 2 * MARGIN_PX
-            player_id = self._plan.player_id
-            self._drag = DragCurve(self.session, self, mouse, player_id, self.curve, starts, height_px)
+        height_px = self.plot_rect.height() - 2 * MARGIN_PX
+        self._drag = DragCurve(self.session, self, mouse, self._plan.player_id, self.curve, starts, height_px)
+
+    def _controller_drag(self, mouse: LaneMouse, player_id: str, chosen: frozenset[str]) -> DragController | None:
+        """At the chosen notes; with Alt held around the place under the mouse alone."""
+        kind = next((kind for kind in CONTROLLERS if kind == self.curve), None)
+        if kind is None or self._part is None:
+            return None
+        tick = max(round(mouse.tick), 0)
+        spans = [(note.onset_tick, note.end_tick) for note in self._part.notes if note.id in chosen]
+        spans, blend_beats = ([(tick, tick)], PLACE_BEATS) if mouse.alt else (spans, BESIDE_BEATS)
+        height_px = self.plot_rect.height() - 2 * MARGIN_PX
+        return DragController(self.session, self, mouse, player_id, kind, spans, blend_beats, height_px)
 
     def drag(self, mouse: LaneMouse) -> None:
         if self._drag is not None:
@@ -293,10 +308,7 @@ class CurvesLane(Lane):
             self.plot.setToolTip("")
             self.plot.unsetCursor()
             return
-        if self.curve in LIPS:
-            self.plot.setCursor(Qt.CursorShape.SizeVerCursor)
-        else:
-            self.plot.unsetCursor()
+        self.plot.setCursor(Qt.CursorShape.SizeVerCursor)
         lines = [f"{self.curve_name(name)} {getattr(event, name):.2f}" for name in LIPS]
         for kind, steps in self.controllers.items():
             if (value := steps.at(mouse.time_s)) is not None:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from app.errors import Message
 from app.plan.model import EmbouchureEvent, PlayerPlan
+from app.project.edit.dynamics import change_level
 from app.project.edit.events import set_embouchure
 from app.project.model import Project
-from app.score.model import Part
+from app.score.model import CurveKind, Part
 from widgets.timeline.model.geometry import Floats, Spans, Steps
 from widgets.timeline.model.gestures import DRAG_PX, Editing, Gesture, Step, across
 from widgets.timeline.model.hand import LaneMouse
@@ -72,6 +73,50 @@ def with_values(project: Project, player_id: str, curve: str, values: Mapping[st
     for note_id, value in values.items():
         project = set_embouchure(project, player_id, (note_id,), **{curve: value})
     return project
+
+
+class DragController(Gesture):
+    """A controller goes up and down in some spans of ticks, and blends back beside them.
+
+    Parameters
+    ----------
+    blend_beats : float
+        Over which it blends back.
+    height_px : float
+        Of the range 0..1.
+    """
+
+    def __init__(
+        self,
+        session: Editing,
+        origin: object,
+        at: LaneMouse,
+        player_id: str,
+        kind: CurveKind,
+        spans: Sequence[tuple[int, int]],
+        blend_beats: float,
+        height_px: float,
+    ) -> None:
+        super().__init__(at, across(DRAG_PX))
+        self._step = Step(session, origin)
+        self._player_id, self._kind, self._spans, self._blend_beats = player_id, kind, spans, blend_beats
+        self._height_px = max(height_px, 1.0)
+
+    def follow(self, mouse: LaneMouse) -> None:
+        by = (self.at.y_px - mouse.y_px) / self._height_px * (FINE if mouse.shift else 1.0)
+        # Its middle is 0, and the ends are twice as far apart.
+        by = round(by * (2.0 if self._kind == "pitch_bend" else 1.0), 3)
+        self._step.edit(
+            Message("edit.change_level"),
+            lambda project: change_level(project, self._player_id, self._kind, self._spans, by, self._blend_beats),
+        )
+
+    def finish(self, mouse: LaneMouse) -> None:
+        self._step.end()
+
+    def cancel(self) -> None:
+        if self.began:
+            self._step.take_back()
 
 
 class DragCurve(Gesture):

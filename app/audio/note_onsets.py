@@ -1,0 +1,122 @@
+"""When single notes begin in a recording, where that can be heard: by the rise of their own partials.
+
+A note is looked for near where its beat puts it. What it is not sure of stays there: where its partials rise little, or
+at several moments alike, or sound already in another part.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import soxr
+from scipy.ndimage import uniform_filter1d
+
+from app.audio.features import tuning
+from app.audio.score_sound import ANALYSIS_RATE_HZ, Floats
+from app.audio.track import Samples
+from app.score.model import Score
+
+_HOP: Final = 110
+_STEP_S: Final = _HOP / ANALYSIS_RATE_HZ
+_SIZE: Final = 2048
+_PARTIALS: Final = 6
+_REACH_S: Final = 0.09
+"""A note is looked for so far from where its beat puts it."""
+_EDGE_S: Final = 0.03
+"""What sounds so long after a moment is held against what did before."""
+_USUAL_S: Final = 0.035
+"""Standard deviation of where notes are expected."""
+_LEAST_RISE: Final = 1.5
+"""Natural logarithm of how much stronger partials get at a clear beginning."""
+_UNIQUE: Final = 0.75
+"""Another moment, apart from it, must rise less than this part of it."""
+_BESIDE_S: Final = 0.12
+"""Notes that sound so near share partials."""
+_APART: Final = 0.9
+"""Semitones between partials that are not the same."""
+_LEAST_PARTIALS: Final = 2
+_LEAST_NOTES: Final = 8
+"""Of a part, to know how softly its instrument speaks."""
+
+
+def note_onsets(samples: Samples, rate_hz: int, score: Score, offset_s: float) -> dict[str, float]:
+    """How much later than in the score notes begin, seconds, by note id; only of those that are clear.
+
+    Parameters
+    ----------
+    samples : int16 array, shape (n, channels)
+    score : Score
+        As it lies on the recording.
+    offset_s : float
+        Second of the score at which the samples begin.
+    """
+    sound = soxr.resample(samples.astype(np.float32).mean(axis=1) / 32768.0, rate_hz, ANALYSIS_RATE_HZ)
+    middle = len(sound) // 2
+    tuned = tuning(sound[max(middle - 30 * ANALYSIS_RATE_HZ, 0) : middle + 30 * ANALYSIS_RATE_HZ], ANALYSIS_RATE_HZ)
+    notes = [note for part in score.parts for note in part.notes]
+    begin_s = score.tempo_map.seconds(np.array([note.onset_tick for note in notes], np.float64)) - offset_s
+    end_s = score.tempo_map.seconds(np.array([note.end_tick for note in notes], np.float64)) - offset_s
+    pitches = np.array([note.pitch for note in notes], np.float64) + tuned
+    floor = 1e-5 * float((sound.astype(np.float64) ** 2).mean()) * _SIZE**2 + 1e-12
+    shifts: dict[str, float] = {}
+    for index, note in enumerate(notes):
+        at_s = float(begin_s[index])
+        beside = (begin_s < at_s + _BESIDE_S) & (end_s > at_s - _BESIDE_S)
+        beside[index] = False
+        hz = _own_partials(float(pitches[index]), pitches[beside])
+        shift_s = _shift(sound, at_s, hz, floor) if len(hz) >= _LEAST_PARTIALS else None
+        if shift_s is not None:
+            shifts[note.id] = shift_s
+    return _without_lateness(score, shifts)
+
+
+def _own_partials(pitch: float, others: Floats) -> Floats:
+    """Frequencies of the partials of a note that none of the others has."""
+    numbers = np.arange(1, _PARTIALS + 1)
+    own = pitch + 12.0 * np.log2(numbers)
+    theirs = others[:, None] + 12.0 * np.log2(np.arange(1, 2 * _PARTIALS + 1))
+    apart = np.abs(own[:, None] - theirs.ravel()).min(axis=1) if theirs.size else np.full(len(own), np.inf)
+    hz: Floats = 440.0 * 2.0 ** ((own[apart > _APART] - 69.0) / 12.0)
+    return hz[hz < 0.45 * ANALYSIS_RATE_HZ]
+
+
+def _without_lateness(score: Score, shifts: dict[str, float]) -> dict[str, float]:
+    """Without what all notes of a part have in common: how softly its instrument speaks."""
+    result = {}
+    for part in score.parts:
+        own = {note.id: shifts[note.id] for note in part.notes if note.id in shifts}
+        if len(own) >= _LEAST_NOTES:
+            common_s = float(np.median([*own.values()]))
+            result.update({id: shift_s - common_s for id, shift_s in own.items()})
+    return result
+
+
+def _shift(sound: Floats, at_s: float, hz: Floats, floor: float) -> float | None:
+    """Where these frequencies begin to sound, around a moment; None where that is not clear."""
+    reach = round((_REACH_S + 2 * _EDGE_S) / _STEP_S)
+    centre = round(at_s * ANALYSIS_RATE_HZ)
+    first = centre - reach * _HOP - _SIZE // 2
+    last = centre + reach * _HOP + _SIZE // 2
+    if first < 0 or last > len(sound):
+        return None
+    # Short windows for high notes, longer ones where partials lie close.
+    size = int(np.clip(4.0 * ANALYSIS_RATE_HZ / hz[0], 256, _SIZE))
+    starts = centre + _HOP * np.arange(-reach, reach + 1) - size // 2
+    frames = np.lib.stride_tricks.sliding_window_view(sound, size)[starts] * np.hanning(size)
+    waves = np.exp(-2j * np.pi * np.outer(np.arange(size), hz) / ANALYSIS_RATE_HZ)
+    power = np.abs(frames @ waves) ** 2 * (_SIZE / size) ** 2
+    level = np.log(power + floor)
+    width = max(round(_EDGE_S / _STEP_S), 1)
+    mean = uniform_filter1d(level, width, axis=0, mode="nearest")
+    half = (width + 1) // 2
+    rise = np.zeros(len(level))
+    rise[half:-half] = (mean[2 * half :] - mean[: -2 * half]).clip(-1.0, 4.0).mean(axis=1)
+    shifts = _STEP_S * np.arange(-reach, reach + 1)
+    inside = np.abs(shifts) <= _REACH_S
+    score = np.where(inside, rise * np.exp(-0.5 * (shifts / _USUAL_S / 1.5) ** 2), 0.0)
+    best = int(score.argmax())
+    other = np.where(np.abs(shifts - shifts[best]) > 1.2 * _EDGE_S, score, 0.0).max()
+    if rise[best] < _LEAST_RISE or other > _UNIQUE * score[best]:
+        return None
+    return float(shifts[best])
