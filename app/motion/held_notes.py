@@ -69,9 +69,10 @@ def firmness(plan: PlayerPlan) -> Curve:
 
 def easing(plan: PlayerPlan) -> Curve:
     """How far the tension lets go between notes, and after the last one."""
-    if not plan.embouchures:
-        return moves((), EASED)
     starts_s, ends_s, _ = _notes(plan)
+    # All notes may be too short to be seen.
+    if not len(starts_s):
+        return moves((), EASED)
     next_s = np.append(starts_s[1:], np.inf)
     gaps = next_s - ends_s > GAP_S
     from_s, to_s = ends_s[gaps], next_s[gaps]

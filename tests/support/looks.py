@@ -14,7 +14,6 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
-from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
     QAbstractButton,
     QApplication,
@@ -49,6 +48,7 @@ from tests.gui.shell.conftest import Answers
 from tests.support.real_work import LUTKIN
 from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import pause
 from widgets.dialogs.import_midi import ImportDialog
 
 ELIDED = {"player_instrument", "front_player", "curve_choice", "notice", "problems_who", "problems_kind"}
@@ -171,7 +171,7 @@ class Look:
 
     def settle(self, seconds: float = 0.08) -> None:
         """Let the editor lay itself out."""
-        QTest.qWait(round(1000 * seconds))
+        pause(round(1000 * seconds))
 
     def at(self, state: str) -> None:
         """Judge a state."""

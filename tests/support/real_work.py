@@ -31,6 +31,7 @@ from app.shell.app import Program, make_application
 from tests.gui.shell.conftest import Answers
 from tests.gui.timeline.hand import Hand
 from tests.gui.timeline.lane_hands import drag, middle
+from tests.support.windows import pause
 from widgets.common.number_slider import NumberSlider
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.panel import TimelinePanel
@@ -176,7 +177,7 @@ def pin_three(work: Work) -> None:
         work.show_bars(max(bar - 1, 1), bar + 2)
         work.click_note(note.id)
         work.keys(work.timeline.roll.plot, [digits[sign] for sign in others[0]])
-        QTest.qWait(900)
+        pause(900)
         work.planned()
         now = next(event for event in work.plan.fingerings if event.note_id == note.id)
         assert (now.label, now.corrected) == (others[0], True), (now, others)
@@ -341,7 +342,7 @@ def recover_and_export(folder: Path) -> None:
     last_bar.setValue(16)
     QTest.mouseClick(dialog.findChild(QPushButton, "export_start"), Qt.MouseButton.LeftButton)
     work.until(lambda: (folder / "out" / "report.json").exists(), "the export")
-    QTest.qWait(300)
+    pause(300)
     dialog.grab().save(str(folder / "22_exported.png"))
     work.answers.answer = "save"
     work.do("file.save")

@@ -33,6 +33,7 @@ from app.project.model import Project
 from app.project.storage import load, save
 from app.shell.app import Program
 from tests.support.takes import take_of
+from tests.support.windows import pause
 
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
 
@@ -300,7 +301,7 @@ class Restless:
     def play_on(self) -> None:
         """Wait a moment: what is slow catches up."""
         self.deeds.append("wait")
-        QTest.qWait(self.random.randint(1, 40))
+        pause(self.random.randint(1, 40))
 
     def record(self) -> None:
         """Someone has played something on a wind controller."""

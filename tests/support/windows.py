@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
+from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
@@ -22,6 +23,14 @@ def show_in_front(window: QWidget) -> None:
     window.show()
     window.activateWindow()
     assert QTest.qWaitForWindowActive(window, PATIENCE_MS)
+
+
+def pause(milliseconds: int) -> None:
+    """Let the application work for some time; it sleeps where there is nothing to do, while vispy makes `QTest.qWait` a
+    loop that never does."""
+    loop = QEventLoop()
+    QTimer.singleShot(milliseconds, loop.quit)
+    loop.exec()
 
 
 def wait_until(condition: Callable[[], bool]) -> bool:

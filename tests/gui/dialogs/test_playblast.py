@@ -17,6 +17,7 @@ from app.editor.tasks import ThreadTasks
 from app.editor.viewport_state import View
 from app.errors import AppError
 from tests.gui.conftest import quartet_project
+from tests.support.windows import pause
 from widgets.dialogs.playblast import PlayblastDialog
 
 
@@ -75,7 +76,7 @@ def test_cancelled_it_leaves_nothing(threaded: Session, qtbot: QtBot, tmp_path: 
     threaded.set_loop((2.0, 40.0))
     dialog = film(threaded, tmp_path / "film.mp4", [])
     press(dialog, "playblast_start")
-    QTest.qWait(50)
+    pause(50)
     press(dialog, "playblast_close")
     button = dialog.findChild(QPushButton, "playblast_start")
     assert button is not None

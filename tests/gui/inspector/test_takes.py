@@ -22,6 +22,7 @@ from app.shell.actions import ActionTable
 from app.shell.commands import edit, takes
 from tests.gui.inspector.hands import child, click, drag, number, type_into
 from tests.support.takes import take_of
+from tests.support.windows import pause
 from widgets.common.combo import Combo
 from widgets.inspector.panel import InspectorPanel
 
@@ -38,7 +39,7 @@ def taken(panel: InspectorPanel, session: Session, tmp_path_factory: pytest.Temp
     )
     session.document.open(comp_whole(project, session.player.id, take_id))
     session.select(Selection(take=take_id))
-    QTest.qWait(1)
+    pause(1)
     return session
 
 
@@ -104,7 +105,7 @@ def test_quantising_has_a_grid(panel: InspectorPanel, taken: Session) -> None:
 
 def test_as_usual(panel: InspectorPanel, taken: Session) -> None:
     type_into(number(panel, "take_double_s"), "90")
-    QTest.qWait(1)
+    pause(1)
     click(panel, "take_usual")
     assert the_take(taken).cleaning == Cleaning()
 
@@ -133,7 +134,7 @@ def test_another_colour(panel: InspectorPanel, taken: Session) -> None:
 def test_beats_of_an_ensemble_are_refused(panel: InspectorPanel, taken: Session) -> None:
     reported: list[Message] = []
     taken.noticed.connect(lambda message, severity: reported.append(message) if severity is Severity.ERROR else None)
-    QTest.qWait(1)
+    pause(1)
     click(panel, "take_beats")
     assert [message.id for message in reported] == ["take.not_free"]
     assert steps(taken) == []
@@ -150,7 +151,7 @@ def test_few_notes_have_no_beats(panel: InspectorPanel, taken: Session) -> None:
     taken.select(Selection(take="take:1"))
     reported: list[Message] = []
     taken.noticed.connect(lambda message, severity: reported.append(message))
-    QTest.qWait(1)
+    pause(1)
     click(panel, "take_beats")
     assert [message.id for message in reported] == ["take.too_few_notes"]
 

@@ -13,6 +13,7 @@ from app.project.edit.body_dance import set_body_dance
 from app.project.edit.dancers import add_dancer
 from app.project.model import DANCER_PARAMETERS
 from app.shell.language import Texts
+from app.shell.theme import unstyled
 from metadata.acting import names_in
 from tests.support.parameters import others
 from tests.support.windows import show_in_front
@@ -24,14 +25,15 @@ from widgets.players.panel import PlayersPanel
 
 
 @pytest.fixture
-def panel(session: Session, qtbot: QtBot) -> PlayersPanel:
+def panel(session: Session, qt_app: QApplication, qtbot: QtBot) -> PlayersPanel:
     players = tuple(player.id for player in session.project.players)
     project, dancer = add_dancer(set_body_dance(session.project, players, "salsa"), "salsa", "Anna")
     session.document.open(project)
     session.set_players(players)
     session.set_dancer(dancer)
     session.set_folded("players_acting", False)
-    made = PlayersPanel(session)
+    with unstyled(qt_app):
+        made = PlayersPanel(session)
     qtbot.addWidget(made)
     show_in_front(made)
     return made

@@ -9,7 +9,7 @@ import pytest
 from msgspec.structs import replace as replace_struct
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLineEdit, QMenu, QPushButton, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QComboBox, QLineEdit, QMenu, QPushButton, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
@@ -18,6 +18,7 @@ from app.project.edit import players as players_edit
 from app.project.edit.players import cast_parameters, duplicate_players
 from app.project.performers import Player
 from app.shell.commands.players import toggle_posture
+from app.shell.theme import unstyled
 from instrument_maps.library import find_map
 from tests.support.windows import show_in_front
 from widgets.common.combo import Combo
@@ -28,9 +29,10 @@ from widgets.players.stage import StageView
 
 
 @pytest.fixture
-def panel(session: Session, qtbot: QtBot) -> PlayersPanel:
+def panel(session: Session, qt_app: QApplication, qtbot: QtBot) -> PlayersPanel:
     session.performance.plans  # noqa: B018 - made, as the shell does
-    made = PlayersPanel(session)
+    with unstyled(qt_app):
+        made = PlayersPanel(session)
     qtbot.addWidget(made)
     made.resize(320, 1200)
     show_in_front(made)

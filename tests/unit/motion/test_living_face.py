@@ -146,6 +146,20 @@ def test_between_notes_the_tension_lets_go_and_is_back_at_the_next() -> None:
     assert found[[0, 6]].min() > 0.5
 
 
+TOO_SHORT = plan([(1.0, 1.0005, 0.5, 0.8)])
+
+
+@pytest.mark.parametrize(
+    "silent", [TOO_SHORT, msgspec.structs.replace(TOO_SHORT, embouchures=())], ids=["short", "none"]
+)
+def test_without_a_note_that_lasts_the_lips_stay_let_go(silent: PlayerPlan) -> None:
+    times_s = np.array([-1.0, 1.0, 2.0])
+    eased = easing(silent).sample(times_s)
+    assert eased.min() == eased.max() > 0.5
+    np.testing.assert_array_equal(firmness(silent).sample(times_s), 0.0)
+    np.testing.assert_array_equal(vibrato_size(silent).sample(times_s), 0.0)
+
+
 def test_a_vibrato_comes_in_on_held_notes_only() -> None:
     size = vibrato_size(plan([(0.0, 0.5, 0.5, 0.8), (1.0, 1.8, 0.5, 0.8), (3.0, 6.0, 0.5, 0.8)]))
     found = size.sample(np.array([0.4, 1.2, 1.65, 3.1, 3.6, 5.0, 6.0]))

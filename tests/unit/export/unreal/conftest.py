@@ -43,10 +43,18 @@ def quartet() -> Project:
     return project_from_score(read_midi(QUARTET, maps=map_choices(maps.values())), maps)
 
 
+@cache
+def _planned_quartet() -> Performance:
+    performance = Performance(quartet())
+    performance.prepare()
+    return performance
+
+
 def request_of(
     project: Project, players: tuple[str, ...] = ("Trumpet 1",), source: str = "quartet.mid", last_bar: int = 1
 ) -> Request:
-    performance = Performance(project)
+    # What the project has in common with the quartet was planned once, as in an editor that played it before.
+    performance = Performance(project, _planned_quartet())
     chosen = tuple(player for player in project.players if player.name in players)
     dancers = tuple(dancer for dancer in project.dancers if dancer.name in players)
     assert len(chosen) + len(dancers) == len(players)
