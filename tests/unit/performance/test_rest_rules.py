@@ -70,3 +70,9 @@ def test_who_marches_has_no_page_to_turn_and_a_short_rest_no_time_for_it() -> No
     assert marching["page_turn"] == 0
     assert marching["press_water_key"] > 0
     assert not any(placed(plan) for plan in plans("trumpet_Bb", 14))
+
+
+def test_in_a_shorter_rest_players_listen_to_the_others() -> None:
+    found = Counter(event.name for plan in plans("trumpet_Bb", 16) for event in placed(plan))
+    assert set(found) == {"listen_left", "listen_right"}
+    assert 0.2 * len(SEEDS) < found.total() < len(SEEDS)
