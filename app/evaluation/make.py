@@ -182,7 +182,6 @@ def _videos(
         found["film"], project = import_video(
             project,
             Path(restored(request.film)),
-            "--film-offset",
             request.film_offset_s,
             lambda share: report(
                 0.15 * share, Message("evaluate.step_video", {"file": Path(restored(request.film)).name})
@@ -195,7 +194,6 @@ def _videos(
         found["keyframes"], _ = import_video(
             project,
             path,
-            "--keyframes-offset",
             request.keyframes_offset_s,
             lambda share: report(0.15 + 0.05 * share, Message("evaluate.step_video", {"file": path.name})),
             stop_requested,
