@@ -2,7 +2,7 @@
 
 Messages
 --------
-evaluate.silent_video(file, option), evaluate.other_piece(file, percent, option),
+evaluate.silent_video(file), evaluate.other_piece(file, percent), evaluate.not_followed(file, percent),
 evaluate.other_tempo(file, percent), evaluate.not_covered(file, from_s, until_s, first_s, last_s).
 """
 
@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from app.audio.decode import decode
 from app.audio.track import RATE_HZ, Block, Mix, Piece, Samples, Track
-from app.errors import FileError
+from app.errors import AppError, FileError
 from app.evaluation.excerpts import Excerpt
 from app.formats.scratch import scratch_folder
 from app.formats.video import VideoFacts, VideoPictures, sound_into, video_facts, video_pictures
@@ -90,7 +90,6 @@ class ImportedVideo:
 def import_video(
     project: Project,
     path: Path,
-    option: str,
     offset_s: float | None,
     progress: Callable[[float], None],
     stop_requested: Callable[[], bool],
@@ -100,8 +99,6 @@ def import_video(
 
     Parameters
     ----------
-    option : str
-        What its place can be given with by hand, for messages.
     offset_s : float or None
         None: its sound is compared with the piece.
     follow : bool
@@ -118,20 +115,46 @@ def import_video(
     facts = video_facts(str(path))
     if not facts.has_sound:
         if offset_s is None or follow:
-            raise FileError("evaluate.silent_video", file=str(path), option=option)
+            raise FileError("evaluate.silent_video", file=str(path))
         return ImportedVideo(path, offset_s, facts, None), project
     samples = _sound(path, stop_requested)
     progress(0.3)
-    if follow:
-        return _followed(project, path, facts, samples, lambda share: progress(0.3 + 0.7 * share), stop_requested)
-    if offset_s is not None:
+    if offset_s is not None and not follow:
         return ImportedVideo(path, offset_s, facts, samples), project
+    with _about(path):
+        found = _followed if follow else _found
+        return found(project, path, facts, samples, lambda share: progress(0.3 + 0.7 * share), stop_requested)
+
+
+@contextlib.contextmanager
+def _about(path: Path) -> Iterator[None]:
+    """What is wrong with a sound is said of the video that it is of."""
+    try:
+        yield
+    except AppError as error:
+        message = error.message
+        if message.id == "audio.nothing_to_compare":
+            raise FileError("evaluate.silent_video", file=str(path)) from error
+        if message.id == "audio.not_followed":
+            percent = message.arguments["percent"]
+            raise FileError("evaluate.not_followed", file=str(path), percent=percent) from error
+        raise
+
+
+def _found(
+    project: Project,
+    path: Path,
+    facts: VideoFacts,
+    samples: Samples,
+    progress: Callable[[float], None],
+    stop_requested: Callable[[], bool],
+) -> tuple[ImportedVideo, Project]:
     from app.audio.offset import estimate_offset
 
-    found = estimate_offset(samples, RATE_HZ, project.score, lambda share: progress(0.3 + 0.7 * share), stop_requested)
+    found = estimate_offset(samples, RATE_HZ, project.score, progress, stop_requested)
     percent = round(100 * found.confidence)
     if found.confidence < RECOGNISED:
-        raise FileError("evaluate.other_piece", file=str(path), percent=percent, option=option)
+        raise FileError("evaluate.other_piece", file=str(path), percent=percent)
     score = project.score
     drift_s = abs(found.tempo_ratio - 1.0) * float(score.tempo_map.seconds(float(score.end_tick)))
     if drift_s > MOST_DRIFT_S:

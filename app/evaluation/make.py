@@ -8,7 +8,7 @@ evaluate.there_already(file), evaluate.no_excerpt; progress: evaluate.step_video
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -94,7 +94,6 @@ def make_evaluation(
     performance = Performance(project)
     performance.hold(stop_requested, lambda share: report(0.2 + 0.05 * share, Message("evaluate.step_holds")))
     scenes = _scenes(performance, request, videos, report, stop_requested)
-    framing = Framing(request.view, request.player_ids, request.size, request.theme)
     drawn = _clips(project, request, variants, scenes[:-1])
     singles = tuple(clip.code for clip in drawn) if request.presentation != "pair" else ()
     pairs = pairs_of([(clip.code, clip.variant, clip.excerpt) for clip in drawn])
@@ -112,44 +111,63 @@ def make_evaluation(
     with files_into(folder) as new:
         clips = new / CLIPS
         clips.mkdir()
-        left_out = list[LeftOut]()
-        for number, variant in enumerate(variants):
-            files = {clips / f"{clip.code}.mp4": scenes[clip.excerpt - 1] for clip in drawn if clip.variant == variant}
-            if variant == ("generated" if "generated" in variants else variants[0]):
-                files[clips / f"{_PRACTICE}.mp4"] = scenes[-1]
-
-            def shown(share: float, number: int = number) -> None:
-                said = Message("evaluate.step_clips", {"number": number + 1, "count": len(variants)})
-                report(0.3 + 0.6 * (number + share) / len(variants), said)
-
-            if variant in OURS:
-                found = draw_ours(
-                    project,
-                    variant,
-                    framing,
-                    files,
-                    stages,
-                    shown,
-                    stop_requested,
-                    lambda left: require_players(left, request.title, wording),
-                )
-                left_out += [one for one in found if one not in left_out]
-            else:
-                cut_video(videos[variant], request.size, files, shown, stop_requested)
+        left_out = _draw(
+            project, request, variants, videos, scenes, drawn, clips, stages, wording, report, stop_requested
+        )
         for number, (left, right) in enumerate(pairs):
             report(0.9 + 0.05 * number / len(pairs), Message("evaluate.step_pairs"))
             beside(clips / f"{left}-{right}.mp4", clips / f"{left}.mp4", clips / f"{right}.mp4", CRF)
         report(0.95, Message("evaluate.step_page"))
         (new / PAGE_FILE).write_bytes(page(key, table, clips))
-
-        def measured(share: float) -> None:
-            if stop_requested():
-                raise Cancelled("work.stopped")
-            report(0.95 + 0.05 * share, Message("evaluate.step_measures"))
-
+        measured = _measured(report, stop_requested)
         write_measures(measure_variants(project, variants, measured), new / MEASURES_FILE)
         write_key(key, new / KEY_FILE)
-    return Made(folder, key, len(pairs), len(table), tuple(left_out), videos.get("film"))
+    return Made(folder, key, len(pairs), len(table), left_out, videos.get("film"))
+
+
+def _draw(
+    project: Project,
+    request: Request,
+    variants: Sequence[Variant],
+    videos: Mapping[Variant, ImportedVideo],
+    scenes: Sequence[Scene],
+    drawn: Sequence[Clip],
+    clips: Path,
+    stages: Stages,
+    wording: Callable[[Message], str],
+    report: Report,
+    stop_requested: StopRequested,
+) -> tuple[LeftOut, ...]:
+    """Write the clips of all variants; who could not be drawn."""
+    framing = Framing(request.view, request.player_ids, request.size, request.theme)
+    left_out = dict[str, LeftOut]()
+    for number, variant in enumerate(variants):
+        files = {clips / f"{clip.code}.mp4": scenes[clip.excerpt - 1] for clip in drawn if clip.variant == variant}
+        if variant == ("generated" if "generated" in variants else variants[0]):
+            files[clips / f"{_PRACTICE}.mp4"] = scenes[-1]
+
+        def shown(share: float, number: int = number) -> None:
+            said = Message("evaluate.step_clips", {"number": number + 1, "count": len(variants)})
+            report(0.3 + 0.6 * (number + share) / len(variants), said)
+
+        def refuse(left: Sequence[LeftOut]) -> None:
+            require_players(left, request.title, wording)
+
+        if variant in OURS:
+            found = draw_ours(project, variant, framing, files, stages, shown, stop_requested, refuse)
+            left_out |= {one.player.id: one for one in found}
+        else:
+            cut_video(videos[variant], request.size, files, shown, stop_requested)
+    return tuple(left_out.values())
+
+
+def _measured(report: Report, stop_requested: StopRequested) -> Callable[[float], None]:
+    def measured(share: float) -> None:
+        if stop_requested():
+            raise Cancelled("work.stopped")
+        report(0.95 + 0.05 * share, Message("evaluate.step_measures"))
+
+    return measured
 
 
 def _videos(
@@ -164,7 +182,6 @@ def _videos(
         found["film"], project = import_video(
             project,
             Path(restored(request.film)),
-            "--film-offset",
             request.film_offset_s,
             lambda share: report(
                 0.15 * share, Message("evaluate.step_video", {"file": Path(restored(request.film)).name})
@@ -177,7 +194,6 @@ def _videos(
         found["keyframes"], _ = import_video(
             project,
             path,
-            "--keyframes-offset",
             request.keyframes_offset_s,
             lambda share: report(0.15 + 0.05 * share, Message("evaluate.step_video", {"file": path.name})),
             stop_requested,

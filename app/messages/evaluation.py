@@ -33,20 +33,34 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "抜粋できる範囲に演奏がありません。小節を手動で選ぶか、動画のオフセットを変更してください",
     ),
     "evaluate.silent_video": (
-        "{file} has no sound to find its place in the piece by; give the place by hand (on the command line: {option})",
+        (
+            "{file} has no sound to find its place in the piece by; give its place by hand (on the command line: "
+            "--film-offset, --keyframes-offset)"
+        ),
         (
             "{file} には音声がないため、曲の中の位置を検出できません。"
-            "位置を指定してください（コマンドラインでは {option}）"
+            "位置を指定してください（コマンドラインでは --film-offset、--keyframes-offset）"
         ),
     ),
     "evaluate.other_piece": (
         (
             "the sound of {file} does not fit this piece at a steady tempo (confidence {percent} %); choose a video of "
-            "this piece, follow its tempo (--follow-film), or give its place by hand ({option})"
+            "this piece, follow its tempo (--follow-film), or give its place by hand (--film-offset, "
+            "--keyframes-offset)"
         ),
         (
             "{file} の音声は一定のテンポではこの曲に一致しません（信頼度 {percent} %）。この曲の動画を選ぶか、"
-            "テンポを動画に合わせるか（--follow-film）、位置を指定してください（{option}）"
+            "テンポを動画に合わせるか（--follow-film）、位置を指定してください（--film-offset、--keyframes-offset）"
+        ),
+    ),
+    "evaluate.not_followed": (
+        (
+            "the piece was not recognised in {file} (confidence {percent} %): choose a film of this piece, of all of "
+            "it, in this key, or give its place by hand (--film-offset)"
+        ),
+        (
+            "{file} の音声からこの曲を認識できませんでした（信頼度 {percent} %）。"
+            "この曲全体を同じ調で演奏した動画を選ぶか、位置を指定してください（--film-offset）"
         ),
     ),
     "evaluate.other_tempo": (

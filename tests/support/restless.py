@@ -42,10 +42,10 @@ LEFT_ALONE = frozenset(("file.quit",))
 ASKS_THE_SYSTEM = frozenset(
     (
         *("export_browse", "playblast_browse", "swatch"),
-        *("evaluation_browse", "evaluation_browse_film", "evaluation_browse_keyframes"),
+        *("evaluation_browse", "evaluation_browse_film", "evaluation_browse_keyframes", "evaluation_start"),
     )
 )
-"""Buttons that open a dialog of the system, which no test can close."""
+"""Buttons that open a dialog of the system, which no test can close, and one that starts minutes of another process."""
 KEYS = (
     *(Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Home, Qt.Key.Key_End),
     *(Qt.Key.Key_Tab, Qt.Key.Key_Backtab, Qt.Key.Key_Escape, Qt.Key.Key_Return, Qt.Key.Key_Space),

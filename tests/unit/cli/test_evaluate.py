@@ -15,6 +15,7 @@ from app.cli import main
 from app.errors import FileError
 from app.evaluation.imported import import_video, pictures_of
 from app.export.video import video_into
+from app.messages import error_text
 from tests.unit.audio.pieces import quartet as played
 from tests.unit.audio.test_follow import recorded, truth
 from tests.unit.cli.test_main import QUARTET
@@ -86,7 +87,7 @@ def nothing(share: float) -> None:
 
 
 def test_a_film_is_placed_by_its_sound_and_its_pictures_are_those_of_the_time(films: Path) -> None:
-    video, _ = import_video(quartet(), films / "film.mp4", "--film-offset", None, nothing, lambda: False)
+    video, _ = import_video(quartet(), films / "film.mp4", None, nothing, lambda: False)
     assert video.offset_s == pytest.approx(LATE_S, abs=0.03)
     assert video.confidence is not None
     assert video.confidence > 0.5
@@ -103,23 +104,25 @@ def test_a_film_is_placed_by_its_sound_and_its_pictures_are_those_of_the_time(fi
 
 
 @pytest.mark.parametrize(
-    ("name", "error", "remedy"),
+    ("name", "follow", "error", "remedy"),
     [
-        ("silent.mp4", "silent_video", "--film-offset"),
-        ("other.mp4", "other_piece", "--film-offset"),
-        ("text.mp4", "not_readable", ""),
-        ("missing.mp4", "cannot_read", ""),
+        ("silent.mp4", False, "silent_video", "--film-offset"),
+        ("silent.mp4", True, "silent_video", "--film-offset"),
+        ("other.mp4", False, "other_piece", "--follow-film"),
+        ("other.mp4", True, "not_followed", "--film-offset"),
+        ("text.mp4", False, "not_readable", ""),
+        ("missing.mp4", False, "cannot_read", ""),
     ],
 )
-def test_a_video_that_is_of_no_use_is_named(films: Path, name: str, error: str, remedy: str) -> None:
+def test_a_video_that_is_of_no_use_is_named(films: Path, name: str, follow: bool, error: str, remedy: str) -> None:
     with pytest.raises(FileError, match=error) as raised:
-        import_video(quartet(), films / name, "--film-offset", None, nothing, lambda: False)
+        import_video(quartet(), films / name, None, nothing, lambda: False, follow)
     assert raised.value.message.arguments["file"] == str(films / name)
-    assert raised.value.message.arguments.get("option", "") == remedy
+    assert remedy in error_text(raised.value)
 
 
 def test_a_silent_video_is_placed_by_hand(films: Path) -> None:
-    video, _ = import_video(quartet(), films / "silent.mp4", "--film-offset", -2.0, nothing, lambda: False)
+    video, _ = import_video(quartet(), films / "silent.mp4", -2.0, nothing, lambda: False)
     assert video.samples is None
     assert video.covered_s == pytest.approx((-2.0, LENGTH_S - 2.0), abs=0.3)
 
@@ -131,7 +134,7 @@ def test_the_piece_follows_the_film(tmp_path: Path) -> None:
         for _ in range(len(recorded()) // RATE_HZ):
             film.write(np.zeros((16, 16, 3), np.uint8))
     project = played()
-    video, followed = import_video(project, path, "", None, nothing, lambda: False, follow=True)
+    video, followed = import_video(project, path, None, nothing, lambda: False, follow=True)
     assert followed.audio is None
     for second in (5.0, 10.0, 20.0):
         tick = float(truth().score.tempo_map.ticks(second))
