@@ -55,12 +55,12 @@ RECOGNISED: Final = 0.4
 """Mean confidence below which it is rather a recording of another piece."""
 _WHOLE: Final = 0.8
 """Mean confidence below which it is looked whether the recording has only a part of the piece."""
-_PARTIAL: Final = 0.9
+_PARTIAL: Final = 0.97
 """A part is at most so much of the piece."""
 _PART_RECOGNISED: Final = 0.6
 """As `RECOGNISED` of a part, which is found wherever it is most alike."""
-_BETTER: Final = 0.1
-"""A part must be so much more sure than the whole."""
+_AS_SURE: Final = 0.01
+"""A part is taken even where the whole is more sure by this: its ends are found better."""
 
 
 def beats_of(metre_map: MetreMap, end_tick: int, pinned: Iterable[int] = ()) -> Integers:
@@ -121,7 +121,7 @@ def follow(
         if part.stop - part.start < _PARTIAL * shapes.shape[1]:
             reached(0.85)
             other = _followed(piece, part)
-            if other is not None and other.mean_confidence >= max(_PART_RECOGNISED, _better_than(result)):
+            if other is not None and other.mean_confidence >= max(_PART_RECOGNISED, _as_sure_as(result)):
                 result = other
     if result is None or result.mean_confidence < RECOGNISED:
         raise AppError("audio.not_followed", percent=0 if result is None else round(100 * result.mean_confidence))
@@ -141,8 +141,8 @@ class _Heard:
     pins: Pins
 
 
-def _better_than(whole: Following | None) -> float:
-    return 0.0 if whole is None else whole.mean_confidence + _BETTER
+def _as_sure_as(whole: Following | None) -> float:
+    return 0.0 if whole is None else whole.mean_confidence - _AS_SURE
 
 
 def _followed(heard: _Heard, part: slice) -> Following | None:

@@ -9,12 +9,15 @@ from dataclasses import dataclass, field
 from app.audio.decode import decode
 from app.audio.dynamics import Loudness, dynamics, loudness
 from app.audio.follow import beats_of, follow
+from app.audio.note_onsets import note_onsets
 from app.audio.track import RATE_HZ, Samples
+from app.errors import Cancelled
 from app.project.edit.dynamics import set_dynamics
 from app.project.edit.follow import follow_recording, pins_for
+from app.project.edit.note_times import shift_onsets
 from app.project.model import Project
 from app.score.following import Following
-from app.score.model import ControllerCurve
+from app.score.model import ControllerCurve, Score
 
 
 @dataclass(frozen=True)
@@ -23,6 +26,8 @@ class Wishes:
 
     Attributes
     ----------
+    notes : bool
+        Single notes whose beginnings are clear move too.
     dynamics : bool
         Its loudness becomes the players' dynamics.
     stems : mapping of str to str
@@ -30,6 +35,7 @@ class Wishes:
         one get their dynamics from the recording of everybody.
     """
 
+    notes: bool = False
     dynamics: bool = False
     stems: Mapping[str, str] = field(default_factory=dict)
 
@@ -42,10 +48,13 @@ class Followed:
     ----------
     curves : mapping of str to ControllerCurve
         Dynamics by part.
+    shifts_s : mapping of str to float
+        How much later than on their beats notes begin, by id.
     """
 
     following: Following
     curves: Mapping[str, ControllerCurve] = field(default_factory=dict)
+    shifts_s: Mapping[str, float] = field(default_factory=dict)
 
 
 def listen(
@@ -74,7 +83,13 @@ def listen(
         Those of `follow`, of `decode` for the stems, of `dynamics` and of `follow_recording`.
     Cancelled
     """
-    beats_share = 0.7 if wishes.dynamics else 1.0
+    beats_share = 0.6 if wishes.dynamics or wishes.notes else 1.0
+
+    def reached(share: float) -> None:
+        if stop_requested():
+            raise Cancelled("work.stopped")
+        progress(share)
+
     pinned = {pin.tick: pin.recording_s - begins_s for pin in pins_for(project, path)}
     following = follow(
         samples,
@@ -85,22 +100,38 @@ def listen(
         stop_requested,
         pinned,
     ).later(begins_s)
-    if not wishes.dynamics:
+    if not wishes.dynamics and not wishes.notes:
         return Followed(following)
-    aligned = follow_recording(project, following, path)
+    aligned = follow_recording(project, following, path).score
+    offset_s = begins_s - float(following.recording_s[0])
+    shifts: dict[str, float] = {}
+    if wishes.notes:
+        shifts = note_onsets(samples, RATE_HZ, aligned, offset_s, lambda share: reached(0.6 + 0.2 * share))
+    curves = _curves(project, aligned, samples, offset_s, begins_s, wishes, reached) if wishes.dynamics else {}
+    reached(1.0)
+    return Followed(following, curves, shifts)
+
+
+def _curves(
+    project: Project,
+    aligned: Score,
+    samples: Samples,
+    offset_s: float,
+    begins_s: float,
+    wishes: Wishes,
+    reached: Callable[[float], None],
+) -> dict[str, ControllerCurve]:
+    """The dynamics of all parts."""
     parts = {player.id: player.part_id for player in project.players}
     stems: dict[str, Loudness] = {}
     for number, (player_id, stem) in enumerate(wishes.stems.items()):
-        heard = decode(stem, stop_requested=stop_requested).samples
-        stems[parts[player_id]] = loudness(heard[round(begins_s * RATE_HZ) :], RATE_HZ)
-        progress(beats_share + 0.2 * (number + 1) / len(wishes.stems))
-    offset_s = begins_s - float(following.recording_s[0])
+        reached(0.8 + 0.15 * number / len(wishes.stems))
+        stems[parts[player_id]] = loudness(decode(stem).samples[round(begins_s * RATE_HZ) :], RATE_HZ)
     mix = loudness(samples, RATE_HZ) if set(parts.values()) - set(stems) else None
-    curves = dynamics(aligned.score, offset_s, mix, stems, set(parts.values()))
-    progress(1.0)
-    return Followed(following, curves)
+    return dynamics(aligned, offset_s, mix, stems, set(parts.values()))
 
 
 def take_over(project: Project, followed: Followed, path: str | os.PathLike[str]) -> Project:
     """The piece as the recording has it. Raises UsageError: see `follow_recording`."""
-    return set_dynamics(follow_recording(project, followed.following, path), followed.curves)
+    project = follow_recording(project, followed.following, path)
+    return set_dynamics(shift_onsets(project, followed.shifts_s), followed.curves)

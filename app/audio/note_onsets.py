@@ -6,11 +6,11 @@ at several moments alike, or sound already in another part.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
 import soxr
-from scipy.ndimage import uniform_filter1d
 
 from app.audio.features import tuning
 from app.audio.score_sound import ANALYSIS_RATE_HZ, Floats
@@ -25,7 +25,7 @@ _REACH_S: Final = 0.09
 """A note is looked for so far from where its beat puts it."""
 _EDGE_S: Final = 0.03
 """What sounds so long after a moment is held against what did before."""
-_USUAL_S: Final = 0.035
+_USUAL_S: Final = 0.05
 """Standard deviation of where notes are expected."""
 _LEAST_RISE: Final = 1.5
 """Natural logarithm of how much stronger partials get at a clear beginning."""
@@ -40,7 +40,13 @@ _LEAST_NOTES: Final = 8
 """Of a part, to know how softly its instrument speaks."""
 
 
-def note_onsets(samples: Samples, rate_hz: int, score: Score, offset_s: float) -> dict[str, float]:
+def note_onsets(
+    samples: Samples,
+    rate_hz: int,
+    score: Score,
+    offset_s: float,
+    progress: Callable[[float], None] = lambda share: None,
+) -> dict[str, float]:
     """How much later than in the score notes begin, seconds, by note id; only of those that are clear.
 
     Parameters
@@ -50,6 +56,8 @@ def note_onsets(samples: Samples, rate_hz: int, score: Score, offset_s: float) -
         As it lies on the recording.
     offset_s : float
         Second of the score at which the samples begin.
+    progress : callable
+        Called now and then with the share 0..1 that is done.
     """
     sound = soxr.resample(samples.astype(np.float32).mean(axis=1) / 32768.0, rate_hz, ANALYSIS_RATE_HZ)
     middle = len(sound) // 2
@@ -61,6 +69,8 @@ def note_onsets(samples: Samples, rate_hz: int, score: Score, offset_s: float) -
     floor = 1e-5 * float((sound.astype(np.float64) ** 2).mean()) * _SIZE**2 + 1e-12
     shifts: dict[str, float] = {}
     for index, note in enumerate(notes):
+        if index % 100 == 0:
+            progress(index / len(notes))
         at_s = float(begin_s[index])
         beside = (begin_s < at_s + _BESIDE_S) & (end_s > at_s - _BESIDE_S)
         beside[index] = False
@@ -106,17 +116,21 @@ def _shift(sound: Floats, at_s: float, hz: Floats, floor: float) -> float | None
     frames = np.lib.stride_tricks.sliding_window_view(sound, size)[starts] * np.hanning(size)
     waves = np.exp(-2j * np.pi * np.outer(np.arange(size), hz) / ANALYSIS_RATE_HZ)
     power = np.abs(frames @ waves) ** 2 * (_SIZE / size) ** 2
-    level = np.log(power + floor)
-    width = max(round(_EDGE_S / _STEP_S), 1)
-    mean = uniform_filter1d(level, width, axis=0, mode="nearest")
-    half = (width + 1) // 2
-    rise = np.zeros(len(level))
-    rise[half:-half] = (mean[2 * half :] - mean[: -2 * half]).clip(-1.0, 4.0).mean(axis=1)
+    rise = _rise(np.log(power + floor))
     shifts = _STEP_S * np.arange(-reach, reach + 1)
-    inside = np.abs(shifts) <= _REACH_S
-    score = np.where(inside, rise * np.exp(-0.5 * (shifts / _USUAL_S / 1.5) ** 2), 0.0)
-    best = int(score.argmax())
-    other = np.where(np.abs(shifts - shifts[best]) > 1.2 * _EDGE_S, score, 0.0).max()
-    if rise[best] < _LEAST_RISE or other > _UNIQUE * score[best]:
+    likely = np.where(np.abs(shifts) <= _REACH_S, rise * np.exp(-0.5 * (shifts / _USUAL_S) ** 2), 0.0)
+    best = int(likely.argmax())
+    other = np.where(np.abs(shifts - shifts[best]) > 1.2 * _EDGE_S, likely, 0.0).max()
+    if rise[best] < _LEAST_RISE or other > _UNIQUE * likely[best]:
         return None
     return float(shifts[best])
+
+
+def _rise(level: Floats) -> Floats:
+    """(n,): how much more comes just after a frame than just before it, mean over the columns."""
+    width = max(round(_EDGE_S / _STEP_S), 1)
+    sums = np.concatenate((np.zeros((1, level.shape[1])), np.cumsum(level, axis=0)))
+    mean = (sums[width:] - sums[:-width]) / width
+    result = np.zeros(len(level))
+    result[width : len(mean)] = (mean[width:] - mean[:-width]).clip(-1.0, 4.0).mean(axis=1)
+    return result

@@ -30,9 +30,9 @@ def add_command(commands: Commands) -> None:
         "align",
         help="put the notes where a recording of the piece has them",
         description="Finds when every beat sounds in a recording of the piece and rewrites the tempo so that the notes "
-        "lie there. The tempo moves from beat to beat, not from note to note. Bars that are doubtful, and what only "
-        "the recording has, are listed; where the recording leaves bars out, or is of another piece, nothing is "
-        "written.",
+        "lie there. The tempo moves from beat to beat, and with --notes single notes too. Bars that are doubtful, and "
+        "what only the recording has, are listed; where the recording leaves bars out, or is of another piece, nothing "
+        "is written.",
     )
     add_file_options(command)
     command.add_argument(
@@ -43,6 +43,11 @@ def add_command(commands: Commands) -> None:
     )
     command.add_argument(
         "--until", dest="until_s", type=_seconds, metavar="S", help="only what is recorded before this second"
+    )
+    command.add_argument(
+        "--notes",
+        action="store_true",
+        help="let single notes move too, where their beginnings are clear; else beats alone",
     )
     command.add_argument(
         "--dynamics",
@@ -112,7 +117,7 @@ def _follow(project: Project, arguments: argparse.Namespace) -> Followed:
     from app.audio.track import RATE_HZ
 
     stems = dict(_stem(project, text) for text in arguments.stems)
-    wishes = Wishes(dynamics=arguments.dynamics or bool(stems), stems=stems)
+    wishes = Wishes(notes=arguments.notes, dynamics=arguments.dynamics or bool(stems), stems=stems)
     progress = Progress(sys.stderr)
     label = filled("listening to {file}", {"file": arguments.recording.name})
     try:

@@ -38,6 +38,7 @@ class FollowRecordingDialog(Retranslated, QDialog):
         self._files: dict[str, Label] = {}
         self._clear: dict[str, Button] = {}
         self._explained = wrapped(Caption("follow_dialog.beats_lie_where_they_sound"))
+        self._notes = named(Check("follow_dialog.single_notes_move"), "follow_notes")
         self._dynamics = named(Check("follow_dialog.dynamics_follow"), "follow_dynamics")
         self._about_stems = wrapped(Caption("follow_dialog.single_players"))
         self._room = named(QScrollArea(), "follow_stems")
@@ -47,7 +48,9 @@ class FollowRecordingDialog(Retranslated, QDialog):
         self._buttons.accepted.connect(self.accept)
         self._buttons.rejected.connect(self.reject)
         self._dynamics.toggled.connect(self._show)
-        in_column(self._explained, self._dynamics, self._about_stems, (self._room, 1), self._buttons, of=self)
+        in_column(
+            self._explained, self._notes, self._dynamics, self._about_stems, (self._room, 1), self._buttons, of=self
+        )
         self.resize(_SIZE)
         self.retranslate()
         self._show()
@@ -73,7 +76,8 @@ class FollowRecordingDialog(Retranslated, QDialog):
     def wishes(self) -> Wishes:
         """What was chosen."""
         dynamics = self._dynamics.isChecked()
-        return Wishes(dynamics=dynamics, stems=dict(self._stems) if dynamics else {})
+        stems = dict(self._stems) if dynamics else {}
+        return Wishes(notes=self._notes.isChecked(), dynamics=dynamics, stems=stems)
 
     def set_stem(self, player_id: str, path: Path | None) -> None:
         """A recording of a player alone, or none."""

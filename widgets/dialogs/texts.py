@@ -328,6 +328,10 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Recordings of single players (stems), which begin when the recording does:",
         "奏者ごとの録音（ステム）。全体の録音と同時に始まるもの:",
     ),
+    "follow_dialog.single_notes_move": (
+        "Single notes move too, where their beginnings are clear",
+        "発音がはっきりしている音符は個別にも動かす",
+    ),
     "follow_dialog.sound_files": ("Audio files", "音声ファイル"),
     "follow_dialog.without_file": ("Without", "使わない"),
     "import_dialog.add_dancer": ("Add dancer", "ダンサーを追加"),

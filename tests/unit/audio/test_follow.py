@@ -128,6 +128,35 @@ def test_last_bars_missing_keep_the_tempo_before_them() -> None:
     assert np.percentile(errors_s, 95) <= NINETEEN_OF_TWENTY_S
 
 
+@pytest.mark.parametrize(("first", "last"), [(0.3, 0.71), (0.0, 0.25)])
+def test_a_recording_of_a_part_is_followed_where_it_fits(first: float, last: float) -> None:
+    begins_s, ends_s = first * end_s(truth()), last * end_s(truth())
+    found = followed(recorded()[round(begins_s * RATE_HZ) : round(ends_s * RATE_HZ)])
+    notes = np.array([note.onset_tick for part in quartet().score.parts for note in part.notes], np.float64)
+    true_s = truth().score.tempo_map.seconds(notes)
+    there = (true_s > begins_s) & (true_s < ends_s)
+    sizes_s = np.abs(np.interp(notes, found.ticks, found.recording_s) + begins_s - true_s)[there]
+    assert np.median(sizes_s) <= MEDIAN_S
+    assert np.percentile(sizes_s, 95) <= NINETEEN_OF_TWENTY_S
+    assert found.mean_confidence > 0.8
+    tick_at = truth().score.tempo_map.ticks
+    missing = sum(span.end - span.start for span in found.missing)
+    assert missing == pytest.approx(truth().score.end_tick - tick_at(ends_s) + tick_at(begins_s), rel=0.1)
+    project = follow_recording(quartet(), found, "concert.wav")
+    assert project.audio is not None
+    gone = {doubt.start_tick for doubt in project.audio.doubts if doubt.confidence == 0.0}
+    assert len(gone) > 0.4 * quartet().metre_map.bar_of_tick(quartet().score.end_tick)
+
+
+def test_what_sounds_instead_of_some_bars_does_not_stand_in_the_way() -> None:
+    sound = recorded().copy()
+    sound[20 * RATE_HZ : 25 * RATE_HZ] = np.random.default_rng(5).normal(scale=0.05, size=(5 * RATE_HZ, 2))
+    project = follow_recording(quartet(), followed(sound), "concert.wav")
+    assert project.audio is not None
+    bars = {project.metre_map.bar_of_tick(doubt.start_tick) for doubt in project.audio.doubts}
+    assert project.metre_map.bar_of_tick(int(truth().score.tempo_map.ticks(22.5))) in bars
+
+
 def test_bars_left_out_in_the_middle_are_reported_and_nothing_is_changed() -> None:
     sound = recorded()
     found = followed(np.concatenate([sound[: 30 * RATE_HZ], sound[50 * RATE_HZ :]]))
@@ -203,7 +232,9 @@ def test_a_pin_says_where_it_goes_on_after_a_repeat() -> None:
 
 def test_another_piece_is_refused() -> None:
     other = other_piece()
-    for sound, project in ((mixdown(other, 0.0, end_s(other)), quartet()), (recorded(), other)):
+    theirs = mixdown(other, 0.0, end_s(other))
+    short = theirs[10 * RATE_HZ : 25 * RATE_HZ]
+    for sound, project in ((theirs, quartet()), (short, quartet()), (recorded(), other)):
         with pytest.raises(AppError) as raised:
             followed(sound, project)
         assert raised.value.message.id == "audio.not_followed"

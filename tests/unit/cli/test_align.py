@@ -86,6 +86,21 @@ def test_dynamics_and_stems_become_curves(
     assert "no player Anna" in capsys.readouterr().err
 
 
+def test_single_notes_move_where_they_are_clear(quartet: Path, concert: Path, tmp_path: Path) -> None:
+    target = tmp_path / "concert.suisou"
+    assert main(["align", str(quartet), str(concert), "--notes", "--to", str(target)]) == DONE
+    project = load(target)
+    assert project.audio is not None
+    by_id = {note.id: note.onset_tick for part in truth().score.parts for note in part.notes}
+    notes = [note for part in project.score.parts for note in part.notes]
+    true_s = truth().score.tempo_map.seconds(np.array([by_id[note.id] for note in notes], np.float64))
+    found_s = project.score.tempo_map.seconds(np.array([note.onset_tick for note in notes], np.float64))
+    sizes_s = np.abs(found_s - project.audio.offset_s - 3.0 - true_s)
+    assert sum(note.onset_tick != by_id[note.id] for note in notes) > 50
+    assert np.median(sizes_s) < 0.015
+    assert np.percentile(sizes_s, 95) < 0.05
+
+
 def test_pinned_beats_stay_where_they_are(quartet: Path, concert: Path, tmp_path: Path) -> None:
     target, again = tmp_path / "concert.suisou", tmp_path / "again.suisou"
     assert main(["align", str(quartet), str(concert), "--to", str(target)]) == DONE

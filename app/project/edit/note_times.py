@@ -1,0 +1,49 @@
+"""Notes that begin earlier or later than the score has them, as they were played. They keep their ids, and with them
+what was corrected about them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import msgspec
+
+from app.project.edit.length import with_score
+from app.project.model import Project
+from app.score.model import Note, Part
+from app.score.tempo import TempoMap
+
+
+def shift_onsets(project: Project, seconds: Mapping[str, float]) -> Project:
+    """Let notes (by id) begin so much later; their ends stay. What lasts until a note goes on doing so, none gets
+    shorter than a tick, and none begins before the one before it, or before the piece."""
+    clock = project.score.tempo_map
+    parts = tuple(_shifted(part, seconds, clock) for part in project.score.parts)
+    if all(one is other for one, other in zip(parts, project.score.parts, strict=True)):
+        return project
+    return with_score(project, msgspec.structs.replace(project.score, parts=parts))
+
+
+def _shifted(part: Part, seconds: Mapping[str, float], clock: TempoMap) -> Part:
+    if seconds.keys().isdisjoint(part.note_ids):
+        return part
+    result: list[Note] = []
+    for index, note in enumerate(part.notes):
+        before = result[-1] if result else None
+        before_end = part.notes[index - 1].end_tick
+        onset = note.onset_tick
+        if note.id in seconds:
+            onset = round(clock.ticks(clock.seconds(float(onset)) + seconds[note.id]))
+        least = 0 if before is None else before.onset_tick + (1 if note.onset_tick > before.onset_tick else 0)
+        onset = max(min(onset, note.end_tick - 1), least)
+        if before is not None and before.onset_tick < onset and _goes_on(before_end, before.end_tick, note, onset):
+            result[-1] = msgspec.structs.replace(before, duration_tick=onset - before.onset_tick)
+        length = max(note.end_tick - onset, 1)
+        moved = onset != note.onset_tick
+        result.append(msgspec.structs.replace(note, onset_tick=onset, duration_tick=length) if moved else note)
+    ordered = tuple(sorted(result, key=lambda note: (note.onset_tick, note.pitch)))
+    return part if ordered == part.notes else msgspec.structs.replace(part, notes=ordered)
+
+
+def _goes_on(was_end: int, end: int, note: Note, onset: int) -> bool:
+    """Whether the note before lasts until this one: it did so, or would reach into it now and did not."""
+    return was_end == note.onset_tick or (was_end < note.onset_tick and end > onset)
