@@ -207,7 +207,9 @@ def test_a_gesture_is_no_larger_than_hands_follow_and_no_quicker_than_a_body() -
 
 def test_bundled_rules_leave_a_usual_player_alone() -> None:
     usual = make_plans(PIECE, (LINE,), time_frame((LINE,), CLOCK))["p"]
-    assert not [event for event in (*usual.expressions, *usual.gestures) if ":rule:" in event.id]
+    placed = [event.id for event in (*usual.expressions, *usual.gestures) if ":rule:" in event.id]
+    # In its rest of six seconds a player listens to the others.
+    assert not [event_id for event_id in placed if ":rule:listens_" not in event_id]
     jazz = replace(LINE, parameters=PlayerParameters(style="soloist"))
     ruled = make_plans(PIECE, (jazz,), time_frame((jazz,), CLOCK))["p"]
     made = [event for event in ruled.gestures if event.kind == "named"]
