@@ -76,6 +76,8 @@ def plan_embouchures(
     low, top = instrument.range.low, instrument.range.high
     reported = "embouchure.controller" if from_breath else "embouchure.register"
     reasons: dict[tuple[int, float], Message] = {}
+    known: dict[float, float] = {}
+    """Equal values are kept once."""
     events = []
     rows = zip(
         notes, times.onset_s.tolist(), times.played_end_s.tolist(), times.pitch.tolist(),
@@ -88,7 +90,8 @@ def plan_embouchures(
             arguments = {"pitch": midi, "low": low, "high": top, "loudness": loudness}
             reason = reasons[midi, loudness] = Message(reported, arguments)
         end_s = early_end_s.get(index, end_s)
-        events.append(EmbouchureEvent(f"embouchure:{note.id}", note.id, start_s, end_s, tight, strain, air, reason))
+        tight, strain, air = (known.setdefault(value, value) for value in (tight, strain, air))
+        events.append(EmbouchureEvent(note.id, start_s, end_s, tight, strain, air, reason))
     return tuple(events)
 
 
@@ -117,7 +120,7 @@ def plan_tongues(
             abs(here.get(name, 0.0) - before.get(name, 0.0)) * travel_m <= SMEAR_M for name, travel_m in slides
         )
     return tuple(
-        TongueEvent(f"tongue:{note.id}", note.id, onset_s - TONGUE_S, onset_s)
+        TongueEvent(note.id, onset_s - TONGUE_S, onset_s)
         for note, onset_s, legato in zip(notes, times.onset_s.tolist(), slurred.tolist(), strict=True)
         if not legato
     )

@@ -74,17 +74,20 @@ class BreathEvent(msgspec.Struct, frozen=True, gc=False):
 class TongueEvent(msgspec.Struct, frozen=True, gc=False):
     """The tongue's stroke before an attacked note; it releases at ``end_s``, the onset."""
 
-    id: str
     note_id: str
     start_s: float
     end_s: float
+
+    @property
+    def id(self) -> str:
+        """Made of the note's, not kept: there is one for every note."""
+        return f"tongue:{self.note_id}"
 
 
 class EmbouchureEvent(msgspec.Struct, frozen=True, gc=False):
     """Lips during one note. All values 0..1: ``tension`` (register), ``effort`` (height, loudness, length), ``air``
     (dynamics)."""
 
-    id: str
     note_id: str
     start_s: float
     end_s: float
@@ -93,6 +96,11 @@ class EmbouchureEvent(msgspec.Struct, frozen=True, gc=False):
     air: float
     reason: Message
     corrected: bool = False
+
+    @property
+    def id(self) -> str:
+        """Made of the note's, not kept: there is one for every note."""
+        return f"embouchure:{self.note_id}"
 
 
 class CueEvent(msgspec.Struct, frozen=True, gc=False):

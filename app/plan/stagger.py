@@ -36,8 +36,8 @@ FROM_EDGES_S = 1.0
 TRIED = 17
 """Times that are compared for each breath."""
 
-Place: TypeAlias = tuple[int, int]
-"""Where a note stands (`PLACES` a quarter), and its pitch class."""
+Place: TypeAlias = int
+"""Where a note stands (`PLACES` a quarter) and its pitch class, as one number."""
 
 
 class SharedLine(NamedTuple):
@@ -96,7 +96,7 @@ def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
         return SharedLine((), frozenset(), ())
     quarter = piece.clock.ticks_per_quarter
     onsets = np.rint(notated(times, piece).onset_tick * PLACES / quarter).astype(np.int64)
-    places = tuple(zip(onsets.tolist(), (times.pitch % 12).tolist(), strict=True))
+    places = tuple((onsets * 12 + times.pitch % 12).tolist())
     held_s = tuple(
         (index, float(times.duration_s[index])) for index in np.flatnonzero(times.duration_s >= HELD_S).tolist()
     )

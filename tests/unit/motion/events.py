@@ -80,9 +80,9 @@ def plan_of(
         time_frame=TimeFrame(first_frame_s, events[-1].end_s + 2.0),
         fingerings=events,
         breaths=breaths,
-        tongues=tuple(TongueEvent(f"t{e.id}", e.note_id, e.start_s - 0.035, e.start_s) for e in events),
+        tongues=tuple(TongueEvent(e.note_id, e.start_s - 0.035, e.start_s) for e in events),
         embouchures=tuple(
-            EmbouchureEvent(f"e{e.id}", e.note_id, e.start_s, e.end_s, 0.2 + 0.1 * (i % 7), 0.3, 0.6, REASON)
+            EmbouchureEvent(e.note_id, e.start_s, e.end_s, 0.2 + 0.1 * (i % 7), 0.3, 0.6, REASON)
             for i, e in enumerate(events)
         ),
         cues=cues,

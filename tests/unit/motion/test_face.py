@@ -50,7 +50,7 @@ def face(
 
 
 def embouchure(tension: float, effort: float = 0.0, air: float = 0.0) -> tuple[EmbouchureEvent, ...]:
-    return (EmbouchureEvent("e", "n", 0.0, 5.0, tension, effort, air, Message("x")),)
+    return (EmbouchureEvent("n", 0.0, 5.0, tension, effort, air, Message("x")),)
 
 
 def test_only_arkit_names_move_and_stay_within_0_and_1() -> None:

@@ -41,8 +41,7 @@ def plan(rows: list[tuple[float, float, float, float]], **changes: object) -> Pl
     """Notes of (start_s, end_s, tension, air)."""
     made = plan_of(fingerings([(start_s, end_s, {}) for start_s, end_s, _, _ in rows]), breaths=(breath(-0.5, 0.0),))
     lips = tuple(
-        EmbouchureEvent(f"e{i}", f"n{i}", row[0], row[1], row[2], 0.5 * row[2], row[3], REASON)
-        for i, row in enumerate(rows)
+        EmbouchureEvent(f"n{i}", row[0], row[1], row[2], 0.5 * row[2], row[3], REASON) for i, row in enumerate(rows)
     )
     return msgspec.structs.replace(made, embouchures=lips, **changes)
 
