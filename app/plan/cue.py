@@ -16,307 +16,25 @@ Messages: ``cue.start``, ``cue.after_rest``, ``cue.after_pause``, ``cue.after_fe
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
-
-import msgspec
 import numpy as np
 
 from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, SetCue, removed_ids
 from app.plan.dynamics import vigour_of
-from app.plan.line import BEFORE_FIRST_TICK, IntArray, LineTimes, MonophonicPart, Piece, Rhythm
-from app.plan.model import CONDUCTOR, CueEvent, FloatArray, TimeFrame
+from app.plan.entries import ON_BEAT, Entry, beat_ticks, coming_in, played_together
+from app.plan.line import BEFORE_FIRST_TICK, LineTimes, MonophonicPart, Piece
+from app.plan.model import CONDUCTOR, CueEvent, TimeFrame
 from instrument_maps.vocabulary import vocabulary
 
-COMMON_REST_BARS = 2
-COMMON_REST_S = 4.0
-"""A rest of all players this long needs a new start: everyone has lost the beat (either is enough)."""
-COMMON_REST_LEAST_S = 2.0
-"""Short bars rest quickly over: no one has lost the beat by then."""
-PAUSE_LEAST_S = 1.5
-"""A silence of all for a whole bar, and so long, is a general pause."""
-LEAST_BEATS = 2.0
-"""A cue needs the preparatory beat and room before it."""
 LEAD_BEATS = 1.5
 """Head and instrument begin to rise half a beat before the preparatory beat: they are on their way up on it."""
 
-HELD_S, HELD_BEATS = 3.0, 3.0
-"""What all hold so long, in seconds and in beats, and leave together, was held by a fermata."""
-HELD_SILENCE_BEATS = 0.5
-"""From this silence on it was left; one of `LEAST_BEATS` is a rest that is counted."""
-LONG_HELD_S, LONG_HELD_BEATS = 6.0, 6.0
-"""What all hold so long no one counts: they need a cue even where they go on without any silence."""
-OTHER_TEMPO = 1.15
-"""A tempo that is faster or slower by this factor is another one."""
-STEADY_TEMPO, STEADY_BEATS = 1.1, 4
-"""A new tempo holds for so many beats, within this factor; one that goes on changing is followed, not given."""
-HELD_TEMPO = 1.5
-"""A beat that is longer by this factor, for no more than `STEADY_BEATS`, is held by a fermata."""
-LIVE_TEMPO, LIVE_HELD_TEMPO = 1.35, 2.0
-"""Where the tempo was played, and so never steady: beats within the one factor are one tempo, and what is longer by the
-other was held."""
-
-LONG_REST_S, LONG_REST_BARS = 8.0, 4
-"""After a rest of either length a player is brought in ..."""
-LONG_REST_LEAST_S, LONG_REST_LEAST_BARS = 4.0, 2
-"""... which is at least so long in both."""
 MELODY_BARS = 2
 """Bars over which the players of the melody are determined."""
 DOUBLED_SHARE = 0.8
 """Who plays so much of the melody, in any octave, has it too."""
 SMALLEST, LARGEST = 0.4, 1.2
 """A cue to play softly is small, but seen; one to play loudly is no leap."""
-ON_BEAT = 0.12
-"""What is nearer to a beat, in beats, is on it: no one plays more exactly."""
-
-Reason: TypeAlias = Literal[
-    "cue.start", "cue.after_rest", "cue.after_pause", "cue.after_fermata", "cue.tempo", "cue.joins"
-]
-
-
-class Entry(msgspec.Struct, frozen=True):
-    """A place where players come in together.
-
-    Attributes
-    ----------
-    reason : str
-        Id of the message, but for a section.
-    number : float or None
-        What the message says: seconds of rest, or beats a minute.
-    players : tuple of (int, int)
-        Who comes in together, with which note: line index, note index.
-    """
-
-    tick: int
-    reason: Reason
-    number: float | None
-    players: tuple[tuple[int, int], ...]
-
-
-def entries(all_times: tuple[Rhythm, ...], piece: Piece, musicians: tuple[str, ...] = ()) -> tuple[Entry, ...]:
-    """Every place that asks for a cue, in order: by the rhythm of the lines and the tempo alone.
-
-    ``musicians`` gives the musician of each line, where one plays several: changing instruments is no rest.
-    """
-    sounding = [(line, times) for line, times in enumerate(all_times) if len(times.onset_tick)]
-    if not sounding:
-        return ()
-    lines = _Spans.of([_stretches(times) for _, times in sounding])
-    found = {entry.tick: entry for entry in _tempo_entries(sounding, lines, piece)}
-    found |= {entry.tick: entry for entry in _held_entries(sounding, piece)}
-    found |= {entry.tick: entry for entry in _common_entries(sounding, lines, piece)}
-    shared: list[Entry] = []
-    for entry in sorted(found.values(), key=lambda entry: entry.tick):
-        # A tempo that changes while they come in belongs to their entry.
-        if not shared or entry.tick - shared[-1].tick >= _beat(piece, shared[-1].tick):
-            shared.append(entry)
-    return tuple(sorted([*shared, *_joining(sounding, lines, shared, piece, musicians)], key=lambda entry: entry.tick))
-
-
-class _Spans(msgspec.Struct, frozen=True):
-    """Where something sounds: starts in order, and the latest end of those up to each."""
-
-    starts: IntArray
-    ends: IntArray
-
-    @classmethod
-    def of(cls, stretches: list[tuple[IntArray, IntArray]]) -> _Spans:
-        starts, ends = (np.concatenate(edges) for edges in zip(*stretches, strict=True))
-        order = np.argsort(starts, kind="stable")
-        return cls(starts[order], np.maximum.accumulate(ends[order]))
-
-    def sounds_before(self, tick: int, ticks: float) -> bool:
-        """Whether something that begins before a tick sounds on within so many ticks before it."""
-        index = int(np.searchsorted(self.starts, tick)) - 1
-        return index >= 0 and bool(self.ends[index] > tick - ticks)
-
-
-def _stretches(times: Rhythm) -> tuple[IntArray, IntArray]:
-    """Where a line begins to sound and where it stops: a tenth of as many as there are notes."""
-    stops = times.onset_tick[1:] > times.played_end_tick[:-1]
-    return times.onset_tick[np.insert(stops, 0, True)], times.played_end_tick[np.append(stops, True)]
-
-
-def _beat(piece: Piece, tick: int) -> int:
-    return int(piece.beat_ticks_at(np.array([tick]))[0])
-
-
-def _together(piece: Piece, tick: int) -> int:
-    """How long after a tick others still come in with it, ticks: at once, or within a beat of the bar line after a
-    pickup."""
-    beat, bar = _beat(piece, tick), piece.metre_map.bar_ticks_at(tick)
-    bars = piece.bars(tick, tick + bar + 1)
-    following = int(bars[np.searchsorted(bars, tick, side="right")]) - tick if bars[-1] > tick else bar
-    return following + beat if following <= bar / 2 else max(round(ON_BEAT * beat), 1)
-
-
-def _coming_in(sounding: list[tuple[int, Rhythm]], tick: int, ticks: int) -> tuple[tuple[int, int], ...]:
-    """Who begins a note within so many ticks from a tick on, and which."""
-    found = []
-    for line, times in sounding:
-        index = int(np.searchsorted(times.onset_tick, tick))
-        if index < len(times.onset_tick) and times.onset_tick[index] < tick + ticks:
-            found.append((line, index))
-    return tuple(found)
-
-
-def _common_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece) -> list[Entry]:
-    """The first entry, and those after silences of all, on stage or not."""
-    accompaniment = np.array(piece.accompaniment, np.int64).reshape(-1, 2)
-    all_spans = _Spans.of([(lines.starts, lines.ends), (accompaniment[:, 0], accompaniment[:, 1])])
-    first = int(lines.starts[0])
-    found = []
-    if not all_spans.sounds_before(first, _beat(piece, first)):
-        found.append(Entry(first, "cue.start", None, _coming_in(sounding, first, _together(piece, first))))
-    for gap in np.flatnonzero(all_spans.starts[1:] > all_spans.ends[:-1]).tolist():
-        end, begin = int(all_spans.ends[gap]), int(all_spans.starts[gap + 1])
-        index = int(np.searchsorted(lines.starts, begin))
-        # What comes in later comes in with the accompaniment.
-        if end <= first or index == len(lines.starts) or lines.starts[index] - begin >= _beat(piece, begin):
-            continue
-        tick = int(lines.starts[index])
-        rest_s = piece.clock.seconds(float(tick)) - piece.clock.seconds(float(end))
-        reason = _silence(sounding, end, tick, rest_s, piece)
-        if reason is not None:
-            number = None if reason == "cue.after_fermata" else rest_s
-            found.append(Entry(tick, reason, number, _coming_in(sounding, tick, _together(piece, tick))))
-    return found
-
-
-def _silence(sounding: list[tuple[int, Rhythm]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
-    """Why all need a cue after a silence of all from ``end`` to ``tick``; None if no one does."""
-    bars, beats = (tick - end) / piece.metre_map.bar_ticks_at(end), (tick - end) / _beat(piece, tick)
-    if beats >= LEAST_BEATS:
-        if rest_s >= COMMON_REST_S or (bars >= COMMON_REST_BARS and rest_s >= COMMON_REST_LEAST_S):
-            return "cue.after_rest"
-        if bars >= 1.0 and rest_s >= PAUSE_LEAST_S:
-            return "cue.after_pause"
-    if not HELD_SILENCE_BEATS <= beats < LEAST_BEATS:
-        return None
-    left = []
-    for _, times in sounding:
-        index = int(np.searchsorted(times.onset_tick, end)) - 1
-        if index >= 0 and times.played_end_tick[index] > end - _beat(piece, end):
-            left.append((times, index))
-    for times, index in left:
-        held = int(times.played_end_tick[index] - times.onset_tick[index])
-        if times.duration_s[index] < HELD_S or held < HELD_BEATS * _beat(piece, end):
-            return None
-    return "cue.after_fermata" if left else None
-
-
-def _held_entries(sounding: list[tuple[int, Rhythm]], piece: Piece) -> list[Entry]:
-    """Where all go on at once after notes that all held so long that no one counts them."""
-    held: dict[int, int] = {}
-    for _, times in sounding:
-        ends, beats = times.played_end_tick[:-1], piece.beat_ticks_at(times.onset_tick[:-1])
-        long = (times.duration_s[:-1] >= LONG_HELD_S) & (ends - times.onset_tick[:-1] >= LONG_HELD_BEATS * beats)
-        long &= times.onset_tick[1:] - ends < HELD_SILENCE_BEATS * beats
-        for begin, tick in zip(times.onset_tick[:-1][long].tolist(), times.onset_tick[1:][long].tolist(), strict=True):
-            held[tick] = max(held.get(tick, begin), begin)
-    heard = _Spans.of([tuple(np.array(piece.accompaniment, np.int64).reshape(-1, 2).T)])  # type: ignore[list-item]
-    found = []
-    for tick, begin in held.items():
-        alone = all(_nothing_begins(times, begin, tick) for _, times in sounding)
-        if alone and not heard.sounds_before(tick, tick - begin):
-            players = _coming_in(sounding, tick, _together(piece, tick))
-            found.append(Entry(tick, "cue.after_fermata", None, players))
-    return found
-
-
-def _nothing_begins(times: Rhythm, begin: int, tick: int) -> bool:
-    """Whether a line begins nothing between two ticks, nor sounds on at the second."""
-    index = int(np.searchsorted(times.onset_tick, tick)) - 1
-    return index < 0 or bool(times.onset_tick[index] <= begin and times.played_end_tick[index] <= tick)
-
-
-def _tempo_entries(sounding: list[tuple[int, Rhythm]], lines: _Spans, piece: Piece) -> list[Entry]:
-    """Where a new tempo begins and stays, or the old one goes on after a fermata."""
-    beats = piece.metre_map.felt_between(int(lines.starts[0]), int(lines.ends[-1]))
-    seconds = piece.clock.seconds(beats.astype(np.float64))
-    lasts_s: FloatArray = np.diff(seconds) / np.maximum(np.diff(beats), 1)
-    changes = np.abs(np.diff(np.log(np.maximum(lasts_s, 1e-12)))) >= np.log(OTHER_TEMPO)
-    accompaniment = _Spans.of([tuple(np.array(piece.accompaniment, np.int64).reshape(-1, 2).T)])  # type: ignore[list-item]
-    found = []
-    for place in (np.flatnonzero(changes) + 1).tolist():
-        tick, beat = int(beats[place]), _beat(piece, int(beats[place]))
-        reason = _new_tempo(lasts_s, place)
-        players = _coming_in(sounding, tick, beat)
-        # A single player with an accompaniment follows it.
-        carried = len(sounding) == 1 and accompaniment.sounds_before(tick, beat)
-        if reason is None or not players or carried or tick <= lines.starts[0]:
-            continue
-        bpm = 60.0 / (float(lasts_s[place]) * beat)
-        found.append(Entry(tick, reason, None if reason == "cue.after_fermata" else bpm, players))
-    return found
-
-
-def _new_tempo(lasts_s: FloatArray, place: int) -> Literal["cue.tempo", "cue.after_fermata"] | None:
-    """What begins at a beat, by how long a tick lasts in each beat."""
-    following = lasts_s[place : place + STEADY_BEATS]
-    if len(following) < 2:
-        return None
-    here = float(np.median(following))
-    before = lasts_s[max(place - STEADY_BEATS - 1, 0) : place] / here
-    if following.max() > STEADY_TEMPO * following.min():
-        return "cue.after_fermata" if _held_while_live(before, following) else None
-    other = np.maximum(before, 1.0 / before) >= OTHER_TEMPO
-    if not other[-1]:
-        return None
-    stretch = int(np.argmin(other[::-1])) if not other.all() else len(other)
-    if stretch <= STEADY_BEATS and stretch < len(other):
-        # The tempo was the same shortly before: that was a fermata, or only a delay.
-        return "cue.after_fermata" if before[-stretch:].max() >= HELD_TEMPO else None
-    return "cue.tempo"
-
-
-def _held_while_live(before: FloatArray, following: FloatArray) -> bool:
-    """Whether the last of the beats before, relative to the tempo that follows, were held, and the others were not,
-    where no two beats are alike."""
-    if following.max() > LIVE_TEMPO * following.min():
-        return False
-    slow = before >= LIVE_TEMPO
-    stretch = int(np.argmin(slow[::-1])) if not slow.all() else len(slow)
-    return 0 < stretch < len(slow) and bool(before[-stretch:].max() >= LIVE_HELD_TEMPO)
-
-
-def _joining(
-    sounding: list[tuple[int, Rhythm]], lines: _Spans, shared: list[Entry], piece: Piece, musicians: tuple[str, ...]
-) -> list[Entry]:
-    """Where players come in after long rests of their own while others play; those within a bar are one entry."""
-    first = int(lines.starts[0])
-    rows: list[tuple[int, float, int, int]] = []
-    for line, times in sounding:
-        ends = np.insert(times.played_end_tick[:-1], 0, first)
-        ends_s = np.insert(times.played_end_s[:-1], 0, piece.clock.seconds(float(first)))
-        begins = np.arange(len(ends)) == 0
-        for other, theirs in sounding:
-            if other != line and musicians and musicians[other] == musicians[line]:
-                before = np.searchsorted(theirs.onset_tick, times.onset_tick) - 1
-                later = (before >= 0) & (theirs.played_end_tick[before] >= ends)
-                ends, ends_s = (
-                    np.where(later, found, own)
-                    for found, own in ((theirs.played_end_tick[before], ends), (theirs.played_end_s[before], ends_s))
-                )
-                begins &= before < 0
-        rests_s = times.onset_s - ends_s
-        # A voice that comes in first of all after the others needs no long rest for it.
-        for index in np.flatnonzero((rests_s >= LONG_REST_LEAST_S) | begins).tolist():
-            tick, rest_s = int(times.onset_tick[index]), float(rests_s[index])
-            bars = (tick - int(ends[index])) / piece.metre_map.bar_ticks_at(tick)
-            long = rest_s >= LONG_REST_S or bars >= LONG_REST_BARS
-            if bars >= 1.0 if begins[index] else long and bars >= LONG_REST_LEAST_BARS:
-                rows.append((tick, rest_s, line, index))
-    rows.sort()
-    given = [(entry.tick, entry.tick + piece.metre_map.bar_ticks_at(entry.tick)) for entry in shared]
-    found: list[Entry] = []
-    for tick, rest_s, line, index in rows:
-        if found and tick < found[-1].tick + piece.metre_map.bar_ticks_at(found[-1].tick):
-            last = found[-1]
-            found[-1] = msgspec.structs.replace(last, players=(*last.players, (line, index)))
-        elif not any(start <= tick < end for start, end in given) and lines.sounds_before(tick, _beat(piece, tick)):
-            found.append(Entry(tick, "cue.joins", rest_s, ((line, index),)))
-    return found
 
 
 def leader_of(
@@ -453,8 +171,8 @@ def _chosen(takers: tuple[str, ...], lines: tuple[MonophonicPart, ...]) -> tuple
 
 def _entering(tick: int, all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[tuple[int, int], ...]:
     """Players who begin with a cue placed by hand: those who were silent before, or else all."""
-    found = _coming_in([(line, times) for line, times in enumerate(all_times)], tick, _together(piece, tick))
-    least = _beat(piece, tick) / 2
+    found = coming_in([(line, times) for line, times in enumerate(all_times)], tick, played_together(piece, tick))
+    least = beat_ticks(piece, tick) / 2
     rested = tuple((line, index) for line, index in found if all_times[line].silence_tick[index] >= least)
     return rested or found
 
@@ -470,7 +188,7 @@ def _cue(
     takers: tuple[str, ...],
 ) -> CueEvent:
     """The cue of an entry, in the tempo that begins there."""
-    clock, tick, beat = piece.clock, entry.tick, _beat(piece, entry.tick)
+    clock, tick, beat = piece.clock, entry.tick, beat_ticks(piece, entry.tick)
     end_s = clock.seconds(float(tick))
     beat_s = clock.seconds(float(tick + beat)) - end_s
     beats = piece.metre_map.felt_between(tick - 2 * beat, tick + 1)
@@ -502,7 +220,7 @@ def _cue_by_hand(
     player_id: str, note: str, tick: int, beats: float, piece: Piece, frame: TimeFrame, takers: tuple[str, ...]
 ) -> CueEvent:
     """A cue whose preparatory beat lasts as many beats of the score as it was given."""
-    seconds, beat = piece.clock.seconds, _beat(piece, tick) * beats
+    seconds, beat = piece.clock.seconds, beat_ticks(piece, tick) * beats
     start_tick = tick - LEAD_BEATS * beat
     end_s, peak_s = seconds(float(tick)), seconds(tick - beat)
     return CueEvent(

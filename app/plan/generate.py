@@ -37,10 +37,11 @@ from app.plan.corrections import (
     orphans,
     sound_corrections,
 )
-from app.plan.cue import entries, plan_cues
+from app.plan.cue import plan_cues
 from app.plan.dynamics import dynamics_of
 from app.plan.embouchure import plan_embouchures, plan_tongues
 from app.plan.ending import Ending, ending_of
+from app.plan.entries import entries
 from app.plan.expression import SMILE_ID, all_shown, neutral_face
 from app.plan.fingering import plan_fingerings
 from app.plan.gesture import Pulse, plan_gestures, pulse
