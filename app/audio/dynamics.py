@@ -75,8 +75,8 @@ def loudness(samples: Samples, rate_hz: int) -> Loudness:
         return Loudness(np.full(1, _FLOOR_DB))
     power = np.zeros(count)
     for channel in samples[: count * hop].T:
-        heard = sosfilt(_weighting(rate_hz), channel.astype(np.float64) / 32768.0)
-        power += (heard**2).reshape(count, hop).mean(axis=1)
+        weighted = sosfilt(_weighting(rate_hz), channel.astype(np.float64) / 32768.0)
+        power += (weighted**2).reshape(count, hop).mean(axis=1)
     power = gaussian_filter1d(power / samples.shape[1], _SMOOTH_S * rate_hz / hop)
     return Loudness(np.maximum(10.0 * np.log10(np.maximum(power, 1e-12)), _FLOOR_DB))
 
@@ -107,13 +107,13 @@ def dynamics(
         raise AppError("audio.nothing_to_compare")
     result = {}
     for part_id, notes in sounding.items():
-        heard = stems.get(part_id, mix)
-        if heard is None:
+        track = stems.get(part_id, mix)
+        if track is None:
             continue
-        levels = heard.at(notes.at_s - offset_s)
+        levels = track.at(notes.at_s - offset_s)
         if part_id not in stems:
             levels = levels - 10.0 * np.log10(np.maximum(_together(score, notes.at_s), 1))
-        audible = notes.sounds & (heard.at(notes.at_s - offset_s) > _FLOOR_DB)
+        audible = notes.sounds & (track.at(notes.at_s - offset_s) > _FLOOR_DB)
         if audible.any():
             if part_id in stems:
                 levels = levels - _of_pitches(notes.pitch, levels, audible)

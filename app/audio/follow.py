@@ -112,7 +112,7 @@ def follow(
     recorded = recorded_sound(samples, rate_hz, lambda share: reached(0.6 * share))
     shapes = score_chroma(expected, 1.0)
     pins = _pins(score, pinned or {}).inside(len(samples) / rate_hz)
-    piece = _Heard(score, expected, recorded, shapes, beat_ticks, pins)
+    piece = _Prepared(score, expected, recorded, shapes, beat_ticks, pins)
     reached(0.65)
     result = _followed(piece, slice(0, shapes.shape[1]))
     reached(0.8)
@@ -130,7 +130,7 @@ def follow(
 
 
 @dataclass(frozen=True)
-class _Heard:
+class _Prepared:
     """A score and a recording of it, as they are compared."""
 
     score: Score
@@ -145,23 +145,26 @@ def _as_sure_as(whole: Following | None) -> float:
     return 0.0 if whole is None else whole.mean_confidence - _AS_SURE
 
 
-def _followed(heard: _Heard, part: slice) -> Following | None:
+def _followed(prepared: _Prepared, part: slice) -> Following | None:
     """Follow a recording that has some frames of the score at most; None where nothing is alike."""
-    score, recorded, expected = heard.score, heard.recorded, heard.expected
+    score, recorded, expected = prepared.score, prepared.recorded, prepared.expected
     start_s, end_s = part.start * CHROMA_S, part.stop * CHROMA_S
-    pins = heard.pins.within(start_s, end_s)
-    rough = warped(heard.shapes[:, part], recorded.chroma, pins)
+    pins = prepared.pins.within(start_s, end_s)
+    rough = warped(prepared.shapes[:, part], recorded.chroma, pins)
     if len(rough.score_s) < 2:
         return None
-    rough, pins = rough.later(start_s, heard.shapes.shape[1] * CHROMA_S), replace(pins, score_s=pins.score_s + start_s)
+    rough, pins = (
+        rough.later(start_s, prepared.shapes.shape[1] * CHROMA_S),
+        replace(pins, score_s=pins.score_s + start_s),
+    )
     times, found = _on_onsets(expected, recorded, rough, pins)
-    beat_s = score.tempo_map.seconds(heard.beat_ticks.astype(np.float64))
+    beat_s = score.tempo_map.seconds(prepared.beat_ticks.astype(np.float64))
     recording_s = _beats(beat_s, times, found, rough, pins)
-    likely = _confidence(beat_s, recording_s, heard.shapes, recorded, times, found)
+    likely = _confidence(beat_s, recording_s, prepared.shapes, recorded, times, found)
     squeezed = _squeezed(beat_s, _lengths(beat_s, recording_s))
     missing = tuple(_ticks(score, span) for span in _joined((*rough.missing, *squeezed)))
     likely[np.searchsorted(beat_s, pins.score_s - 1e-6)] = 1.0
-    return Following(heard.beat_ticks, recording_s + EARLY_S, likely, missing, rough.added)
+    return Following(prepared.beat_ticks, recording_s + EARLY_S, likely, missing, rough.added)
 
 
 def _pins(score: Score, pinned: Mapping[int, float]) -> Pins:

@@ -21,7 +21,7 @@ from app.score.model import ControllerCurve, Score
 
 
 @dataclass(frozen=True)
-class Wishes:
+class FollowOptions:
     """What is to be taken from a recording beside the beats.
 
     Attributes
@@ -61,12 +61,12 @@ def listen(
     project: Project,
     samples: Samples,
     path: str | os.PathLike[str],
-    wishes: Wishes,
+    options: FollowOptions,
     progress: Callable[[float], None] = lambda share: None,
     stop_requested: Callable[[], bool] = lambda: False,
     begins_s: float = 0.0,
 ) -> Followed:
-    """Find in a recording what is wished for.
+    """Find in a recording what is requested.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def listen(
         Those of `follow`, of `decode` for the stems, of `dynamics` and of `follow_recording`.
     Cancelled
     """
-    beats_share = 0.6 if wishes.dynamics or wishes.notes else 1.0
+    beats_share = 0.6 if options.dynamics or options.notes else 1.0
 
     def reached(share: float) -> None:
         if stop_requested():
@@ -100,14 +100,14 @@ def listen(
         stop_requested,
         pinned,
     ).later(begins_s)
-    if not wishes.dynamics and not wishes.notes:
+    if not options.dynamics and not options.notes:
         return Followed(following)
     aligned = follow_recording(project, following, path).score
     offset_s = begins_s - float(following.recording_s[0])
     shifts: dict[str, float] = {}
-    if wishes.notes:
+    if options.notes:
         shifts = note_onsets(samples, RATE_HZ, aligned, offset_s, lambda share: reached(0.6 + 0.2 * share))
-    curves = _curves(project, aligned, samples, offset_s, begins_s, wishes, reached) if wishes.dynamics else {}
+    curves = _curves(project, aligned, samples, offset_s, begins_s, options, reached) if options.dynamics else {}
     reached(1.0)
     return Followed(following, curves, shifts)
 
@@ -118,14 +118,14 @@ def _curves(
     samples: Samples,
     offset_s: float,
     begins_s: float,
-    wishes: Wishes,
+    options: FollowOptions,
     reached: Callable[[float], None],
 ) -> dict[str, ControllerCurve]:
     """The dynamics of all parts."""
     parts = {player.id: player.part_id for player in project.players}
     stems: dict[str, Loudness] = {}
-    for number, (player_id, stem) in enumerate(wishes.stems.items()):
-        reached(0.8 + 0.15 * number / len(wishes.stems))
+    for number, (player_id, stem) in enumerate(options.stems.items()):
+        reached(0.8 + 0.15 * number / len(options.stems))
         stems[parts[player_id]] = loudness(decode(stem).samples[round(begins_s * RATE_HZ) :], RATE_HZ)
     mix = loudness(samples, RATE_HZ) if set(parts.values()) - set(stems) else None
     return dynamics(aligned, offset_s, mix, stems, set(parts.values()))

@@ -113,11 +113,11 @@ def _same(one: Path, other: Path) -> bool:
 def _follow(project: Project, arguments: argparse.Namespace) -> Followed:
     """What the recording says, in seconds of the whole recording, whatever part of it was asked for."""
     from app.audio.decode import decode
-    from app.audio.followed import Wishes, listen
+    from app.audio.followed import FollowOptions, listen
     from app.audio.track import RATE_HZ
 
     stems = dict(_stem(project, text) for text in arguments.stems)
-    wishes = Wishes(notes=arguments.notes, dynamics=arguments.dynamics or bool(stems), stems=stems)
+    options = FollowOptions(notes=arguments.notes, dynamics=arguments.dynamics or bool(stems), stems=stems)
     progress = Progress(sys.stderr)
     label = filled("listening to {file}", {"file": arguments.recording.name})
     try:
@@ -133,7 +133,7 @@ def _follow(project: Project, arguments: argparse.Namespace) -> Followed:
             project,
             samples,
             arguments.recording,
-            wishes,
+            options,
             lambda share: progress(0.2 + 0.8 * share, label),
             begins_s=first / RATE_HZ,
         )

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from app.audio.decode import Recording
-from app.audio.followed import Followed, Wishes, listen, take_over
+from app.audio.followed import Followed, FollowOptions, listen, take_over
 from app.editor.session import Session, Severity
 from app.editor.tasks import Progress, StopRequested
 from app.errors import Message
 
 
-def follow_in_background(session: Session, recording: Recording, wishes: Wishes) -> None:
+def follow_in_background(session: Session, recording: Recording, options: FollowOptions) -> None:
     """Put every beat where the recording has it; nothing where the project has another recording or score by then."""
     project = session.project
 
     def work(progress: Progress, stop_requested: StopRequested) -> Followed:
-        return listen(project, recording.samples, recording.path, wishes, progress, stop_requested)
+        return listen(project, recording.samples, recording.path, options, progress, stop_requested)
 
     def done(followed: Followed) -> None:
         audio, score = session.project.audio, session.project.score

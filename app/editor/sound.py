@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, Qt, QTimer
 
 from app.audio.click import click_track
 from app.audio.decode import Recording, decode
-from app.audio.followed import Wishes
+from app.audio.followed import FollowOptions
 from app.audio.mix import recording_track
 from app.audio.offset import Estimate, estimate_offset
 from app.audio.peaks import Peaks
@@ -339,10 +339,10 @@ class Sound(QObject):
 
         self._session.tasks.run(Message("work.estimate_offset"), work, done, key="estimate")
 
-    def follow(self, wishes: Wishes | None = None) -> None:
+    def follow(self, options: FollowOptions | None = None) -> None:
         """Put every beat where the recording has it, as an edit; what is doubtful is reported."""
         if self._recording is not None and self._session.project.audio is not None:
-            follow_in_background(self._session, self._recording, wishes or Wishes())
+            follow_in_background(self._session, self._recording, options or FollowOptions())
 
     def _take_estimate(self, estimate: Estimate, unasked: bool, with_tempo: bool) -> None:
         session = self._session

@@ -43,7 +43,7 @@ class Question(msgspec.Struct, frozen=True):
 
 
 class Score(msgspec.Struct, frozen=True):
-    """How viewers judged a variant; ``over_viewers`` is None where nobody could judge."""
+    """How viewers judged a variant; ``over_viewers`` is None where no one could judge."""
 
     question: Question
     variant: Variant
@@ -96,7 +96,7 @@ class Control(msgspec.Struct, frozen=True):
     ----------
     verdict : str
         ``noticed``: lower, one-sided p below `SIGNIFICANT`; ``unclear``: lower, but not significantly; ``unnoticed``:
-        not lower; ``unjudged``: nobody judged both.
+        not lower; ``unjudged``: no one judged both.
     """
 
     presentation: Presentation

@@ -71,7 +71,7 @@ class Comparison(msgspec.Struct, frozen=True):
 
 
 def summary(values: Sequence[float]) -> Summary | None:
-    """Of one value for each viewer; None of nobody."""
+    """Of one value for each viewer; None of no one."""
     if not values:
         return None
     given = np.asarray(values, np.float64)
@@ -84,7 +84,7 @@ def summary(values: Sequence[float]) -> Summary | None:
 
 
 def compared(differences: Sequence[float]) -> Comparison | None:
-    """Wilcoxon's signed-rank test of one difference for each viewer; None of nobody.
+    """Wilcoxon's signed-rank test of one difference for each viewer; None of no one.
 
     Zeros are left out (Wilcoxon's own way). Differences that are equal up to rounding of the mean share a rank.
     """

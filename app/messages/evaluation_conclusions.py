@@ -134,7 +134,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "言えません。",
     ),
     "results.control_unjudged": (
-        "Control ({presentation}): nobody judged the synchrony of both ours and the late fingers. It is not known "
+        "Control ({presentation}): no one judged the synchrony of both ours and the late fingers. It is not known "
         "whether "
         "viewers notice 200 ms.",
         "対照（{presentation}）: 生成したものと遅れた指の両方の同期を評価した参加者がいません。200 ms に気づくかど"

@@ -1,4 +1,4 @@
-"""What is taken from the recording: its beats, and if wished its dynamics, from recordings of single players too."""
+"""What is taken from the recording: its beats, and on request its dynamics, from recordings of single players too."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QDialog, QGridLayout, QScrollArea, QWidget
 
-from app.audio.followed import Wishes
+from app.audio.followed import FollowOptions
 from app.editor.files import AUDIO_SUFFIXES
 from app.editor.session import Session
 from widgets.common.controls import Button, Caption, Check, OkCancel, Retranslated, named, wrapped
@@ -24,10 +24,10 @@ class FollowRecordingDialog(Retranslated, QDialog):
 
     Signals
     -------
-    wished(Wishes)
+    requested(FollowOptions)
     """
 
-    wished = Signal(object)
+    requested = Signal(object)
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -73,11 +73,11 @@ class FollowRecordingDialog(Retranslated, QDialog):
         return rows
 
     @property
-    def wishes(self) -> Wishes:
+    def options(self) -> FollowOptions:
         """What was chosen."""
         dynamics = self._dynamics.isChecked()
         stems = dict(self._stems) if dynamics else {}
-        return Wishes(notes=self._notes.isChecked(), dynamics=dynamics, stems=stems)
+        return FollowOptions(notes=self._notes.isChecked(), dynamics=dynamics, stems=stems)
 
     def set_stem(self, player_id: str, path: Path | None) -> None:
         """A recording of a player alone, or none."""
@@ -111,5 +111,5 @@ class FollowRecordingDialog(Retranslated, QDialog):
 
     def accept(self) -> None:
         """Begin to follow."""
-        self.wished.emit(self.wishes)
+        self.requested.emit(self.options)
         super().accept()

@@ -113,7 +113,7 @@ def follow_recording(editor: Editor) -> None:
     from widgets.dialogs.follow_recording import FollowRecordingDialog
 
     dialog = FollowRecordingDialog(editor.session, editor.window)
-    dialog.wished.connect(editor.sound.follow)
+    dialog.requested.connect(editor.sound.follow)
     dialog.open()
 
 

@@ -10,7 +10,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton
 from pytestqt.qtbot import QtBot
 
-from app.audio.followed import Wishes
+from app.audio.followed import FollowOptions
 from app.editor.session import Session
 from tests.support.tasks import ImmediateTasks
 from tests.unit.audio.pieces import quartet
@@ -36,9 +36,9 @@ def press(dialog: FollowRecordingDialog, name: str) -> None:
 
 
 def test_beats_alone_are_followed_at_first(dialog: FollowRecordingDialog, qtbot: QtBot) -> None:
-    with qtbot.waitSignal(dialog.wished) as wished:
+    with qtbot.waitSignal(dialog.requested) as requested:
         dialog.accept()
-    assert wished.args == [Wishes()]
+    assert requested.args == [FollowOptions()]
 
 
 def test_dynamics_with_a_recording_of_one_player(
@@ -47,11 +47,11 @@ def test_dynamics_with_a_recording_of_one_player(
     monkeypatch.setattr(follow_recording, "ask_for_file", lambda *_: Path("/music/second.wav"))
     second = quartet().players[1].id
     press(dialog, "stem_choose_1")
-    assert dialog.wishes == Wishes(), "it is disabled while dynamics are not wished for"
+    assert dialog.options == FollowOptions(), "it is disabled without dynamics"
     dynamics = dialog.findChild(Check, "follow_dynamics")
     assert dynamics is not None
     QTest.keyClick(dynamics, Qt.Key.Key_Space)
     press(dialog, "stem_choose_1")
-    assert dialog.wishes == Wishes(dynamics=True, stems={second: "/music/second.wav"})
+    assert dialog.options == FollowOptions(dynamics=True, stems={second: "/music/second.wav"})
     press(dialog, "stem_clear_1")
-    assert dialog.wishes == Wishes(dynamics=True)
+    assert dialog.options == FollowOptions(dynamics=True)

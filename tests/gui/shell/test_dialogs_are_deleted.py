@@ -26,6 +26,7 @@ from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import Studio, trigger
 from tests.unit.cli.test_main import ROOT
 from widgets.dialogs.character_draft import Draft
+from widgets.dialogs.follow_recording import FollowRecordingDialog
 from widgets.dialogs.instrument_map import InstrumentsDialog
 from widgets.dialogs.metadata_differences import MetadataDifferencesDialog
 
@@ -55,6 +56,7 @@ OPENED: dict[str, Open] = {
     "LicencesDialog": lambda program: LicencesDialog(program.window).open(),
     "MetadataDifferencesDialog": lambda program: MetadataDifferencesDialog((), "x", program.window).open(),
     "RulesDialog": command("file.rules"),
+    "FollowRecordingDialog": lambda program: FollowRecordingDialog(program.session, program.window).open(),
     "PieceSettingsDialog": command("file.piece_settings"),
     "PreferencesDialog": command("application.preferences"),
     "InstrumentsDialog": command("application.instruments"),

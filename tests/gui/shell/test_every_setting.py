@@ -10,6 +10,7 @@ from app.editor.listening import SOURCES
 from app.editor.session import Session
 from app.editor.settings import SETTINGS, Setting, Settings
 from app.editor.translated import tr
+from app.editor.video_state import PLACEMENTS
 from app.shell.app import Program
 from app.shell.preferences import show_preferences
 from app.shell.texts import TEXTS
@@ -23,7 +24,8 @@ def other(setting: Setting[Any]) -> object:
         return setting.options[-1][0]
     if isinstance(setting.default, bool):
         return not setting.default
-    return {"folded": {"a part": True}, "volume": 0.25, "source": SOURCES[-1]}[setting.name]
+    others = {"volume": 0.25, "source": SOURCES[-1], "video_placement": PLACEMENTS[-1], "video_opacity": 0.25}
+    return {"folded": {"a part": True}, **others}[setting.name]
 
 
 def test_what_the_session_holds_is_remembered_and_restored(program: Program, settings: Settings) -> None:

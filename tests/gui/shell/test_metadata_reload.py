@@ -47,7 +47,7 @@ def test_a_saved_table_is_played_at_once(folders: Path, program: Program, qtbot:
     qtbot.waitUntil(lambda: "project.style_missing" not in [one.message.id for one in session.problems(first.id)])
 
     def named() -> list[str]:
-        return [event.id for event in session.performance.plans[first.id].gestures if event.kind == "named"]
+        return [event.id for event in session.performance.plans[first.id].gestures if ":first_note:" in event.id]
 
     assert not named()
     (folders / "rules" / "mine.toml").write_text(RULES, encoding="utf-8")
