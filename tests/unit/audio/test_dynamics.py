@@ -58,6 +58,11 @@ def heard(project: Project) -> Loudness:
     return loudness(as_samples(mixdown(project, -1.0, end_s(project) + 1.0)), RATE_HZ)
 
 
+@cache
+def mix_of_all() -> Loudness:
+    return heard(together())
+
+
 def found(
     project: Project, mix: Loudness | None, stems: dict[str, Loudness] | None = None
 ) -> dict[str, ControllerCurve]:
@@ -79,7 +84,7 @@ def correlation(project: Project, curves: dict[str, ControllerCurve], part_id: s
 
 def test_dynamics_of_everybody_are_found_in_one_recording() -> None:
     project = together()
-    curves = found(plain(project), heard(project))
+    curves = found(plain(project), mix_of_all())
     for part in project.score.parts:
         value = correlation(project, curves, part.id)
         print(f"mix, {part.name}: {value:.3f}")
@@ -90,10 +95,7 @@ def test_each_player_has_the_dynamics_of_their_stem() -> None:
     project = expressive({part.id: number for number, part in enumerate(quartet().score.parts)})
     stems = {}
     for player in project.players:
-        alone = replace(
-            project, players=tuple(msgspec.structs.replace(one, soloed=one is player) for one in project.players)
-        )
-        stems[player.part_id] = heard(alone)
+        stems[player.part_id] = heard(replace(project, players=(player,)))
     curves = found(plain(project), None, stems)
     for part in project.score.parts:
         value = correlation(project, curves, part.id)
@@ -104,7 +106,7 @@ def test_each_player_has_the_dynamics_of_their_stem() -> None:
 def test_quiet_and_loud_stay_plausible() -> None:
     project = together()
     even = heard(plain(project))
-    for mix in (heard(project), even, Loudness(even.level_db * 3.0)):
+    for mix in (mix_of_all(), even, Loudness(even.level_db * 3.0)):
         for curve in found(plain(project), mix).values():
             low, middle, high = np.quantile(
                 values_at(curve, np.arange(0, project.score.end_tick, 60)), [0.05, 0.5, 0.95]
@@ -117,7 +119,7 @@ def test_quiet_and_loud_stay_plausible() -> None:
 
 def test_breath_follows() -> None:
     project = plain(together())
-    after = set_dynamics(project, found(project, heard(together())))
+    after = set_dynamics(project, found(project, mix_of_all()))
     assert all(curve.kind == "breath" for part in after.score.parts for curve in part.curves)
     player, part = after.players[0], after.score.parts[0]
     events = Performance(after).plan(player).embouchures
