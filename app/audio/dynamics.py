@@ -1,7 +1,7 @@
 """How loud a recording is while players play, as a curve of their dynamics.
 
 Loudness is measured as broadcasters do (ITU-R BT.1770: a shelf and a high pass before the power), smoothed beyond
-vibrato. In a recording of everybody the number of those who sound is taken out of it, as a quiet tutti may be louder
+vibrato. In a recording of all players the number of those who sound is taken out of it, as a quiet tutti may be louder
 than a loud solo; in one of a player alone what single pitches have more than others. What is left is put on the scale
 of controllers so that the piece as a whole keeps its middle, and its quiet and loud places keep their distance, as far
 as there is room for it.

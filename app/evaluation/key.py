@@ -88,7 +88,7 @@ class _Head(msgspec.Struct):
 
 
 def encoded_key(key: Key) -> bytes:
-    """The key as JSON that a person can read."""
+    """The key as indented JSON."""
     return msgspec.json.format(msgspec.json.encode(key), indent=1) + b"\n"
 
 
