@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from pathlib import Path
 
-import msgspec
 import numpy as np
 import numpy.typing as npt
 import pytest
@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 
 from app.formats.gltf.model import GltfModel
 from app.formats.gltf.read import read_glb
-from app.rig.proxy import signed_distance
+from app.rig import proxy
 from instrument_maps.check_model import model_problems, node_triangles
 from instrument_maps.load import bundled_maps, model_path
 from instrument_maps.model import ROOT, InstrumentMap
@@ -24,8 +24,17 @@ from resources.build.instrument_glb import MATERIALS
 FloatArray = npt.NDArray[np.float64]
 
 MAPS = [pytest.param(instrument, id=name) for name, instrument in bundled_maps().items()]
-MODELS = {name: read_glb(model_path(instrument)) for name, instrument in bundled_maps().items()}
-SURFACES = {name: node_triangles(instrument, MODELS[name]) for name, instrument in bundled_maps().items()}
+
+
+@cache
+def model_of(name: str) -> GltfModel:
+    return read_glb(model_path(bundled_maps()[name]))
+
+
+@cache
+def surfaces_of(name: str) -> dict[str, FloatArray]:
+    """The triangles of each node in its own frame."""
+    return node_triangles(bundled_maps()[name], model_of(name))
 
 
 def origins(model: GltfModel) -> dict[str, FloatArray]:
@@ -34,8 +43,8 @@ def origins(model: GltfModel) -> dict[str, FloatArray]:
 
 def everything(instrument: InstrumentMap) -> FloatArray:
     """All triangles at rest in the root frame."""
-    places = origins(MODELS[instrument.id])
-    return np.concatenate([triangles + places[name] for name, triangles in SURFACES[instrument.id].items()])
+    places = origins(model_of(instrument.id))
+    return np.concatenate([triangles + places[name] for name, triangles in surfaces_of(instrument.id).items()])
 
 
 def radius_about(points: FloatArray, x: float, y: float) -> FloatArray:
@@ -50,14 +59,14 @@ def test_map_and_model_agree(instrument: InstrumentMap) -> None:
 @pytest.mark.parametrize("instrument", MAPS)
 def test_touch_points_lie_on_the_mesh_with_normals_outward(instrument: InstrumentMap) -> None:
     for contact in instrument.contacts:
-        distance_m, normal = nearest_point(SURFACES[instrument.id][contact.node], np.array(contact.position_m))
+        distance_m, normal = nearest_point(surfaces_of(instrument.id)[contact.node], np.array(contact.position_m))
         assert distance_m < 0.0005, contact
         assert normal @ np.array(contact.normal) > math.cos(math.radians(30)), contact
 
 
 @pytest.mark.parametrize("instrument", MAPS)
 def test_meshes_are_sound(instrument: InstrumentMap) -> None:
-    model = MODELS[instrument.id]
+    model = model_of(instrument.id)
     total = 0
     for mesh in model.meshes:
         for primitive in mesh.primitives:
@@ -118,7 +127,7 @@ def test_trumpet_has_real_sizes() -> None:
     assert 0.48 < np.ptp(points[:, 2]) < 0.55  # with the mouthpiece
     rim = points[points[:, 2] > points[:, 2].max() - 0.002]
     assert np.ptp(rim[:, 0]) == pytest.approx(0.123, abs=0.002)
-    places = origins(MODELS[instrument.id])
+    places = origins(model_of(instrument.id))
     valves = [places[f"valve_{k}"] for k in (1, 2, 3)]
     assert np.allclose(np.diff(valves, axis=0), [0, 0, 0.0275], atol=1e-6)
     for k in (1, 2, 3):
@@ -141,10 +150,10 @@ def test_trombone_has_real_sizes() -> None:
     assert bell.mean(axis=0)[0] > 0.1  # on the player's left
     slide = instrument.control("slide").motion
     assert slide.travel_m is not None
-    assert origins(MODELS[instrument.id])["slide"][2] == pytest.approx(0.15, abs=0.01)
+    assert origins(model_of(instrument.id))["slide"][2] == pytest.approx(0.15, abs=0.01)
     # at the end of its travel the outer slide still covers the inner one
-    outer_start = (SURFACES[instrument.id]["slide"][..., 2] + 0.15).min()
-    legs = SURFACES[instrument.id][ROOT].reshape(-1, 3)
+    outer_start = (surfaces_of(instrument.id)["slide"][..., 2] + 0.15).min()
+    legs = surfaces_of(instrument.id)[ROOT].reshape(-1, 3)
     inner_end = legs[radius_about(legs, 0, 0) < 0.0080][:, 2].max()
     assert inner_end - (outer_start + slide.travel_m) > 0.03
 
@@ -152,8 +161,8 @@ def test_trombone_has_real_sizes() -> None:
 def moved(instrument: InstrumentMap, name: str, value: float) -> FloatArray:
     """Triangles of a control's node in the root frame at a value."""
     control = instrument.control(name)
-    origin = origins(MODELS[instrument.id])[control.node]
-    triangles = SURFACES[instrument.id][control.node]
+    origin = origins(model_of(instrument.id))[control.node]
+    triangles = surfaces_of(instrument.id)[control.node]
     axis = np.array(control.motion.axis)
     if control.motion.travel_m is not None:
         return triangles + origin + axis * control.motion.travel_m * value
@@ -168,9 +177,9 @@ def moved(instrument: InstrumentMap, name: str, value: float) -> FloatArray:
 
 def test_buttons_stay_above_the_caps_and_pistons_inside_the_casings() -> None:
     instrument = bundled_maps()["trumpet_Bb"]
-    casing = SURFACES[instrument.id][ROOT].reshape(-1, 3)
+    casing = surfaces_of(instrument.id)[ROOT].reshape(-1, 3)
     for k in (1, 2, 3):
-        origin = origins(MODELS[instrument.id])[f"valve_{k}"]
+        origin = origins(model_of(instrument.id))[f"valve_{k}"]
         around = casing[radius_about(casing[:, [0, 2]], origin[0], origin[2]) < 0.008]
         pressed = moved(instrument, f"valve_{k}", 1.0).reshape(-1, 3)
         button = pressed[radius_about(pressed[:, [0, 2]], origin[0], origin[2]) > 0.0075]
@@ -190,77 +199,76 @@ def test_trigger_moves_its_pad_forward_by_a_thumbs_stroke() -> None:
     assert stroke @ np.array(contact.normal) < 0  # away from the thumb
 
 
-def nearest_body_m(instrument: InstrumentMap, points: FloatArray) -> FloatArray:
-    """Signed distance of points of the root frame to the collision bodies at rest."""
-    places = origins(MODELS[instrument.id])
-    return np.min([signed_distance(body, points - places[body.node]) for body in instrument.proxy], axis=0)
-
-
-def bodies_at(instrument: InstrumentMap, touch: FloatArray, reach_m: float) -> InstrumentMap:
-    """The instrument with those bodies alone that come within a reach of a touch point of the root frame, the nearest
-    first."""
-    places = origins(MODELS[instrument.id])
-    away_m = [signed_distance(body, touch[None] - places[body.node])[0] for body in instrument.proxy]
-    near = tuple(instrument.proxy[row] for row in np.argsort(away_m) if away_m[row] < reach_m)
-    return msgspec.structs.replace(instrument, proxy=near)
-
-
-def far_from_bodies(instrument: InstrumentMap, points: FloatArray, away_m: float) -> FloatArray:
-    """The points of the root frame that are at least this far from every body."""
-    places = origins(MODELS[instrument.id])
-    for body in instrument.proxy:
-        points = points[signed_distance(body, points - places[body.node]) >= away_m]
-    return points
+def bodies_of(instrument: InstrumentMap) -> tuple[proxy.Bodies, proxy.Nodes]:
+    """The collision bodies, and their nodes at rest."""
+    places = origins(model_of(instrument.id))
+    place_m = np.array(list(places.values()))
+    return proxy.bodies(instrument.proxy, list(places)), proxy.Nodes(place_m, np.tile(np.eye(3), (len(place_m), 1, 1)))
 
 
 @pytest.mark.parametrize("instrument", MAPS)
 def test_bodies_hold_the_mesh_near_the_hands(instrument: InstrumentMap) -> None:
-    places = origins(MODELS[instrument.id])
-    triangles = everything(instrument)
-    centres = triangles.mean(axis=1)
-    for contact in instrument.contacts:
-        touch = np.array(contact.position_m) + places[contact.node]
-        near = centres[np.linalg.norm(centres - touch, axis=1) < 0.06]
+    places = origins(model_of(instrument.id))
+    centres = everything(instrument).mean(axis=1)
+    touches = np.array([np.array(contact.position_m) + places[contact.node] for contact in instrument.contacts])
+    away_m = np.array([proxy.signed_distance(body, touches - places[body.node]) for body in instrument.proxy])
+    around = cKDTree(centres).query_ball_point(touches, 0.06)
+    for contact, rows, bodies_m in zip(instrument.contacts, around, away_m.T, strict=True):
+        near = centres[rows]
         assert len(near) > 50
-        bodies = bodies_at(instrument, touch, 0.065)
-        assert len(far_from_bodies(bodies, near, 0.0022)) == 0, contact
+        # The nearest first: few points are left for the others.
+        for row in np.argsort(bodies_m):
+            body = instrument.proxy[row]
+            if bodies_m[row] < 0.065 and len(near):
+                near = near[proxy.signed_distance(body, near - places[body.node]) >= 0.0022]
+        assert len(near) == 0, contact
         # and the touch point itself is on their surface, so that a finger there does not go into them
-        assert abs(nearest_body_m(bodies, touch[None])[0]) < 0.002, contact
+        assert abs(bodies_m.min()) < 0.002, contact
 
 
 @pytest.mark.parametrize("instrument", MAPS)
 def test_bodies_are_not_fatter_than_the_mesh_near_the_hands(instrument: InstrumentMap) -> None:
-    places = origins(MODELS[instrument.id])
+    places = origins(model_of(instrument.id))
+    bodies, nodes = bodies_of(instrument)
     triangles = everything(instrument)
-    low, high = triangles.min(axis=1), triangles.max(axis=1)
+    # Axis by axis, which lie together.
+    low, high = np.ascontiguousarray(triangles.min(axis=1).T), np.ascontiguousarray(triangles.max(axis=1).T)
+    # Where a corner, or the middle of a side or of the whole, is near, the triangle is.
+    sides = (triangles + np.roll(triangles, 1, axis=1)) / 2
+    marks = cKDTree(np.concatenate([triangles.reshape(-1, 3), sides.reshape(-1, 3), triangles.mean(axis=1)]))
     rng = np.random.default_rng(7)
     for contact in instrument.contacts:
         touch = np.array(contact.position_m) + places[contact.node]
         samples = touch + rng.uniform(-0.03, 0.03, (1500, 3))
-        bodies = bodies_at(instrument, touch, 0.055)
-        samples = far_from_bodies(bodies, samples, 0.0)
-        samples = samples[nearest_body_m(bodies, samples) < 0.0015]
-        reach = np.all((low < touch + 0.04) & (high > touch - 0.04), axis=1)
-        near, near_low, near_high = triangles[reach], low[reach] - 0.0035, high[reach] + 0.0035
-        # Where a corner, or the middle of a side or of the whole, is that near, the triangle is.
-        sides = (near + np.roll(near, 1, axis=1)) / 2
-        marks = cKDTree(np.concatenate([*near, *sides, near.mean(axis=1)]))
-        unclear = samples[marks.query(samples)[0] > 0.0035]
-        boxes = [np.all((near_low <= sample) & (sample <= near_high), axis=1) for sample in unclear]
+        close = proxy.near(bodies, nodes.place_m, touch, 0.055)
+        reached_m, _ = proxy.inside(close, nodes, samples, np.full(len(samples), 0.0015))
+        # Outside of every body, and near one.
+        samples = samples[(reached_m > 0.0) & (reached_m <= 0.0015)]
+        unclear = samples[marks.query(samples, distance_upper_bound=0.0036)[0] > 0.0035]
+        boxes = [overlapping(low, high, sample - 0.0035, sample + 0.0035) for sample in unclear]
         far = [
             sample
             for sample, box in zip(unclear, boxes, strict=True)
-            if not box.any() or nearest_point(near[box], sample)[0] > 0.0035
+            if not box.any() or nearest_point(triangles[box], sample)[0] > 0.0035
         ]
         assert len(samples) > 10
         assert far == [], contact
 
 
+def overlapping(low: FloatArray, high: FloatArray, least: FloatArray, most: FloatArray) -> npt.NDArray[np.bool_]:
+    """Which of the boxes (3, T) meet another box."""
+    meets = (low[0] <= most[0]) & (high[0] >= least[0])
+    for axis in (1, 2):
+        meets &= (low[axis] <= most[axis]) & (high[axis] >= least[axis])
+    return meets
+
+
 @pytest.mark.parametrize("instrument", MAPS)
 def test_bodies_hold_the_whole_mesh(instrument: InstrumentMap) -> None:
+    bodies, nodes = bodies_of(instrument)
     centres = everything(instrument).mean(axis=1)[::7]
-    outside = nearest_body_m(instrument, centres)
-    assert np.mean(outside < 0.002) > 0.97
+    reached_m, _ = proxy.inside(bodies, nodes, centres, np.full(len(centres), 0.002))
+    assert np.mean(reached_m > 0.0) > 0.97
     assert len(instrument.proxy) < 260
 
 
@@ -274,7 +282,7 @@ def test_models_and_maps_are_what_the_script_builds(instrument: InstrumentMap, t
     build, requested_contacts, *_ = build_instruments.INSTRUMENTS[instrument.id]
     built = build()
     build_instruments.write(built, tmp_path / "again.glb")
-    again, shipped = node_triangles(instrument, read_glb(tmp_path / "again.glb")), SURFACES[instrument.id]
+    again, shipped = node_triangles(instrument, read_glb(tmp_path / "again.glb")), surfaces_of(instrument.id)
     assert again.keys() == shipped.keys()
     for name, triangles in shipped.items():
         assert np.allclose(again[name], triangles, atol=1e-6)
