@@ -28,10 +28,16 @@ _POLL_S = 0.05
 
 def process_count(request: Request, cast: ExportCast) -> int:
     """How many processes, this one among them, an export is worth on this machine."""
+    most = max(1, min(_cores(request), len(cast.performers)))
     if request.processes is not None:
-        return min(request.processes, max(len(cast.performers), 1))
+        return most
     frames = request.span.count * len(cast.performers)
-    return max(1, min(core_count(), len(cast.performers), frames // WORTH_FRAMES, _MOST))
+    return max(1, min(most, frames // WORTH_FRAMES, _MOST))
+
+
+def _cores(request: Request) -> int:
+    """How many an export may use."""
+    return core_count() if request.processes is None else request.processes
 
 
 def export_players(
@@ -83,7 +89,8 @@ def export_players(
                     reported(other, done)
                 continue
             last, player_id = performer, performer.player.id
-            finished[player_id] = export_player(request, cast, performer, folder, partial(report, player_id))
+            cores = 1 if helpers else _cores(request)
+            finished[player_id] = export_player(request, cast, performer, folder, partial(report, player_id), cores)
     finally:
         for helper in helpers:
             helper.end()
