@@ -20,8 +20,8 @@ from app.export.worker import Answer, Exported, job_of, serve
 from app.own_process import Child, ForkedChild, StartedChild, can_fork, core_count, receive, send
 from app.performance.cast import Performer
 
-WORTH_FRAMES = 6000
-"""Frames of players for which it is worth to start a process, which takes about a second."""
+WORTH_FRAMES, WORTH_COPY_FRAMES = 6000, 1000
+"""Frames of players for which it is worth to start a process, which takes about a second, or to copy this one."""
 _MOST = 8
 _POLL_S = 0.05
 
@@ -32,7 +32,7 @@ def process_count(request: Request, cast: ExportCast) -> int:
     if request.processes is not None:
         return most
     frames = request.span.count * len(cast.performers)
-    return max(1, min(most, frames // WORTH_FRAMES, _MOST))
+    return max(1, min(most, frames // (WORTH_COPY_FRAMES if can_fork() else WORTH_FRAMES), _MOST))
 
 
 def _cores(request: Request) -> int:
