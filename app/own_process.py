@@ -2,13 +2,126 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+import signal
 import struct
 import subprocess
 import sys
-from typing import IO, Any, Final
+import traceback
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import IO, Any, Final, NoReturn, Protocol
 
 _LENGTH: Final = struct.Struct("<I")
+
+
+class Child(Protocol):
+    """A process that this one has started.
+
+    Attributes
+    ----------
+    to, back : binary stream
+        What it reads, and what it answers.
+    """
+
+    to: IO[bytes]
+    back: IO[bytes]
+
+    def end(self) -> None:
+        """End the process, whatever it does."""
+
+
+class StartedChild:
+    """One of our modules, run as a program.
+
+    Parameters
+    ----------
+    module : str
+        It works for what comes to its input.
+
+    Raises
+    ------
+    OSError
+        No process can be started.
+    """
+
+    def __init__(self, module: str) -> None:
+        self._process = subprocess.Popen(stdin=subprocess.PIPE, stdout=subprocess.PIPE, **own_process(module))
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self.to: IO[bytes] = self._process.stdin
+        self.back: IO[bytes] = self._process.stdout
+
+    def end(self) -> None:
+        """End the process, whatever it does."""
+        self._process.kill()
+        self._process.wait()
+        _close(self.to, self.back)
+
+
+class ForkedChild:
+    """A copy of this process, with all that it has loaded and made; only where `can_fork`.
+
+    Parameters
+    ----------
+    work : callable
+        What the copy does with its input and its output; then it ends.
+    others : sequence of Child
+        Started before: the copy lets go of what they read, so that they still see when this process ends.
+
+    Raises
+    ------
+    OSError
+        No process can be started.
+    """
+
+    def __init__(self, work: Callable[[IO[bytes], IO[bytes]], None], others: Sequence[Child]) -> None:
+        ends = [*os.pipe(), *os.pipe()]
+        there, to, back, here = (os.fdopen(end, mode) for end, mode in zip(ends, ("rb", "wb", "rb", "wb"), strict=True))
+        self.to: IO[bytes] = to
+        self.back: IO[bytes] = back
+        try:
+            self._id = os.fork()
+        except OSError:
+            _close(there, to, back, here)
+            raise
+        if not self._id:
+            _close(to, back, *(stream for other in others for stream in (other.to, other.back)))
+            _in_copy(lambda: work(there, here))
+        _close(there, here)
+
+    def end(self) -> None:
+        """End the process, whatever it does."""
+        os.kill(self._id, signal.SIGKILL)
+        os.waitpid(self._id, 0)
+        _close(self.to, self.back)
+
+
+def _in_copy(work: Callable[[], None]) -> NoReturn:
+    """Do the work of a copied process, and end it without what this process does at its own end."""
+    status = 1
+    try:
+        os.setpgid(0, 0)
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        work()
+        status = 0
+    finally:
+        if status:
+            traceback.print_exc()
+        os._exit(status)
+
+
+def _close(*streams: IO[bytes]) -> None:
+    for stream in streams:
+        with contextlib.suppress(OSError):
+            stream.close()
+
+
+def can_fork() -> bool:
+    """Whether a copy of this process can work: only on Linux, and where no other thread runs. It might hold a lock, for
+    which the copy would wait for ever."""
+    return sys.platform == "linux" and len(list(Path("/proc/self/task").iterdir())) == 1
 
 
 def own_process(module: str, *arguments: str) -> dict[str, Any]:

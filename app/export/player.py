@@ -60,7 +60,12 @@ class ExportedPlayer(msgspec.Struct, frozen=True):
 
 
 def export_player(
-    request: Request, cast: ExportCast, performer: Performer, folder: Path, reported: Callable[[float], None]
+    request: Request,
+    cast: ExportCast,
+    performer: Performer,
+    folder: Path,
+    reported: Callable[[float], None],
+    cores: int = 1,
 ) -> ExportedPlayer:
     """Write and measure the files of a musician.
 
@@ -73,6 +78,8 @@ def export_player(
     folder : path
     reported : callable
         Called with the share 0..1 that is done; what it raises stops the work.
+    cores : int
+        As of `player_motion`.
     """
     names, stems = file_names(request.performance, request.formats), figure_stems(request.performance)
     doubles, checked = cast.doubles.get(performer.player.id, ()), cast.targets[performer.player.id]
@@ -82,7 +89,7 @@ def export_player(
     work = _MOTION_WORK + sum(kind.work for kind in requested.values()) + _MEASURES_WORK * ("fbx" in requested)
     work *= 1 + len(doubles)
     motion = player_motion(
-        performance, performer, request.span, progress=lambda share: reported(_MOTION_WORK / work * share)
+        performance, performer, request.span, progress=lambda share: reported(_MOTION_WORK / work * share), cores=cores
     )
     held_by = {held for kind in requested.values() for held in kind.holds}
     paths = held_paths(request, target, motion, doubles)

@@ -7,7 +7,6 @@ there were no other processes.
 from __future__ import annotations
 
 import contextlib
-import subprocess
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -17,22 +16,28 @@ import msgspec
 
 from app.export.player import ExportedPlayer, export_player
 from app.export.request import ExportCast, Request
-from app.export.worker import Answer, Exported, job_of
-from app.own_process import core_count, own_process, receive, send
+from app.export.worker import Answer, Exported, job_of, serve
+from app.own_process import Child, ForkedChild, StartedChild, can_fork, core_count, receive, send
 from app.performance.cast import Performer
 
-WORTH_FRAMES = 6000
-"""Frames of players for which it is worth to start a process, which takes about a second."""
+WORTH_FRAMES, WORTH_COPY_FRAMES = 6000, 1000
+"""Frames of players for which it is worth to start a process, which takes about a second, or to copy this one."""
 _MOST = 8
 _POLL_S = 0.05
 
 
 def process_count(request: Request, cast: ExportCast) -> int:
     """How many processes, this one among them, an export is worth on this machine."""
+    most = max(1, min(_cores(request), len(cast.performers)))
     if request.processes is not None:
-        return min(request.processes, max(len(cast.performers), 1))
+        return most
     frames = request.span.count * len(cast.performers)
-    return max(1, min(core_count(), len(cast.performers), frames // WORTH_FRAMES, _MOST))
+    return max(1, min(most, frames // (WORTH_COPY_FRAMES if can_fork() else WORTH_FRAMES), _MOST))
+
+
+def _cores(request: Request) -> int:
+    """How many an export may use."""
+    return core_count() if request.processes is None else request.processes
 
 
 def export_players(
@@ -73,11 +78,8 @@ def export_players(
         reported(player_id, share)
 
     try:
-        if processes > 1:
-            job = msgspec.msgpack.encode(job_of(request, folder))
-            with contextlib.suppress(OSError):  # where no process can be started, this one does all
-                for _ in range(processes - 1):
-                    helpers.append(_Helper(job, waiting, finished, shares))
+        for child in _children(request, cast, folder, processes - 1):
+            helpers.append(_Helper(child, waiting, finished, shares))
         while len(waiting) or any(helper.is_alive() for helper in helpers):
             performer = waiting.take(last)
             if performer is None:
@@ -87,11 +89,28 @@ def export_players(
                     reported(other, done)
                 continue
             last, player_id = performer, performer.player.id
-            finished[player_id] = export_player(request, cast, performer, folder, partial(report, player_id))
+            cores = 1 if helpers else _cores(request)
+            finished[player_id] = export_player(request, cast, performer, folder, partial(report, player_id), cores)
     finally:
         for helper in helpers:
             helper.end()
     return finished
+
+
+def _children(request: Request, cast: ExportCast, folder: Path, count: int) -> list[Child]:
+    """Processes that export the musicians whose ids are sent; fewer where no more can be started."""
+    children: list[Child] = []
+    with contextlib.suppress(OSError):
+        if can_fork():
+            for _ in range(count):
+                children.append(ForkedChild(partial(serve, request, cast, folder), tuple(children)))
+            return children
+        job = msgspec.msgpack.encode(job_of(request, folder))
+        for _ in range(count):
+            children.append(StartedChild("app.export.worker"))
+            with contextlib.suppress(BrokenPipeError):
+                send(children[-1].to, job)
+    return children
 
 
 class Waiting:
@@ -140,8 +159,8 @@ class _Helper(Thread):
 
     Parameters
     ----------
-    job : bytes
-        An encoded `Job`.
+    child : Child
+        It exports the musicians whose ids are sent.
     waiting : Waiting
         One whose process ended is given back.
     finished : dict of str to ExportedPlayer
@@ -152,25 +171,18 @@ class _Helper(Thread):
 
     def __init__(
         self,
-        job: bytes,
+        child: Child,
         waiting: Waiting,
         finished: dict[str, ExportedPlayer],
         shares: dict[str, float],
     ) -> None:
         super().__init__(daemon=True, name="export helper")
-        self._job, self._waiting, self._finished, self._shares = job, waiting, finished, shares
-        self._child = subprocess.Popen(
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, **own_process("app.export.worker")
-        )
+        self._child, self._waiting, self._finished, self._shares = child, waiting, finished, shares
         self.start()
 
     def run(self) -> None:
-        to, back = self._child.stdin, self._child.stdout
-        assert to is not None
-        assert back is not None
+        to, back = self._child.to, self._child.back
         decoder = msgspec.msgpack.Decoder(Answer)
-        with contextlib.suppress(BrokenPipeError):
-            send(to, self._job)
         performer: Performer | None = None
         while (performer := self._waiting.take(performer)) is not None:
             player_id = performer.player.id
@@ -187,10 +199,5 @@ class _Helper(Thread):
 
     def end(self) -> None:
         """End the process, whatever it does."""
-        self._child.kill()
-        self._child.wait()
+        self._child.end()
         self.join()
-        for stream in (self._child.stdin, self._child.stdout):
-            assert stream is not None
-            with contextlib.suppress(OSError):
-                stream.close()

@@ -1,28 +1,32 @@
 """Musicians of a piece exported by a process of their own, so that several cores work on a piece.
 
-The child is this module, run as a program: it reads a `Job` from its input, then ids of musicians; for each it writes
-the files and answers with `Share`, the work that is done, and at last `Exported`. It ends when its input does, and
-where something fails: the process that started it does the same work again, and reports what is wrong.
+The child is a copy of the process that exports (`serve`), or this module, run as a program: that reads a `Job` from its
+input first. Each reads ids of musicians; for each it writes the files and answers with `Share`, the work that is done,
+and at last `Exported`. It ends when its input does, and where something fails: the process that started it does the
+same work again, and reports what is wrong.
 """
 
 from __future__ import annotations
 
+import contextlib
 import sys
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from typing import IO
 
 import msgspec
 
 from app.errors import AppError
 from app.export.formats import Format
 from app.export.player import ExportedPlayer, export_player
-from app.export.request import Request, cast_of
+from app.export.request import ExportCast, Request, cast_of
 from app.export.rig_options import RigOptions
 from app.export.target import SkeletonChoice
 from app.formats.keys import KeyChoice
 from app.messages import text
 from app.own_process import receive, send
+from app.performance.cast import Performer
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.storage import decode, encode
@@ -105,23 +109,41 @@ def _request(job: Job) -> Request:
     )
 
 
+def serve(request: Request, cast: ExportCast, folder: Path, ids: IO[bytes], answers: IO[bytes]) -> None:
+    """Export the musicians of a cast whose ids are read, until there are no more.
+
+    Parameters
+    ----------
+    request : Request
+    cast : ExportCast
+    folder : path
+        To write into.
+    ids, answers : binary stream
+        Those of the process.
+    """
+    performers = {performer.player.id: performer for performer in cast.performers}
+    # The process that was copied does again what fails, and reports what is wrong.
+    with contextlib.suppress(BrokenPipeError, AppError):
+        while True:
+            _export(request, cast, performers[receive(ids).decode()], folder, answers)
+
+
+def _export(request: Request, cast: ExportCast, performer: Performer, folder: Path, answers: IO[bytes]) -> None:
+    encode = msgspec.msgpack.Encoder().encode
+    exported = export_player(request, cast, performer, folder, lambda share: send(answers, encode(Share(share))))
+    send(answers, encode(Exported(exported)))
+
+
 def main() -> None:
     """Export the musicians whose ids are sent."""
-    encoder = msgspec.msgpack.Encoder()
+    ids, answers = sys.stdin.buffer, sys.stdout.buffer
     try:
-        request = _request(msgspec.msgpack.decode(receive(sys.stdin.buffer), type=Job))
+        request = _request(msgspec.msgpack.decode(receive(ids), type=Job))
         while True:
-            player = request.performance.project.player(receive(sys.stdin.buffer).decode())
+            player = request.performance.project.player(receive(ids).decode())
             cast = cast_of(replace(request, players=(player,)), text)
             (performer,) = cast.performers
-            exported = export_player(
-                request,
-                cast,
-                performer,
-                request.folder,
-                lambda share: send(sys.stdout.buffer, encoder.encode(Share(share))),
-            )
-            send(sys.stdout.buffer, encoder.encode(Exported(exported)))
+            _export(request, cast, performer, request.folder, answers)
     except BrokenPipeError:
         return
     except AppError:

@@ -18,6 +18,7 @@ from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves, prepare
 from app.performance.cast import Performer, performers_of
 from app.performance.ensemble import Performance
+from app.performance.motion_copies import made_by_copies, shares
 from app.performance.span import FrameSpan
 from app.plan.doubling import changes, first_played
 from app.plan.model import PlayerPlan
@@ -122,8 +123,15 @@ def player_motion(
     span: FrameSpan,
     stop_requested: StopRequested = lambda: False,
     progress: Progress = lambda share: None,
+    cores: int = 1,
 ) -> Motion:
     """Make one player's motion over some frames. The same frames are the same bits in every span.
+
+    Parameters
+    ----------
+    cores : int
+        Those that have nothing else to do, this process's among them: copies of it make their share, where that is
+        worth it.
 
     Raises
     ------
@@ -131,13 +139,21 @@ def player_motion(
         ``stop_requested`` said so.
     """
     playing = playing_of(performance, performer)
-    pieces = []
-    for first in range(0, span.count, CHUNK):
-        if stop_requested():
-            raise Cancelled("work.stopped")
-        pieces.append(playing.motion(span.fps, span.first + first, min(CHUNK, span.count - first)))
-        progress(min(1.0, (first + CHUNK) / span.count))
-    return _joined(pieces)
+    first, *others = shares(span.count, cores)
+
+    def make(part: range) -> Motion:
+        pieces = []
+        for start in part[::CHUNK]:
+            if stop_requested():
+                raise Cancelled("work.stopped")
+            end = min(start + CHUNK, part.stop)
+            pieces.append(playing.motion(span.fps, span.first + start, end - start))
+            if part is first:
+                progress((end - part.start) / len(part))
+        return _joined(pieces)
+
+    with made_by_copies(make, others) as made:
+        return _joined([make(first), *made()])
 
 
 def _joined(pieces: list[Motion]) -> Motion:

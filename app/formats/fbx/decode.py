@@ -13,7 +13,7 @@ import struct
 import zlib
 from collections.abc import Callable
 from threading import Lock
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -33,17 +33,21 @@ _MOST_TIMES = 256
 _MOST_KEPT_BYTES, _LARGEST_KEPT_BYTES = 2**25, 2**21
 _Packed = tuple[np.dtype[np.generic], int, bytes]
 
-_ARRAYS = {b"f": "<f4", b"d": "<f8", b"i": "<i4", b"l": "<i8", b"b": "?", b"c": "u1"}
-_SCALARS = {b"C": "<?", b"B": "<?", b"Y": "<h", b"I": "<i", b"L": "<q", b"F": "<f", b"D": "<d"}
-_SCALAR_TYPES: dict[bytes, Callable[[Any], Property]] = {
-    b"C": bool,
-    b"B": bool,
-    b"Y": np.int16,
-    b"I": np.int32,
-    b"L": np.int64,
-    b"F": np.float32,
-    b"D": float,
+_ARRAYS: Final = {
+    ord(code): np.dtype(kind)
+    for code, kind in {"f": "<f4", "d": "<f8", "i": "<i4", "l": "<i8", "b": "?", "c": "u1"}.items()
 }
+_SCALARS: Final[dict[int, tuple[struct.Struct, Callable[[Any], Property]]]] = {
+    ord("C"): (struct.Struct("<?"), bool),
+    ord("B"): (struct.Struct("<?"), bool),
+    ord("Y"): (struct.Struct("<h"), np.int16),
+    ord("I"): (struct.Struct("<i"), np.int32),
+    ord("L"): (struct.Struct("<q"), np.int64),
+    ord("F"): (struct.Struct("<f"), np.float32),
+    ord("D"): (struct.Struct("<d"), float),
+}
+_TEXT, _BYTES = ord("S"), ord("R")
+_LENGTH, _ARRAY = struct.Struct("<I"), struct.Struct("<III")
 
 
 def read_elements(data: bytes, file: str) -> Element:
@@ -115,20 +119,20 @@ class _Reader:
         if depth > _DEEPEST:
             raise self._error("too_deep", position)
         elements: list[Element] = []
+        size = self._head.size
         while True:
-            if position + self._head.size > end:
+            if position + size > end:
                 raise self._error("truncated" if end == len(self._data) else "bad_record", position)
-            record_end, count, property_bytes, name_length = self._head.unpack_from(self._data, position)
-            if record_end == 0:
-                if count or property_bytes or name_length:
+            head = self._head.unpack_from(self._data, position)
+            if head[0] == 0:
+                if any(head):
                     raise self._error("bad_record", position)
-                return tuple(elements), position + self._head.size
-            element = self._record(position, end, depth)
-            elements.append(element)
-            position = record_end
+                return tuple(elements), position + size
+            elements.append(self._record(position, head, end, depth))
+            position = head[0]
 
-    def _record(self, position: int, limit: int, depth: int) -> Element:
-        record_end, count, property_bytes, name_length = self._head.unpack_from(self._data, position)
+    def _record(self, position: int, head: tuple[int, ...], limit: int, depth: int) -> Element:
+        record_end, count, property_bytes, name_length = head
         start = position + self._head.size + name_length
         stop = start + property_bytes
         if record_end > limit or stop > record_end:
@@ -149,25 +153,22 @@ class _Reader:
         return Element(name, tuple(properties), children)
 
     def _property(self, at: int, stop: int) -> tuple[Property, int]:
-        code = self._data[at : at + 1]
-        body = at + 1
-        if at < stop and code in _SCALARS:
-            layout = _SCALARS[code]
-            end = body + struct.calcsize(layout)
+        code, body = self._data[at] if at < stop else -1, at + 1
+        if code in _SCALARS:
+            layout, kind = _SCALARS[code]
+            end = body + layout.size
             if end <= stop:
-                value: Property = _SCALAR_TYPES[code](struct.unpack_from(layout, self._data, body)[0])
-                return value, end
-        elif code in (b"S", b"R") and body + 4 <= stop:
-            (length,) = struct.unpack_from("<I", self._data, body)
-            end = body + 4 + length
+                return kind(layout.unpack_from(self._data, body)[0]), end
+        elif code in (_TEXT, _BYTES) and body + 4 <= stop:
+            end = body + 4 + _LENGTH.unpack_from(self._data, body)[0]
             if end <= stop:
                 raw = self._data[body + 4 : end]
-                return (raw.decode("utf-8", "surrogateescape") if code == b"S" else raw), end
+                return (raw.decode("utf-8", "surrogateescape") if code == _TEXT else raw), end
         elif code in _ARRAYS and body + 12 <= stop:
-            count, encoding, length = struct.unpack_from("<III", self._data, body)
+            count, encoding, length = _ARRAY.unpack_from(self._data, body)
             end = body + 12 + length
             if end <= stop:
-                return self._array(np.dtype(_ARRAYS[code]), count, encoding, body + 12, end), end
+                return self._array(_ARRAYS[code], count, encoding, body + 12, end), end
         raise self._error("bad_property", at)
 
     def _array(self, dtype: np.dtype[np.generic], count: int, encoding: int, start: int, end: int) -> Property:

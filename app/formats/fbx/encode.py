@@ -9,11 +9,14 @@ from __future__ import annotations
 
 import struct
 import zlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from hashlib import blake2b
-from typing import TypeAlias
+from operator import attrgetter
+from typing import Any, Final, TypeAlias
 
+import msgspec
 import numpy as np
 import numpy.typing as npt
 
@@ -30,6 +33,8 @@ FOOTER_END = bytes.fromhex("f85a8c6adef5d97eece90ce3758f290b")
 
 _LARGEST_OFFSET = 2**31 - 1
 _RAW_ARRAY_BYTES = 128
+_SMALL_BYTES = 1024
+"""Records with no more are put together."""
 _ZLIB_LEVEL = 1
 _MOST_KEPT, _LARGEST_KEPT_BYTES = 4096, 2**20
 _packed: dict[bytes, bytes] = {}
@@ -50,8 +55,7 @@ Property: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Element:
+class Element(msgspec.Struct, frozen=True, eq=False):
     """One record.
 
     Attributes
@@ -153,43 +157,61 @@ class _Writer:
         self.position += len(chunk)
 
     def _record(self, element: Element) -> None:
-        name = element.name.encode("ascii")
+        name, properties = element.name.encode("ascii"), [_encode_property(value) for value in element.properties]
+        property_bytes = sum(map(len, properties))
+        if element.children is None:
+            end = self.position + self._head.size + len(name) + property_bytes
+            head = bytearray(self._head.size)
+            self._fill(head, end, properties, property_bytes, name)
+            if property_bytes < _SMALL_BYTES:
+                self.chunks.append(b"".join((head, name, *properties)))
+            else:
+                self.chunks += (head, name, *properties)
+            self.position = end
+            return
         head = bytearray(self._head.size)  # filled in once the end of the record is known
-        self._add(head)
-        self._add(name)
-        start = self.position
-        for value in element.properties:
-            self._add(_encode_property(value))
-        property_bytes = self.position - start
-        if element.children is not None:
-            for child in element.children:
-                self._record(child)
-            self._add(self._null)
-        if self.position <= _LARGEST_OFFSET or self._version >= LARGE_VERSION:
-            self._head.pack_into(head, 0, self.position, len(element.properties), property_bytes, len(name))
+        self.chunks += (head, name, *properties)
+        self.position += len(head) + len(name) + property_bytes
+        for child in element.children:
+            self._record(child)
+        self._add(self._null)
+        self._fill(head, self.position, properties, property_bytes, name)
+
+    def _fill(self, head: bytearray, end: int, properties: list[bytes], property_bytes: int, name: bytes) -> None:
+        """Say how long a record is, where this version can."""
+        if end <= _LARGEST_OFFSET or self._version >= LARGE_VERSION:
+            self._head.pack_into(head, 0, end, len(properties), property_bytes, len(name))
 
 
 def _encode_property(value: Property) -> bytes:
-    if isinstance(value, PackedArray):
-        return value.encoded
-    if isinstance(value, np.ndarray):
-        return pack_array(value).encoded
-    if isinstance(value, str):
-        text = value.encode("utf-8", "surrogateescape")
-        return b"S" + struct.pack("<I", len(text)) + text
-    if isinstance(value, bytes):
-        return b"R" + struct.pack("<I", len(value)) + value
-    for kind, layout in _SCALARS:
-        if isinstance(value, kind):
-            return struct.pack(layout[0], layout[1], value)
-    raise TypeError(f"no FBX property for {type(value).__name__}")
+    encode = _ENCODERS.get(type(value))
+    if encode is None:
+        raise TypeError(f"no FBX property for {type(value).__name__}")
+    return encode(value)
 
 
-_SCALARS: tuple[tuple[type | tuple[type, ...], tuple[str, bytes]], ...] = (
-    ((bool, np.bool_), ("<c?", b"C")),
-    (np.int16, ("<ch", b"Y")),
-    (np.int32, ("<ci", b"I")),
-    (np.int64, ("<cq", b"L")),
-    (np.float32, ("<cf", b"F")),
-    (float, ("<cd", b"D")),
-)
+def _scalar(layout: str, code: bytes) -> Callable[[Any], bytes]:
+    pack = struct.Struct(layout).pack
+    return lambda value: pack(code, value)
+
+
+@lru_cache(maxsize=4096)
+def _text(value: str) -> bytes:
+    text = value.encode("utf-8", "surrogateescape")
+    return b"S" + struct.pack("<I", len(text)) + text
+
+
+_ENCODERS: Final[dict[type, Callable[[Any], bytes]]] = {
+    PackedArray: attrgetter("encoded"),
+    np.ndarray: lambda value: pack_array(value).encoded,
+    str: _text,
+    bytes: lambda value: b"R" + struct.pack("<I", len(value)) + value,
+    bool: _scalar("<c?", b"C"),
+    np.bool_: _scalar("<c?", b"C"),
+    np.int16: _scalar("<ch", b"Y"),
+    np.int32: _scalar("<ci", b"I"),
+    np.int64: _scalar("<cq", b"L"),
+    np.float32: _scalar("<cf", b"F"),
+    float: _scalar("<cd", b"D"),
+    np.float64: _scalar("<cd", b"D"),
+}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import subprocess
 import sys
 from dataclasses import replace
@@ -11,8 +13,9 @@ from typing import Any
 
 import pytest
 
-from app.errors import Cancelled
-from app.export import processes
+from app import own_process
+from app.errors import Cancelled, FileError
+from app.export import processes, worker
 from app.export.processes import Waiting, process_count
 from app.export.request import Request, cast_of
 from app.export.run import export
@@ -64,6 +67,48 @@ def ending(code: str) -> Any:
     return lambda module: {"args": [sys.executable, "-c", code]}
 
 
+@pytest.fixture
+def no_copies(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Processes are programs of their own."""
+    monkeypatch.setattr(processes, "can_fork", lambda: False)
+
+
+def export_by_copies(folder: Path) -> None:
+    """Export by copies of this process that work, that are killed, that fail and that report what is wrong."""
+    assert own_process.can_fork()
+    open_before = len(list(Path("/proc/self/fd").iterdir()))
+
+    def killed(*_: Any) -> None:
+        os.kill(os.getpid(), signal.SIGKILL)
+
+    def failing(*_: Any) -> None:
+        raise RuntimeError("what is seen on standard error")
+
+    def refusing(*_: Any) -> None:
+        raise FileError("file.cannot_write", file="", reason="")
+
+    export(request(folder / "working", quartet(), 3), text)
+    for name, change in {"killed": ("serve", killed), "failing": ("serve", failing)}.items():
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(processes, *change)
+            export(request(folder / name, quartet(), 2), text)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(worker, "export_player", refusing)
+        export(request(folder / "refusing", quartet(), 2), text)
+    assert len(list(Path("/proc/self/fd").iterdir())) == open_before
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="processes are copied on Linux only")
+def test_copies_write_what_one_writes(tmp_path: Path, alone: dict[str, bytes]) -> None:
+    code = f"from {__name__} import *; export_by_copies(Path({str(tmp_path)!r}))"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr.count("Traceback") == done.stderr.count("RuntimeError: what is seen") == 1
+    for name in ("working", "killed", "failing", "refusing"):
+        assert files(tmp_path / name) == alone
+
+
+@pytest.mark.usefixtures("no_copies")
 def test_processes_write_what_one_writes(tmp_path: Path, alone: dict[str, bytes]) -> None:
     shares: list[float] = []
     export(request(tmp_path, quartet(), 3), text, progress=lambda share, label: shares.append(share))
@@ -72,6 +117,7 @@ def test_processes_write_what_one_writes(tmp_path: Path, alone: dict[str, bytes]
     assert shares[-1] == pytest.approx(1.0)
 
 
+@pytest.mark.usefixtures("no_copies")
 @pytest.mark.parametrize(
     "code",
     [
@@ -85,19 +131,21 @@ def test_processes_write_what_one_writes(tmp_path: Path, alone: dict[str, bytes]
 def test_what_a_process_does_not_finish_is_done_here(
     code: str, tmp_path: Path, alone: dict[str, bytes], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(processes, "own_process", ending(code))
+    monkeypatch.setattr(own_process, "own_process", ending(code))
     export(request(tmp_path, quartet(), 2), text)
     assert files(tmp_path) == alone
 
 
+@pytest.mark.usefixtures("no_copies")
 def test_where_no_process_can_be_started_one_does_all(
     tmp_path: Path, alone: dict[str, bytes], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(processes, "own_process", lambda module: {"args": [str(tmp_path / "absent")]})
+    monkeypatch.setattr(own_process, "own_process", lambda module: {"args": [str(tmp_path / "absent")]})
     export(request(tmp_path, quartet(), 2), text)
     assert files(tmp_path) == alone
 
 
+@pytest.mark.usefixtures("no_copies")
 def test_stopping_ends_the_processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     started: list[Any] = []
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from msgspec import structs
 
 from app.errors import FileError
 from app.formats.fbx.decode import read_elements
@@ -185,16 +186,16 @@ def _changed(elements: Sequence[Element], path: Sequence[str], change: Change) -
             return (*elements[:number], change(element), *elements[number + 1 :])
         children = _changed(element.children or (), path[1:], change)
         if children is not None:
-            return (*elements[:number], replace(element, children=children), *elements[number + 1 :])
+            return (*elements[:number], structs.replace(element, children=children), *elements[number + 1 :])
     return None
 
 
 def _with(*values: Property) -> Change:
-    return lambda element: replace(element, properties=values)
+    return lambda element: structs.replace(element, properties=values)
 
 
 def _with_p(*values: Property) -> Change:
-    return lambda block: replace(block, children=(*(block.children or ()), Element("P", values)))
+    return lambda block: structs.replace(block, children=(*(block.children or ()), Element("P", values)))
 
 
 MODEL = "Objects/Model/Properties70"
@@ -217,8 +218,8 @@ ODD = {
     "a missing key": ("Objects/AnimationCurve/KeyValueFloat", _with(np.zeros(3, np.float32)), "contradiction"),
     "a bone that is its own grandchild": ("Connections/C", _with("OO", ROOT_ID, FIRST_CHILD_ID), "contradiction"),
     "a connection without ends": ("Connections/C", _with("OO"), "missing"),
-    "no objects": ("Objects", lambda element: replace(element, name="Other"), "missing"),
-    "no frame rate": ("GlobalSettings/Properties70", lambda element: replace(element, children=()), "missing"),
+    "no objects": ("Objects", lambda element: structs.replace(element, name="Other"), "missing"),
+    "no frame rate": ("GlobalSettings/Properties70", lambda element: structs.replace(element, children=()), "missing"),
 }
 
 
@@ -293,9 +294,10 @@ def test_few_keys_may_not_claim_to_be_a_clip_of_days() -> None:
 
     def later(element: Element) -> Element:
         if element.name == "P" and element.properties[0] == "LocalStop":
-            return replace(element, properties=(*element.properties[:4], np.int64(2**62)))
+            return structs.replace(element, properties=(*element.properties[:4], np.int64(2**62)))
         children = element.children
-        return element if children is None else replace(element, children=tuple(later(child) for child in children))
+        changed = tuple(later(child) for child in children or ())
+        return element if children is None else structs.replace(element, children=changed)
 
     with pytest.raises(FileError) as raised:
         decode_scene(encode_elements(tuple(later(element) for element in elements)), "odd.fbx")

@@ -1,0 +1,99 @@
+"""Parts of a motion made by copies of this process while it makes the first one."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from fractions import Fraction
+from functools import partial
+from itertools import pairwise
+from typing import IO, Final
+
+import msgspec
+import numpy as np
+
+from app.motion.model import Motion
+from app.own_process import ForkedChild, can_fork, receive, send
+
+_WORTH_FRAMES: Final = 4096
+"""Frames for which a copy is worth the time it takes to make it."""
+_MOST: Final = 8
+
+
+def shares(count: int, cores: int) -> list[range]:
+    """Frames in equal parts, one for each core that can work on them."""
+    parts = max(1, min(cores, count // _WORTH_FRAMES, _MOST)) if cores > 1 and can_fork() else 1
+    ends = [count * number // parts for number in range(parts + 1)]
+    return [range(first, last) for first, last in pairwise(ends)]
+
+
+@contextmanager
+def made_by_copies(make: Callable[[range], Motion], parts: Sequence[range]) -> Iterator[Callable[[], list[Motion]]]:
+    """Have copies of this process make parts of a motion during the block.
+
+    Yields
+    ------
+    callable
+        Waits for them. What a copy does not finish is made here.
+    """
+    children: list[ForkedChild] = []
+
+    def results() -> list[Motion]:
+        found = []
+        for number, part in enumerate(parts):
+            try:
+                found.append(_decoded(receive(children[number].back)))
+            except (BrokenPipeError, IndexError):
+                found.append(make(part))
+        return found
+
+    try:
+        with contextlib.suppress(OSError):  # where no process can be started, this one does all
+            for part in parts:
+                children.append(ForkedChild(partial(_make, make, part), tuple(children)))
+        yield results
+    finally:
+        for child in children:
+            child.end()
+
+
+def _make(make: Callable[[range], Motion], part: range, asked: IO[bytes], answers: IO[bytes]) -> None:
+    data = _encoded(make(part))
+    with contextlib.suppress(BrokenPipeError):
+        send(answers, data)
+
+
+_Array = tuple[str, list[int], bytes]
+"""Its type, shape and bytes."""
+
+
+class _Sent(msgspec.Struct, frozen=True):
+    """A `Motion` as it is sent."""
+
+    fps: tuple[int, int]
+    first_frame_s: float
+    arrays: dict[str, _Array]
+    morphs: dict[str, _Array]
+    controls: dict[str, _Array]
+
+
+_ARRAYS: Final = ("rotations", "hips_m", "instrument_position_m", "instrument_rotation")
+_decoder: Final = msgspec.msgpack.Decoder(_Sent)
+
+
+def _encoded(motion: Motion) -> bytes:
+    arrays, morphs, controls = (
+        {name: (values.dtype.str, list(values.shape), values.tobytes()) for name, values in group.items()}
+        for group in ({name: getattr(motion, name) for name in _ARRAYS}, motion.morphs, motion.controls)
+    )
+    return msgspec.msgpack.encode(_Sent(motion.fps.as_integer_ratio(), motion.first_frame_s, arrays, morphs, controls))
+
+
+def _decoded(data: bytes) -> Motion:
+    sent = _decoder.decode(data)
+    arrays, morphs, controls = (
+        {name: np.frombuffer(values, kind).reshape(shape) for name, (kind, shape, values) in group.items()}
+        for group in (sent.arrays, sent.morphs, sent.controls)
+    )
+    return Motion(Fraction(*sent.fps), sent.first_frame_s, morphs=morphs, controls=controls, **arrays)
