@@ -21,8 +21,54 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "{file} にはすでに評価があり、参加者の回答はそのキーと対応しています。別のフォルダーを選んでください",
     ),
     "evaluate.needs_file": (
-        "the variant '{variant}' needs a video: choose one with {option}",
-        "バリエーション '{variant}' には動画が必要です。{option} で指定してください",
+        "the variant '{variant}' needs a file: choose one with {option}",
+        "バリエーション '{variant}' にはファイルが必要です。{option} で指定してください",
+    ),
+    "evaluate.keyframes_format": (
+        "{file} is neither a video nor a file of motion (BVH, FBX, GLB); choose one of these",
+        "{file} は動画でもモーションファイル（BVH、FBX、GLB）でもありません。いずれかを選んでください",
+    ),
+    "evaluate.keyframes_skeleton": (
+        (
+            "the skeleton of {file} is not that of the players; retarget the motion to a file that 'suisou export' "
+            "wrote (--skeleton suisou), or give a video"
+        ),
+        (
+            "{file} の骨格は奏者の骨格と異なります。'suisou export'（--skeleton suisou）で書き出したファイルに"
+            "リターゲットするか、動画を指定してください"
+        ),
+    ),
+    "evaluate.keyframes_bones": (
+        "{file} has no motion of these bones: {bones}; export all bones of the skeleton",
+        "{file} に次のボーンのモーションがありません：{bones}。骨格のすべてのボーンを書き出してください",
+    ),
+    "evaluate.keyframes_body": (
+        (
+            "the bone {bone} of {file} has not the length that it has in the character '{character}'; give the player "
+            "the character that the file was made with"
+        ),
+        (
+            "{file} のボーン {bone} の長さがキャラクター '{character}' と異なります。"
+            "ファイルの作成に使ったキャラクターを奏者に割り当ててください"
+        ),
+    ),
+    "evaluate.keyframes_player": (
+        "{file} is not named after a player, so it is not known whose motion it is; its name is to be one of: {players}",
+        "{file} の名前が奏者名と一致しないため、どの奏者のモーションか分かりません。次のいずれかの名前にしてください：{players}",
+    ),
+    "evaluate.keyframes_lacking": (
+        (
+            "{file} has no motion of {player}: add {name}, give the folder that has the files of all players, or show "
+            "only players that there is motion of"
+        ),
+        (
+            "{file} に {player} のモーションがありません。{name} を追加するか、全奏者のファイルがあるフォルダーを"
+            "指定するか、モーションのある奏者だけを表示してください"
+        ),
+    ),
+    "evaluate.keyframes_report": (
+        "{file} does not say when the motion beside it begins ({detail}); give its place by hand, or remove the report",
+        "{file} からモーションの開始時刻を読み取れません（{detail}）。位置を指定するか、このファイルを削除してください",
     ),
     "evaluate.too_few": (
         "an evaluation compares at least two variants; choose more of them",
