@@ -25,15 +25,17 @@ import numpy.typing as npt
 from app.errors import FileError
 from app.evaluation.excerpts import Excerpt
 from app.evaluation.imported import require_covered
+from app.export.bind_pose import rest_transforms
 from app.export.file_names import REPORT, figure_stems
+from app.export.target import normalised_target
 from app.formats.bvh import BvhClip, read_bvh
-from app.formats.files import read_file
+from app.formats.files import cannot_read, read_file
 from app.performance.cast import Performer, performer_of
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.rig import quaternion
 from app.rig.hold import hand_targets
-from app.rig.model import Skeleton
+from app.rig.model import Character, Skeleton
 from app.rig.skeleton import forward
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
@@ -95,7 +97,7 @@ class PlayerKeyframes:
         require_covered(self.path, self.covered_s, excerpt)
 
     def posed(self, time_s: float, pose: Pose) -> Pose:
-        """The performance's pose with body and instrument as the file has them; between two frames what lies between."""
+        """The performance's pose with body and instrument as the file has them, also between two of its frames."""
         at = min(max((time_s - self.start_s) * self.fps, 0.0), len(self.hips_m) - 1.0)
         before = int(at)
         after, share = min(before + 1, len(self.hips_m) - 1), at - before
@@ -207,12 +209,15 @@ def read_keyframes(
 
 def _in_folder(folder: Path, stems: Mapping[str, str]) -> dict[str, Path]:
     """The file of each player that there is one of."""
-    there = {name.casefold(): name for name in sorted(os.listdir(folder))}
+    try:
+        there = {path.name.casefold(): path for path in sorted(folder.iterdir())}
+    except OSError as error:
+        raise cannot_read(folder, error) from error
     found = dict[str, Path]()
     for player_id, stem in stems.items():
-        names = [there[name] for suffix in SUFFIXES if (name := f"{stem}{suffix}".casefold()) in there]
-        if names:
-            found[player_id] = folder / names[0]
+        paths = [there[name] for suffix in SUFFIXES if (name := f"{stem}{suffix}".casefold()) in there]
+        if paths:
+            found[player_id] = paths[0]
     return found
 
 
@@ -258,23 +263,36 @@ def _on_skeleton(clip: BvhClip, path: Path, performer: Performer) -> tuple[Float
         listed = ", ".join(missing[:_MOST_LISTED]) + (" ..." if len(missing) > _MOST_LISTED else "")
         raise FileError("evaluate.keyframes_bones", file=str(path), bones=listed)
     clip = _upright(clip, skeleton, place)
-    frames = len(clip.rotations_xyzw)
-    rotations = np.tile(quaternion.IDENTITY, (frames, len(skeleton.names), 1))
+    jointed = [joint for joint in below if skeleton.names[joint] != HIPS]
+    places, parents = (
+        [place[skeleton.names[joint]] for joint in jointed],
+        [skeleton.parents[joint] for joint in jointed],
+    )
+    if any(clip.names[clip.parents[at]] != skeleton.names[of] for at, of in zip(places, parents, strict=True)):
+        raise FileError("evaluate.keyframes_skeleton", file=str(path))
+    rest = _rest(np.asarray(clip.offsets_cm[places], np.float64), jointed, parents, performer.character)
+    apart_cm = np.linalg.norm(_offsets_cm(skeleton, rest, jointed, parents) - clip.offsets_cm[places], axis=1)
+    if apart_cm.max() > _OTHER_BODY_CM:
+        bone, character = skeleton.names[jointed[int(apart_cm.argmax())]], performer.player.character_id
+        raise FileError("evaluate.keyframes_body", file=str(path), bone=bone, character=character)
+    rotations = np.tile(quaternion.IDENTITY, (len(clip.rotations_xyzw), len(skeleton.names), 1))
     hips_m, turn = _hips(clip, place[HIPS])
-    for joint in below:
-        name = skeleton.names[joint]
-        if name == HIPS:
-            rotations[:, joint] = turn
-            continue
-        rotations[:, joint] = clip.rotations_xyzw[:, place[name]]
-        parent = clip.parents[place[name]]
-        apart = np.linalg.norm(clip.offsets_cm[place[name]] - 100.0 * skeleton.offsets_m[joint])
-        if clip.names[parent] != skeleton.names[skeleton.parents[joint]]:
-            raise FileError("evaluate.keyframes_skeleton", file=str(path))
-        if apart > _OTHER_BODY_CM:
-            character = performer.player.character_id
-            raise FileError("evaluate.keyframes_body", file=str(path), bone=name, character=character)
+    rotations[:, skeleton.index(HIPS)] = quaternion.multiply(turn, rest[skeleton.index(HIPS)])
+    turned = quaternion.multiply(clip.rotations_xyzw[:, places], rest[jointed])
+    rotations[:, jointed] = quaternion.multiply(quaternion.conjugate(rest[parents]), turned)
     return quaternion.normalize(rotations), hips_m
+
+
+def _rest(offsets_cm: FloatArray, joints: Sequence[int], parents: Sequence[int], character: Character) -> FloatArray:
+    """How the joints (J, 4) are turned where a file's are not: in the T-pose, or as the mesh is bound (FBX, GLB)."""
+    skeleton = character.skeleton
+    bound = rest_transforms(character, normalised_target(skeleton))[:, :3, :3].astype(np.float64)
+    poses = np.tile(quaternion.IDENTITY, (len(skeleton.names), 1)), quaternion.from_matrix(bound)
+    return min(poses, key=lambda pose: float(np.abs(_offsets_cm(skeleton, pose, joints, parents) - offsets_cm).max()))
+
+
+def _offsets_cm(skeleton: Skeleton, rest: FloatArray, joints: Sequence[int], parents: Sequence[int]) -> FloatArray:
+    return 100.0 * quaternion.rotate(rest[list(parents)], skeleton.offsets_m[list(joints)])
 
 
 def _hangs_on_hips(skeleton: Skeleton, joint: int) -> bool:

@@ -128,9 +128,7 @@ def make_evaluation(
         write_measures(measure_variants(project, variants, measured), new / MEASURES_FILE)
         write_key(key, new / KEY_FILE)
     film = videos.get("film")
-    return Made(
-        folder, key, len(pairs), len(table), left_out, film if isinstance(film, ImportedVideo) else None
-    )
+    return Made(folder, key, len(pairs), len(table), left_out, film if isinstance(film, ImportedVideo) else None)
 
 
 def _draw(

@@ -170,7 +170,11 @@ class _MadePoses:
             with contextlib.suppress(PlayerFault):
                 if not live.work():
                     break
-        return None if live.error(player_id) is not None else self._seen(player_id, live.pose_now(player_id, time_s), time_s)
+        return (
+            None
+            if live.error(player_id) is not None
+            else self._seen(player_id, live.pose_now(player_id, time_s), time_s)
+        )
 
 
 class _AtOnce:

@@ -26,7 +26,7 @@ from tests.unit.viewport.poses import quartet
     ("options", "status", "sentence"),
     [
         ("", 2, "the following arguments are required: --to"),
-        ("--to a --variants film,generated", 2, "the variant 'film' needs a video: choose one with --film"),
+        ("--to a --variants film,generated", 2, "the variant 'film' needs a file: choose one with --film"),
         ("--to a --variants still", 2, "compares at least two variants"),
         ("--to a --variants ours", 2, "'ours' is not one of film, generated, still, shifted, keyframes"),
         ("--to a --film-offset 1", 2, "--film-offset is only possible with --film"),
