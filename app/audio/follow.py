@@ -8,12 +8,14 @@ by hand.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
 
+from app.audio.passages import Passage
 from app.audio.score_sound import (
     CHROMA_S,
     EARLY_S,
@@ -28,7 +30,7 @@ from app.audio.score_sound import (
     score_chroma,
 )
 from app.audio.track import Samples
-from app.audio.warping import MISSING_S, Integers, Pins, Warped, along, covered, warped
+from app.audio.warping import MISSING_S, Integers, Jump, Pins, Warped, along, played, warped
 from app.errors import AppError, Cancelled
 from app.score.following import Following, Span
 from app.score.metre_map import MetreMap
@@ -116,11 +118,11 @@ def follow(
     reached(0.65)
     result = _followed(piece, slice(0, shapes.shape[1]))
     reached(0.8)
-    if result is None or result.mean_confidence < _WHOLE or result.missing:
-        part = covered(shapes, recorded.chroma)
-        if part.stop - part.start < _PARTIAL * shapes.shape[1]:
+    if result is None or result.mean_confidence < _WHOLE or result.missing or result.added:
+        part, jumps = _parts(played(shapes, recorded.chroma), shapes.shape[1], pins)
+        if jumps or part.stop - part.start < _PARTIAL * shapes.shape[1]:
             reached(0.85)
-            other = _followed(piece, part)
+            other = _followed(piece, part, jumps)
             if other is not None and other.mean_confidence >= max(_PART_RECOGNISED, _as_sure_as(result)):
                 result = other
     if result is None or result.mean_confidence < RECOGNISED:
@@ -145,12 +147,24 @@ def _as_sure_as(whole: Following | None) -> float:
     return 0.0 if whole is None else whole.mean_confidence - _AS_SURE
 
 
-def _followed(prepared: _Prepared, part: slice) -> Following | None:
-    """Follow a recording that has some frames of the score at most; None where nothing is alike."""
+def _parts(played: Sequence[Passage], frames: int, pins: Pins) -> tuple[slice, tuple[Jump, ...]]:
+    """The frames of the score that a recording has, and where it jumps between them."""
+    if not played:
+        return slice(0, frames), ()
+    first, last = round(played[0].start_s / CHROMA_S), round(played[-1].end_s / CHROMA_S)
+    jumps = (
+        Jump(one.end_s, max(other.start_s, one.end_s), one.recording_end_s, other.recording_start_s)
+        for one, other in pairwise(played)
+    )
+    return slice(max(first, 0), min(last, frames)), tuple(jump for jump in jumps if jump.agrees_with(pins))
+
+
+def _followed(prepared: _Prepared, part: slice, jumps: Sequence[Jump] = ()) -> Following | None:
+    """Follow a recording that has some frames of the score at most, and jumps; None where nothing is alike."""
     score, recorded, expected = prepared.score, prepared.recorded, prepared.expected
     start_s, end_s = part.start * CHROMA_S, part.stop * CHROMA_S
     pins = prepared.pins.within(start_s, end_s)
-    rough = warped(prepared.shapes[:, part], recorded.chroma, pins)
+    rough = warped(prepared.shapes[:, part], recorded.chroma, pins, [jump.later(-start_s) for jump in jumps])
     if len(rough.score_s) < 2:
         return None
     rough, pins = (

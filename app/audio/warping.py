@@ -9,14 +9,15 @@ stretches, each of which is warped by itself.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import Final, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 from dtaidistance import dtw
 
+from app.audio.passages import Passage, passages
 from app.audio.score_sound import CHROMA_S, Floats
 from app.score.following import Span
 
@@ -40,7 +41,6 @@ _SILENT, _LOUD = 0.15, 0.4
 """Size of a frame's shape, 1 at the typical level: below the one nothing sounds, above the other something does."""
 
 
-_BESIDE_S: Final = 3.0
 _NEAR: Final = 80
 """Frames from whose tempo it goes on beyond the ends."""
 
@@ -64,6 +64,26 @@ class Pins:
 
 
 NO_PINS: Final = Pins(np.empty(0), np.empty(0))
+
+
+@dataclass(frozen=True)
+class Jump:
+    """Where a recording leaves the score and where it goes on: seconds of both, of which only one has those between."""
+
+    from_s: float
+    to_s: float
+    recording_from_s: float
+    recording_to_s: float
+
+    def later(self, score_s: float) -> Jump:
+        """The same in a score that begins so much earlier."""
+        return replace(self, from_s=self.from_s + score_s, to_s=self.to_s + score_s)
+
+    def agrees_with(self, pins: Pins) -> bool:
+        """Whether every pin is before it in both, or behind it in both."""
+        before = (pins.score_s <= self.from_s) & (pins.recording_s <= self.recording_from_s)
+        behind = (pins.score_s >= self.to_s) & (pins.recording_s >= self.recording_to_s)
+        return bool((before | behind).all())
 
 
 @dataclass(frozen=True)
@@ -97,18 +117,20 @@ class Warped:
         return result
 
 
-def warped(score: Floats, recording: Floats, pins: Pins = NO_PINS) -> Warped:
+def warped(score: Floats, recording: Floats, pins: Pins = NO_PINS, jumps: Sequence[Jump] = ()) -> Warped:
     """Which frames belong together, by dynamic time warping.
 
     Parameters
     ----------
     score, recording : (12, n) float64
         Chroma as shapes, a frame every `CHROMA_S`.
+    jumps : sequence of Jump
+        In order; they agree with the pins.
     """
     pool = int(np.ceil(np.sqrt(max(score.shape[1] * recording.shape[1] / _MOST_CELLS, 1.0))))
     frame_s, length_s = pool * CHROMA_S, score.shape[1] * CHROMA_S
     ours, theirs = _pooled(score, pool), _pooled(recording, pool)
-    one, other = _path(ours, theirs, max(round(_FILLER_S / frame_s), 1), _cuts(ours, theirs, pins, frame_s))
+    one, other = _path(ours, theirs, max(round(_FILLER_S / frame_s), 1), _stretches(ours, theirs, pins, jumps, frame_s))
     missing = _runs(_alone(ours, one[_sounding(theirs, _SILENT)[other]]), frame_s)
     added = _runs(_alone(theirs, other[_sounding(ours, _SILENT)[one]]), frame_s)
     alike = (ours[one] * theirs[other]).sum(axis=1) > _LEAST_LIKENESS
@@ -122,37 +144,40 @@ def warped(score: Floats, recording: Floats, pins: Pins = NO_PINS) -> Warped:
     if len(score_s) < 2:
         return Warped(score_s, recording_s, (), (), length_s)
     inside = tuple(span for span in added if recording_s[0] < span.start and span.end < recording_s[-1])
-    # Never across a pin, where the recording may jump.
-    stretches = np.split(np.arange(len(score_s)), np.searchsorted(score_s, pins.score_s))
+    # Never across a jump, nor across a pin, where it may jump.
+    ends_s = np.sort(np.concatenate((pins.score_s, [jump.from_s for jump in jumps])))
+    stretches = np.split(np.arange(len(score_s)), np.searchsorted(score_s, ends_s))
     recording_s = np.concatenate([_smoothed(score_s[stretch], recording_s[stretch]) for stretch in stretches])
     return Warped(*_through(pins, score_s, recording_s), missing, inside, length_s)
 
 
-def covered(score: Floats, recording: Floats) -> slice:
-    """The frames of a score that a recording of only a part of it is most like, with some more on both sides."""
+def played(score: Floats, recording: Floats) -> tuple[Passage, ...]:
+    """The passages of a score that a recording plays; arguments as of `warped`."""
     pool = int(np.ceil(np.sqrt(max(score.shape[1] * recording.shape[1] / _MOST_CELLS, 1.0))))
-    ours, theirs = _pooled(score, pool), _pooled(recording, pool)
-    free = [len(ours), len(ours), 0, 0]
-    path = np.array(dtw.warping_path_fast(ours, theirs, use_ndim=True, penalty=_EVEN, psi=free))
-    beside = round(_BESIDE_S / CHROMA_S)
-    first, last = int(path[0, 0]) * pool - beside, (int(path[-1, 0]) + 1) * pool + beside
-    return slice(max(first, 0), min(last, score.shape[1]))
+    return passages(_pooled(score, pool), _pooled(recording, pool), pool * CHROMA_S)
 
 
-def _cuts(ours: Floats, theirs: Floats, pins: Pins, frame_s: float) -> list[tuple[int, int]]:
-    """Frames of both at which the path is cut: beginning, pins, end."""
-    places = [(round(a / frame_s), round(b / frame_s)) for a, b in zip(pins.score_s, pins.recording_s, strict=True)]
-    cuts = [(0, 0)]
-    for one, other in places:
-        if cuts[-1][0] < one < len(ours) and cuts[-1][1] < other < len(theirs):
-            cuts.append((one, other))
-    return [*cuts, (len(ours), len(theirs))]
+def _stretches(
+    ours: Floats, theirs: Floats, pins: Pins, jumps: Sequence[Jump], frame_s: float
+) -> list[tuple[int, int, int, int]]:
+    """First and last frames of both between which the path goes: from beginning, pin or jump to the next."""
+    cuts = [(at, at, there, there) for at, there in zip(pins.score_s, pins.recording_s, strict=True)]
+    cuts += [(jump.from_s, jump.to_s, jump.recording_from_s, jump.recording_to_s) for jump in jumps]
+    found, begin, begin_theirs = list[tuple[int, int, int, int]](), 0, 0
+    for cut in sorted(cuts):
+        end, following, end_theirs, following_theirs = (round(second / frame_s) for second in cut)
+        if begin < end and following < len(ours) and begin_theirs < end_theirs and following_theirs < len(theirs):
+            found.append((begin, end, begin_theirs, end_theirs))
+            begin, begin_theirs = following, following_theirs
+    return [*found, (begin, len(ours), begin_theirs, len(theirs))]
 
 
-def _path(ours: Floats, theirs: Floats, step: int, cuts: list[tuple[int, int]]) -> tuple[Integers, Integers]:
+def _path(
+    ours: Floats, theirs: Floats, step: int, stretches: Sequence[tuple[int, int, int, int]]
+) -> tuple[Integers, Integers]:
     """Frames that belong together, stretch by stretch."""
     found = []
-    for (first, first_theirs), (last, last_theirs) in pairwise(cuts):
+    for first, last, first_theirs, last_theirs in stretches:
         filled, our_frame = _with_fillers(ours[first:last], step)
         filled_theirs, their_frame = _with_fillers(theirs[first_theirs:last_theirs], step)
         path = np.array(dtw.warping_path_fast(filled, filled_theirs, use_ndim=True, penalty=_EVEN))

@@ -79,12 +79,19 @@ def add_command(commands: Commands) -> None:
     command.add_argument(
         "--follow-film", action="store_true", help="perform the piece at the tempo of the film, beat by beat"
     )
-    command.add_argument("--keyframes", type=Path, metavar="VIDEO", help="animation of the piece made in another way")
+    command.add_argument(
+        "--keyframes",
+        type=Path,
+        metavar="PATH",
+        help="animation of the piece made in another way: a video, or motion that the players are posed by (a BVH, FBX "
+        "or GLB file of one player, or a folder of them, called as 'suisou export' calls them)",
+    )
     command.add_argument(
         "--keyframes-offset",
         type=seconds,
         metavar="S",
-        help="second of the performance at which it begins (default: found by its sound)",
+        help="second of the performance at which it begins (default: found by a video's sound; motion begins where the "
+        "report beside it says, or with the performance)",
     )
     command.add_argument(
         "--variants",

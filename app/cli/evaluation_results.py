@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -12,7 +10,7 @@ from app.cli.options import Commands, add_file_options, open_project
 from app.cli.summary import columns
 from app.cli.terminal import say
 from app.encoding import shown
-from app.errors import FileError, Message
+from app.errors import Message
 from app.messages import text
 
 if TYPE_CHECKING:
@@ -65,21 +63,15 @@ def results(arguments: argparse.Namespace) -> None:
     Raises
     ------
     AppError
-        Those of `app.evaluation.answers`, `results`, `key` and `measures`; ``results.no_key``.
+        Those of `app.evaluation.gathered`, and of writing.
     """
-    from app.evaluation.answers import read_answers
     from app.evaluation.conclusions import conclude
-    from app.evaluation.key import read_key
-    from app.evaluation.measures import MEASURES_FILE, read_measures
+    from app.evaluation.gathered import gather
     from app.evaluation.report import write_results
-    from app.evaluation.results import tabulate
     from app.evaluation.tables import tables
 
-    key_file = arguments.key or _key_of(arguments.files)
-    key = read_key(key_file)
-    found = tabulate(key, [read_answers(path) for path in arguments.files])
-    measured_file = key_file.with_name(MEASURES_FILE)
-    measured = read_measures(measured_file) if os.path.isfile(measured_file) else ()
+    gathered = gather(arguments.files, arguments.key)
+    found, measured = gathered.results, gathered.measures
     say(text(Message("results.title", {"piece": found.piece})))
     for table in tables(found, measured, "en"):
         say("", *_lines(table))
@@ -99,17 +91,6 @@ def measures(arguments: argparse.Namespace) -> None:
 
     performance = Performance(open_project(arguments))
     say(*_lines(measures_table([measure(performance)], "en")))
-
-
-def _key_of(files: Sequence[Path]) -> Path:
-    """The key beside the answers, or in the folder above."""
-    from app.evaluation.key import KEY_FILE
-
-    folder = files[0].absolute().parent
-    for place in (folder, folder.parent):
-        if os.path.isfile(place / KEY_FILE):
-            return place / KEY_FILE
-    raise FileError("results.no_key", file=str(files[0]), name=KEY_FILE)
 
 
 def _lines(table: Table) -> list[str]:

@@ -15,6 +15,7 @@ from app.audio.track import RATE_HZ, Block
 from app.errors import Cancelled
 from app.evaluation.imported import ImportedVideo, pictures_of
 from app.evaluation.key import Variant
+from app.evaluation.keyframes import Posed
 from app.evaluation.variants import performance_of
 from app.export.video import video_into
 from app.performance.cast import LeftOut
@@ -57,8 +58,8 @@ class Stage(Protocol):
         ...
 
 
-Stages: TypeAlias = Callable[[Performance, str, StopRequested], AbstractContextManager[Stage]]
-"""A performance and a theme to what draws it."""
+Stages: TypeAlias = Callable[[Performance, str, StopRequested, Posed | None], AbstractContextManager[Stage]]
+"""A performance and a theme to what draws it, with other poses than the performance's where there are some."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,14 +99,15 @@ def draw_ours(
     report: Report,
     stop_requested: StopRequested,
     refuse: Callable[[Sequence[LeftOut]], None],
+    posed: Posed | None = None,
 ) -> tuple[LeftOut, ...]:
-    """Draw a variant of ours into files; who could not be drawn.
+    """Draw a variant of ours, or with other poses than ours, into files; who could not be drawn.
 
     ``refuse`` is called where no one can be drawn; it raises.
     """
     performance = performance_of(project, variant)
     shares = _Shares(files, report)
-    with stages(performance, framing.theme, stop_requested) as stage:
+    with stages(performance, framing.theme, stop_requested, posed) as stage:
         if not stage.shows(framing.player_ids):
             refuse(stage.left_out)
         for path, scene in files.items():

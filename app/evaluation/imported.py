@@ -75,16 +75,22 @@ class ImportedVideo:
 
     def require_covered(self, excerpt: Excerpt) -> None:
         """Raise FileError (``evaluate.not_covered``) where the video does not show all of an excerpt."""
-        first_s, last_s = self.covered_s
-        if excerpt.from_s < first_s - _EARLY_S or excerpt.until_s > last_s + _EARLY_S:
-            raise FileError(
-                "evaluate.not_covered",
-                file=str(self.path),
-                from_s=excerpt.from_s,
-                until_s=excerpt.until_s,
-                first_s=first_s,
-                last_s=last_s,
-            )
+        require_covered(self.path, self.covered_s, excerpt)
+
+
+def require_covered(path: Path, covered_s: tuple[float, float], excerpt: Excerpt) -> None:
+    """Raise FileError (``evaluate.not_covered``) where a file that shows these seconds does not show all of an
+    excerpt."""
+    first_s, last_s = covered_s
+    if excerpt.from_s < first_s - _EARLY_S or excerpt.until_s > last_s + _EARLY_S:
+        raise FileError(
+            "evaluate.not_covered",
+            file=str(path),
+            from_s=excerpt.from_s,
+            until_s=excerpt.until_s,
+            first_s=first_s,
+            last_s=last_s,
+        )
 
 
 def import_video(

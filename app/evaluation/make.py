@@ -23,11 +23,11 @@ from app.evaluation.design import codes, new_id, orders, pairs_of
 from app.evaluation.excerpts import Excerpt, choose_excerpts, practice_of
 from app.evaluation.imported import ImportedVideo, import_video
 from app.evaluation.key import KEY_FILE, VERSION, Clip, Key, Variant, write_key
+from app.evaluation.keyframes import Keyframes, holds_motion, read_keyframes
 from app.evaluation.loudness import equally_loud
 from app.evaluation.measures import MEASURES_FILE, measure_variants, write_measures
 from app.evaluation.page import PAGE_FILE, page
 from app.evaluation.request import Request, aspects_of, variants_of
-from app.evaluation.variants import OURS
 from app.export.folder import files_into
 from app.export.video import beside
 from app.performance.cast import LeftOut, require_players
@@ -37,6 +37,8 @@ from app.project.model import Project
 
 Report: TypeAlias = Callable[[float, Message], None]
 StopRequested: TypeAlias = Callable[[], bool]
+Imported: TypeAlias = ImportedVideo | Keyframes
+"""What is compared with ours, at its place in the piece."""
 CLIPS: Final = "clips"
 _PRACTICE: Final = "practice"
 
@@ -93,6 +95,9 @@ def make_evaluation(
     project, videos = _videos(project, request, variants, report, stop_requested)
     performance = Performance(project)
     performance.hold(stop_requested, lambda share: report(0.2 + 0.05 * share, Message("evaluate.step_holds")))
+    if "keyframes" in variants and holds_motion(restored(request.keyframes)):
+        path = Path(restored(request.keyframes))
+        videos["keyframes"] = read_keyframes(performance, path, request.player_ids, request.keyframes_offset_s)
     scenes = _scenes(performance, request, videos, report, stop_requested)
     drawn = _clips(project, request, variants, scenes[:-1])
     singles = tuple(clip.code for clip in drawn) if request.presentation != "pair" else ()
@@ -122,14 +127,15 @@ def make_evaluation(
         measured = _measured(report, stop_requested)
         write_measures(measure_variants(project, variants, measured), new / MEASURES_FILE)
         write_key(key, new / KEY_FILE)
-    return Made(folder, key, len(pairs), len(table), left_out, videos.get("film"))
+    film = videos.get("film")
+    return Made(folder, key, len(pairs), len(table), left_out, film if isinstance(film, ImportedVideo) else None)
 
 
 def _draw(
     project: Project,
     request: Request,
     variants: Sequence[Variant],
-    videos: Mapping[Variant, ImportedVideo],
+    videos: Mapping[Variant, Imported],
     scenes: Sequence[Scene],
     drawn: Sequence[Clip],
     clips: Path,
@@ -153,11 +159,13 @@ def _draw(
         def refuse(left: Sequence[LeftOut]) -> None:
             require_players(left, request.title, wording)
 
-        if variant in OURS:
-            found = draw_ours(project, variant, framing, files, stages, shown, stop_requested, refuse)
-            left_out |= {one.player.id: one for one in found}
+        imported = videos.get(variant)
+        if isinstance(imported, ImportedVideo):
+            cut_video(imported, request.size, files, shown, stop_requested)
         else:
-            cut_video(videos[variant], request.size, files, shown, stop_requested)
+            posed = None if imported is None else imported.posed
+            found = draw_ours(project, variant, framing, files, stages, shown, stop_requested, refuse, posed)
+            left_out |= {one.player.id: one for one in found}
     return tuple(left_out.values())
 
 
@@ -176,8 +184,8 @@ def _videos(
     variants: Sequence[Variant],
     report: Report,
     stop_requested: StopRequested,
-) -> tuple[Project, dict[Variant, ImportedVideo]]:
-    found: dict[Variant, ImportedVideo] = {}
+) -> tuple[Project, dict[Variant, Imported]]:
+    found: dict[Variant, Imported] = {}
     if request.film:
         found["film"], project = import_video(
             project,
@@ -189,7 +197,7 @@ def _videos(
             stop_requested,
             request.follow_film,
         )
-    if "keyframes" in variants:
+    if "keyframes" in variants and not holds_motion(restored(request.keyframes)):
         path = Path(restored(request.keyframes))
         found["keyframes"], _ = import_video(
             project,
@@ -204,7 +212,7 @@ def _videos(
 def _scenes(
     performance: Performance,
     request: Request,
-    videos: dict[Variant, ImportedVideo],
+    videos: dict[Variant, Imported],
     report: Report,
     stop_requested: StopRequested,
 ) -> list[Scene]:
@@ -212,7 +220,7 @@ def _scenes(
     spans = _spans(performance, request, videos)
     film, sounds = videos.get("film"), list[Block]()
     for number, span in enumerate(spans):
-        if film is not None and film.samples is not None:
+        if isinstance(film, ImportedVideo) and film.samples is not None:
             sounds.append(film.sound(Excerpt(span.first_frame_s, span.end_s)))
         else:
             sounds.append(
@@ -223,7 +231,7 @@ def _scenes(
     return [Scene(span, sound, {}) for span, sound in zip(spans, loud, strict=True)]
 
 
-def _spans(performance: Performance, request: Request, videos: dict[Variant, ImportedVideo]) -> list[FrameSpan]:
+def _spans(performance: Performance, request: Request, videos: dict[Variant, Imported]) -> list[FrameSpan]:
     """The frames of the excerpts and of the practice."""
     fps = Fraction(*request.fps)
     if request.bars is not None:

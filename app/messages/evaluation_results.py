@@ -92,6 +92,28 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "there is no {name} beside {file} or in the folder above; name it with --key",
         "{file} と同じフォルダーにも 1 つ上のフォルダーにも {name} がありません。--key で指定してください",
     ),
+    "results.no_key_here": (
+        "there is no {name} beside {file} or in the folder above; choose it with 'Choose Key...'",
+        "{file} と同じフォルダーにも 1 つ上のフォルダーにも {name} がありません。「キーを選択...」で選んでください",
+    ),
+    "results.other_evaluation_here": (
+        "{file} is about evaluation {found}, the key about {expected}; choose the key.json of that evaluation with "
+        "'Choose Key...', or remove the file",
+        "{file} は評価 {found} の回答ですが、キーは評価 {expected} のものです。その評価の key.json を"
+        "「キーを選択...」で選ぶか、このファイルを取り除いてください",
+    ),
+    "results.unknown_clip_here": (
+        "{file}, line {line}: the key has no clip {code}; choose the key.json that was written with the page with "
+        "'Choose Key...'",
+        "{file} {line} 行目: クリップ {code} はキーにありません。ページと同時に書き出した key.json を"
+        "「キーを選択...」で選んでください",
+    ),
+    "results.unasked_here": (
+        "{file}, line {line}: the key does not ask about {aspect}; choose the key.json that was written with the page "
+        "with 'Choose Key...'",
+        "{file} {line} 行目: {aspect} はキーの質問にありません。ページと同時に書き出した key.json を"
+        "「キーを選択...」で選んでください",
+    ),
     "results.not_measures": (
         "{file} does not contain measures of an evaluation ({detail}); make the evaluation again or remove the file",
         "{file} は評価の測定値ではありません（{detail}）。評価を作り直すか、このファイルを削除してください",

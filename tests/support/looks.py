@@ -288,6 +288,7 @@ class Look:
             "learn": lambda: self.do("dancers.learn"),
             "playblast": lambda: self.do("export.playblast"),
             "evaluation": lambda: self.do("file.evaluation"),
+            "evaluation_results": lambda: self.do("file.evaluation_results"),
             "reimport": lambda: self.do("file.reimport"),
             "import": self._import,
             "midi_devices": lambda: self.do("record.devices"),

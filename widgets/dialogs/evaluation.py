@@ -16,6 +16,7 @@ from app.editor.tasks import Progress, StopRequested
 from app.encoding import restored, shown, stored
 from app.errors import AppError, Message
 from app.evaluation.key import KEY_FILE, Variant
+from app.evaluation.keyframes import SUFFIXES as MOTION_SUFFIXES
 from app.evaluation.process import Finished, Report
 from app.evaluation.request import EXCERPTS, LEAST_S, MOST_EXCERPTS, MOST_S, SECONDS, Request
 from app.formats.video import SUFFIXES
@@ -25,6 +26,7 @@ from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import PathEdit, ask_for_file, ask_for_folder, show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
+from widgets.dialogs.export_range import RangeChooser
 from widgets.dialogs.working import WorkingDialog
 
 Make: TypeAlias = Callable[[Project, Request, Report, StopRequested], Finished]
@@ -33,6 +35,17 @@ Make: TypeAlias = Callable[[Project, Request, Report, StopRequested], Finished]
 SIZES: Final = ((640, 360), (960, 540), (1280, 720), (360, 640))
 _BY_SOUND, _FOLLOWED, _BY_HAND = "sound", "follow", "hand"
 _LONGEST_S: Final = 24 * 3600.0
+_AT_CONTROLS: Final = {
+    "evaluate.silent_video": "evaluate.silent_video_here",
+    "evaluate.other_piece": "evaluate.other_piece_here",
+    "evaluate.not_followed": "evaluate.not_followed_here",
+    "evaluate.other_tempo": "evaluate.other_tempo_here",
+    "evaluate.no_excerpt": "evaluate.no_excerpt_here",
+    "evaluate.not_covered": "evaluate.not_covered_here",
+    "evaluate.keyframes_lacking": "evaluate.keyframes_lacking_here",
+    "evaluate.keyframes_report": "evaluate.keyframes_report_here",
+}
+"""By the id of an error the one that says which controls of the dialog to use, instead of options."""
 _OF_FILES: Final[tuple[Variant, ...]] = ("film", "keyframes")
 _VARIANTS: Final[dict[Variant, str]] = {
     "film": "evaluation_dialog.variant_film",
@@ -46,6 +59,7 @@ _PLACES: Final = {
     _FOLLOWED: "evaluation_dialog.followed",
     _BY_HAND: "evaluation_dialog.by_hand",
 }
+_KEYFRAMES_PLACES: Final = {_BY_SOUND: "evaluation_dialog.found", _BY_HAND: "evaluation_dialog.by_hand"}
 _VIEWS: Final = {
     "ensemble": "playblast_dialog.ensemble",
     "front": "playblast_dialog.front",
@@ -84,9 +98,14 @@ class EvaluationDialog(WorkingDialog):
         self._place = named(ComboBox(), "evaluation_place")
         self._offset = _seconds(-_LONGEST_S, _LONGEST_S, 0.0, "evaluation_offset")
         self._keyframes = named(PathEdit(), "evaluation_keyframes")
+        self._keyframes_place = named(ComboBox(), "evaluation_keyframes_place")
+        self._keyframes_offset = _seconds(-_LONGEST_S, _LONGEST_S, 0.0, "evaluation_keyframes_offset")
         self._variants = {
             variant: named(Check(text_id), f"evaluation_{variant}") for variant, text_id in _VARIANTS.items()
         }
+        self._bars = RangeChooser(
+            session, session.project.score, prefix="evaluation", otherwise_id="evaluation_dialog.chosen_excerpts"
+        )
         self._excerpts = named(QSpinBox(), "evaluation_excerpts")
         self._excerpts.setRange(1, MOST_EXCERPTS)
         self._excerpts.setValue(EXCERPTS)
@@ -107,6 +126,8 @@ class EvaluationDialog(WorkingDialog):
             field.textChanged.connect(lambda text, variant=variant: self._file_changed(variant, bool(text.strip())))
         self._folder.textChanged.connect(self._show_state)
         self._place.currentIndexChanged.connect(self._show_state)
+        self._keyframes_place.currentIndexChanged.connect(self._show_state)
+        self._bars.changed.connect(self._show_state)
         self.retranslate()
 
     def _lay_out(self) -> None:
@@ -114,13 +135,18 @@ class EvaluationDialog(WorkingDialog):
         keyframes_button = Button(
             "evaluation_dialog.choose", lambda: self._choose(self._keyframes), "evaluation_browse_keyframes"
         )
+        keyframes_folder = Button(
+            "evaluation_dialog.choose_folder", self._choose_keyframes_folder, "evaluation_browse_keyframes_folder"
+        )
         folder_button = Button("evaluation_dialog.choose", self._choose_folder, "evaluation_browse")
         variants: QLayout = in_column(*self._variants.values(), spacing=2)
         form = in_form(
             {
                 "evaluation_dialog.film": in_row((self._film, 1), film_button),
                 "evaluation_dialog.place": in_row((self._place, 1), self._offset),
-                "evaluation_dialog.keyframes": in_row((self._keyframes, 1), keyframes_button),
+                "evaluation_dialog.keyframes": in_row((self._keyframes, 1), keyframes_button, keyframes_folder),
+                "evaluation_dialog.keyframes_place": in_row((self._keyframes_place, 1), self._keyframes_offset),
+                "evaluation_dialog.bars": self._bars,
                 "evaluation_dialog.excerpts": self._excerpts,
                 "evaluation_dialog.length": self._length,
                 "evaluation_dialog.view": self._view,
@@ -129,11 +155,20 @@ class EvaluationDialog(WorkingDialog):
                 "evaluation_dialog.folder": in_row((self._folder, 1), folder_button),
             }
         )
-        form.insertRow(3, Caption("evaluation_dialog.variants"), variants)
+        form.insertRow(4, Caption("evaluation_dialog.variants"), variants)
         self.fields = (
-            *(self._film, self._place, self._offset, self._keyframes, *self._variants.values(), self._excerpts),
-            *(self._length, self._view, self._presentation, self._size, self._folder),
-            *(film_button, keyframes_button, folder_button),
+            *(self._film, self._place, self._offset, self._keyframes, self._keyframes_place, self._keyframes_offset),
+            *(
+                *self._variants.values(),
+                self._bars,
+                self._excerpts,
+                self._length,
+                self._view,
+                self._presentation,
+                self._size,
+                self._folder,
+            ),
+            *(film_button, keyframes_button, keyframes_folder, folder_button),
         )
         buttons = self._box("evaluation_dialog.make", self.start, self._show_folder)
         in_column(form, (self._state, 1), self._progress, buttons, of=self)
@@ -166,6 +201,7 @@ class EvaluationDialog(WorkingDialog):
         film, keyframes, folder = self._film.path, self._keyframes.path, self._folder.path
         assert folder is not None, "the button is disabled without one"
         place, view = self._place.currentData(), self._view.currentData()
+        by_hand = self._keyframes_place.currentData() == _BY_HAND
         players = self._session.players[:1] if view != "ensemble" else ()
         if view != "ensemble" and not players:
             players = tuple(player.id for player in self._session.project.bodies[:1])
@@ -175,8 +211,10 @@ class EvaluationDialog(WorkingDialog):
             film="" if film is None else stored(film),
             keyframes="" if keyframes is None else stored(keyframes),
             film_offset_s=self._offset.value() if film is not None and place == _BY_HAND else None,
+            keyframes_offset_s=self._keyframes_offset.value() if keyframes is not None and by_hand else None,
             follow_film=film is not None and place == _FOLLOWED,
             variants=self._chosen(),
+            bars=self._bars.bars,
             excerpts=self._excerpts.value(),
             excerpt_s=self._length.value(),
             view=view,
@@ -212,18 +250,32 @@ class EvaluationDialog(WorkingDialog):
         self._show.show()
 
     def _failed(self, error: AppError) -> None:
-        self._state.setText(message_text(error.message))
+        message = error.message
+        self._state.setText(message_text(Message(_AT_CONTROLS.get(message.id, message.id), message.arguments)))
 
     def _finish(self) -> None:
         self._timer.stop()
         self._set_running(False)
 
     def _choose(self, field: PathEdit) -> None:
-        kinds = f"{self.tr('evaluation_dialog.videos')} ({' '.join(f'*{suffix}' for suffix in SUFFIXES)})"
-        start = field.path or (None if self._folder.path is None else self._folder.path.parent)
-        chosen = ask_for_file(self, self.tr("evaluation_dialog.film"), start, kinds)
+        films = " ".join(f"*{suffix}" for suffix in SUFFIXES)
+        kinds, title = f"{self.tr('evaluation_dialog.videos')} ({films})", "evaluation_dialog.film"
+        if field is self._keyframes:
+            motions = " ".join(f"*{suffix}" for suffix in MOTION_SUFFIXES)
+            kinds = f"{self.tr('evaluation_dialog.videos_or_motion')} ({films} {motions})"
+            title = "evaluation_dialog.keyframes"
+        chosen = ask_for_file(self, self.tr(title), self._near(field), kinds)
         if chosen is not None:
             field.set_path(chosen)
+
+    def _choose_keyframes_folder(self) -> None:
+        field = self._keyframes
+        chosen = ask_for_folder(self, self.tr("evaluation_dialog.keyframes"), self._near(field))
+        if chosen is not None:
+            field.set_path(chosen)
+
+    def _near(self, field: PathEdit) -> Path | None:
+        return field.path or (None if self._folder.path is None else self._folder.path.parent)
 
     def _choose_folder(self) -> None:
         chosen = ask_for_folder(self, self.tr("evaluation_dialog.folder"), self._folder.path)
@@ -241,6 +293,11 @@ class EvaluationDialog(WorkingDialog):
         film, folder = self._film.path is not None, self._folder.path
         self._place.setEnabled(film)
         self._offset.setEnabled(film and self._place.currentData() == _BY_HAND)
+        keyframes = self._keyframes.path is not None
+        self._keyframes_place.setEnabled(keyframes)
+        self._keyframes_offset.setEnabled(keyframes and self._keyframes_place.currentData() == _BY_HAND)
+        for field in (self._excerpts, self._length):
+            field.setEnabled(self._bars.bars is None)
         for variant in _OF_FILES:
             self._variants[variant].setEnabled(self._there(variant))
         lacking = ""
@@ -248,6 +305,8 @@ class EvaluationDialog(WorkingDialog):
             lacking = message_text(Message("evaluate.there_already", {"file": str(folder)}))
         elif len(self._chosen()) < 2:
             lacking = message_text(Message("evaluate.too_few", {}))
+        elif self._bars.problem:
+            lacking = self._bars.problem
         self._start.setEnabled(folder is not None and not lacking)
         self._state.setText(lacking)
 
@@ -260,15 +319,16 @@ class EvaluationDialog(WorkingDialog):
         """Set every text anew."""
         self.setWindowTitle(self.tr("evaluation_dialog.title"))
         super().retranslate()
-        self._length.setSuffix(self.tr("evaluation_dialog.seconds"))
-        self._offset.setSuffix(self.tr("evaluation_dialog.seconds"))
-        for box, choices in ((self._place, _PLACES), (self._view, _VIEWS), (self._presentation, _PRESENTATIONS)):
+        for number in (self._length, self._offset, self._keyframes_offset):
+            number.setSuffix(self.tr("evaluation_dialog.seconds"))
+        filled = ((self._place, _PLACES), (self._keyframes_place, _KEYFRAMES_PLACES))
+        for box, choices in (*filled, (self._view, _VIEWS), (self._presentation, _PRESENTATIONS)):
             _refill(box, {value: self.tr(text_id) for value, text_id in choices.items()})
         if not self._running and not self._show.isVisible():
             self._show_state()
 
     def sizeHint(self) -> QSize:
-        return QSize(680, 620)
+        return QSize(720, 700)
 
 
 def _seconds(least: float, most: float, value: float, name: str) -> QDoubleSpinBox:

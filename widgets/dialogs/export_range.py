@@ -1,4 +1,4 @@
-"""Which bars an export shows: all of them, some, or those of the selection."""
+"""Which bars are exported, or judged: all of them, some, or those of the selection."""
 
 from __future__ import annotations
 
@@ -26,17 +26,28 @@ class RangeChooser(Retranslated, QWidget):
     score : Score
         Whose bars they are.
     parent : QWidget, optional
+    prefix : str
+        What the names of its fields begin with.
+    otherwise_id : str
+        Id of the text of the choice that names no bars.
     """
 
     changed = Signal()
 
-    def __init__(self, session: Session, score: Score, parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        session: Session,
+        score: Score,
+        parent: QWidget | None = None,
+        prefix: str = "export",
+        otherwise_id: str = "range_chooser.whole_piece",
+    ) -> None:
         super().__init__(parent)
-        self._session, self._score = session, score
-        self._choice = named(ComboBox(), "export_range")
+        self._session, self._score, self._otherwise_id = session, score, otherwise_id
+        self._choice = named(ComboBox(), f"{prefix}_range")
         self._first_bar, self._last_bar = QSpinBox(), QSpinBox()
-        self._first_bar.setObjectName("export_first_bar")
-        self._last_bar.setObjectName("export_last_bar")
+        self._first_bar.setObjectName(f"{prefix}_first_bar")
+        self._last_bar.setObjectName(f"{prefix}_last_bar")
         lowest = 0 if score.pickup_ticks else 1
         highest = max(score.last_bar, lowest)
         for spin, value in ((self._first_bar, lowest), (self._last_bar, highest)):
@@ -53,7 +64,7 @@ class RangeChooser(Retranslated, QWidget):
 
     @property
     def bars(self) -> tuple[int, int] | None:
-        """The first and the last bar; None: the whole piece."""
+        """The first and the last bar; None: no bars were named."""
         if self._choice.currentData() == _WHOLE:
             return None
         span = self._session.selection.span
@@ -81,7 +92,7 @@ class RangeChooser(Retranslated, QWidget):
         choice = self._choice.currentData() or _WHOLE
         self._choice.blockSignals(True)
         self._choice.clear()
-        self._choice.addItem(self.tr("range_chooser.whole_piece"), _WHOLE)
+        self._choice.addItem(self.tr(self._otherwise_id), _WHOLE)
         self._choice.addItem(self.tr("range_chooser.bars"), _BARS)
         if self._session.selection.span is not None:
             self._choice.addItem(self.tr("range_chooser.bars_of_selection"), _SELECTION)

@@ -15,6 +15,7 @@ from app.editor.tasks import Progress, StopRequested
 from app.editor.tokens import THEMES, Tokens
 from app.editor.viewport_state import View
 from app.errors import AppError, Cancelled, Message
+from app.evaluation.keyframes import Posed
 from app.export.pictures import Picture
 from app.performance.cast import LeftOut
 from app.performance.chunks import Pose
@@ -36,12 +37,14 @@ _CAPTION_PER_WIDTH = 1 / 26
 class Offscreen:
     """Draws a project's players in a viewport that is never shown; see `offscreen`."""
 
-    def __init__(self, performance: Performance, theme: str, stop_requested: StopRequested) -> None:
+    def __init__(
+        self, performance: Performance, theme: str, stop_requested: StopRequested, posed: Posed | None = None
+    ) -> None:
         project = performance.project
         self._live = LiveMotion(performance)
         self._session = Session(project, _AtOnce(stop_requested))
         self._session.set_tokens(THEMES[theme])
-        self._panel = ViewportPanel(self._session, _MadePoses(self._live, stop_requested))
+        self._panel = ViewportPanel(self._session, _MadePoses(self._live, stop_requested, posed))
 
     def film(
         self,
@@ -86,8 +89,15 @@ class Offscreen:
 
 
 @contextlib.contextmanager
-def offscreen(performance: Performance, theme: str, stop_requested: StopRequested) -> Iterator[Offscreen]:
+def offscreen(
+    performance: Performance, theme: str, stop_requested: StopRequested, posed: Posed | None = None
+) -> Iterator[Offscreen]:
     """A viewport of a performance's project that is never shown.
+
+    Parameters
+    ----------
+    posed : Posed, optional
+        What changes the performance's poses.
 
     Raises
     ------
@@ -101,7 +111,7 @@ def offscreen(performance: Performance, theme: str, stop_requested: StopRequeste
     reason = why_no_gl()
     if reason is not None:
         raise AppError("picture.film_no_gl", reason=reason)
-    made = Offscreen(performance, theme, stop_requested)
+    made = Offscreen(performance, theme, stop_requested, posed)
     try:
         yield made
     finally:
@@ -138,12 +148,16 @@ def captions(texts: Sequence[tuple[str, str]], width: int, theme: str) -> list[P
 class _MadePoses:
     """Poses of a performance, made when they are asked for, a chunk of frames at a time."""
 
-    def __init__(self, live: LiveMotion, stop_requested: StopRequested) -> None:
-        self._live, self._stop_requested = live, stop_requested
+    def __init__(self, live: LiveMotion, stop_requested: StopRequested, posed: Posed | None) -> None:
+        self._live, self._stop_requested, self._posed = live, stop_requested, posed
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
         """See `app.editor.poses.Poses.poses`."""
-        return self._live.poses(player_ids, time_s)
+        poses = self._live.poses(player_ids, time_s)
+        return [self._seen(*one, time_s) for one in zip(player_ids, poses, strict=True)]
+
+    def _seen(self, player_id: str, pose: Pose | None, time_s: float) -> Pose | None:
+        return pose if pose is None or self._posed is None else self._posed(player_id, time_s, pose)
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
         """See `app.editor.poses.Poses.pose_now`. Raises Cancelled."""
@@ -156,7 +170,11 @@ class _MadePoses:
             with contextlib.suppress(PlayerFault):
                 if not live.work():
                     break
-        return None if live.error(player_id) is not None else live.pose_now(player_id, time_s)
+        return (
+            None
+            if live.error(player_id) is not None
+            else self._seen(player_id, live.pose_now(player_id, time_s), time_s)
+        )
 
 
 class _AtOnce:

@@ -188,6 +188,14 @@ def evaluation(editor: Editor) -> None:
     dialog.show()
 
 
+def evaluation_results(editor: Editor) -> None:
+    """Show what viewers answered."""
+    from app.evaluation.gathered import gather
+    from widgets.dialogs.evaluation_results import EvaluationResultsDialog
+
+    EvaluationResultsDialog(gather, Path(editor.files.folder), editor.window).show()
+
+
 def _can_draw(editor: Editor) -> bool:
     return _can_export(editor) and editor.window.viewport.has_gl
 
@@ -201,6 +209,7 @@ ACTIONS: tuple[EditorAction, ...] = (
     EditorAction("file.reimport_other", read_another, "file", enabled=is_open),
     EditorAction("file.export_midi", export_midi, "file", enabled=_can_export),
     EditorAction("file.evaluation", evaluation, "file", enabled=_can_draw),
+    EditorAction("file.evaluation_results", evaluation_results, "file"),
     EditorAction("export.files", export_files, "export", "Ctrl+E", enabled=_can_export, icon="export"),
     EditorAction(
         "export.playblast",

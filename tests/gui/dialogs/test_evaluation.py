@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton, QSpinBox
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
@@ -17,10 +18,12 @@ from app.editor.tasks import ThreadTasks
 from app.errors import AppError, Cancelled, Message
 from app.evaluation.process import Finished, made_by_process
 from app.evaluation.request import Request
+from app.messages import WORDINGS
 from app.project.model import Project
 from tests.gui.conftest import quartet_project
 from widgets.common.paths import PathEdit
 from widgets.dialogs.evaluation import EvaluationDialog, Make
+from widgets.dialogs.texts import TEXTS
 
 
 @pytest.fixture
@@ -40,6 +43,12 @@ def dialog_of(session: Session, make: Make, folder: Path) -> EvaluationDialog:
 
 def press(dialog: EvaluationDialog, name: str) -> None:
     QTest.mouseClick(dialog.findChild(QPushButton, name), Qt.MouseButton.LeftButton)
+
+
+def choose(dialog: EvaluationDialog, name: str, data: str) -> None:
+    box = dialog.findChild(QComboBox, name)
+    assert box is not None
+    box.setCurrentIndex(box.findData(data))
 
 
 def said(dialog: EvaluationDialog) -> str:
@@ -83,7 +92,7 @@ def test_what_is_chosen_is_asked_for(threaded: Session, qtbot: QtBot, tmp_path: 
     assert request.variants == ("film", "generated", "still", "shifted")
     assert (request.film, request.follow_film, request.film_offset_s) == (str(tmp_path / "film.mp4"), True, None)
     assert (request.view, request.player_ids) == ("hands", (threaded.project.bodies[0].id,))
-    assert (request.title, request.excerpts, request.size) == ("Quartet", 3, (640, 360))
+    assert (request.title, request.bars, request.excerpts, request.size) == ("Quartet", None, 3, (640, 360))
     for part in ("-3.25 s", "88 %", "Horn", "made"):
         assert part in said(dialog)
     dialog.close()
@@ -121,19 +130,58 @@ def test_a_trouble_is_said_and_cancelling_ends_it(threaded: Session, qtbot: QtBo
     ) -> Finished:
         if not begun:
             begun.append(True)
-            raise AppError("evaluate.no_excerpt")
+            raise AppError("evaluate.silent_video", file="film.mp4")
         while not stop():
             report(0.25, Message("evaluate.step_pairs"))
         raise Cancelled("work.stopped")
 
     dialog = dialog_of(threaded, make, tmp_path / "made")
     press(dialog, "evaluation_start")
-    qtbot.waitUntil(lambda: "nothing is played" in said(dialog))
+    qtbot.waitUntil(lambda: "film.mp4 has no sound" in said(dialog))
+    assert "'At a given time'" in said(dialog)
+    assert "--" not in said(dialog)
     press(dialog, "evaluation_start")
     qtbot.waitUntil(lambda: said(dialog) == "clips side by side")
     press(dialog, "evaluation_close")
     qtbot.waitUntil(lambda: enabled(dialog))
     dialog.close()
+
+
+def test_bars_and_motion_from_elsewhere_are_asked_for(threaded: Session, tmp_path: Path) -> None:
+    def make(*asked: object) -> Finished:
+        raise AssertionError("nothing is to be made")
+
+    dialog = dialog_of(threaded, make, tmp_path / "made")
+    keyframes = dialog.findChild(PathEdit, "evaluation_keyframes")
+    assert keyframes is not None
+    keyframes.set_path(tmp_path)
+    choose(dialog, "evaluation_keyframes_place", "hand")
+    choose(dialog, "evaluation_range", "bars")
+    spins = {name: dialog.findChild(QSpinBox, f"evaluation_{name}") for name in ("first_bar", "last_bar", "excerpts")}
+    assert not spins["excerpts"].isEnabled()
+    spins["first_bar"].setValue(5)
+    spins["last_bar"].setValue(3)
+    assert not enabled(dialog)
+    spins["last_bar"].setValue(7)
+    assert enabled(dialog)
+    request = dialog.request()
+    assert request.bars == (5, 7)
+    assert (request.keyframes, request.keyframes_offset_s) == (str(tmp_path), 0.0)
+    assert request.variants == ("generated", "still", "shifted", "keyframes")
+    dialog.close()
+
+
+def test_errors_name_controls_that_there_are() -> None:
+    """In both languages, those of the results too, and no options."""
+    labels = {place: {text[place] for text in TEXTS.values()} for place in (0, 1)}
+    for id, wordings in WORDINGS.items():
+        if not id.startswith(("evaluate.", "results.")) or not id.endswith("_here"):
+            continue
+        for place, quoted in ((0, r"'([^']+)'"), (1, r"「([^」]+)」")):
+            named = re.findall(quoted, wordings[place])
+            assert named or id == "evaluate.keyframes_lacking_here"
+            assert set(named) <= labels[place], id
+            assert "--" not in wordings[place]
 
 
 @pytest.mark.drawn

@@ -67,6 +67,7 @@ OPENED: dict[str, Open] = {
     "ExportDialog": command("export.files"),
     "PlayblastDialog": command("export.playblast"),
     "EvaluationDialog": command("file.evaluation"),
+    "EvaluationResultsDialog": command("file.evaluation_results"),
     "ChoreographyDialog": show_choreography,
     "LearnDialog": command("dancers.learn"),
     "StreamDialog": lambda program: program.session.actions["stream.settings"].trigger(),

@@ -53,6 +53,7 @@ SHOWN = {
 DIALOGS = (
     *("application.about", "application.preferences", "application.shortcuts", "application.instruments"),
     *("application.characters", "export.files", "export.playblast", "file.evaluation"),
+    "file.evaluation_results",
     *("file.reimport", "record.devices"),
     *("record.latency", "stream.settings", "dancers.learn", "file.piece_settings"),
 )

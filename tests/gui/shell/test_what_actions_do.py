@@ -576,6 +576,7 @@ CASES: dict[str, Case] = {
     "export.files": Case(lambda d: d.dialog("export_files")),
     "export.playblast": Case(lambda d: d.dialog("playblast")),
     "file.evaluation": Case(lambda d: d.dialog("evaluation")),
+    "file.evaluation_results": Case(lambda d: d.dialog("evaluation_results")),
     # Notes
     "edit.undo": Case(lambda d: d.project is d.seen["first"], lambda d: (d.seen.update(first=d.project), louder(d))),
     "edit.redo": Case(

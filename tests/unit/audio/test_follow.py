@@ -165,8 +165,11 @@ def test_bars_left_out_in_the_middle_are_reported_and_nothing_is_changed() -> No
     assert raised.value.message.id == "align.bars_missing"
     bar_of_tick, tick_at = truth().metre_map.bar_of_tick, truth().score.tempo_map.ticks
     first, last = raised.value.message.arguments["first"], raised.value.message.arguments["last"]
-    assert abs(first - bar_of_tick(int(tick_at(30.0)))) <= 2
-    assert abs(last - bar_of_tick(int(tick_at(50.0)))) <= 2
+    assert abs(first - bar_of_tick(int(tick_at(30.0)))) <= 1
+    assert abs(last - bar_of_tick(int(tick_at(50.0)))) <= 1
+    true_s = truth().score.tempo_map.seconds(found.ticks.astype(np.float64))
+    errors_s = np.abs(found.recording_s - true_s + np.where(true_s > 40.0, 20.0, 0.0))
+    assert np.percentile(errors_s[(true_s < 30.0) | (true_s > 50.0)], 95) <= NINETEEN_OF_TWENTY_S
 
 
 def test_confidence_is_low_where_it_is_wrong() -> None:
@@ -176,9 +179,10 @@ def test_confidence_is_low_where_it_is_wrong() -> None:
     for first_s, end_s_ in ((40, 62), (30, 50), (50, 60), (50, 28)):
         found = followed(np.concatenate([sound[: first_s * RATE_HZ], sound[end_s_ * RATE_HZ :]]))
         true_s = truth().score.tempo_map.seconds(found.ticks.astype(np.float64))
-        there = (true_s < min(first_s, end_s_)) | (true_s > max(first_s, end_s_))
+        # What is played twice is right where it sounds the first time.
+        left_out = (true_s > first_s) & (true_s < end_s_)
         shift_s = np.where(true_s > first_s, first_s - end_s_, 0.0)
-        wrong.append(~there | (np.abs(found.recording_s - true_s - shift_s) > 0.1))
+        wrong.append(left_out | (np.abs(found.recording_s - true_s - shift_s) > 0.1))
         confidence.append(found.confidence)
     bad, sure = np.concatenate(wrong), np.concatenate(confidence)
     area = (sure[~bad][:, None] > sure[bad][None, :]).mean() + 0.5 * (sure[~bad][:, None] == sure[bad][None, :]).mean()
@@ -190,9 +194,11 @@ def test_confidence_is_low_where_it_is_wrong() -> None:
 def test_a_repeat_that_the_score_has_not_is_reported() -> None:
     sound = recorded()
     found = followed(np.concatenate([sound[: 50 * RATE_HZ], sound[28 * RATE_HZ :]]))
-    assert sum(span.end - span.start for span in found.added) > 11.0
-    late = onset_errors_s(found, 22.0, from_s=80.0)
-    assert np.percentile(np.abs(late), 90) < NINETEEN_OF_TWENTY_S
+    assert sum(span.end - span.start for span in found.added) == pytest.approx(22.0, abs=1.0)
+    assert len(found.added) == 1
+    true_s = truth().score.tempo_map.seconds(found.ticks.astype(np.float64))
+    errors_s = np.abs(found.recording_s - true_s - np.where(true_s > 50.0, 22.0, 0.0))
+    assert np.percentile(errors_s, 95) <= NINETEEN_OF_TWENTY_S
 
 
 def test_the_notes_lie_where_they_sound_and_keep_their_ticks() -> None:

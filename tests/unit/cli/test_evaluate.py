@@ -26,7 +26,7 @@ from tests.unit.viewport.poses import quartet
     ("options", "status", "sentence"),
     [
         ("", 2, "the following arguments are required: --to"),
-        ("--to a --variants film,generated", 2, "the variant 'film' needs a video: choose one with --film"),
+        ("--to a --variants film,generated", 2, "the variant 'film' needs a file: choose one with --film"),
         ("--to a --variants still", 2, "compares at least two variants"),
         ("--to a --variants ours", 2, "'ours' is not one of film, generated, still, shifted, keyframes"),
         ("--to a --film-offset 1", 2, "--film-offset is only possible with --film"),
@@ -127,15 +127,17 @@ def test_a_silent_video_is_placed_by_hand(films: Path) -> None:
     assert video.covered_s == pytest.approx((-2.0, LENGTH_S - 2.0), abs=0.3)
 
 
-def test_the_piece_follows_the_film(tmp_path: Path) -> None:
+def test_the_piece_follows_a_film_of_a_part_of_it(tmp_path: Path) -> None:
     """One that is played faster and slower, which an even tempo does not fit."""
-    path = tmp_path / "film.mp4"
-    with video_into(path, (16, 16), Fraction(1), recorded(), RATE_HZ) as film:
-        for _ in range(len(recorded()) // RATE_HZ):
+    path, first_s, length_s = tmp_path / "film.mp4", 30, 25
+    sound = recorded()[first_s * RATE_HZ : (first_s + length_s) * RATE_HZ]
+    with video_into(path, (16, 16), Fraction(1), sound, RATE_HZ) as film:
+        for _ in range(length_s):
             film.write(np.zeros((16, 16, 3), np.uint8))
     project = played()
     video, followed = import_video(project, path, None, nothing, lambda: False, follow=True)
     assert followed.audio is None
-    for second in (5.0, 10.0, 20.0):
-        tick = float(truth().score.tempo_map.ticks(second))
+    for second in (1.0, 5.0, 10.0, 20.0, 24.0):
+        tick = float(truth().score.tempo_map.ticks(first_s + second))
         assert float(followed.score.tempo_map.seconds(tick)) - video.offset_s == pytest.approx(second, abs=0.05)
+    assert video.covered_s[1] - video.covered_s[0] == pytest.approx(length_s, abs=0.5)

@@ -1,0 +1,116 @@
+"""Which passages of a score a recording plays, one after the other: it may begin anywhere, repeat bars, leave some out.
+
+Dynamic programming over the frames of the recording: from each to the next the score goes on by a frame, stands still,
+skips one, or jumps to any other place, which costs as much as half a second that is alike. So a jump is found without
+knowing where repeats are written. After C. Fremerey, M. Mueller, M. Clausen, "Handling repeats and jumps in
+score-performance synchronization" (ISMIR 2010).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from app.audio.score_sound import CHROMA_S, Floats
+
+Integers: TypeAlias = npt.NDArray[np.int64]
+
+_JUMP: Final = 6.0
+"""What a jump costs, in frames that are wholly alike."""
+_UNEVEN: Final = 0.25
+"""The same of standing still, and of skipping a frame."""
+_LEAST_S: Final = 3.0
+"""Shorter passages are chance."""
+_LEAST_ALIKE: Final = 0.6
+"""Passages less alike than this part of the most alike one are chance."""
+_PLAYED: Final = np.array([1, 0, 2])
+"""Frames of the score from one frame of the recording to the next, in the order of preference."""
+
+
+@dataclass(frozen=True)
+class Passage:
+    """Seconds of the score and of the recording that belong together from end to end."""
+
+    start_s: float
+    end_s: float
+    recording_start_s: float
+    recording_end_s: float
+
+
+def passages(score: Floats, recording: Floats, frame_s: float = CHROMA_S) -> tuple[Passage, ...]:
+    """What is played of a score, in order, without what is played again: of a repeat the first time.
+
+    Parameters
+    ----------
+    score, recording : (n, 12) float64
+        Chroma as shapes.
+    frame_s : float
+        Seconds of a frame.
+
+    Returns
+    -------
+    tuple of Passage
+        Rising in both.
+    """
+    if not len(score) or not len(recording):
+        return ()
+    path = _path(score, recording)
+    alike = (score[path] * recording).sum(axis=1)
+    steps = np.diff(path)
+    starts = np.concatenate(([0], np.flatnonzero((steps < 0) | (steps > 2)) + 1))
+    runs = list(zip(starts.tolist(), [*starts[1:].tolist(), len(path)], strict=True))
+    likeness = [float(alike[first:last].mean()) for first, last in runs]
+    long = [
+        (run, mean)
+        for run, mean in zip(runs, likeness, strict=True)
+        if (run[1] - run[0]) * frame_s >= _LEAST_S and mean >= _LEAST_ALIKE * max(likeness)
+    ]
+    chain = _rising([run for run, _ in long], path)
+    return tuple(
+        Passage(path[first] * frame_s, (path[last - 1] + 1) * frame_s, first * frame_s, last * frame_s)
+        for first, last in chain
+    )
+
+
+def _path(score: Floats, recording: Floats) -> Integers:
+    """Of every frame of the recording the frame of the score."""
+    count = len(score)
+    places = np.arange(count)
+    came_from = np.empty((len(recording), count), np.int32)
+    total = -(score @ recording[0])
+    best = np.full((3, count), np.inf)
+    for frame in range(1, len(recording)):
+        best[0, 1:] = total[:-1]
+        best[1] = total + _UNEVEN
+        best[2, 2:] = total[:-2] + _UNEVEN
+        chosen = best.argmin(axis=0)
+        least = best[chosen, places]
+        before = places - _PLAYED[chosen]
+        lowest = int(total.argmin())
+        jumps = total[lowest] + _JUMP < least
+        came_from[frame] = np.where(jumps, lowest, before)
+        total = np.where(jumps, total[lowest] + _JUMP, least) - score @ recording[frame]
+    path = np.empty(len(recording), np.int64)
+    path[-1] = int(total.argmin())
+    for frame in range(len(recording) - 1, 0, -1):
+        path[frame - 1] = came_from[frame, path[frame]]
+    return path
+
+
+def _rising(runs: list[tuple[int, int]], path: Integers) -> list[tuple[int, int]]:
+    """Of runs of the recording those that go on in the score, and together are longest; what was played already is cut
+    off their beginnings."""
+    # By the last run: length, runs as they are cut.
+    found: list[tuple[int, list[tuple[int, int]]]] = []
+    for first, last in runs:
+        best: tuple[int, list[tuple[int, int]]] = (last - first, [(first, last)])
+        for length, chain in found:
+            reached = int(path[chain[-1][1] - 1])
+            begin = first + int(np.searchsorted(path[first:last], reached, side="right"))
+            if begin < last and length + last - begin > best[0]:
+                best = (length + last - begin, [*chain, (begin, last)])
+        found.append(best)
+    return max(found, key=lambda one: one[0])[1] if found else []

@@ -1,0 +1,340 @@
+"""Animation from elsewhere as files of motion: what players do in the clips of the variant ``keyframes``.
+
+A file holds the joints of a body, as `suisou export` writes them on our own skeleton: BVH, or FBX and GLB. What it does
+not hold is that of the performance: the face, valves and slides. The instrument goes along with the hand that bears it.
+
+Messages
+--------
+evaluate.keyframes_format(file), evaluate.keyframes_skeleton(file), evaluate.keyframes_bones(file, bones),
+evaluate.keyframes_body(file, bone, character), evaluate.keyframes_player(file, players),
+evaluate.keyframes_lacking(file, player, name), evaluate.keyframes_report(file, detail), evaluate.not_covered.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final, TypeAlias
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError
+from app.evaluation.excerpts import Excerpt
+from app.evaluation.imported import require_covered
+from app.export.bind_pose import rest_transforms
+from app.export.file_names import REPORT, figure_stems
+from app.export.target import normalised_target
+from app.formats.bvh import BvhClip, read_bvh
+from app.formats.files import cannot_read, read_file
+from app.performance.cast import Performer, performer_of
+from app.performance.chunks import Pose
+from app.performance.ensemble import Performance
+from app.rig import quaternion
+from app.rig.hold import hand_targets
+from app.rig.model import Character, Skeleton
+from app.rig.skeleton import forward
+
+FloatArray: TypeAlias = npt.NDArray[np.float64]
+Posed: TypeAlias = Callable[[str, float, Pose], Pose]
+"""A player's id, a time and the pose of the performance to the pose that is seen."""
+
+SUFFIXES: Final = (".bvh", ".fbx", ".glb", ".gltf")
+HIPS: Final = "hips"
+_OTHER_BODY_CM: Final = 1.0
+"""Bones whose lengths differ by more are those of another body."""
+_HELD_M: Final = 0.03
+"""An instrument this near to where its hand holds it is in that hand."""
+_MOST_LISTED: Final = 5
+_REPORT_BYTES: Final = 64_000_000
+
+
+class _Report(msgspec.Struct, frozen=True):
+    """What is read of the report beside exported files."""
+
+    first_frame_s: float
+
+
+def holds_motion(path: str | os.PathLike[str]) -> bool:
+    """Whether a path is that of files of motion rather than of a video."""
+    return os.path.isdir(path) or Path(path).suffix.lower() in SUFFIXES
+
+
+@dataclass(frozen=True, eq=False)
+class PlayerKeyframes:
+    """One player's file at its place in the piece.
+
+    Attributes
+    ----------
+    start_s, fps : float
+        Performance time of its first frame, and frames per second.
+    rotations : (F, J, 4) float64
+    hips_m : (F, 3) float64
+        As of `app.motion.model.Motion`.
+    performer : Performer
+    doubling : bool
+        Whether the musician has other instruments, too.
+    """
+
+    path: Path
+    start_s: float
+    fps: float
+    rotations: FloatArray
+    hips_m: FloatArray
+    performer: Performer
+    doubling: bool
+
+    @property
+    def covered_s(self) -> tuple[float, float]:
+        """Seconds of the performance that it shows."""
+        return self.start_s, self.start_s + len(self.hips_m) / self.fps
+
+    def require_covered(self, excerpt: Excerpt) -> None:
+        """Raise FileError (``evaluate.not_covered``) where it does not show all of an excerpt."""
+        require_covered(self.path, self.covered_s, excerpt)
+
+    def posed(self, time_s: float, pose: Pose) -> Pose:
+        """The performance's pose with body and instrument as the file has them, also between two of its frames."""
+        at = min(max((time_s - self.start_s) * self.fps, 0.0), len(self.hips_m) - 1.0)
+        before = int(at)
+        after, share = min(before + 1, len(self.hips_m) - 1), at - before
+        turned = quaternion.slerp(self.rotations[before], self.rotations[after], share)
+        hips_m = (1.0 - share) * self.hips_m[before] + share * self.hips_m[after]
+        seen = replace(pose, rotations=turned.astype(np.float32), hips_m=hips_m.astype(np.float32))
+        return self._held(seen, pose)
+
+    def _held(self, seen: Pose, pose: Pose) -> Pose:
+        """A pose with the instrument in the hand that bears it, but for one that is put aside."""
+        hold, instrument = self.performer.hold, self.performer.instrument
+        side = instrument.hold.support_hand
+        hand = next((one for one in hold.hands if one.side == side), hold.hands[0])
+        joint = self.performer.character.skeleton.index(f"{hand.side}Hand")
+        controls = {name: np.array([value]) for name, value in pose.controls.items()}
+        local_m, local = hand_targets(hand, np.zeros((1, 3)), quaternion.IDENTITY[None], controls)
+        back = quaternion.conjugate(local)
+        place_m, turn = self._hand(seen, joint)
+        if self.doubling:
+            theirs_m, theirs = self._hand(pose, joint)
+            there_m = theirs_m - quaternion.rotate(quaternion.multiply(theirs, back), local_m)
+            if np.linalg.norm(there_m - pose.instrument_position_m) > _HELD_M:
+                return seen
+        turned = quaternion.multiply(turn, back)
+        position_m = place_m - quaternion.rotate(turned, local_m)
+        return replace(
+            seen,
+            instrument_position_m=position_m[0].astype(np.float32),
+            instrument_rotation=turned[0].astype(np.float32),
+        )
+
+    def _hand(self, pose: Pose, joint: int) -> tuple[FloatArray, FloatArray]:
+        rotations = quaternion.normalize(pose.rotations[None].astype(np.float64))
+        hips_m = pose.hips_m[None].astype(np.float64)
+        return forward(self.performer.character.skeleton, rotations, hips_m, [joint]).of(joint)
+
+
+@dataclass(frozen=True, eq=False)
+class Keyframes:
+    """The files of an evaluation, by player id; players without one are seen as they perform."""
+
+    players: Mapping[str, PlayerKeyframes]
+
+    @property
+    def covered_s(self) -> tuple[float, float]:
+        """Seconds of the performance that all of them show."""
+        spans = [one.covered_s for one in self.players.values()]
+        return max(first for first, _ in spans), min(last for _, last in spans)
+
+    def require_covered(self, excerpt: Excerpt) -> None:
+        """Raise FileError (``evaluate.not_covered``) of a file that does not show all of an excerpt."""
+        for one in self.players.values():
+            one.require_covered(excerpt)
+
+    def posed(self, player_id: str, time_s: float, pose: Pose) -> Pose:
+        """See `Posed`."""
+        found = self.players.get(player_id)
+        return pose if found is None else found.posed(time_s, pose)
+
+
+def read_keyframes(
+    performance: Performance, path: Path, player_ids: Sequence[str] = (), offset_s: float | None = None
+) -> Keyframes:
+    """Read the motion of players.
+
+    Parameters
+    ----------
+    path : Path
+        A player's file, or a folder with one for each, called as `suisou export` calls them.
+    player_ids : sequence of str
+        Whom the evaluation is about, everyone if empty: of them there must be files.
+    offset_s : float or None
+        Performance time of the first frame; None: as the report beside the files says, else where the performance
+        begins.
+
+    Raises
+    ------
+    FileError
+        Those of this module, of `app.formats.bvh` and of `app.choreography.node_motion`.
+    AppError
+        A player cannot be seen.
+    """
+    project = performance.project
+    folder = os.path.isdir(path)
+    wanted = [body.id for body in project.bodies if not player_ids or body.id in player_ids]
+    stems = {id: stem["character"] for id, stem in figure_stems(performance).items() if "character" in stem}
+    files = _in_folder(path, stems) if folder else _of_one(path, stems, wanted)
+    names = {body.id: body.name for body in project.bodies}
+    if not files:
+        raise FileError("evaluate.keyframes_player", file=str(path), players=", ".join(stems[id] for id in names))
+    for player_id in wanted:
+        if player_id not in files:
+            raise FileError(
+                "evaluate.keyframes_lacking", file=str(path), player=names[player_id], name=f"{stems[player_id]}.bvh"
+            )
+    start_s = _start_s(performance, path if folder else path.parent) if offset_s is None else offset_s
+    found = dict[str, PlayerKeyframes]()
+    for player_id, file in files.items():
+        musician = project.player(player_id)
+        performer = performer_of(performance, musician)
+        clip = _read(file)
+        rotations, hips_m = _on_skeleton(clip, file, performer)
+        played = project.played_by(musician)
+        for one in played:
+            held = performer if one.id == player_id else performer_of(performance, one)
+            found[one.id] = PlayerKeyframes(file, start_s, float(clip.fps), rotations, hips_m, held, len(played) > 1)
+    return Keyframes(found)
+
+
+def _in_folder(folder: Path, stems: Mapping[str, str]) -> dict[str, Path]:
+    """The file of each player that there is one of."""
+    try:
+        there = {path.name.casefold(): path for path in sorted(folder.iterdir())}
+    except OSError as error:
+        raise cannot_read(folder, error) from error
+    found = dict[str, Path]()
+    for player_id, stem in stems.items():
+        paths = [there[name] for suffix in SUFFIXES if (name := f"{stem}{suffix}".casefold()) in there]
+        if paths:
+            found[player_id] = paths[0]
+    return found
+
+
+def _of_one(path: Path, stems: Mapping[str, str], wanted: Sequence[str]) -> dict[str, Path]:
+    """Whose file it is: by its name, else the only one's whom the evaluation is about."""
+    named = [player_id for player_id, stem in stems.items() if stem.casefold() == path.stem.casefold()]
+    owners = named or (list(wanted) if len(wanted) == 1 else [])
+    return {owners[0]: path} if owners else {}
+
+
+def _start_s(performance: Performance, folder: Path) -> float:
+    report = folder / REPORT
+    if os.path.isfile(report):
+        try:
+            return msgspec.json.decode(read_file(report, _REPORT_BYTES), type=_Report).first_frame_s
+        except (msgspec.DecodeError, RecursionError) as error:
+            raise FileError("evaluate.keyframes_report", file=str(report), detail=str(error)) from error
+    return performance.time_frame.first_frame_s
+
+
+def _read(path: Path) -> BvhClip:
+    suffix = path.suffix.lower()
+    if suffix == ".bvh":
+        return read_bvh(path)
+    from app.choreography.node_motion import read_fbx_motion, read_gltf_motion
+
+    if suffix == ".fbx":
+        return read_fbx_motion(path)
+    if suffix in SUFFIXES:
+        return read_gltf_motion(path)
+    raise FileError("evaluate.keyframes_format", file=str(path))
+
+
+def _on_skeleton(clip: BvhClip, path: Path, performer: Performer) -> tuple[FloatArray, FloatArray]:
+    """Rotations (F, J, 4) and hips (F, 3), metres, of a character's joints."""
+    skeleton = performer.character.skeleton
+    place = {name: joint for joint, name in enumerate(clip.names)}
+    below = [joint for joint in range(len(skeleton.names)) if _hangs_on_hips(skeleton, joint)]
+    missing = [skeleton.names[joint] for joint in below if skeleton.names[joint] not in place]
+    if HIPS not in place or 2 * len(missing) > len(below):
+        raise FileError("evaluate.keyframes_skeleton", file=str(path))
+    if missing:
+        listed = ", ".join(missing[:_MOST_LISTED]) + (" ..." if len(missing) > _MOST_LISTED else "")
+        raise FileError("evaluate.keyframes_bones", file=str(path), bones=listed)
+    clip = _upright(clip, skeleton, place)
+    jointed = [joint for joint in below if skeleton.names[joint] != HIPS]
+    places, parents = (
+        [place[skeleton.names[joint]] for joint in jointed],
+        [skeleton.parents[joint] for joint in jointed],
+    )
+    if any(clip.names[clip.parents[at]] != skeleton.names[of] for at, of in zip(places, parents, strict=True)):
+        raise FileError("evaluate.keyframes_skeleton", file=str(path))
+    rest = _rest(np.asarray(clip.offsets_cm[places], np.float64), jointed, parents, performer.character)
+    apart_cm = np.linalg.norm(_offsets_cm(skeleton, rest, jointed, parents) - clip.offsets_cm[places], axis=1)
+    if apart_cm.max() > _OTHER_BODY_CM:
+        bone, character = skeleton.names[jointed[int(apart_cm.argmax())]], performer.player.character_id
+        raise FileError("evaluate.keyframes_body", file=str(path), bone=bone, character=character)
+    rotations = np.tile(quaternion.IDENTITY, (len(clip.rotations_xyzw), len(skeleton.names), 1))
+    hips_m, turn = _hips(clip, place[HIPS])
+    rotations[:, skeleton.index(HIPS)] = quaternion.multiply(turn, rest[skeleton.index(HIPS)])
+    turned = quaternion.multiply(clip.rotations_xyzw[:, places], rest[jointed])
+    rotations[:, jointed] = quaternion.multiply(quaternion.conjugate(rest[parents]), turned)
+    return quaternion.normalize(rotations), hips_m
+
+
+def _rest(offsets_cm: FloatArray, joints: Sequence[int], parents: Sequence[int], character: Character) -> FloatArray:
+    """How the joints (J, 4) are turned where a file's are not: in the T-pose, or as the mesh is bound (FBX, GLB)."""
+    skeleton = character.skeleton
+    bound = rest_transforms(character, normalised_target(skeleton))[:, :3, :3].astype(np.float64)
+    poses = np.tile(quaternion.IDENTITY, (len(skeleton.names), 1)), quaternion.from_matrix(bound)
+    return min(poses, key=lambda pose: float(np.abs(_offsets_cm(skeleton, pose, joints, parents) - offsets_cm).max()))
+
+
+def _offsets_cm(skeleton: Skeleton, rest: FloatArray, joints: Sequence[int], parents: Sequence[int]) -> FloatArray:
+    return 100.0 * quaternion.rotate(rest[list(parents)], skeleton.offsets_m[list(joints)])
+
+
+def _hangs_on_hips(skeleton: Skeleton, joint: int) -> bool:
+    while joint >= 0 and skeleton.names[joint] != HIPS:
+        joint = skeleton.parents[joint]
+    return joint >= 0
+
+
+def _hips(clip: BvhClip, hips: int) -> tuple[FloatArray, FloatArray]:
+    """Where the hips are (F, 3), metres, and how they are turned (F, 4), with all that carries them."""
+    frames = len(clip.rotations_xyzw)
+    place_cm, turn = np.zeros((frames, 3)), np.tile(quaternion.IDENTITY, (frames, 1))
+    joint = hips
+    while joint >= 0:
+        own = np.asarray(clip.rotations_xyzw[:, joint], np.float64)
+        still = clip.root_translation_cm if clip.parents[joint] < 0 else clip.offsets_cm[joint]
+        moved = np.asarray(clip.translations_cm.get(joint, still), np.float64)
+        place_cm = quaternion.rotate(own, place_cm) + moved
+        turn = quaternion.multiply(own, turn)
+        joint = clip.parents[joint]
+    return place_cm / 100.0, turn
+
+
+def _upright(clip: BvhClip, skeleton: Skeleton, place: Mapping[str, int]) -> BvhClip:
+    """A clip with Y up: some programs (Blender) write BVH with Z up, all bones turned with it."""
+    spine = place[next(name for name in skeleton.names if _on_hips(skeleton, name))]
+    way = clip.offsets_cm[spine]
+    ours = skeleton.offsets_m[skeleton.index(clip.names[spine])]
+    quarter = np.array([-np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)])
+    turned = quaternion.rotate(quarter, way)
+    if np.linalg.norm(turned / 100.0 - ours) >= np.linalg.norm(way / 100.0 - ours):
+        return clip
+    back = quaternion.conjugate(quarter)
+    return replace(
+        clip,
+        offsets_cm=quaternion.rotate(quarter, clip.offsets_cm),
+        root_translation_cm=quaternion.rotate(quarter, clip.root_translation_cm),
+        rotations_xyzw=quaternion.multiply(quarter, quaternion.multiply(clip.rotations_xyzw, back)),
+        translations_cm={joint: quaternion.rotate(quarter, moved) for joint, moved in clip.translations_cm.items()},
+    )
+
+
+def _on_hips(skeleton: Skeleton, name: str) -> bool:
+    parent = skeleton.parents[skeleton.index(name)]
+    return parent >= 0 and skeleton.names[parent] == HIPS
