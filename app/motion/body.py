@@ -51,6 +51,8 @@ LEAST_DRAWN = 0.4
 BREATH_LEAD_S = 0.03
 """The inhalation is complete this long before the breath's end."""
 LIFT_SHARE = 0.7
+FREE_AMPLITUDE = 0.5
+"""Who moves as much as this lets the head go along with a trunk that turns for a far hand."""
 STEP_IN_HIPS = 0.3
 """Hips go along with a foot that is put ahead."""
 _NONE_AT_REST = (
@@ -86,6 +88,8 @@ class BodyMotion:
         Of the eyes in the head: left, down.
     lowered : array
         0 with the instrument at the lips, 1 with it lowered.
+    steadied : array
+        How far the head stays over its place while the trunk turns for a far hand, 0..1.
     protraction_rad : dict of str to array
         Each shoulder forwards, by side; what the contacts ask for.
     elbow_held_rad : dict of str to array
@@ -121,6 +125,7 @@ class BodyMotion:
     eyes_yaw_rad: FloatArray
     eyes_pitch_rad: FloatArray
     lowered: FloatArray
+    steadied: FloatArray
     protraction_rad: dict[str, FloatArray]
     elbow_held_rad: dict[str, FloatArray]
     hips_danced: dict[str, FloatArray]
@@ -455,6 +460,7 @@ def body_motion(
         eyes_yaw_rad=look.yaw_rad - 0.5 * look.head_yaw_rad - EYES_BACK * aside_rad,
         eyes_pitch_rad=look.pitch_rad - 0.5 * look.head_pitch_rad,
         lowered=lowered,
+        steadied=np.full(frames, max(0.0, 1.0 - parameters.amplitude / FREE_AMPLITUDE)),
         protraction_rad={},
         elbow_held_rad=elbows_held,
         hips_danced={},

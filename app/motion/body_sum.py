@@ -23,8 +23,9 @@ NOISE_SHARE = 0.30
 """Wandering beside the planned gestures, as a share of their size."""
 EYES_LEVEL = 0.5
 """Share of the trunk's sideways lean that neck and head take back, so that the eyes stay level."""
-HIPS_SWAY, HIPS_TURN = 0.25, 0.3
-"""Shares of the chest's lean aside and turn that the hips take."""
+HIPS_SWAY, HIPS_TURN = 0.4, 0.3
+"""Shares of the chest's lean aside and turn that the hips take: enough for the lean to begin there whatever the weight
+does."""
 WEIGHT_IN_CHEST = 0.2
 """Share of the hips' roll that the chest has."""
 ACCENT_IN_HIPS = 0.35
