@@ -387,8 +387,8 @@ def body_motion(
         Part(levels.weight, acting.weight_shift), sizes, seated, Leads.of(body.overlap), times_s,
     )  # fmt: skip
     angles.add_to(total)
-    total.left(NECK_SHARES, deg(sizes.wander("head_side", sway.head_deg, times_s)))
-    total.turn(NECK_SHARES, deg(sizes.wander("head_turn", sway.head_deg, times_s)))
+    total.left(NECK_SHARES, deg(sizes.wander("head_side", sway.head_deg, times_s, acting.sway)))
+    total.turn(NECK_SHARES, deg(sizes.wander("head_turn", sway.head_deg, times_s, acting.sway)))
 
     inhaled = acting.breath * at_amplitude(body.breath.shown, parameters.amplitude) * inhaled
     with_trunk, with_shoulders = sizes.breathing
@@ -488,7 +488,7 @@ def _aside_m(levels: LayerSamples, sizes: Sizes, acting: Acting, steps: bool, ti
     """Hips to the left: with the weight, and over the foot that stands during a step."""
     side_m = sizes.body.weight_shift.side_m
     aside_m: FloatArray = acting.weight_shift * levels.weight.hips * sizes.of(side_m)
-    aside_m = aside_m + sizes.wander("weight", side_m, times_s)
+    aside_m = aside_m + sizes.wander("weight", side_m, times_s, acting.weight_shift)
     if steps:
         over_m = acting.footwork * sizes.of(sizes.body.footwork.unload_m)
         for side, sign in (("left", -1.0), ("right", 1.0)):
@@ -504,7 +504,7 @@ def _ahead_m(
     phrase, shift = sizes.body.phrase, sizes.body.weight_shift
     back = acting.phrase * (levels.lean.hips + 0.5 * levels.accent.hips) * sizes.of(phrase.ahead_m)
     aslant = sizes.aslant * acting.weight_shift * levels.weight.hips * sizes.of(shift.ahead_m)
-    ahead_m: FloatArray = aslant - back + sizes.wander("ahead", shift.ahead_m, times_s)
+    ahead_m: FloatArray = aslant - back + sizes.wander("ahead", shift.ahead_m, times_s, acting.weight_shift)
     for side in ("left", "right"):
         if f"{side}_ahead" in feet:
             ahead_m = ahead_m + STEP_IN_HIPS * feet[f"{side}_ahead"]
