@@ -51,6 +51,8 @@ LEAST_DRAWN = 0.4
 BREATH_LEAD_S = 0.03
 """The inhalation is complete this long before the breath's end."""
 LIFT_SHARE = 0.7
+FREE_AMPLITUDE = 0.5
+"""Who moves as much as this lets the head go along with a trunk that turns for a far hand."""
 STEP_IN_HIPS = 0.3
 """Hips go along with a foot that is put ahead."""
 _NONE_AT_REST = (
@@ -86,6 +88,8 @@ class BodyMotion:
         Of the eyes in the head: left, down.
     lowered : array
         0 with the instrument at the lips, 1 with it lowered.
+    steadied : array
+        How far the head stays over its place while the trunk turns for a far hand, 0..1.
     protraction_rad : dict of str to array
         Each shoulder forwards, by side; what the contacts ask for.
     elbow_held_rad : dict of str to array
@@ -121,6 +125,7 @@ class BodyMotion:
     eyes_yaw_rad: FloatArray
     eyes_pitch_rad: FloatArray
     lowered: FloatArray
+    steadied: FloatArray
     protraction_rad: dict[str, FloatArray]
     elbow_held_rad: dict[str, FloatArray]
     hips_danced: dict[str, FloatArray]
@@ -382,8 +387,8 @@ def body_motion(
         Part(levels.weight, acting.weight_shift), sizes, seated, Leads.of(body.overlap), times_s,
     )  # fmt: skip
     angles.add_to(total)
-    total.left(NECK_SHARES, deg(sizes.wander("head_side", sway.head_deg, times_s)))
-    total.turn(NECK_SHARES, deg(sizes.wander("head_turn", sway.head_deg, times_s)))
+    total.left(NECK_SHARES, deg(sizes.wander("head_side", sway.head_deg, times_s, acting.sway)))
+    total.turn(NECK_SHARES, deg(sizes.wander("head_turn", sway.head_deg, times_s, acting.sway)))
 
     inhaled = acting.breath * at_amplitude(body.breath.shown, parameters.amplitude) * inhaled
     with_trunk, with_shoulders = sizes.breathing
@@ -455,6 +460,7 @@ def body_motion(
         eyes_yaw_rad=look.yaw_rad - 0.5 * look.head_yaw_rad - EYES_BACK * aside_rad,
         eyes_pitch_rad=look.pitch_rad - 0.5 * look.head_pitch_rad,
         lowered=lowered,
+        steadied=np.full(frames, max(0.0, 1.0 - parameters.amplitude / FREE_AMPLITUDE)),
         protraction_rad={},
         elbow_held_rad=elbows_held,
         hips_danced={},
@@ -482,7 +488,7 @@ def _aside_m(levels: LayerSamples, sizes: Sizes, acting: Acting, steps: bool, ti
     """Hips to the left: with the weight, and over the foot that stands during a step."""
     side_m = sizes.body.weight_shift.side_m
     aside_m: FloatArray = acting.weight_shift * levels.weight.hips * sizes.of(side_m)
-    aside_m = aside_m + sizes.wander("weight", side_m, times_s)
+    aside_m = aside_m + sizes.wander("weight", side_m, times_s, acting.weight_shift)
     if steps:
         over_m = acting.footwork * sizes.of(sizes.body.footwork.unload_m)
         for side, sign in (("left", -1.0), ("right", 1.0)):
@@ -498,7 +504,7 @@ def _ahead_m(
     phrase, shift = sizes.body.phrase, sizes.body.weight_shift
     back = acting.phrase * (levels.lean.hips + 0.5 * levels.accent.hips) * sizes.of(phrase.ahead_m)
     aslant = sizes.aslant * acting.weight_shift * levels.weight.hips * sizes.of(shift.ahead_m)
-    ahead_m: FloatArray = aslant - back + sizes.wander("ahead", shift.ahead_m, times_s)
+    ahead_m: FloatArray = aslant - back + sizes.wander("ahead", shift.ahead_m, times_s, acting.weight_shift)
     for side in ("left", "right"):
         if f"{side}_ahead" in feet:
             ahead_m = ahead_m + STEP_IN_HIPS * feet[f"{side}_ahead"]

@@ -23,8 +23,9 @@ NOISE_SHARE = 0.30
 """Wandering beside the planned gestures, as a share of their size."""
 EYES_LEVEL = 0.5
 """Share of the trunk's sideways lean that neck and head take back, so that the eyes stay level."""
-HIPS_SWAY, HIPS_TURN = 0.25, 0.3
-"""Shares of the chest's lean aside and turn that the hips take."""
+HIPS_SWAY, HIPS_TURN = 0.4, 0.3
+"""Shares of the chest's lean aside and turn that the hips take: enough for the lean to begin there whatever the weight
+does."""
 WEIGHT_IN_CHEST = 0.2
 """Share of the hips' roll that the chest has."""
 ACCENT_IN_HIPS = 0.35
@@ -65,10 +66,10 @@ class Sizes:
         share = low + (high - low) * _own(self.player_id, self.parameters.seed, "breathes")
         return share, 1.0 + SHOULDERS_INSTEAD * (0.5 * (low + high) - share)
 
-    def wander(self, layer: str, scale: AmplitudeScale, times_s: FloatArray) -> FloatArray:
-        """Noise of this player's layer: the residue, and a share of the planned motion's size."""
+    def wander(self, layer: str, scale: AmplitudeScale, times_s: FloatArray, shown: float) -> FloatArray:
+        """Noise of this player's layer: the residue, and a share of the planned motion, as much of it as is shown."""
         noise = _noise(self.player_id, self.parameters.seed, layer, self.body.sway.residual_hz)
-        return noise.sample(times_s) * (RESIDUE_SHARE * scale[0] + NOISE_SHARE * (self.of(scale) - scale[0]))
+        return noise.sample(times_s) * (RESIDUE_SHARE * scale[0] + NOISE_SHARE * shown * (self.of(scale) - scale[0]))
 
 
 @lru_cache(maxsize=4096)
@@ -163,7 +164,7 @@ class Angles:
         def waving(layer: str, scale: AmplitudeScale, size: float) -> Overlapped:
             return Overlapped(
                 *(
-                    size * level + np.deg2rad(sizes.wander(layer, scale, moment))
+                    size * level + np.deg2rad(sizes.wander(layer, scale, moment, sway.amount))
                     for level, moment in zip(sway.level, at, strict=True)
                 )
             )
@@ -172,7 +173,9 @@ class Angles:
         head = (share * lean.amount * rad(phrase.head_deg), share * accent.amount * rad(phrase.accent_head_deg))
         pelvis = (phrase.seated_pelvis if seated else 1.0) * rad(phrase.pelvis_deg)
         bowed = [
-            leant * own[0] + dipped * own[1] + np.deg2rad(sizes.wander("forward", swings.forward_deg, moment))
+            leant * own[0]
+            + dipped * own[1]
+            + np.deg2rad(sizes.wander("forward", swings.forward_deg, moment, sway.amount))
             for leant, dipped, own, moment in zip(
                 lean.level, accent.level, (chest, chest, head, chest), at, strict=True
             )

@@ -17,7 +17,7 @@ from app.motion.body import BodyMotion
 from app.motion.contact import ANYWHERE, BellRoom, Carried, carry
 from app.motion.curve import FloatArray
 from app.motion.endpin import Stand
-from app.motion.extremes import greatest_within, least_within
+from app.motion.giving import HELP_EASE_S, drawn, spread, turned, with_room
 from app.motion.hands import away, with_shapes
 from app.motion.model import Motion
 from app.motion.posture import Side, Stance, Trunk, hips_path, solve_legs, trunk
@@ -34,25 +34,10 @@ from instrument_maps.model import Carriage, Endpin, Lowered, Water
 
 CHUNK = 4096
 """Frames solved at once: few enough to stay in the processor's cache."""
-HELP_EASE_S = 0.10
-"""Trunk and shoulders come towards a far hand this long before it goes there, and back as long after."""
-SHOULDER_EASE_S = 0.05
-"""The shoulder, which is lighter, this long."""
-ROOM_EASE_S = 0.06
-"""How quickly that help gives way to a hand that comes near."""
-HELP_EASE_RAD = 0.06
-"""Help that would push a shoulder into a near hand is held back within about this angle."""
-HIPS_TURN = 0.16
-TRUNK_TURNS = {"spine": 0.18, "chest": 0.34, "upperChest": 0.32}
-"""Shares of the turn for a far hand."""
-NECK_TURNS_BACK = {"neck": 0.5, "head": 0.5}
-DRAWS_RAD = {"neck": float(np.deg2rad(-8.0)), "head": float(np.deg2rad(14.0))}
-"""For the farthest places the neck draws back and the head bows; the trunk stays upright, since leaning it brings
-shoulder and lips no nearer to each other ..."""
-DRAW_DOWN_RAD, DRAW_RIGHT_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(8.0))
-"""... and the bell sinks and turns towards the far hand's shoulder."""
 LEAST_DRAWN_M = 0.01
-"""However little that brings, it is never divided by less."""
+"""However little giving way brings, it is never divided by less ..."""
+LEAST_LEANT_M = 0.005
+"""... nor is how far a small lean takes the head aside."""
 
 
 @dataclass(frozen=True)
@@ -103,6 +88,12 @@ class Player:
     def drawn_m(self) -> float:
         """How much nearer a far hand comes when head and instrument give way."""
         return _drawn_m(self)
+
+    @cached_property
+    def aside_per_turn(self) -> float:
+        """How far the trunk leans to the right for each radian it turns to the left, so that the head stays over its
+        place: it is ahead of what the trunk turns about."""
+        return _aside_per_turn(self)
 
     @cached_property
     def farthest(self) -> dict[str, float]:
@@ -169,7 +160,7 @@ def solve(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -
     pad = padding(fps)
     uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
     needed = [_needs(player, curves[part], upper) for part, upper in zip(_parts(len(curves)), uppers, strict=True)]
-    given = _spread(needed, pad // 2)
+    given = spread(needed, pad // 2)
     curves = replace(curves, body=helped(player, curves.body, given))
     asked = slice(pad, len(curves) - pad)
     return poses(player, curves[asked], fps, first_frame_s, None if given.moves_trunk else joined(uppers)[asked])
@@ -310,67 +301,24 @@ def _needs(player: Player, curves: Curves, upper: UpperBody) -> Help:
     return replace(needed, turn_rad=needed.turn_rad * turning, short_m=needed.short_m * turning)
 
 
-def _spread(parts: list[Help], half: int) -> Help:
-    """Help that comes slowly and early enough, and goes slowly, from what is needed in stretches of frames."""
-    quick = max(1, round(ROOM_EASE_S / HELP_EASE_S * half))
-    swift = max(1, round(SHOULDER_EASE_S / HELP_EASE_S * half))
-    sides = parts[0].protraction_rad.keys()
-    return Help(
-        turn_rad=_eased(np.concatenate([part.turn_rad for part in parts]), half),
-        short_m=_eased(np.concatenate([part.short_m for part in parts]), half),
-        protraction_rad={
-            side: _eased(np.concatenate([part.protraction_rad[side] for part in parts]), swift) for side in sides
-        },
-        most_turn_rad={side: _held_back([part.most_turn_rad[side] for part in parts], quick) for side in sides},
-        most_protraction_rad={
-            side: _held_back([part.most_protraction_rad[side] for part in parts], quick) for side in sides
-        },
-    )
-
-
 def helped(player: Player, motion: BodyMotion, help_given: Help) -> BodyMotion:
     """The body with trunk and shoulders brought towards far hands; neck and head turn back, so that the lips stay
     where they are."""
     asked, most, short_m = help_given.turn_rad, help_given.most_turn_rad, help_given.short_m
     turn = np.zeros(len(asked))
     if np.any(asked):
-        turn += _with_room(np.maximum(asked, 0.0), most["right"])
-        turn -= _with_room(np.maximum(-asked, 0.0), most["left"])
+        turn += with_room(np.maximum(asked, 0.0), most["right"])
+        turn -= with_room(np.maximum(-asked, 0.0), most["left"])
     if np.any(short_m):
         draw = softly_capped(short_m / player.drawn_m, 1.0, 0.1) * np.abs(turn) / np.maximum(np.abs(asked), 1e-6)
-        motion = _drawn(motion, draw, np.sign(asked))
+        motion = drawn(motion, draw, np.sign(asked))
     protraction = {
-        side: _with_room(needed, help_given.most_protraction_rad[side]) if np.any(needed) else needed
+        side: with_room(needed, help_given.most_protraction_rad[side]) if np.any(needed) else needed
         for side, needed in help_given.protraction_rad.items()
     }
-    return replace(
-        motion,
-        hips_turn_rad=motion.hips_turn_rad + HIPS_TURN * turn,
-        turn_rad=_turned(motion.turn_rad, turn),
-        protraction_rad=protraction,
-    )
-
-
-def _turned(turn_rad: dict[str, FloatArray], turn: FloatArray) -> dict[str, FloatArray]:
-    """The trunk turned to the left, and neck and head back."""
-    turns = dict(turn_rad)
-    for shares, sign in ((TRUNK_TURNS, 1.0), (NECK_TURNS_BACK, -1.0)):
-        for joint, share in shares.items():
-            turns[joint] = turns[joint] + sign * share * turn
-    return turns
-
-
-def _drawn(motion: BodyMotion, draw: FloatArray, right: FloatArray) -> BodyMotion:
-    """Head and instrument giving way, 0..1, towards a far hand on the right (1) or the left (-1)."""
-    forward = dict(motion.forward_rad)
-    for joint, angle_rad in DRAWS_RAD.items():
-        forward[joint] = forward[joint] + angle_rad * draw
-    return replace(
-        motion,
-        forward_rad=forward,
-        bell_down_rad=motion.bell_down_rad + DRAW_DOWN_RAD * draw,
-        bell_right_rad=motion.bell_right_rad + DRAW_RIGHT_RAD * right * draw,
-    )
+    if np.any(turn):
+        motion = turned(motion, turn, player.aside_per_turn)
+    return replace(motion, protraction_rad=protraction)
 
 
 def _drawn_m(player: Player) -> float:
@@ -381,17 +329,28 @@ def _drawn_m(player: Player) -> float:
         if hand.motion is None:
             continue
         right = 1.0 if hand.side == "right" else -1.0
-        turned = replace(player.still, turn_rad=_turned(player.still.turn_rad, right * TURN_RAD * one))
+        far = turned(player.still, right * TURN_RAD * one, player.aside_per_turn)
         farthest = {hand.motion.control: one}
         distances_m = []
         for draw in (0.0, 1.0):
-            motion = _drawn(turned, draw * one, right * one)
+            motion = drawn(far, draw * one, right * one)
             upper = upper_body(player, Curves(motion, farthest, {}, nothing))
             carried = upper.carried
             target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, farthest)
             distances_m.append(shoulder_distance_m(player.skeleton, hand.side, upper.trunk, target_m))
         nearer.append(float(distances_m[0] - distances_m[1]))
     return max([*nearer, LEAST_DRAWN_M])
+
+
+def _aside_per_turn(player: Player) -> float:
+    """From where a body that keeps still has its head after a small turn, and after a small lean of the trunk."""
+    still, small = replace(player.still, steadied=np.ones(1)), np.array([0.1])
+    without, leaning = turned(still, small, 0.0), turned(still, small, 1.0)
+    at_m = [
+        float(trunk(player.skeleton, *hips_path(player.place, player.skeleton, motion), motion).head_m[0, 0])
+        for motion in (still, without, leaning)
+    ]
+    return (at_m[1] - at_m[0]) / max(at_m[1] - at_m[2], LEAST_LEANT_M)
 
 
 def _farthest(player: Player) -> dict[str, float]:
@@ -406,28 +365,3 @@ def _farthest(player: Player) -> dict[str, float]:
         reached = stopped(player.skeleton, player.hold, upper.trunk, body, upper.carried, curves.controls, {})
         result[hand.motion.control] = float(reached[hand.motion.control][0])
     return result
-
-
-def _with_room(help_rad: FloatArray, most_rad: FloatArray) -> FloatArray:
-    """Help as far as there is room for it. No help stays none however little room there is: so it does not matter
-    which frames are made together."""
-    given = softly_capped(help_rad, most_rad, np.clip(most_rad, 1e-9, HELP_EASE_RAD))
-    return np.where(help_rad == 0.0, 0.0, given)
-
-
-def _held_back(parts: list[FloatArray], half: int) -> FloatArray:
-    """What there is room for, smoothly: the least within ``half`` frames, then a smooth mean as wide."""
-    return np.pi - _eased(np.pi - np.concatenate(parts), half)
-
-
-def _eased(needed: FloatArray, half: int) -> FloatArray:
-    """A slow move that is nowhere less than needed: the largest within ``half`` frames, then a smooth mean as wide.
-
-    The outer ``2 * half`` frames are not valid.
-    """
-    if not np.any(needed):
-        return needed
-    held = greatest_within(np.maximum(needed, 0.0), half) + least_within(np.minimum(needed, 0.0), half)
-    weights = np.hanning(2 * half + 3)
-    eased: FloatArray = np.convolve(held, weights / weights.sum(), mode="same")
-    return eased

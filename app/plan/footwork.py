@@ -27,8 +27,8 @@ STEP_CHANCE, STEP_LEAST_S = 0.3, 12.0
 """So many ends of phrases have a step, if the last one is so long ago."""
 STAYS_S = 2.5
 """A foot that is put somewhere stays at least so long."""
-TAP_CHANCE = 0.22
-"""So many phrases are tapped to by who taps as usual ..."""
+TAP_CHANCE, TAP_OFTEN = 0.22, 1.7
+"""So many phrases are tapped to by who taps as usual, and by this power of the amount more by others ..."""
 TAP_PHRASE_S = 3.0
 """... if they are so long."""
 TAP_S, TAP_SHARE, TAP_APART_S = 0.4, 0.6, 0.38
@@ -138,7 +138,7 @@ def _taps(
     side = 1.0 if seeds.chance("tap foot") < 0.35 else -1.0
     reason = Message("gesture.tap", {"side": "left" if side > 0.0 else "right"})
     ticks = times.onset_tick[np.array([phrase.first for phrase in found])]
-    tapped = seeds.chances_at("tap", ticks) < TAP_CHANCE * tap
+    tapped = seeds.chances_at("tap", ticks) < TAP_CHANCE * tap**TAP_OFTEN
     spans = [(event.start_s, event.end_s) for event in steps]
     events: list[GestureEvent] = []
     for phrase in (found[place] for place in np.flatnonzero(tapped).tolist()):

@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.signal import butter, periodogram, sosfiltfilt
 from scipy.spatial import ConvexHull
+from scipy.spatial.transform import Rotation
 from scipy.stats import rankdata, spearmanr
 
 from app.evaluation.measures import quantity_of_motion_mm_s
@@ -93,10 +94,11 @@ class Read:
         ahead = self.world[:, self.bone(name), :3, 2]
         return np.arcsin(np.clip(-ahead[:, 1], -1.0, 1.0))
 
-    def side_rad(self, name: str) -> FloatArray:
-        """How far a joint leans to its left, (F,)."""
-        up = self.world[:, self.bone(name), :3, 1]
-        return np.arctan2(up[:, 0], up[:, 1])
+    def aside_rad(self, name: str) -> FloatArray:
+        """How far a joint is turned from how it usually is, about the axis the body looks along, (F,)."""
+        turns = Rotation.from_matrix(self.world[:, self.bone(name), :3, :3])
+        aside: FloatArray = -(turns * turns.mean().inv()).as_rotvec()[:, 2]
+        return aside
 
     def weights(self, *parts: str) -> dict[str, FloatArray]:
         """Curves of the morphs whose names begin so."""
@@ -200,18 +202,28 @@ def accents_lag_s(read: Read) -> tuple[float, int]:
 
 def overlap_ms(read: Read) -> tuple[str, str]:
     """How much later the chest does what the hips did, and the head what the chest did: the lag of the greatest
-    correlation of their sideways leans (0.15 to 3 Hz), ms, and that correlation. Where that is below about 0.8 each
-    moves mostly by itself, and the lag is a matter of chance."""
-    lags = []
+    correlation of their leans aside (0.15 to 3 Hz), ms, and that correlation, from the first note to the last.
+
+    Gestures that are keyed joint by joint are left out. Where the correlation is below about 0.8 each moves mostly by
+    itself, and the lag is a matter of chance.
+    """
+    swaying = (read.times_s >= read.onset_s[0]) & (read.times_s <= read.end_s[-1])
+    for event in read.plan.gestures:
+        if event.gesture is not None:
+            swaying &= (read.times_s < event.start_s - 0.2) | (read.times_s > event.end_s + 0.3)
+    reach = round(0.3 * read.fps)
+    places = np.flatnonzero(swaying)
+    places = places[(places >= reach) & (places < len(swaying) - reach)]
+    results = []
     for before, after in (("hips", "upperChest"), ("upperChest", "head")):
-        one, other = (_bandpass(read.side_rad(name), read.fps, 0.15, 3.0) for name in (before, after))
-        reach = round(0.3 * read.fps)
-        found = [
-            abs(np.corrcoef(one[reach : len(one) - reach], np.roll(other, -lag)[reach : len(one) - reach])[0, 1])
-            for lag in range(-reach, reach + 1)
-        ]
-        lags.append(f"{1000.0 * (int(np.argmax(found)) - reach) / read.fps:.0f} ({max(found):.2f})")
-    return lags[0], lags[1]
+        one, other = (_bandpass(read.aside_rad(name), read.fps, 0.15, 3.0) for name in (before, after))
+        found = np.array([abs(np.corrcoef(one[places], other[places + lag])[0, 1]) for lag in range(-reach, reach + 1)])
+        best = int(np.clip(np.argmax(found), 1, 2 * reach - 1))
+        # The peak of a parabola: frames are as far apart as the lags asked for.
+        low, peak, high = found[best - 1 : best + 2]
+        lag = best - reach + 0.5 * (low - high) / (low - 2.0 * peak + high)
+        results.append(f"{1000.0 * lag / read.fps:.0f} ({peak:.2f})")
+    return results[0], results[1]
 
 
 def pelvis_cm(read: Read) -> tuple[float, float]:

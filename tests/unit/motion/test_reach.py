@@ -24,12 +24,12 @@ CHARACTER = figure.character()
 PLACES = (0.0, 1.0, 0.0, 0.5, 1.0, 0.2)
 
 
-def played(slide_m: float, note_s: float, sliding: str = "right") -> Motion:
+def played(slide_m: float, note_s: float, sliding: str = "right", amplitude: float = 0.0) -> Motion:
     rows = [(i * note_s, (i + 1) * note_s, {"slide": place}) for i, place in enumerate(PLACES)]
     instrument = figure.instrument_map(press(), slide())
     hold = figure.hold(CHARACTER.skeleton, slide_m, sliding)
     return perform(
-        plan_of(fingerings(rows)), PlayerParameters(amplitude=0.0), instrument, CHARACTER, hold, load_body(),
+        plan_of(fingerings(rows)), PlayerParameters(amplitude=amplitude), instrument, CHARACTER, hold, load_body(),
         felt_beats=((0, TICKS),), fps=Fraction(60),
     )  # fmt: skip
 
@@ -82,6 +82,16 @@ def test_the_lips_hardly_move_when_the_trunk_turns() -> None:
     assert np.ptp(motion.instrument_position_m, axis=0).max() < 0.12
     turn = quaternion.to_rotation_vector(motion.instrument_rotation.astype(np.float64))
     assert np.ptp(turn[:, 1]) < np.radians(4.0)
+
+
+def test_the_head_of_who_keeps_still_stays_over_its_place() -> None:
+    ranges_m = []
+    for amplitude in (0.0, 0.5):
+        motion = played(0.42, 2.0, amplitude=amplitude)
+        head_m = forward(CHARACTER.skeleton, motion.rotations, motion.hips_m, [CHARACTER.skeleton.index("head")])
+        ranges_m.append(float(np.ptp(head_m.of(CHARACTER.skeleton.index("head"))[0][:, 0])))
+    assert ranges_m[0] < 0.012
+    assert ranges_m[1] > 2.0 * ranges_m[0]
 
 
 def test_help_that_is_early_does_not_fold_the_elbow() -> None:
