@@ -21,6 +21,8 @@ CURVED_RAD = (float(np.deg2rad(26.0)), float(np.deg2rad(62.0)))
 """So far the middle joint of a waiting finger is bent, at least and at most ..."""
 OUTER_SHARE = 0.55
 """... and the outer joint by this share of it."""
+BEYOND_RAD = (float(np.deg2rad(28.0)), float(np.deg2rad(22.0)))
+"""Beyond what touches the middle and the outer joint are bent by so much at least."""
 MOST_RAD = (float(np.deg2rad(20.0)), float(np.deg2rad(25.0)))
 """Neither bends further from how it presses."""
 KNUCKLE_RAD = (float(np.deg2rad(-30.0)), float(np.deg2rad(90.0)))
@@ -85,13 +87,24 @@ def _curved(table: FingerTable, skeleton: Skeleton, profile: SkeletonProfile) ->
     axes = [profile.joint_axes(skeleton.names[joint]) for joint in table.joints]
     flexion, twist = np.array([one.flexion for one in axes]), np.array([one.twist for one in axes])
     offsets_m = np.array([skeleton.offsets_m[joint] for joint in table.joints])
-    stations = tuple(
-        _lifted(station, _Finger(offsets_m, flexion, twist, station.tip_m))
-        if station.hovers and station.tip_joint == 2 and len(station.values) > 1
-        else station
-        for station in table.stations
-    )
-    return replace(table, stations=stations)
+    stations = []
+    for station in table.stations:
+        finger = _Finger(offsets_m, flexion, twist, station.tip_m)
+        if station.hovers and station.tip_joint == 2 and len(station.values) > 1:
+            station = _lifted(station, finger)
+        elif station.controls and station.tip_joint in (0, 1):
+            station = replace(station, rotations=_eased_beyond(station, finger))
+        stations.append(station)
+    return replace(table, stations=tuple(stations))
+
+
+def _eased_beyond(station: StationTable, finger: _Finger) -> FloatArray:
+    """Rotations (S, 3, 4) with the joints beyond the one that touches bent at least as a hand at ease has them."""
+    rotations = station.rotations
+    for joint in range(station.tip_joint + 1, 3):
+        bent_rad = np.array([finger.bent_rad(one[joint], joint) for one in rotations])
+        rotations = finger.flexed(rotations, joint, np.maximum(BEYOND_RAD[joint - 1] - bent_rad, 0.0))
+    return rotations
 
 
 def _lifted(station: StationTable, finger: _Finger) -> StationTable:

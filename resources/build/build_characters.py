@@ -18,6 +18,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 from character_body import ear_vertices, tongue, visible_body
 from character_breath import add_breath
+from character_brows import deepen_brows
 from character_face import brows, eyes, lashes
 from character_garments import measure, shirt, trousers
 from character_glb import Material, write_character
@@ -174,6 +175,7 @@ def build(character: Character, source: Source, path: Path) -> None:
     suisou = {"landmarks": landmarks(body, fit, _finger_tips(source), soles(footwear, fit))}
     write_character(path, fit, positions, surfaces, character.materials, META | {"name": character.title}, suisou)
     add_breath(path)
+    deepen_brows(path)
 
 
 def main() -> None:

@@ -32,6 +32,8 @@ T = TypeVar("T")
 _CAPTION_PX = (10, 24)
 """Least and greatest size of the letters under a picture."""
 _CAPTION_PER_WIDTH = 1 / 26
+_DOT = " · "
+"""Between what a caption says of its time."""
 
 
 class Offscreen:
@@ -119,27 +121,38 @@ def offscreen(
 
 
 def captions(texts: Sequence[tuple[str, str]], width: int, theme: str) -> list[Picture]:
-    """What stands under pictures of a width: two lines of text each, the second one fainter.
+    """What stands under pictures of a width: two lines of text each, the second one fainter. Where a first line is
+    wider than its picture, all of them are broken at their middle dots.
 
     Returns
     -------
     list of (H, width, 4) uint8
+        All of one height.
     """
     tokens: Tokens = THEMES[theme]
     font = QFont(QApplication.font())
     least, most = _CAPTION_PX
     font.setPixelSize(round(min(max(width * _CAPTION_PER_WIDTH, least), most)))
     metrics = QFontMetrics(font)
-    step = metrics.height()
+    step, margin = metrics.height(), metrics.descent()
+    lines = [((first, tokens.text), (second, tokens.text_dim)) for first, second in texts]
+    if any(metrics.horizontalAdvance(first) > width - margin for first, _ in texts):
+        lines = [
+            (*((part, tokens.text) for part in first.split(_DOT)), (second, tokens.text_dim)) for first, second in texts
+        ]
+        # What is still wider is set narrower.
+        widest = max(metrics.horizontalAdvance(line) for rows in lines for line, _ in rows)
+        font.setStretch(min(100, max(50, 100 * (width - 2 * margin) // widest)))
+    height = step * max(map(len, lines), default=0) + margin
     found = []
-    for lines in texts:
-        image = QImage(width, 2 * step + metrics.descent(), QImage.Format.Format_RGBA8888)
+    for rows in lines:
+        image = QImage(width, height, QImage.Format.Format_RGBA8888)
         image.fill(QColor(tokens.sunken))
         painter = QPainter(image)
         painter.setFont(font)
-        for row, (line, color) in enumerate(zip(lines, (tokens.text, tokens.text_dim), strict=True)):
+        for row, (line, color) in enumerate(rows):
             painter.setPen(QColor(color))
-            painter.drawText(metrics.descent(), metrics.ascent() + row * step, line)
+            painter.drawText(margin, metrics.ascent() + row * step, line)
         painter.end()
         found.append(pixels(image))
     return found

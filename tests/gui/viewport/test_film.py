@@ -25,6 +25,7 @@ from tests.gui.conftest import QUARTET
 from tests.support.bad_players import with_character
 from tests.support.dances import model
 from tests.unit.project.pieces import small_project
+from widgets.viewport.offscreen import captions
 from widgets.viewport.panel import ViewportPanel
 
 ROOT = Path(__file__).parents[3]
@@ -138,3 +139,13 @@ def test_without_gl_it_says_what_helps(tmp_path: Path) -> None:
     assert "OpenGL 2 is not available (Qt platform 'offscreen')" in done.stderr
     assert "xvfb-run" in done.stderr
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("width", [64, 96, 320])
+def test_captions_are_whole_however_narrow_their_pictures_are(width: int) -> None:
+    short, long = captions([("0.5 s · frame 1", "1.1"), ("133.50 秒 · フレーム 12810", "106.1.000")], width, "dark")
+    assert short.shape == long.shape
+    assert short.shape[1] == width
+    ground = long[-1, -1]
+    assert np.all(long[:, -1] == ground), "cut at the right edge"
+    assert np.any(long[:, : width // 2] != ground)

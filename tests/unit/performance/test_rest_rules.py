@@ -35,7 +35,13 @@ def placed(plan: PlayerPlan) -> list[GestureEvent]:
 
 @pytest.mark.parametrize(
     ("instrument_id", "water"),
-    [("trumpet_Bb", "press_water_key"), ("horn_double_F_Bb", "blow_water_out"), ("flute", None)],
+    [
+        ("trumpet_Bb", "press_water_key"),
+        ("horn_double_F_Bb", "blow_water_out"),
+        ("flute", "blow_keys_dry"),
+        ("english_horn", "dry_reed"),
+        ("ewi", None),
+    ],
 )
 def test_water_is_let_out_as_the_instrument_asks(instrument_id: str, water: str | None) -> None:
     names = Counter(event.name for plan in plans(instrument_id) for event in placed(plan))

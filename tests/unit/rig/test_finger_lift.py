@@ -62,7 +62,7 @@ def _changed(instrument_id: str, character_id: str) -> list[tuple[tuple[int, ...
         for tables in zip(*(hand.fingers for hand in hands), strict=True)
         for table in tables[:1]
         for old, new in zip(*(one.stations for one in tables), strict=True)
-        if old is not new
+        if old is not new and new.tip_joint == 2
     ]
 
 
@@ -138,3 +138,17 @@ def test_fingers_wait_higher_where_notes_are_fast(instrument_id: str, character_
     for finger in ("Index", "Middle", "Ring"):
         at_m, _ = joints.of(skeleton.index(f"right{finger}Distal"))
         assert 0.001 < np.linalg.norm(at_m[1] - at_m[0]) < 0.008, finger
+
+
+@pytest.mark.parametrize("character_id", bundled_characters())
+def test_what_is_beyond_a_key_pressed_with_the_first_phalanx_is_bent(character_id: str) -> None:
+    skeleton, before, after = _holds("sax_alto_Eb", character_id)
+    bent = {}
+    for old_hand, new_hand in zip(before.hands, after.hands, strict=True):
+        for old_table, table in zip(old_hand.fingers, new_hand.fingers, strict=True):
+            for old, new in zip(old_table.stations, table.stations, strict=True):
+                if new.controls and new.tip_joint == 0 and not table.finger.endswith("thumb"):
+                    assert np.array_equal(new.rotations[:, 0], old.rotations[:, 0])
+                    bent[new.controls] = _bent_deg(skeleton, table.joints[1], new.rotations[-1, 1])
+    assert {("key_palm_D",), ("key_palm_F",), ("key_side_E",)} <= bent.keys()
+    assert min(bent.values()) > 25.0
