@@ -1,4 +1,4 @@
-"""The rules by which players act: switched on and off, changed, added and removed, heard of at once, and saved in the
+"""The rules by which players act: switched on and off, changed, added and removed, previewed at once, and saved in the
 user's own folder."""
 
 from __future__ import annotations
