@@ -36,7 +36,7 @@ from app.messages import error_text
 from app.version import program_version
 
 _DESCRIPTION = """\
-Turns the MIDI of a wind ensemble into the performance of its players, for animation.
+Turns wind-ensemble MIDI into character animation.
 """
 _EPILOG = """\
 examples:

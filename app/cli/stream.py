@@ -72,7 +72,7 @@ def add_command(commands: Commands) -> None:
     command.add_argument(
         "--fps", type=frame_rate, default=_USUAL_RATE, metavar="RATE", help="frames per second (default: 60)"
     )
-    command.add_argument("--faces", choices=FACE_NAMES, default="arkit", help="names of the face (default: arkit)")
+    command.add_argument("--faces", choices=FACE_NAMES, default="arkit", help="blendshape naming (default: arkit)")
     command.add_argument(
         "--from", dest="from_s", type=seconds, metavar="S", help="begin here, in seconds (default: the beginning)"
     )

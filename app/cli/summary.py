@@ -45,11 +45,15 @@ def summary(report: Report, folder: Path) -> list[str]:
     lines = [
         filled("{count} {count:file|files} in {folder}: ", {"count": report.file_count, "folder": folder})
         + f"{report.frames} frames at {report.fps_exact} frames/s; "
-        f"the sound starts at {-report.first_frame_s:.3f} s"
+        f"frame 0 is {_from_start(report.first_frame_s)}"
     ]
     if report.keys == "reduced":
         lines += [f"reduced keys: {100.0 * share_of_keys(report):.1f} % of those on every frame"]
     return [*lines, *_judgement(report)]
+
+
+def _from_start(time_s: float) -> str:
+    return f"{-time_s:.3f} s before the piece begins" if time_s < 0.0 else f"{time_s:.3f} s into the piece"
 
 
 def share_of_keys(report: Report) -> float:

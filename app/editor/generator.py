@@ -276,7 +276,7 @@ class _Clock(Protocol):
 
 
 class _Worker:
-    """The thread: plans first, then motion. Holds nothing of the window, so that it may end without a goodbye."""
+    """The thread: plans first, then motion. Holds nothing of the window, so that it may end at any time."""
 
     def __init__(self, live: LiveMotion, report: Reporter[Generator], clock: _Clock = time) -> None:
         self._live, self._report, self._clock = live, report, clock

@@ -51,11 +51,11 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "audio.followed": (
         "the beats lie where the recording has them (confidence {percent} %)",
-        "拍を録音に合わせました（信頼度 {percent} %）",
+        "拍を音源に合わせました（信頼度 {percent} %）",
     ),
     "audio.followed_but": (
-        "the beats lie where the recording has them (confidence {percent} %); check bars {bars} by ear",
-        "拍を録音に合わせました（信頼度 {percent} %）。第 {bars} 小節は耳で確認してください",
+        "the beats lie where the recording has them (confidence {percent} %); check {count:bar|bars} {bars} by ear",
+        "拍を音源に合わせました（信頼度 {percent} %）。第 {bars} 小節は耳で確認してください",
     ),
     "audio.not_followed": (
         (
@@ -63,7 +63,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "this piece, in this key; nothing was changed"
         ),
         (
-            "録音の中に曲が見つかりませんでした（信頼度 {percent} %）。この曲の、同じ調の録音か確認してください。"
+            "音源の中に曲が見つかりませんでした（信頼度 {percent} %）。この曲の、同じ調の音源か確認してください。"
             "何も変更していません"
         ),
     ),
@@ -73,7 +73,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "align.onto_itself": (
         "{file} is the piece or the recording itself: write to another file",
-        "{file} は入力の曲または録音そのものです。別のファイルに書き出してください",
+        "{file} は入力の曲または音源そのものです。別のファイルに書き出してください",
     ),
     "align.nothing_between": (
         "{file} has {seconds:.1f} s: nothing lies between --from and --until",
@@ -85,7 +85,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "dynamics.no_curve": (
         "the part has no such curve; take dynamics from a recording, or record a take first",
-        "パートにその曲線がありません。先に録音から強弱を取り込むか、テイクを録音してください",
+        "パートにその曲線がありません。先に音源から強弱を取り込むか、テイクを録音してください",
     ),
     "align.bars_missing": (
         (
@@ -93,21 +93,21 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
             "score, or use another recording; nothing was changed"
         ),
         (
-            "録音には第 {first}～{last} 小節がありません。楽譜からその小節を取り除くか、別の録音を使ってください。"
+            "音源には第 {first}～{last} 小節がありません。楽譜からその小節を取り除くか、別の音源を使ってください。"
             "何も変更していません"
         ),
     ),
     "align.bars_outside": (
-        "bars {first} to {last} are not in the recording; they keep the tempo beside them",
-        "第 {first}～{last} 小節は録音にありません。隣の小節のテンポのままです",
+        "{count:bar|bars} {bars} {count:is|are} not in the recording: the tempo there is that of the bars beside",
+        "第 {bars} 小節は音源にありません。隣の小節のテンポのままです",
     ),
     "align.only_recorded": (
         "what is recorded from {start_s:.1f} s to {end_s:.1f} s is not in the score: a repeat or a cadenza?",
-        "録音の {start_s:.1f} 秒から {end_s:.1f} 秒は楽譜にありません（繰り返しまたはカデンツァの可能性があります）",
+        "音源の {start_s:.1f} 秒から {end_s:.1f} 秒は楽譜にありません（繰り返しまたはカデンツァの可能性があります）",
     ),
     "align.doubtful": (
-        "bars {first} to {last}: confidence {percent} %; check them by ear",
-        "第 {first}～{last} 小節: 信頼度 {percent} %。耳で確認してください",
+        "{count:bar|bars} {bars}: confidence {percent} %; check by ear",
+        "第 {bars} 小節: 信頼度 {percent} %。耳で確認してください",
     ),
     "audio.not_recognised": (
         (

@@ -36,6 +36,6 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "work.read_motion": ("reading {file}…", "{file} を読み込み中…"),
     "work.read_recording": ("reading {file}…", "{file} を読み込み中…"),
     "work.read_video": ("reading {file}…", "{file} を読み込み中…"),
-    "work.follow_recording": ("following the recording…", "録音に追従中…"),
+    "work.follow_recording": ("following the recording…", "音源に追従中…"),
     "work.estimate_offset": ("estimating audio offset…", "音源のオフセットを推定中…"),
 }

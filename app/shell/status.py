@@ -32,6 +32,8 @@ MOTION_PX = 64
 """Width of the progress bar of the motion."""
 QUIET_S = 0.25
 """Shorter work is not shown: it would only flash."""
+MOST_TASKS = 3
+"""So many kinds of work are shown, the oldest: more would cut their names and push out what stands at the right."""
 INFORMATION_S = 6.0
 """How long an information stays; warnings and errors stay until they are closed or another comes."""
 MOST_NOTICES = 100
@@ -85,6 +87,7 @@ class StatusLine(Retranslated, QStatusBar):
         for widget in (self._risk, self._instruments, self._device, self._stream, *self._about_piece):
             self.addPermanentWidget(widget)
         self._details = NoticeList(session, self)
+        self._had_piece = False
         self._fade, self._poll, self._age = QTimer(self), QTimer(self), QTimer(self)
         self._fade.setSingleShot(True)
         self._fade.timeout.connect(self.dismiss)
@@ -124,7 +127,9 @@ class StatusLine(Retranslated, QStatusBar):
         running = self._tasks.running if self._tasks is not None else ()
         now_s = time.monotonic()
         self._seen_s = {task: self._seen_s.get(task, now_s) for task in running}
-        shown = tuple(task for task in running if now_s - self._seen_s[task] >= QUIET_S)
+        seen = [task for task in running if now_s - self._seen_s[task] >= QUIET_S]
+        names = [task.name for task in seen]
+        shown = tuple(task for number, task in enumerate(seen) if task.name not in names[:number])[:MOST_TASKS]
         if shown != self._shown:
             self._show_tasks(shown)
         for task, row in self._rows.items():
@@ -189,6 +194,13 @@ class StatusLine(Retranslated, QStatusBar):
     # The right side
 
     def _opened(self) -> None:
+        if self._had_piece:
+            # What was said of another piece says nothing of this one.
+            self.dismiss()
+        self._had_piece = self._files.is_open
+        self._report_piece()
+
+    def _report_piece(self) -> None:
         for widget in self._about_piece:
             widget.setVisible(self._files.is_open)
         self._report_saved()
@@ -325,7 +337,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._reported_device = ()
         self._report_device()
         self._report_stream()
-        self._opened()
+        self._report_piece()
 
 
 def problem_count(session: Session) -> int:

@@ -160,7 +160,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.play.estimate_offset": ("Estimate Audio Offset", "音源のオフセットを推定"),
     "action.play.fit_tempo": ("Fit Tempo to Audio", "テンポを音源に合わせる"),
     "action.play.follow": ("Follow Playhead", "再生位置を追従"),
-    "action.play.follow_recording": ("Follow Recording...", "テンポを録音に追従..."),
+    "action.play.follow_recording": ("Follow Recording...", "テンポを音源に追従..."),
     "action.play.frame_back": ("Previous Frame", "前のフレーム"),
     "action.play.frame_on": ("Next Frame", "次のフレーム"),
     "action.play.loop": ("Loop Selection", "選択範囲をループ"),

@@ -21,7 +21,7 @@ LAYOUT_VERSION: Final = 2
 """Another set of panels makes layouts of before useless: they are passed over."""
 SHORT_PX: Final = 880
 """In a window lower than this the inspector has the whole height: above the timeline it could show two rows; and the
-players have none of it, lest the timeline be narrow."""
+players have none of it, so that the timeline is wide."""
 
 CHROME_PX: Final = 105
 """About the height of what is above and below the panels: menus, transport, status line, and the line between two."""

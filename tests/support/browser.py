@@ -1,4 +1,4 @@
-"""A real browser without a window, driven as a person would: by its keyboard, at the width of a screen.
+"""A real browser without a window, driven as by a user: by its keyboard, at the width of a screen.
 
 It is Chromium's headless shell (Debian: ``chromium-headless-shell``); it speaks the DevTools protocol over two pipes.
 """

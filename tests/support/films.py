@@ -1,4 +1,4 @@
-"""Films whose pictures carry their number: which is seen when can be told from the picture itself."""
+"""Films whose pictures carry their number: which is seen when can be read from the picture itself."""
 
 from __future__ import annotations
 

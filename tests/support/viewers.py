@@ -1,4 +1,4 @@
-"""Viewers who judge as they are told: evaluations whose results are known."""
+"""Viewers who judge as a test says: evaluations whose results are known."""
 
 from __future__ import annotations
 

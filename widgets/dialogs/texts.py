@@ -318,21 +318,21 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "hit_chart.ms": ("{count} ms", "{count} ms"),
     "follow_dialog.beats_lie_where_they_sound": (
         "Every beat is put where the recording has it. Pinned beats stay.",
-        "すべての拍を録音で鳴る位置に合わせます。固定した拍は動きません。",
+        "すべての拍を音源で鳴る位置に合わせます。固定した拍は動きません。",
     ),
     "follow_dialog.cancel": ("Cancel", "キャンセル"),
     "follow_dialog.choose_file": ("Choose...", "選択..."),
     "follow_dialog.dynamics_follow": (
         "Dynamics follow the loudness of the recording",
-        "強弱を録音の音量に合わせる",
+        "強弱を音源の音量に合わせる",
     ),
     "follow_dialog.follow": ("Follow", "追従"),
-    "follow_dialog.follow_recording": ("Follow Recording", "テンポを録音に追従"),
-    "follow_dialog.from_the_whole": ("from the whole recording", "全体の録音から"),
-    "follow_dialog.recording_of_player": ("Recording of One Player", "奏者ひとりの録音"),
+    "follow_dialog.follow_recording": ("Follow Recording", "テンポを音源に追従"),
+    "follow_dialog.from_the_whole": ("from the whole recording", "全体の音源から"),
+    "follow_dialog.recording_of_player": ("Recording of One Player", "奏者ひとりの音源"),
     "follow_dialog.single_players": (
         "Recordings of single players (stems), which begin when the recording does:",
-        "奏者ごとの録音（ステム）。全体の録音と同時に始まるもの:",
+        "奏者ごとの音源（ステム）。全体の音源と同時に始まるもの:",
     ),
     "follow_dialog.single_notes_move": (
         "Single notes move too, where their beginnings are clear",
@@ -653,7 +653,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "midi_devices_dialog.connect_wind_controller_by_usb": (
         ("Connect a wind controller by USB or a MIDI interface and switch it on. It then appears here automatically."),
         (
-            "ウィンドコントローラーを USB か MIDI インターフェースで接続し、電源を入れてください。"
+            "ウインドコントローラーを USB か MIDI インターフェースで接続し、電源を入れてください。"
             "自動的にここに表示されます。"
         ),
     ),

@@ -220,7 +220,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
             "a take. Then drag over the takes to comp the part."
         ),
         (
-            "{player} のテイクはありません。ウィンドコントローラーを接続し、録音を開始して（{keys}）演奏すると、1 "
+            "{player} のテイクはありません。ウインドコントローラーを接続し、録音を開始して（{keys}）演奏すると、1 "
             "回ごとにテイクになります。テイクの上をドラッグしてパートを組み立てます。"
         ),
     ),
@@ -269,7 +269,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Bar {bar}: confidence {percent} %. Check it by ear.",
         "第 {bar} 小節: 信頼度 {percent} %。耳で確認してください。",
     ),
-    "waveform_lane.bar_not_recorded": ("Bar {bar} is not in the recording.", "第 {bar} 小節は録音にありません。"),
+    "waveform_lane.bar_not_recorded": ("Bar {bar} is not in the recording.", "第 {bar} 小節は音源にありません。"),
     "waveform_lane.drag_to_move_it_against": (
         "Drag to move the audio against the score, hold Shift for fine steps. Double-click to type the offset. Drag a "
         "triangle at the lower edge to where its bar or beat sounds.",

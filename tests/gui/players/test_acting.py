@@ -36,7 +36,7 @@ def panel(session: Session, qtbot: QtBot) -> PlayersPanel:
     made = panel_of(session, qtbot)
     section = made.findChild(Section, "players_acting")
     assert section is not None
-    assert not section.is_open, "folded away until somebody looks"
+    assert not section.is_open, "folded away until it is opened"
     QTest.mouseClick(section.header, Qt.MouseButton.LeftButton)
     QApplication.processEvents()
     return made

@@ -334,9 +334,9 @@ def test_the_channel_is_chosen_from_the_menu_which_marks_those_with_curves(lane:
 
 def test_a_curve_that_is_selected_is_shown_and_deleted_as_an_event(lane: AdditiveLane) -> None:
     given(lane, key(8 * QUARTER, 5.0), channel="torso.up")
-    wanted = EventKey(player_of(lane), "additive:own-1")
+    added = EventKey(player_of(lane), "additive:own-1")
     lane.set_folded(True)
-    lane.session.select(Selection(events=frozenset({wanted})))
+    lane.session.select(Selection(events=frozenset({added})))
     assert lane.channel == "torso.up"
     assert lane.chosen_curves == {"own-1"}
     assert not lane.folded
@@ -345,7 +345,7 @@ def test_a_curve_that_is_selected_is_shown_and_deleted_as_an_event(lane: Additiv
     x = place(lane, 7.6 * QUARTER, 0.0).x()
     value = float(lane.curves[0].values(np.array([lane.axis.seconds(x)]))[0])
     click(lane, QPointF(x, lane.y_px(value)))
-    assert lane.session.selection.events == {wanted}
+    assert lane.session.selection.events == {added}
 
 
 def test_curves_are_kept_when_everyone_is_regenerated(lane: AdditiveLane) -> None:

@@ -57,7 +57,7 @@ def test_breaths_cues_and_fingerings_are_no_acting() -> None:
 def test_a_player_who_is_not_named_keeps_all_and_one_who_is_not_there_is_reported() -> None:
     project = small_project()
     first, second = project.players
-    other = put(rename(project, first.id, "Somebody else"), second.id, [AddGesture("x", "sway", 0, 480, 0.5)])
+    other = put(rename(project, first.id, "Another"), second.id, [AddGesture("x", "sway", 0, 480, 0.5)])
     loaded = with_metadata(other, metadata_of(set_parameters(project, (second.id,), style="jazz")))
     assert [problem.id for problem in loaded.problems] == ["metadata.no_player"]
     assert loaded.problems[0].arguments["players"] == first.name
