@@ -48,7 +48,7 @@ class _Prepared(IdentityCache[PerformanceCurves]):
         super().__init__(size)
         self._plans = plans
 
-    def helped(self, function, help, *inputs):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN002, ANN201
+    def helped(self, function, help, *inputs):  # type: ignore[no-untyped-def]
         """As of any other cache."""
         if any(inputs[0] is plan for plan in self._plans()):
             made = _CURVES.helped(function, help, *inputs)
