@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import Any, Final
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
@@ -27,10 +28,17 @@ CONTEXTS: Final = {
 }
 
 
-def sequences(keys: str) -> list[QKeySequence]:
+@cache
+def sequences(keys: str) -> tuple[QKeySequence, ...]:
     """Shortcuts as a row has them, ``;`` between several."""
     portable = QKeySequence.SequenceFormat.PortableText
-    return [QKeySequence.fromString(part.strip(), portable) for part in keys.split(";") if part.strip()]
+    return tuple(QKeySequence.fromString(part.strip(), portable) for part in keys.split(";") if part.strip())
+
+
+@cache
+def written(keys: str) -> frozenset[str]:
+    """The same as text, written alike."""
+    return frozenset(sequence.toString() for sequence in sequences(keys))
 
 
 class RowAction(QAction):
@@ -196,14 +204,12 @@ class ActionTable(QObject):
 
     def conflicts(self, action_id: str, keys: str) -> tuple[str, ...]:
         """Actions that one of these shortcuts would do as well, in the same place."""
-        requested = {sequence.toString() for sequence in sequences(keys)}
+        requested = written(keys)
         context = self.rows[action_id].context
         return tuple(
             other.id
             for other in self.rows.values()
-            if other.id != action_id
-            and other.context == context
-            and requested & {sequence.toString() for sequence in sequences(self.keys(other.id))}
+            if other.id != action_id and other.context == context and requested & written(self.keys(other.id))
         )
 
     def _focus_moved(self, before: QWidget | None, now: QWidget | None) -> None:
@@ -222,17 +228,15 @@ class ActionTable(QObject):
     def _give_shortcuts(self) -> None:
         """Where a panel and the window know the same shortcut, the panel that has the keyboard has it alone, and
         without the keyboard none of it: Qt would do neither. So it is with a part of a panel and the panel."""
-        keys = {
-            row.id: {sequence.toString() for sequence in sequences(self.keys(row.id))} for row in self.rows.values()
-        }
+        keys = {row.id: self.keys(row.id) for row in self.rows.values()}
         of_context: dict[str, set[str]] = {}
         for row in self.rows.values():
-            of_context.setdefault(row.context, set()).update(keys[row.id])
+            of_context.setdefault(row.context, set()).update(written(keys[row.id]))
         here = of_context.get(self._context, set()) if self._context != "window" else set()
         everywhere = of_context.get("window", set())
         for row in self.rows.values():
             taken = here if row.context == "window" else set() if row.context == self._context else everywhere | here
-            requested = [sequence for sequence in sequences(self.keys(row.id)) if sequence.toString() not in taken]
+            requested = [sequence for sequence in sequences(keys[row.id]) if sequence.toString() not in taken]
             action = self.actions[row.id]
             if action.shortcuts() != requested:
                 action.setShortcuts(requested)

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QMenu, QMenuBar, QWidget
 
 from app.editor.translated import tr
 from app.shell.action import without_key
-from app.shell.actions import ActionTable, sequences
+from app.shell.actions import ActionTable, written
 from widgets.common.controls import Retranslated
 
 BAR: Final = ("file", "edit", "view", "play", "record", "generate", "export", "help")
@@ -25,7 +25,7 @@ BEFORE_LINE: Final = frozenset(
 
 def menu_with_keys(keys: str) -> str:
     """Name of the menu that one of these shortcuts opens in the language of the editor; empty: none."""
-    requested = {sequence.toString() for sequence in sequences(keys)}
+    requested = written(keys)
     titles = [tr(f"menu.{name}") for name in BAR]
     return next((without_key(title) for title in titles if QKeySequence.mnemonic(title).toString() in requested), "")
 

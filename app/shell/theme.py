@@ -29,6 +29,8 @@ def apply_theme(application: QApplication, tokens: Tokens) -> None:
         return
     if not application.styleSheet():
         application.setStyle(QStyleFactory.create("Fusion"))
+    # With no rules in between, Qt takes a quarter of the time that it takes to go from some rules to others.
+    application.setStyleSheet("")
     application.setPalette(palette(tokens))
     application.setStyleSheet(rules)
 

@@ -15,10 +15,11 @@ from app.editor.session import Session
 from app.editor.tokens import DARK
 from app.performance.ensemble import Performance
 from app.project.model import Project, map_choices, project_from_score
-from app.score.read import read_midi
+from app.score.read import MidiContents, read_contents, read_midi
 from app.shell.language import Language
 from app.shell.theme import apply_theme
 from instrument_maps.load import bundled_maps
+from tests.support.motions import know_motion
 from tests.support.tasks import ImmediateTasks
 from widgets.common.font import apply_font
 from widgets.viewport import canvas
@@ -41,7 +42,21 @@ def quartet_project() -> Project:
 
 
 @cache
-def _planned_quartet() -> Performance:
+def _contents() -> MidiContents:
+    return read_contents(QUARTET)
+
+
+@pytest.fixture(autouse=True)
+def _quartet_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its file is read once, however often editors open it."""
+    monkeypatch.setattr(
+        "app.editor.files.read_contents", lambda path: _contents() if path == QUARTET else read_contents(path)
+    )
+
+
+@cache
+def planned_quartet() -> Performance:
+    """It, played: its plans are known."""
     performance = Performance(quartet_project())
     performance.prepare()
     return performance
@@ -50,7 +65,13 @@ def _planned_quartet() -> Performance:
 @pytest.fixture(autouse=True)
 def _plans_known(monkeypatch: pytest.MonkeyPatch) -> None:
     """Plans of the bundled quartet are made once for all tests: editors know it as if they had played it before."""
-    monkeypatch.setattr("app.editor.session.Performance", lambda project: Performance(project, _planned_quartet()))
+    monkeypatch.setattr("app.editor.session.Performance", lambda project: Performance(project, planned_quartet()))
+
+
+@pytest.fixture(autouse=True)
+def _motion_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    """So is the motion of these plans; that of edited ones is made in each test."""
+    know_motion(monkeypatch, lambda: planned_quartet().plans.values() if planned_quartet.cache_info().currsize else ())
 
 
 @pytest.fixture(scope="session")

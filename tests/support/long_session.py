@@ -31,6 +31,7 @@ from app.shell.app import Program, make_application
 from app.shell.commands.exchange import reimport_from
 from app.shell.garbage import Garbage
 from tests.bench.performance.large import large_project
+from tests.support.windows import LOOK_AGAIN_MS, pause
 from widgets.dialogs.reimport_midi import ReimportDialog
 
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
@@ -223,10 +224,7 @@ class LongDay:
 
     def wait(self, seconds: float) -> None:
         """Let the window work."""
-        end_s = time.monotonic() + seconds
-        while time.monotonic() < end_s:
-            QCoreApplication.processEvents()
-            time.sleep(0.002)
+        pause(round(1000 * seconds))
 
     def until(self, ready: Callable[[], bool], most_s: float = 60.0) -> None:
         """Let the window work until something is so."""
@@ -234,8 +232,7 @@ class LongDay:
         while not ready():
             if time.monotonic() > end_s:
                 raise TimeoutError("the editor does not get there")
-            QCoreApplication.processEvents()
-            time.sleep(0.002)
+            pause(LOOK_AGAIN_MS)
 
 
 def larger_piece(folder: Path, players: int, notes: int) -> Path:

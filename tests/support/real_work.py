@@ -31,7 +31,7 @@ from app.shell.app import Program, make_application
 from tests.gui.shell.conftest import Answers
 from tests.gui.timeline.hand import Hand
 from tests.gui.timeline.lane_hands import drag, middle
-from tests.support.windows import pause
+from tests.support.windows import LOOK_AGAIN_MS, pause
 from widgets.common.number_slider import NumberSlider
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.panel import TimelinePanel
@@ -72,8 +72,7 @@ class Work:
         while not ready():
             if time.monotonic() > end_s:
                 raise TimeoutError(what)
-            self.application.processEvents()
-            time.sleep(0.005)
+            pause(LOOK_AGAIN_MS)
 
     def planned(self) -> None:
         """Until the plans are those of the newest project."""

@@ -7,9 +7,11 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QWidget
 
 PATIENCE_MS = 180_000
+LOOK_AGAIN_MS = 10
+"""Between two looks whether something has come to be: more often takes much of the processor that it needs itself."""
 
 
 def show(window: QWidget) -> None:
@@ -37,6 +39,5 @@ def wait_until(condition: Callable[[], bool]) -> bool:
     """Let the application work until a condition holds; whether it came to hold."""
     end_s = time.monotonic() + PATIENCE_MS / 1000
     while not (holds := condition()) and time.monotonic() < end_s:
-        QApplication.processEvents()
-        time.sleep(0.001)
+        pause(LOOK_AGAIN_MS)
     return holds

@@ -15,6 +15,7 @@ from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.project.model import Project
+from tests.gui.conftest import planned_quartet
 from tests.support.windows import show
 from widgets.viewport.panel import ViewportPanel
 
@@ -30,7 +31,7 @@ _LIVE: dict[int, tuple[Project, LiveMotion]] = {}
 
 def _live(project: Project) -> LiveMotion:
     if id(project) not in _LIVE:
-        _LIVE[id(project)] = (project, LiveMotion(Performance(project)))
+        _LIVE[id(project)] = (project, LiveMotion(Performance(project, planned_quartet())))
     return _LIVE[id(project)][1]
 
 

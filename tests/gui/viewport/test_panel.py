@@ -27,6 +27,8 @@ from app.plan.corrections import PoseCorrection
 from app.project.casting import StagePosition
 from app.project.edit.dancers import add_dancer, place_dancers
 from app.project.edit.players import parameter_edit
+from app.project.model import Project
+from tests.gui.conftest import quartet_project
 from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
 from tests.support.dances import model
 from tests.support.windows import show
@@ -415,17 +417,25 @@ def test_who_is_under_the_pointer_is_known(viewport: ViewportPanel, session: Ses
     assert viewport.hovered == session.project.players[0].id
 
 
-@pytest.fixture
-def two_dancers(viewport: ViewportPanel, session: Session, tmp_path: Path) -> tuple[str, str]:
-    """Two dancers beside the players, the second one selected; their ids."""
-    path = tmp_path / "steps.choreography"
+@pytest.fixture(scope="module")
+def danced(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """The quartet with two dancers, whose motion is made once for all tests."""
+    path = tmp_path_factory.mktemp("dances") / "steps.choreography"
     write_model(path, model())
+    project = quartet_project()
     for x_m in (-2.5, 2.5):
-        project, dancer_id = add_dancer(session.project, path, "Dancer")
-        session.apply(Message("edit.add_dancer"), place_dancers(project, {dancer_id: StagePosition(x_m, 2.0, 0.0)}))
-        session.set_dancer(dancer_id)
+        project, dancer_id = add_dancer(project, path, "Dancer")
+        project = place_dancers(project, {dancer_id: StagePosition(x_m, 2.0, 0.0)})
+    return project
+
+
+@pytest.fixture
+def two_dancers(viewport: ViewportPanel, session: Session, danced: Project) -> tuple[str, str]:
+    """Two dancers beside the players, the second one selected; their ids."""
+    first, second = danced.dancers
+    session.apply(Message("edit.add_dancer"), danced)
+    session.set_dancer(second.id)
     QApplication.processEvents()
-    first, second = session.project.dancers
     return first.id, second.id
 
 

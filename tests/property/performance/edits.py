@@ -70,6 +70,13 @@ def piece() -> Project:
     return project_from_score(Score("piece", QUARTER, TempoMap(QUARTER), parts=parts), maps)
 
 
+@cache
+def _performed() -> Performance:
+    performance = Performance(piece())
+    performance.prepare()
+    return performance
+
+
 def _with_notes(project: Project, part: Part, notes: list[Note]) -> Project:
     ordered = tuple(sorted(notes, key=lambda note: (note.onset_tick, note.pitch)))
     changed = msgspec.structs.replace(part, notes=ordered)
@@ -84,7 +91,7 @@ def _with_player(project: Project, player: Player, **changes: object) -> Project
 
 @st.composite
 def _corrections(draw: st.DrawFn, project: Project, player: Player) -> Correction:
-    plan = Performance(project).plan(player)
+    plan = Performance(project, _performed()).plan(player)
     notes = project.part(player).notes
     note = draw(st.sampled_from(notes)).id if notes else "1:1"
     tick = draw(st.integers(0, 20 * QUARTER))

@@ -1,0 +1,93 @@
+"""Motion of known plans that is made and judged once for all tests of a process: the quartet's takes seconds of the
+processor."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Final
+from weakref import WeakKeyDictionary
+
+import pytest
+
+from app.contacts.breaks import Break
+from app.contacts.judge import ContactJudge
+from app.identity_cache import IdentityCache
+from app.motion.model import Motion
+from app.motion.perform import PerformanceCurves
+from app.plan.model import PlayerPlan
+
+MOST_FRAMES: Final = 500
+"""Longer motion, as exports make it at once, is made each time."""
+
+_CURVES: Final = IdentityCache[PerformanceCurves](16)
+
+
+@dataclass(eq=False)
+class _Known:
+    """What was made of some curves.
+
+    Attributes
+    ----------
+    made : dict of (rate, first frame, frames) to Motion
+    breaks : dict of (identity of the motion, of the instrument's model) to tuple of Break
+    """
+
+    made: dict[tuple[Fraction, int, int], Motion] = field(default_factory=dict)
+    breaks: dict[tuple[int, int], tuple[Break, ...]] = field(default_factory=dict)
+
+
+_KNOWN: Final = WeakKeyDictionary[PerformanceCurves, _Known]()
+
+
+class _Prepared(IdentityCache[PerformanceCurves]):
+    """Keeps the curves of known plans, whatever is made beside them."""
+
+    def __init__(self, plans: Callable[[], Collection[PlayerPlan]], size: int) -> None:
+        super().__init__(size)
+        self._plans = plans
+
+    def helped(self, function, help, *inputs):  # type: ignore[no-untyped-def]
+        """As of any other cache."""
+        if any(inputs[0] is plan for plan in self._plans()):
+            made = _CURVES.helped(function, help, *inputs)
+            _KNOWN.setdefault(made, _Known())
+            return made
+        return super().helped(function, help, *inputs)
+
+
+def know_motion(monkeypatch: pytest.MonkeyPatch, plans: Callable[[], Collection[PlayerPlan]]) -> None:
+    """Motion is made and judged only where it is new, or not of one of these plans.
+
+    The same frames of the same curves are the same bits, as tests/unit/motion/test_perform says; whoever changes them
+    in place fails.
+    """
+    make, judge = PerformanceCurves.motion, ContactJudge.breaks
+
+    def made(curves: PerformanceCurves, fps: Fraction, first_frame: int, frames: int) -> Motion:
+        known, key = _KNOWN.get(curves), (fps, first_frame, frames)
+        if known is None or frames > MOST_FRAMES:
+            return make(curves, fps, first_frame, frames)
+        if key not in known.made:
+            known.made[key] = _locked(make(curves, fps, first_frame, frames))
+        return known.made[key]
+
+    def judged(judging: ContactJudge, motion: Motion) -> tuple[Break, ...]:
+        known, key = _KNOWN.get(judging._playing), (id(motion), id(judging._model))
+        if known is None or not any(motion is one for one in known.made.values()):
+            return judge(judging, motion)
+        if key not in known.breaks:
+            known.breaks[key] = judge(judging, motion)
+        return known.breaks[key]
+
+    monkeypatch.setattr(PerformanceCurves, "motion", made)
+    monkeypatch.setattr(ContactJudge, "breaks", judged)
+    monkeypatch.setattr("app.performance.motion._PLAYING", _Prepared(plans, 8))
+
+
+def _locked(motion: Motion) -> Motion:
+    tracks = (motion.rotations, motion.hips_m, motion.instrument_position_m, motion.instrument_rotation)
+    for values in (*tracks, *motion.morphs.values(), *motion.controls.values()):
+        values.setflags(write=False)
+    return motion
