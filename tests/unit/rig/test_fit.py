@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from app.rig import proxy, quaternion, skinning
+from app.rig import fit, grip_fingers, grip_search, proxy, quaternion, skinning
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.finger_poses import finger_rotations
 from app.rig.fit import fit_hold
@@ -237,8 +237,13 @@ fit_hold(character_named("man_adult"), bundled_instrument(trumpet), trumpet, loa
     assert set(done.stderr.strip().split(",")) == {"1"}, done.stderr
 
 
-def test_a_second_fit_is_the_same_to_the_bit() -> None:
-    # One hand is fitted at many places of the slide, the other from many starts: both ways of fitting.
+def test_a_second_fit_is_the_same_to_the_bit(monkeypatch: pytest.MonkeyPatch) -> None:
+    # One hand is fitted at many places of the slide, the other from many starts: both ways of fitting. Of these some
+    # are enough to show that nothing but the inputs counts.
+    monkeypatch.setattr(grip_search, "TILTS", grip_search.TILTS[:4])
+    monkeypatch.setattr(grip_search, "KNOTS", grip_search.KNOTS[::2])
+    for module in (fit, grip_fingers):
+        monkeypatch.setattr(module, "MOVED_VALUES", module.MOVED_VALUES[::4])
     character, instrument = character_named("man_adult"), bundled_maps()["trombone_tenor_F_attachment"]
     model = bundled_instrument(instrument)
     first, second = (fit_hold(character, model, instrument, load_body()) for _ in range(2))
