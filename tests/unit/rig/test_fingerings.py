@@ -4,6 +4,7 @@ place, each hole open that is to be open, no hand inside the instrument."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import pytest
@@ -57,6 +58,10 @@ class Fingered:
         rotations[:, list(self.hold.finger_joints)] = fingers
         return forward(self.character.skeleton, rotations)
 
+    @cached_property
+    def playing(self) -> JointTransforms:
+        return self.posed()
+
     def on_instrument(self, hand: HandHold, joints: JointTransforms, points: np.ndarray) -> np.ndarray:
         """Points (F, V, 3) of the body where the hand has them, in the instrument's frame."""
         wrist, _ = joints.of(self.character.skeleton.index(f"{hand.side}Hand"))
@@ -100,7 +105,7 @@ def fingered(request: pytest.FixtureRequest) -> Fingered:
 
 
 def test_every_contact_is_within_its_bound_in_every_fingering(fingered: Fingered) -> None:
-    joints = fingered.posed()
+    joints = fingered.playing
     for hand in fingered.hold.hands:
         for index, contact in enumerate(fingered.instrument.contacts):
             if not contact.part.startswith(f"{hand.side}."):
@@ -115,7 +120,7 @@ def test_every_contact_is_within_its_bound_in_every_fingering(fingered: Fingered
 
 def test_holes_are_left_open(fingered: Fingered) -> None:
     """By every finger that might shut them and works something else, or nothing."""
-    joints = fingered.posed()
+    joints = fingered.playing
     for hand in fingered.hold.hands:
         for contact in fingered.instrument.contacts:
             works = [fingered.instrument.control(name) for name in worked_by(contact, fingered.instrument)]
@@ -134,7 +139,7 @@ def test_holes_are_left_open(fingered: Fingered) -> None:
 
 def test_a_hand_that_gives_way_for_two_fingers_stays_outside(fingered: Fingered) -> None:
     hands = [hand for hand in fingered.hold.hands if any(lean.beside for lean in hand.leans)]
-    joints = fingered.posed() if hands else None
+    joints = fingered.playing if hands else None
     bodies = proxy.bodies(fingered.instrument.proxy, fingered.model.node_names)
     nodes, turns = node_transforms(fingered.model, fingered.instrument, fingered.controls, len(fingered))
     for hand in hands:
