@@ -11,6 +11,7 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import Final, NoReturn
 
 import app.cli.align
@@ -72,6 +73,7 @@ class _Parser(argparse.ArgumentParser):
         super().error(shown(message))
 
 
+@cache
 def parser() -> argparse.ArgumentParser:
     """The whole command line."""
     top: argparse.ArgumentParser = _Parser(

@@ -198,12 +198,24 @@ def _candidates(some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: Floa
     share = np.clip(_dot(from_a, span) / np.maximum(length2, 1e-12), 0.0, 1.0)
     from_a = from_a - span * share[:, None]
     members = np.flatnonzero(_dot(from_a, from_a) < np.square(some.hulls[:, 6] + reach_m))
-    a, span, length2 = a[members] - middle, span[members], length2[members]
-    along = off @ span.T - _dot(a, span)
-    square = _dot(off, off)[:, None] - 2.0 * (off @ a.T) + _dot(a, a)
-    shares = np.clip(along / np.maximum(length2, 1e-12), 0.0, 1.0)
-    square += shares * (shares * length2 - 2.0 * along)
-    point, body = np.nonzero(square < np.square(radius_m[:, None] + some.hulls[members, 6]))
+    a, span, hull_m = a[members] - middle, span[members], some.hulls[members, 6]
+    length = np.sqrt(length2[members])
+    unit = span / np.maximum(length, 1e-12)[:, None]
+    # In single precision, with as much to spare: a pair too many is found far in `inside`. What belongs to a ball and
+    # what to a body are multiplied at once: along the hull's axis, and the distance squared to its start less that of
+    # touching.
+    ball2, start2 = _dot(off, off), _dot(a, a)
+    spare = np.float32(4e-6 * (ball2.max(initial=0.0) + start2.max(initial=0.0) + np.square(length.max(initial=0.0))))
+    balls = np.column_stack([off, np.ones(len(off)), ball2 - np.square(radius_m), radius_m]).astype(np.float32)
+    axes = np.column_stack([unit, -_dot(a, unit)]).astype(np.float32)
+    starts = np.column_stack([-2.0 * a, start2 - np.square(hull_m), np.ones(len(a)), -2.0 * hull_m]).astype(np.float32)
+    along, apart = balls[:, :4] @ axes.T, balls @ starts.T
+    foot = np.minimum(np.maximum(along, np.float32(0.0)), length.astype(np.float32))
+    along *= np.float32(2.0)
+    along -= foot
+    along *= foot
+    along += spare
+    point, body = np.nonzero(apart < along)
     return point, members[body]
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from bisect import bisect_right
+from collections.abc import Callable
 from functools import cached_property
 from typing import TypeAlias, overload
 
@@ -21,6 +22,8 @@ FeltBeats: TypeAlias = tuple[tuple[int, int], ...]
 """The beat that is felt from each tick on, as (tick, ticks), by tick; at least one."""
 
 _PLACE = re.compile(r"^\s*([-−]?\d+)(?:\s*[.|:]\s*(\d+)(?:\s*[.|:]\s*(\d+))?)?\s*$")
+_MOST_KEPT = 16
+"""Spans whose bars and beats are kept."""
 _MOST_BAR, _MOST_BEAT = 1_000_000, 10_000
 """Numbers that are typed are kept within these."""
 
@@ -123,7 +126,24 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
     def bars(self, first_tick: int, last_tick: int) -> IntArray:
         """Ticks at which bars begin, from the bar that holds ``first_tick`` to the last before ``last_tick``."""
         first, stop = self.bar_of_tick(first_tick), self.bar_of_tick(last_tick - 1) + 1
-        return self.tick_of_bar(np.arange(first, max(stop, first), dtype=np.int64))
+        return self._kept("bars", (first, max(stop, first)), self._starts)
+
+    def _starts(self, first: int, stop: int) -> IntArray:
+        return self.tick_of_bar(np.arange(first, stop, dtype=np.int64))
+
+    def _kept(self, name: str, span: tuple[int, int], make: Callable[[int, int], IntArray]) -> IntArray:
+        """What was made for a span: of a piece of many players all ask for the same."""
+        found = self._known.get((name, *span))
+        if found is None:
+            found = make(*span)
+            if len(self._known) >= _MOST_KEPT:
+                self._known.clear()
+            self._known[name, *span] = found
+        return found.copy()
+
+    @cached_property
+    def _known(self) -> dict[tuple[str, int, int], IntArray]:
+        return {}
 
     def metre_at(self, tick: float) -> Metre:
         """The metre that holds at a tick."""
@@ -207,6 +227,9 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
 
     def felt_between(self, first_tick: int, last_tick: int) -> IntArray:
         """Ticks of the felt beats, counted anew in every bar, from before ``first_tick`` to after ``last_tick``."""
+        return self._kept("felt", (first_tick, last_tick), self._felt)
+
+    def _felt(self, first_tick: int, last_tick: int) -> IntArray:
         bars = self.bars(first_tick, last_tick + 1)
         beats = self.felt_ticks_at(bars)
         lengths = np.diff(bars, append=max(int(bars[-1]) + 1, last_tick + int(beats[-1])))

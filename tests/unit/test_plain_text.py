@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -24,6 +25,8 @@ INSTEAD = {
     **dict.fromkeys(("QtWebEngineWidgets", "QtWebEngineCore", "QtQuick", "QtQml"), "widgets"),
 }
 """What shows HTML, or could, and what to take for it."""
+MENTIONED = re.compile("|".join(map(re.escape, INSTEAD)))
+"""In what is parsed: most modules are not."""
 ALLOWED = {
     "widgets/common/plain.py": {"QLabel", "QMessageBox", "QComboBox", "setTextFormat"},
     # Its format is set to plain.
@@ -46,6 +49,8 @@ def names(tree: ast.AST) -> Iterator[tuple[int, str]]:
 
 def faults(source: str, allowed: set[str]) -> list[str]:
     """What a module must not use."""
+    if not MENTIONED.search(source):
+        return []
     found = {(line, name) for line, name in names(ast.parse(source)) if name in INSTEAD and name not in allowed}
     return [f"{line}: {name}: take {INSTEAD[name]}" for line, name in sorted(found)]
 

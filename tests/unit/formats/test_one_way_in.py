@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -28,11 +29,16 @@ OUR_OWN = {
     "app/export/unreal/check.py": {"open", "read_bytes"},
 }
 READING = {"read_bytes", "read_text", "fromfile", "QSettings", "tomllib"}
+MENTIONED = re.compile("|".join((*READING, r"\bopen\s*\(")))
+"""In what is parsed: most modules are not."""
 
 
 def readings(path: Path) -> Iterator[tuple[str, int]]:
     """What in a module reads a file by itself, and in which line."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    source = path.read_text(encoding="utf-8")
+    if not MENTIONED.search(source):
+        return
+    for node in ast.walk(ast.parse(source)):
         name = getattr(node, "attr", getattr(node, "id", None)) if isinstance(node, ast.Attribute | ast.Name) else None
         if name in READING:
             yield str(name), node.lineno

@@ -4,6 +4,7 @@ place, each hole open that is to be open, no hand inside the instrument."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import pytest
@@ -57,6 +58,10 @@ class Fingered:
         rotations[:, list(self.hold.finger_joints)] = fingers
         return forward(self.character.skeleton, rotations)
 
+    @cached_property
+    def playing(self) -> JointTransforms:
+        return self.posed()
+
     def on_instrument(self, hand: HandHold, joints: JointTransforms, points: np.ndarray) -> np.ndarray:
         """Points (F, V, 3) of the body where the hand has them, in the instrument's frame."""
         wrist, _ = joints.of(self.character.skeleton.index(f"{hand.side}Hand"))
@@ -100,7 +105,7 @@ def fingered(request: pytest.FixtureRequest) -> Fingered:
 
 
 def test_every_contact_is_within_its_bound_in_every_fingering(fingered: Fingered) -> None:
-    joints = fingered.posed()
+    joints = fingered.playing
     for hand in fingered.hold.hands:
         for index, contact in enumerate(fingered.instrument.contacts):
             if not contact.part.startswith(f"{hand.side}."):
@@ -115,7 +120,7 @@ def test_every_contact_is_within_its_bound_in_every_fingering(fingered: Fingered
 
 def test_holes_are_left_open(fingered: Fingered) -> None:
     """By every finger that might shut them and works something else, or nothing."""
-    joints = fingered.posed()
+    joints = fingered.playing
     for hand in fingered.hold.hands:
         for contact in fingered.instrument.contacts:
             works = [fingered.instrument.control(name) for name in worked_by(contact, fingered.instrument)]
@@ -134,7 +139,7 @@ def test_holes_are_left_open(fingered: Fingered) -> None:
 
 def test_a_hand_that_gives_way_for_two_fingers_stays_outside(fingered: Fingered) -> None:
     hands = [hand for hand in fingered.hold.hands if any(lean.beside for lean in hand.leans)]
-    joints = fingered.posed() if hands else None
+    joints = fingered.playing if hands else None
     bodies = proxy.bodies(fingered.instrument.proxy, fingered.model.node_names)
     nodes, turns = node_transforms(fingered.model, fingered.instrument, fingered.controls, len(fingered))
     for hand in hands:
@@ -181,8 +186,12 @@ def test_fingers_keep_out_of_the_instrument_on_their_ways_and_where_they_wait(fi
     most_mm = STILL_DEEPER_MM.get((fingered.character.id, fingered.instrument.id), WAY_MM)
     shares = np.linspace(0.0, 1.0, 21)
     still = {one.name: np.full(len(shares), one.rest_value) for one in fingered.instrument.controls}
+    bodies = proxy.bodies(fingered.instrument.proxy, fingered.model.node_names)
+    nodes, turns = node_transforms(fingered.model, fingered.instrument, still, len(shares))
+    at_rest = proxy.Nodes(nodes[0], quaternion.to_matrix(turns[0]))
     for hand in fingered.hold.hands:
         for table in hand.fingers:
+            skin = _skin_of(fingered.character, hand, table)
             for place in range(1, len(table.stations)):
                 home, there = np.zeros(len(shares)), np.full(len(shares), float(place))
                 placed = {
@@ -191,25 +200,21 @@ def test_fingers_keep_out_of_the_instrument_on_their_ways_and_where_they_wait(fi
                 }
                 on_way = replace(fingered, labels=[f"{share:.2f}" for share in shares], controls=still, placed=placed)
                 for raised in (0.0, 1.0):
-                    deep_mm = _depths_mm(on_way, hand, table, raised)
+                    joints = on_way.posed(raised)
+                    points = on_way.on_instrument(hand, joints, deform(skin, joints))
+                    depth, _ = proxy.inside(bodies, at_rest, points.reshape(-1, 3), np.zeros(points[..., 0].size))
+                    deep_mm = 1000.0 * depth.reshape(points.shape[:2]).max(axis=1)
                     worst = int(np.argmax(deep_mm))
                     assert deep_mm[worst] <= most_mm, (table.finger, place, on_way.labels[worst], raised)
                     assert deep_mm[-1] <= WAITS_MM, (table.finger, place, raised)
 
 
-def _depths_mm(fingered: Fingered, hand: HandHold, table: FingerTable, raised: float) -> np.ndarray:
-    """How deep (F,) a finger is in the instrument."""
-    joints = fingered.posed(raised)
-    mark = fingered.character.landmarks[f"{hand.side}.hand"]
-    mesh = skinning.mesh_named(fingered.character, mark.mesh)
+def _skin_of(character: Character, hand: HandHold, table: FingerTable) -> skinning.Patch:
+    """What a finger carries."""
+    mark = character.landmarks[f"{hand.side}.hand"]
+    mesh = skinning.mesh_named(character, mark.mesh)
     carried = np.isin(mesh.joints[mark.vertices], table.joints) * mesh.weights[mark.vertices]
-    part = skinning.patch(fingered.character, mesh, mark.vertices[carried.sum(axis=1) > 0.5])
-    skin = fingered.on_instrument(hand, joints, deform(part, joints))
-    bodies = proxy.bodies(fingered.instrument.proxy, fingered.model.node_names)
-    nodes, turns = node_transforms(fingered.model, fingered.instrument, fingered.controls, len(fingered))
-    placed = proxy.Nodes(nodes[0], quaternion.to_matrix(turns[0]))
-    depth, _ = proxy.inside(bodies, placed, skin.reshape(-1, 3), np.zeros(skin.shape[0] * skin.shape[1]))
-    return 1000.0 * depth.reshape(skin.shape[:2]).max(axis=1)
+    return skinning.patch(character, mesh, mark.vertices[carried.sum(axis=1) > 0.5])
 
 
 def test_no_finger_is_thrown_about_on_its_way(fingered: Fingered) -> None:

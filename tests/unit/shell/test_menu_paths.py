@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -20,7 +21,8 @@ SHOWN = 40
 GUIDES = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
 
 
-def paths(place: int) -> list[str]:
+@cache
+def paths(place: int) -> list[re.Pattern[str]]:
     """Every menu within another one and every command, with the menus above, in one of the languages, as patterns.
     Pages of a command's dialog may follow."""
     menus_alone = {(without_key(TEXTS["menu.file"][place]), without_key(TEXTS["menu.open_recent"][place]))}
@@ -30,7 +32,7 @@ def paths(place: int) -> list[str]:
         menus_alone.add(menus)
         commands.add((*menus, without_dots(without_key(TEXTS[f"action.{row.id}"][place]))))
     return [
-        re.escape(" > ".join(names)) + r"(?![A-Za-z])" + ("" if names in commands else "(?! >)")
+        re.compile(re.escape(" > ".join(names)) + r"(?![A-Za-z])" + ("" if names in commands else "(?! >)"))
         for names in menus_alone | commands
         if len(names) > 1
     ]
@@ -41,7 +43,7 @@ def wrong(text: str, place: int) -> list[str]:
     known, flowing = paths(place), " ".join(text.split())
     bar = "|".join(re.escape(without_key(TEXTS[f"menu.{name}"][place])) for name in BAR)
     starts = [found.start() for found in re.finditer(rf"(?<!> )(?<![A-Za-z])(?:{bar}) > ", flowing)]
-    return [flowing[at : at + SHOWN] for at in starts if not any(re.match(one, flowing[at:]) for one in known)]
+    return [flowing[at : at + SHOWN] for at in starts if not any(one.match(flowing, at) for one in known)]
 
 
 def test_a_path_that_is_not_there_is_found() -> None:
