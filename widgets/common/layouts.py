@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final, TypeAlias, TypeVar
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QBoxLayout, QFormLayout, QHBoxLayout, QLayout, QVBoxLayout, QWidget
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtWidgets import QBoxLayout, QDialog, QFormLayout, QHBoxLayout, QLayout, QVBoxLayout, QWidget
 
 from widgets.common.controls import Caption
 
@@ -17,6 +17,8 @@ Item: TypeAlias = Part | int | tuple[Part, int] | tuple[QWidget, int, Qt.Alignme
 """A widget or layout, perhaps with its share of the room that is left over, and how it lies in its own; a gap in
 pixels; `STRETCH`."""
 Margins: TypeAlias = int | tuple[int, int, int, int]
+_FRAME: Final = QSize(40, 80)
+"""What a window's frame and the desktop's bars take of the screen."""
 
 
 def in_row(
@@ -53,6 +55,11 @@ def in_form(rows: Mapping[str, Part], of: QWidget | None = None) -> QFormLayout:
     if of is not None:
         of.setLayout(layout)
     return layout
+
+
+def begin_with_size(dialog: QDialog, size: QSize) -> None:
+    """Give a dialog a size, as far as the screen has room for it. By itself Qt takes two thirds of it at most."""
+    dialog.resize(size.boundedTo(dialog.screen().availableSize() - _FRAME))
 
 
 def panel(layout: QLayout) -> QWidget:

@@ -20,7 +20,7 @@ from app.project.document import Change
 from app.project.performers import Dancer
 from widgets.common.controls import Button, Retranslated, named, wrapped
 from widgets.common.dance_figures import Floats
-from widgets.common.layouts import STRETCH, in_column, in_row, panel
+from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row, panel
 from widgets.common.percussion_names import percussion_names
 from widgets.common.plain import Label, verbatim_title
 from widgets.common.text import sentence
@@ -102,7 +102,7 @@ class ChoreographyDialog(Retranslated, QDialog):
         session.changed.connect(self._changed)
         session.theme_changed.connect(self._show)
         self.retranslate()
-        self.resize(_SIZE.boundedTo(self.screen().availableSize()))
+        begin_with_size(self, _SIZE)
         self._ask()
 
     def _build(self) -> None:

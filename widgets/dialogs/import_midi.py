@@ -48,7 +48,7 @@ from instrument_maps.model import InstrumentMap
 from instrument_maps.score_order import in_score_order
 from widgets.common.controls import Button, Check, OkCancel, Retranslated, named
 from widgets.common.instrument_name import character_name, instrument_name
-from widgets.common.layouts import STRETCH, in_column, in_row, panel
+from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row, panel
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text, sentence
 
@@ -133,7 +133,7 @@ class ImportDialog(Retranslated, QDialog):
         in_column(self._heading, (self._table, 1), tools, self._warning_title, self._warnings, self._buttons, of=self)
         self._table.itemSelectionChanged.connect(self._show_tools)
         self.retranslate()
-        self.resize(_SIZE.boundedTo(self.screen().availableSize()))
+        begin_with_size(self, _SIZE)
         self._work_out(None)
 
     @property

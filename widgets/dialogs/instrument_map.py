@@ -38,7 +38,7 @@ from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
 from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
-from widgets.common.layouts import STRETCH, in_column, in_row, panel
+from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row, panel
 from widgets.common.paths import show_folder
 from widgets.common.pitch import syllables
 from widgets.common.plain import Label, Role, ask
@@ -49,6 +49,7 @@ WRITTEN, SOUNDS, RANK, LABEL, CENTS, TAGS = range(6)
 MOST_WRONG = 6
 """So much of what is wrong with files is reported at once."""
 _PLACE = Qt.ItemDataRole.UserRole
+_SIZE = QSize(1180, 740)
 
 
 class InstrumentsDialog(Retranslated, QDialog):
@@ -97,6 +98,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self.retranslate()
         front = session.player
         self._fill_list(front.instrument_id if front is not None else "")
+        begin_with_size(self, _SIZE)
 
     # Building
 
@@ -487,7 +489,7 @@ class InstrumentsDialog(Retranslated, QDialog):
     # Qt's own names
 
     def sizeHint(self) -> QSize:
-        return QSize(1180, 740)
+        return _SIZE
 
     def reject(self) -> None:
         """Escape asks as closing does."""

@@ -23,7 +23,7 @@ from app.editor.tasks import Progress, StopRequested
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
 from widgets.common.controls import Button, Caption, ColumnList, named
-from widgets.common.layouts import STRETCH, in_column, in_form, in_row, panel
+from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_form, in_row, panel
 from widgets.common.paths import PathEdit, ask_for_files, ask_where_to_save, dropped_paths
 from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
@@ -49,8 +49,6 @@ _POLL_MS: Final = 100
 _FORM_PX: Final = 420
 _SIZE: Final = QSize(1180, 840)
 _LEAST_PX: Final = 900
-_FRAME: Final = QSize(40, 80)
-"""What a window's frame and the desktop's bars take of the screen."""
 _RIGHT: Final = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
@@ -135,7 +133,7 @@ class LearnDialog(WorkingDialog):
         self._connect()
         self.retranslate()
         self.setMinimumWidth(_LEAST_PX)
-        self.resize(_SIZE.boundedTo(self.screen().availableSize() - _FRAME))
+        begin_with_size(self, _SIZE)
 
     def _build(self) -> None:
         for button in (self._use, self._close):

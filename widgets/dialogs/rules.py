@@ -27,11 +27,12 @@ from metadata.rule_draft import Draft, added, changed, duplicated, listed, remov
 from metadata.rules import Rule, RuleFault, rule_faults
 from widgets.common.controls import Button, Check, Retranslated, named, wrapped
 from widgets.common.instrument_name import language
-from widgets.common.layouts import in_column, in_row, panel
+from widgets.common.layouts import begin_with_size, in_column, in_row, panel
 from widgets.common.plain import Label
 from widgets.dialogs.rule_fields import GROWTHS
 from widgets.dialogs.rule_form import RuleForm
 
+_SIZE = QSize(900, 720)
 PREVIEW_MS = 250
 """After the last change; so that a number that is typed is played once."""
 PROBLEM_PX = 40
@@ -94,6 +95,7 @@ class RulesDialog(Retranslated, QDialog):
         }
         self._fill(0)
         self.retranslate()
+        begin_with_size(self, _SIZE)
         self._list.setFocus()
 
     def _lay_out(self) -> None:
@@ -272,7 +274,7 @@ class RulesDialog(Retranslated, QDialog):
             self._write()
 
     def sizeHint(self) -> QSize:
-        return QSize(900, 720)
+        return _SIZE
 
 
 class _Rules(QListWidget):
