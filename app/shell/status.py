@@ -85,6 +85,7 @@ class StatusLine(Retranslated, QStatusBar):
         for widget in (self._risk, self._instruments, self._device, self._stream, *self._about_piece):
             self.addPermanentWidget(widget)
         self._details = NoticeList(session, self)
+        self._had_piece = False
         self._fade, self._poll, self._age = QTimer(self), QTimer(self), QTimer(self)
         self._fade.setSingleShot(True)
         self._fade.timeout.connect(self.dismiss)
@@ -189,6 +190,13 @@ class StatusLine(Retranslated, QStatusBar):
     # The right side
 
     def _opened(self) -> None:
+        if self._had_piece:
+            # What was said of another piece says nothing of this one.
+            self.dismiss()
+        self._had_piece = self._files.is_open
+        self._report_piece()
+
+    def _report_piece(self) -> None:
         for widget in self._about_piece:
             widget.setVisible(self._files.is_open)
         self._report_saved()
@@ -325,7 +333,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._reported_device = ()
         self._report_device()
         self._report_stream()
-        self._opened()
+        self._report_piece()
 
 
 def problem_count(session: Session) -> int:

@@ -1,4 +1,4 @@
-"""What the status line tells: it costs no picture of its own, and nothing is listed twice in a row."""
+"""What the status line says: it costs no picture of its own, and nothing is listed twice in a row."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from pytestqt.qtbot import QtBot
 from app.editor.session import Severity
 from app.errors import Message
 from app.shell.app import Program
+from tests.gui.conftest import QUARTET
+from tests.gui.shell.conftest import Start
 from widgets.common.text import sentence
 
 
@@ -90,3 +92,13 @@ def test_a_path_in_a_notice_can_be_copied_and_its_folder_shown(
     QTest.mouseDClick(text, Qt.MouseButton.LeftButton)
     assert text.hasSelectedText()
     listed.hide()
+
+
+def test_a_notice_about_a_piece_goes_when_another_is_opened(start: Start) -> None:
+    program = start()
+    status, files = program.window.status, program.editor.files
+    program.session.notice(Message("tempo.first_stays"), Severity.WARNING)
+    files.open(QUARTET, ask=False)
+    assert status.notice_text, "of the program, before there was a piece"
+    files.open(QUARTET, ask=False)
+    assert not status.notice_text
