@@ -32,6 +32,8 @@ MOTION_PX = 64
 """Width of the progress bar of the motion."""
 QUIET_S = 0.25
 """Shorter work is not shown: it would only flash."""
+MOST_TASKS = 3
+"""So many kinds of work are shown, the oldest: more would cut their names and push out what stands at the right."""
 INFORMATION_S = 6.0
 """How long an information stays; warnings and errors stay until they are closed or another comes."""
 MOST_NOTICES = 100
@@ -125,7 +127,9 @@ class StatusLine(Retranslated, QStatusBar):
         running = self._tasks.running if self._tasks is not None else ()
         now_s = time.monotonic()
         self._seen_s = {task: self._seen_s.get(task, now_s) for task in running}
-        shown = tuple(task for task in running if now_s - self._seen_s[task] >= QUIET_S)
+        seen = [task for task in running if now_s - self._seen_s[task] >= QUIET_S]
+        names = [task.name for task in seen]
+        shown = tuple(task for number, task in enumerate(seen) if task.name not in names[:number])[:MOST_TASKS]
         if shown != self._shown:
             self._show_tasks(shown)
         for task, row in self._rows.items():

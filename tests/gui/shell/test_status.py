@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import threading
 from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QFrame, QLabel, QProgressBar, QPushButton, QToolButton
+from PySide6.QtWidgets import QAbstractButton, QFrame, QLabel, QProgressBar, QPushButton, QToolButton
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Severity
+from app.editor.tasks import Progress, StopRequested, ThreadTasks
 from app.errors import Message
 from app.shell.app import Program
+from app.shell.status import StatusLine
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Start
 from widgets.common.text import sentence
@@ -102,3 +105,27 @@ def test_a_notice_about_a_piece_goes_when_another_is_opened(start: Start) -> Non
     assert status.notice_text, "of the program, before there was a piece"
     files.open(QUARTET, ask=False)
     assert not status.notice_text
+
+
+def test_much_work_at_once_leaves_room_for_its_names(program: Program, qtbot: QtBot) -> None:
+    tasks, go_on = ThreadTasks(), threading.Event()
+    line = StatusLine(program.session, program.editor.files, tasks, program.window)
+
+    def work(progress: Progress, stop_requested: StopRequested) -> None:
+        go_on.wait(60.0)
+
+    def reported() -> list[str]:
+        rows = [button.parentWidget() for button in line.findChildren(QAbstractButton, "stop_task")]
+        return [label.text() for row in rows for label in row.findChildren(QLabel)]
+
+    try:
+        for number in range(6):
+            tasks.run(Message("work.metadata"), work, lambda nothing: None, key=f"kind {number}")
+        for name in ("work.instruments", "work.save", "work.portraits"):
+            tasks.run(Message(name), work, lambda nothing: None)
+        qtbot.waitUntil(lambda: len(reported()) >= 3)
+        assert reported() == ["Reading your styles and expressions…", "Reading your instruments…", "Saving…"]
+    finally:
+        go_on.set()
+        qtbot.waitUntil(lambda: tasks.is_idle)
+    qtbot.waitUntil(lambda: not reported())
