@@ -152,6 +152,8 @@ def _stem(project: Project, given: str) -> tuple[str, str]:
 
 def _report(project: Project, following: Following, target: Path) -> None:
     """What was written, bars that are doubtful, and what only one of the two has."""
+    from app.score.following import bars_named
+
     changes = project.score.tempo_map.bpm
     say(
         filled(
@@ -170,11 +172,11 @@ def _report(project: Project, following: Following, target: Path) -> None:
     bar_of_tick = project.metre_map.bar_of_tick
     for span in following.missing:
         first, last = bar_of_tick(int(span.start)), bar_of_tick(max(int(span.end) - 1, int(span.start)))
-        warn(text(Message("align.bars_outside", {"first": first, "last": last})))
+        warn(text(Message("align.bars_outside", bars_named((first, last)))))
     for span in following.added:
         warn(text(Message("align.only_recorded", {"start_s": span.start, "end_s": span.end})))
     for first, last, percent in following.doubtful_bars(project.metre_map):
-        warn(text(Message("align.doubtful", {"first": first, "last": last, "percent": percent})))
+        warn(text(Message("align.doubtful", {"percent": percent, **bars_named((first, last))})))
 
 
 def _second_of_bar(project: Project, following: Following, bar: int) -> float:

@@ -7,6 +7,7 @@ from app.audio.followed import Followed, FollowOptions, listen, take_over
 from app.editor.session import Session, Severity
 from app.editor.tasks import Progress, StopRequested
 from app.errors import Message
+from app.score.following import bars_named
 
 
 def follow_in_background(session: Session, recording: Recording, options: FollowOptions) -> None:
@@ -30,13 +31,13 @@ def _take(session: Session, followed: Followed, path: str) -> None:
         return
     metre_map = session.project.metre_map
     doubtful = following.doubtful_bars(metre_map)
-    bars = ", ".join(f"{first}" if first == last else f"{first}-{last}" for first, last, _ in doubtful)
     percent = round(100 * following.mean_confidence)
     id = "audio.followed_but" if doubtful else "audio.followed"
     severity = Severity.WARNING if doubtful else Severity.INFORMATION
-    session.notice(Message(id, {"percent": percent, **({"bars": bars} if doubtful else {})}), severity)
+    bars = bars_named(*((first, last) for first, last, _ in doubtful)) if doubtful else {}
+    session.notice(Message(id, {"percent": percent, **bars}), severity)
     for span in following.missing:
         first, last = metre_map.bar_of_tick(int(span.start)), metre_map.bar_of_tick(max(int(span.end) - 1, 0))
-        session.notice(Message("align.bars_outside", {"first": first, "last": last}), Severity.WARNING)
+        session.notice(Message("align.bars_outside", bars_named((first, last))), Severity.WARNING)
     for span in following.added:
         session.notice(Message("align.only_recorded", {"start_s": span.start, "end_s": span.end}), Severity.WARNING)

@@ -54,7 +54,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "拍を音源に合わせました（信頼度 {percent} %）",
     ),
     "audio.followed_but": (
-        "the beats lie where the recording has them (confidence {percent} %); check bars {bars} by ear",
+        "the beats lie where the recording has them (confidence {percent} %); check {count:bar|bars} {bars} by ear",
         "拍を音源に合わせました（信頼度 {percent} %）。第 {bars} 小節は耳で確認してください",
     ),
     "audio.not_followed": (
@@ -98,16 +98,16 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ),
     ),
     "align.bars_outside": (
-        "bars {first} to {last} are not in the recording; they keep the tempo beside them",
-        "第 {first}～{last} 小節は音源にありません。隣の小節のテンポのままです",
+        "{count:bar|bars} {bars} {count:is|are} not in the recording: the tempo there is that of the bars beside",
+        "第 {bars} 小節は音源にありません。隣の小節のテンポのままです",
     ),
     "align.only_recorded": (
         "what is recorded from {start_s:.1f} s to {end_s:.1f} s is not in the score: a repeat or a cadenza?",
         "音源の {start_s:.1f} 秒から {end_s:.1f} 秒は楽譜にありません（繰り返しまたはカデンツァの可能性があります）",
     ),
     "align.doubtful": (
-        "bars {first} to {last}: confidence {percent} %; check them by ear",
-        "第 {first}～{last} 小節: 信頼度 {percent} %。耳で確認してください",
+        "{count:bar|bars} {bars}: confidence {percent} %; check by ear",
+        "第 {bars} 小節: 信頼度 {percent} %。耳で確認してください",
     ),
     "audio.not_recognised": (
         (

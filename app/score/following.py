@@ -25,6 +25,12 @@ class Span:
     end: float
 
 
+def bars_named(*runs: tuple[int, int]) -> dict[str, str | int]:
+    """Runs of bars, first and last one, as arguments of a message: ``bars`` ("3-5, 8"), and how many (``count``)."""
+    named = [f"{first}" if first == last else f"{first}-{last}" for first, last in runs]
+    return {"bars": ", ".join(named), "count": sum(last - first + 1 for first, last in runs)}
+
+
 @dataclass(frozen=True)
 class Following:
     """How a recording follows a score.
@@ -63,7 +69,10 @@ class Following:
     def bars(self, metre_map: MetreMap) -> list[tuple[int, float]]:
         """The bars that the recording has at least in part: number, and mean confidence."""
         there = self._there()
-        bars = metre_map.bar_of_tick(self.ticks[there])
+        bars = metre_map.bar_of_tick(self.ticks)
+        if len(bars) > 1 and bars[-1] != bars[-2]:
+            there[-1] = False  # The bar line after the last bar: no bar begins there.
+        bars = bars[there]
         numbers, places = np.unique(bars, return_inverse=True)
         means = np.bincount(places, self.confidence[there]) / np.maximum(np.bincount(places), 1)
         return list(zip(numbers.tolist(), means.tolist(), strict=True))

@@ -37,6 +37,8 @@ class FlowLayout(QLayout):
         area = room.marginsRemoved(margins)
         x, y, line_px = area.x(), area.y(), 0
         for item in self._items:
+            if item.isEmpty():
+                continue
             size = item.sizeHint()
             if x > area.x() and x + size.width() > area.right() + 1:
                 x, y, line_px = area.x(), y + line_px + self.spacing(), 0

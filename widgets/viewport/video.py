@@ -18,8 +18,9 @@ from app.project.document import Change
 from app.project.edit.piece import set_video_offset
 from app.project.limits import OFFSET_S
 from widgets.common.controls import Retranslated, named
+from widgets.common.flow import FlowLayout
 from widgets.common.icons import icon
-from widgets.common.layouts import STRETCH, in_row
+from widgets.common.layouts import in_row
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label
 from widgets.common.text import sentence
@@ -161,12 +162,12 @@ class VideoStrip(Retranslated, QWidget):
         self._estimate.clicked.connect(lambda: session.actions["video.estimate_offset"].trigger())
         self._hide = self._button("video_hide")
         self._hide.clicked.connect(partial(session.video.set, placement="hidden"))
-        in_row(
-            *(self._title, *self._buttons.values(), self._opacity, self._offset, self._estimate, STRETCH, self._hide),
-            of=self,
-            margins=(6, 2, 6, 2),
-            spacing=4,
-        )
+        # What the viewport has no room for comes into a second line, with its whole text.
+        parts = FlowLayout()
+        for part in (self._title, *self._buttons.values(), self._opacity, self._offset, self._estimate):
+            part.setMinimumHeight(LEAST_TARGET_PX + 2)
+            parts.addWidget(part)
+        in_row((parts, 1), self._hide, of=self, margins=(6, 2, 6, 2), spacing=4)
         session.changed.connect(self.refresh)
         session.video.changed.connect(self.refresh)
         session.theme_changed.connect(self._apply_theme)

@@ -19,6 +19,7 @@ from app.errors import Message
 from app.project.edit.piece import relocate, set_audio, set_offset, set_video, set_video_offset
 from app.project.video import VideoTrack
 from tests.support.films import number_of, written
+from tests.support.windows import show
 from widgets.common.number_slider import NumberSlider
 from widgets.viewport.panel import ViewportPanel
 from widgets.viewport.video import VideoStrip, VideoView, fitted
@@ -127,6 +128,20 @@ def test_it_stands_beside_or_behind_the_players(
     assert session.video.placement == "hidden"
     assert not strip.isVisible()
     assert session.video.picture is None
+
+
+def test_no_text_of_the_strip_is_cut_in_a_narrow_viewport(session: Session, film: Path, qtbot: QtBot) -> None:
+    strip = VideoStrip(session)
+    qtbot.addWidget(strip)
+    session.attempt(NAME, lambda project: set_video(project, film))
+    session.video.set(placement="behind")
+    for width_px in (700, 480, 360):
+        strip.resize(width_px, strip.heightForWidth(width_px))
+        show(strip)
+        parts = strip.findChildren(QToolButton) + strip.findChildren(NumberSlider)
+        for part in parts:
+            assert part.width() >= part.sizeHint().width() or part.minimumWidth() == part.width(), part.objectName()
+            assert strip.rect().contains(part.geometry()), part.objectName()
 
 
 def test_the_offset_is_typed_and_taken_back(

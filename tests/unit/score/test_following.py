@@ -1,0 +1,42 @@
+"""Which bars of a piece a recording has, and how sure that is."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from app.errors import Message
+from app.messages import text
+from app.score.following import Following, bars_named
+from app.score.metre_map import MetreMap
+
+QUARTER = 480
+METRES = MetreMap(QUARTER)
+
+
+def following(beats: int, doubtful: tuple[int, ...]) -> Following:
+    """Beats in 4/4, of which some are doubtful; the last is where the piece ends."""
+    confidence = np.ones(beats)
+    confidence[list(doubtful)] = 0.1
+    return Following(np.arange(beats) * QUARTER, np.arange(beats) * 0.5, confidence)
+
+
+def test_the_bar_line_at_the_end_is_no_bar() -> None:
+    assert [bar for bar, _ in following(9, (8,)).bars(METRES)] == [1, 2]
+    assert following(9, (8,)).doubtful_bars(METRES) == []
+
+
+def test_a_piece_that_ends_within_a_bar_has_that_bar() -> None:
+    assert [bar for bar, _ in following(10, ()).bars(METRES)] == [1, 2, 3]
+
+
+@pytest.mark.parametrize(
+    ("runs", "said"),
+    [
+        (((45, 45),), "check bar 45 by ear"),
+        (((3, 5), (8, 8)), "check bars 3-5, 8 by ear"),
+    ],
+)
+def test_bars_are_named_as_they_are_read(runs: tuple[tuple[int, int], ...], said: str) -> None:
+    message = Message("audio.followed_but", {"percent": 96, **bars_named(*runs)})
+    assert text(message).endswith(said)
