@@ -35,18 +35,31 @@ class FlowLayout(QLayout):
         """Height that the lines take; the widgets are put there where ``place`` says so."""
         margins = self.contentsMargins()
         area = room.marginsRemoved(margins)
-        x, y, line_px = area.x(), area.y(), 0
+        y = area.y()
+        for line in self._lines(area.width()):
+            x, line_px = area.x(), max(size.height() for _, size in line)
+            for item, size in line:
+                if place:
+                    width_px, below_px = min(size.width(), area.width()), (line_px - size.height()) // 2
+                    item.setGeometry(QRect(QPoint(x, y + below_px), QSize(width_px, size.height())))
+                x += size.width() + self.spacing()
+            y += line_px + self.spacing()
+        return max(y - self.spacing(), area.y()) - room.y() + margins.bottom()
+
+    def _lines(self, width_px: int) -> list[list[tuple[QLayoutItem, QSize]]]:
+        """What stands in each line, with its size; what is hidden in none."""
+        lines: list[list[tuple[QLayoutItem, QSize]]] = []
+        used_px = 0
         for item in self._items:
             if item.isEmpty():
                 continue
             size = item.sizeHint()
-            if x > area.x() and x + size.width() > area.right() + 1:
-                x, y, line_px = area.x(), y + line_px + self.spacing(), 0
-            if place:
-                item.setGeometry(QRect(QPoint(x, y), QSize(min(size.width(), area.width()), size.height())))
-            x += size.width() + self.spacing()
-            line_px = max(line_px, size.height())
-        return y + line_px - room.y() + margins.bottom()
+            if not lines or used_px + size.width() > width_px:
+                lines.append([])
+                used_px = 0
+            lines[-1].append((item, size))
+            used_px += size.width() + self.spacing()
+        return lines
 
     # Qt's own names
 
