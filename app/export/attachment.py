@@ -10,7 +10,6 @@ import numpy.typing as npt
 
 from app.export.equip import socket_names
 from app.export.playback import METRES, Playback
-from app.export.rig_options import Attachment
 from app.export.target import TargetSkeleton, Trajectory, instrument_path, placed, still
 from app.formats.names import numbered
 from app.formats.scene import Clip, Place, Scene, SkinnedMesh
@@ -116,14 +115,6 @@ def _carried(scene: Scene, path: Trajectory) -> Scene:
     rotations[:, 0] = quaternion.multiply(path.rotations, rotations[:, 0])
     clip = replace(clip, rotations_xyzw=rotations, translations_cm={**clip.translations_cm, 0: place_cm})
     return replace(scene, clip=clip)
-
-
-def attachment_of(target: TargetSkeleton, socket: str) -> Attachment:
-    """How the instrument of a socket hangs; free without one."""
-    if not socket:
-        return "free"
-    parent = target.parents[target.names.index(socket)]
-    return "ik" if parent in target.tied else "socket"
 
 
 def _bone(scene: Scene, name: str) -> int:

@@ -27,7 +27,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         ),
     ),
     # The plan: fingerings
-    "fingering.first_choice": ("{label}: choice 1", "{label}: 第 1 候補"),
+    "fingering.first_choice": ("{label}: usual fingering", "{label}: 標準の運指"),
     "fingering.trill": (
         "{label} instead of {first}: less motion in a trill with {time_ms} ms per note",
         "{first} の代わりに {label}: 1 音 {time_ms} ms のトリルで動きが少なくなります",

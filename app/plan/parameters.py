@@ -13,6 +13,8 @@ from typing import Annotated, Any, Final, Literal, TypeAlias, get_args, get_orig
 
 import msgspec
 
+from metadata.acting import SECTION_PLAYER
+
 Bounds: TypeAlias = tuple[float, float]
 """Lowest and highest, both allowed."""
 Value: TypeAlias = str | int | float | bool | None
@@ -246,7 +248,7 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     style: Annotated[str, Parameter(
         "parameter.style", "parameter.style_tip",
         section="acting", row=-1, decides=frozenset({"rules", "motion"}), since=10,
-    )] = "section_player"
+    )] = SECTION_PLAYER
     """Name of a table of ``metadata/styles`` or of the user's own."""
     habits: Annotated[str, Parameter(
         "parameter.habits", "parameter.habits_tip",

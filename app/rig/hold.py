@@ -224,11 +224,11 @@ class Lips:
 
     Attributes
     ----------
-    contact_rest_m, carrier_rest_m : (3,) float64
-        Where the mouthpiece is while it is played, and what carries it alone while the mouth is open for a breath: the
-        upper lip, or the lower one under which a plate lies.
+    contact_rest_m : (3,) float64
+        Where the mouthpiece is while it is played.
     contact_deltas_m, carrier_deltas_m : dict of str to (3,) float64
-        What each morph at weight 1 adds; morphs that do nothing here are absent.
+        What each morph at weight 1 adds; morphs that do nothing here are absent. The carrier has the mouthpiece alone
+        while the mouth is open for a breath: the upper lip, or the lower one under which a plate lies.
     usual_m : (3,) float64
         About where the mouthpiece is while it is played, whatever the face's weights.
     apart_m : float
@@ -245,7 +245,6 @@ class Lips:
 
     contact_rest_m: FloatArray
     contact_deltas_m: Mapping[str, FloatArray]
-    carrier_rest_m: FloatArray
     carrier_deltas_m: Mapping[str, FloatArray]
     usual_m: FloatArray
     apart_m: float = 0.0

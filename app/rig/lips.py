@@ -95,10 +95,10 @@ def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) ->
     embouchure = instrument_map.embouchure
     if not needed_landmarks(instrument_map) <= character.landmarks.keys():
         about_m = face_size(character) * np.array(MOUTH_M)
-        return Lips(about_m, {}, about_m, {}, about_m)
+        return Lips(about_m, {}, {}, about_m)
     places = lip_places(character, instrument_map, body)
     contact_m, contact = _in_head(character, places.contact)
-    carrier_m, carrier = _in_head(character, places.carrier)
+    _, carrier = _in_head(character, places.carrier)
     opening_m = body.embouchure[embouchure.kind].opening_m
     usual_m, gap_m, gap, jaw = contact_m, 0.0, dict[str, float](), ""
     mouth = None if embouchure.lips_apart_m + opening_m == 0.0 else _mouth(character)
@@ -118,7 +118,6 @@ def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) ->
     return Lips(
         contact_rest_m=contact_m,
         contact_deltas_m=contact,
-        carrier_rest_m=carrier_m,
         carrier_deltas_m=carrier,
         usual_m=usual_m,
         apart_m=embouchure.lips_apart_m,

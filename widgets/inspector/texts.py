@@ -160,7 +160,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "note_section.embouchure": ("Embouchure", "アンブシュア"),
     "note_section.fingering": ("Fingering", "運指"),
     "note_section.fingering_diagram": ("Fingering diagram", "運指図"),
-    "note_section.first_choice": ("choice 1", "第 1 候補"),
+    "note_section.first_choice": ("usual fingering", "標準の運指"),
     "note_section.generator": ("Generated: {reason}", "自動生成: {reason}"),
     "note_section.how_hard_note_is_struck": ("MIDI velocity, 1 to 127", "MIDI ベロシティ、1～127"),
     "note_section.how_much_air_flows": ("Air flow", "息の量"),

@@ -91,7 +91,6 @@ def hold(bones: Skeleton, slide_m: float = 0.0, sliding: str = "right") -> GripP
     lips = Lips(
         np.array([0.0, -0.035, 0.115]),
         {"jawOpen": np.array([0.0, -0.015, -0.002]), "mouthPucker": np.array([0.0, 0.0, 0.004])},
-        np.array([0.0, -0.03, 0.116]),
         {"mouthPucker": np.array([0.0, 0.0, 0.004])},
         np.array([0.0, -0.035, 0.115]),
     )

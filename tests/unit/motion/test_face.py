@@ -19,7 +19,7 @@ from metadata.load import load_body, load_expressions
 from metadata.model import ARKIT_MORPHS
 from tests.unit.motion.events import REASON, breath, cue, fingerings, plan_of
 
-LIPS = Lips(np.zeros(3), {}, np.zeros(3), {}, np.zeros(3))
+LIPS = Lips(np.zeros(3), {}, {}, np.zeros(3))
 TIMES_S = np.arange(-2.0, 60.0, 1 / 240)
 
 
