@@ -6,6 +6,7 @@ shows it words it (English templates in `app.messages`, which the editor transla
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TypeAlias
 
 import msgspec
@@ -77,3 +78,19 @@ class UsageError(AppError):
 
 class Cancelled(AppError):
     """The user stopped the work; nothing half-written stays."""
+
+
+def raise_if_stopped(stop_requested: Callable[[], bool]) -> None:
+    """Raise `Cancelled` if the work is to stop."""
+    if stop_requested():
+        raise Cancelled("work.stopped")
+
+
+def stoppable(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> Callable[[float], None]:
+    """A report of progress that raises `Cancelled` if the work is to stop."""
+
+    def report(share: float) -> None:
+        raise_if_stopped(stop_requested)
+        progress(share)
+
+    return report

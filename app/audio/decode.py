@@ -16,7 +16,7 @@ import soundfile
 import soxr
 
 from app.audio.track import RATE_HZ, Block, Samples
-from app.errors import Cancelled, FileError, Message
+from app.errors import FileError, Message, raise_if_stopped
 from app.formats.files import open_file
 from app.formats.scratch import scratch_folder
 from app.formats.video import SUFFIXES, sound_into
@@ -104,8 +104,7 @@ def _read(
     # The length in the header is a claim: it is used for the progress only.
     expected = max(file.frames, 1)
     while True:
-        if stop_requested():
-            raise Cancelled("work.stopped")
+        raise_if_stopped(stop_requested)
         try:
             raw = file.read(_BLOCK, dtype="float32", always_2d=True)
         except (soundfile.SoundFileError, RuntimeError):

@@ -24,14 +24,13 @@ from app.audio.score_sound import (
     Floats,
     RecordedSound,
     confidence_of,
-    expected_sound,
     onset_edges,
-    recorded_sound,
     score_chroma,
+    sounds_to_compare,
 )
 from app.audio.track import Samples
 from app.audio.warping import MISSING_S, Integers, Jump, Pins, Warped, along, played, warped
-from app.errors import AppError, Cancelled
+from app.errors import AppError, stoppable
 from app.score.following import Following, Span
 from app.score.metre_map import MetreMap
 from app.score.model import Score
@@ -101,17 +100,9 @@ def follow(
         ``audio.not_followed`` (percent): it is rather a recording of another piece.
     Cancelled
     """
-
-    def reached(share: float) -> None:
-        if stop_requested():
-            raise Cancelled("work.stopped")
-        progress(share)
-
-    expected = expected_sound(score)
-    if not len(samples) or not samples.any() or not len(expected.onset_s):
-        raise AppError("audio.nothing_to_compare")
+    reached = stoppable(progress, stop_requested)
     reached(0.0)
-    recorded = recorded_sound(samples, rate_hz, lambda share: reached(0.6 * share))
+    expected, recorded = sounds_to_compare(score, samples, rate_hz, lambda share: reached(0.6 * share))
     shapes = score_chroma(expected, 1.0)
     pins = _pins(score, pinned or {}).inside(len(samples) / rate_hz)
     piece = _Prepared(score, expected, recorded, shapes, beat_ticks, pins)

@@ -11,7 +11,7 @@ from app.audio.dynamics import Loudness, dynamics, loudness
 from app.audio.follow import beats_of, follow
 from app.audio.note_onsets import note_onsets
 from app.audio.track import RATE_HZ, Samples
-from app.errors import Cancelled
+from app.errors import stoppable
 from app.project.edit.dynamics import set_dynamics
 from app.project.edit.follow import follow_recording, pins_for
 from app.project.edit.note_times import shift_onsets
@@ -85,11 +85,7 @@ def listen(
     """
     beats_share = 0.6 if options.dynamics or options.notes else 1.0
 
-    def reached(share: float) -> None:
-        if stop_requested():
-            raise Cancelled("work.stopped")
-        progress(share)
-
+    reached = stoppable(progress, stop_requested)
     pinned = {pin.tick: pin.recording_s - begins_s for pin in pins_for(project, path)}
     following = follow(
         samples,

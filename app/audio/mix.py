@@ -11,7 +11,7 @@ import soxr
 from app.audio.decode import Recording, decode
 from app.audio.synth import Phrase, Synthesiser, phrases, program_of
 from app.audio.track import RATE_HZ, Block, Mix, Piece, Track
-from app.errors import Cancelled
+from app.errors import raise_if_stopped
 from app.project.model import Project
 from app.project.performers import Player
 from instrument_maps.library import all_maps
@@ -140,8 +140,7 @@ def _synthesised(
     ]
     pieces: dict[str, list[Piece]] = {}
     for index, (player_id, phrase) in enumerate(requested):
-        if stop_requested():
-            raise Cancelled("work.stopped")
+        raise_if_stopped(stop_requested)
         pieces.setdefault(player_id, []).append(synthesiser.render(phrase))
         progress(index / len(requested))
     return Mix(player_tracks(project, pieces))

@@ -22,13 +22,12 @@ from app.audio.score_sound import (
     Floats,
     RecordedSound,
     confidence_of,
-    expected_sound,
     onset_edges,
-    recorded_sound,
     score_chroma,
+    sounds_to_compare,
 )
 from app.audio.track import Samples
-from app.errors import AppError, Cancelled
+from app.errors import stoppable
 from app.score.model import Score
 
 Spectrum: TypeAlias = npt.NDArray[np.complex128]
@@ -82,17 +81,9 @@ def estimate_offset(
         ``audio.nothing_to_compare``: the recording is silent, or the score has no notes.
     Cancelled
     """
-
-    def reached(share: float) -> None:
-        if stop_requested():
-            raise Cancelled("work.stopped")
-        progress(share)
-
-    expected = expected_sound(score)
-    if not len(samples) or not samples.any() or not len(expected.onset_s):
-        raise AppError("audio.nothing_to_compare")
+    reached = stoppable(progress, stop_requested)
     reached(0.0)
-    recorded = recorded_sound(samples, rate_hz, lambda share: reached(0.6 * share))
+    expected, recorded = sounds_to_compare(score, samples, rate_hz, lambda share: reached(0.6 * share))
     places = _by_chroma(recorded, expected, lambda share: reached(0.6 + 0.3 * share))
     fits = []
     for index, (start_s, ratio) in enumerate(places):

@@ -12,6 +12,7 @@ import soxr
 
 from app.audio.features import chroma, onset_strength, tuning
 from app.audio.track import Samples
+from app.errors import AppError
 from app.score.model import Score
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -58,6 +59,22 @@ def expected_sound(score: Score) -> ExpectedSound:
         np.array([note.pitch for note in notes], np.int64),
         np.array([0.3 + 0.7 * note.velocity / 127 for note in notes], np.float64),
     )
+
+
+def sounds_to_compare(
+    score: Score, samples: Samples, rate_hz: int, progress: Callable[[float], None]
+) -> tuple[ExpectedSound, RecordedSound]:
+    """What a score asks for, and what a recording of it sounds like.
+
+    Raises
+    ------
+    AppError
+        ``audio.nothing_to_compare``: the recording is silent, or the score has no notes.
+    """
+    expected = expected_sound(score)
+    if not len(samples) or not samples.any() or not len(expected.onset_s):
+        raise AppError("audio.nothing_to_compare")
+    return expected, recorded_sound(samples, rate_hz, progress)
 
 
 def recorded_sound(samples: Samples, rate_hz: int, progress: Callable[[float], None]) -> RecordedSound:

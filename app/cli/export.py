@@ -69,6 +69,27 @@ def add_command(commands: Commands) -> None:
     )
     add_rate_option(command)
     add_players_option(command, "only this player or dancer; repeatable")
+    _add_skeleton_options(command)
+    _add_content_options(command)
+    command.add_argument(
+        "--jobs",
+        type=jobs,
+        metavar="N",
+        help="processes that share the work (default: one per core, where it is worth it)",
+    )
+    command.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="export the pieces of a folder on the machines of a Dask scheduler, such as tcp://10.0.0.1:8786; all of "
+        "them must see the folders under the same paths",
+    )
+    command.add_argument("--piece", type=Path, help=argparse.SUPPRESS)
+    add_bar_options(command)
+    command.set_defaults(run=export)
+
+
+def _add_skeleton_options(command: argparse.ArgumentParser) -> None:
+    """What the characters are written on."""
     command.add_argument(
         "--skeleton",
         choices=SKELETONS,
@@ -91,6 +112,10 @@ def add_command(commands: Commands) -> None:
         metavar="PROFILE",
         help="whose bone names the BVH files have (default: the skeleton's own): " + ", ".join(names("bone_names")),
     )
+
+
+def _add_content_options(command: argparse.ArgumentParser) -> None:
+    """What is written beside the players' own files, and how many keys."""
     command.add_argument(
         "--sound",
         action="store_true",
@@ -110,21 +135,6 @@ def add_command(commands: Commands) -> None:
         "fingertips, lips, soles and instruments within 0.5 mm, at every frame; BVH always has every frame "
         "(default: every)",
     )
-    command.add_argument(
-        "--jobs",
-        type=jobs,
-        metavar="N",
-        help="processes that share the work (default: one per core, where it is worth it)",
-    )
-    command.add_argument(
-        "--scheduler",
-        metavar="ADDRESS",
-        help="export the pieces of a folder on the machines of a Dask scheduler, such as tcp://10.0.0.1:8786; all of "
-        "them must see the folders under the same paths",
-    )
-    command.add_argument("--piece", type=Path, help=argparse.SUPPRESS)
-    add_bar_options(command)
-    command.set_defaults(run=export)
 
 
 def add_rig_options(command: argparse.ArgumentParser) -> None:
@@ -195,17 +205,7 @@ def export(arguments: argparse.Namespace) -> int:
     from app.export.unreal.run import export_into
     from app.performance.ensemble import Performance
 
-    if arguments.unreal is not None and arguments.formats:
-        raise UsageError("unreal.formats")
-    formats: frozenset[Format] = frozenset(arguments.formats or USUAL_FORMATS)
-    if arguments.stage and arguments.unreal is not None:
-        raise UsageError("unreal.stage")
-    if arguments.stage and all(FILE_FORMATS[name].write_stage is None for name in formats):
-        raise UsageError("stage.formats")
-    if arguments.keys == "reduced" and arguments.unreal is not None:
-        raise UsageError("unreal.keys")
-    if arguments.keys == "reduced" and not any(FILE_FORMATS[name].reduces_keys for name in formats):
-        raise UsageError("keys.formats")
+    formats = _requested_formats(arguments)
     # What is wrong with it is reported before anything is read.
     unreal = None if arguments.unreal is None else find_project(arguments.unreal)
     clean_up()
@@ -252,3 +252,19 @@ def export(arguments: argparse.Namespace) -> int:
         progress.clear()
     say(*reported)
     return report_left_out((one.player, one.reason) for one in report.left_out)
+
+
+def _requested_formats(arguments: argparse.Namespace) -> frozenset[Format]:
+    """The formats, of which one has what else is asked for; raises `UsageError` where none does."""
+    if arguments.unreal is not None and arguments.formats:
+        raise UsageError("unreal.formats")
+    formats: frozenset[Format] = frozenset(arguments.formats or USUAL_FORMATS)
+    if arguments.stage and arguments.unreal is not None:
+        raise UsageError("unreal.stage")
+    if arguments.stage and all(FILE_FORMATS[name].write_stage is None for name in formats):
+        raise UsageError("stage.formats")
+    if arguments.keys == "reduced" and arguments.unreal is not None:
+        raise UsageError("unreal.keys")
+    if arguments.keys == "reduced" and not any(FILE_FORMATS[name].reduces_keys for name in formats):
+        raise UsageError("keys.formats")
+    return formats

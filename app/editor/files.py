@@ -18,7 +18,7 @@ from app.editor.session import Session, Severity
 from app.editor.settings import Settings
 from app.editor.translated import tr
 from app.encoding import shown
-from app.errors import AppError, Cancelled, Message
+from app.errors import AppError, Message, raise_if_stopped
 from app.formats.video import SUFFIXES
 from app.project import storage
 from app.project.autosave import Autosave, Writing, Written
@@ -370,8 +370,7 @@ class Files(QObject):
         project = self.session.project
 
         def work(progress: Callable[[float], None], stop_requested: Callable[[], bool]) -> str | None:
-            if stop_requested():
-                raise Cancelled("work.stopped")
+            raise_if_stopped(stop_requested)
             if over is not None and storage.file_hash(path) not in over:
                 return None
             return storage.save(project, path)

@@ -14,7 +14,7 @@ from app.audio.render_process import RenderProcess
 from app.audio.synth import Phrase, Synthesiser
 from app.audio.track import RATE_HZ, Track
 from app.editor.tasks import Progress, StopRequested, Tasks
-from app.errors import Cancelled, Message
+from app.errors import Message, raise_if_stopped
 from app.project.model import Project
 from app.project.performers import Player
 
@@ -144,8 +144,7 @@ class Stems(QObject):
                 made = {}
                 for player in project.players:
                     made[player.id] = _made(project, player, before.get(player.id))
-                    if stop_requested():
-                        raise Cancelled("work.stopped")
+                    raise_if_stopped(stop_requested)
                 everything = [(player_id, phrase) for player_id, one in made.items() for phrase in one.phrases]
                 requested, job.window_s = _next_phrases(everything, from_s)
                 gone = synthesiser.forget(phrase for _, phrase in requested)
@@ -153,8 +152,7 @@ class Stems(QObject):
                 missing = [item for item in requested if synthesiser.ready(item[1]) is None]
                 job.made, job.is_cut = made, True
                 for index, (player_id, phrase) in enumerate(missing):
-                    if stop_requested():
-                        raise Cancelled("work.stopped")
+                    raise_if_stopped(stop_requested)
                     synthesiser.render(phrase)
                     stale.append(player_id)
                     job.share = (len(requested) - len(missing) + index + 1) / len(requested)

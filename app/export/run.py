@@ -11,7 +11,7 @@ from functools import partial
 import msgspec
 import numpy as np
 
-from app.errors import Cancelled, Message
+from app.errors import Message, raise_if_stopped
 from app.export.file_names import REPORT, sound_name, stage_names
 from app.export.folder import files_into
 from app.export.measure import greatest_correlations
@@ -86,8 +86,7 @@ def write_cast(
     shares: dict[str, float] = {}
 
     def reported(one: str, share: float) -> None:
-        if stop_requested():
-            raise Cancelled("work.stopped")
+        raise_if_stopped(stop_requested)
         if shares.get(one) != share:
             shares[one] = share
             progress(sum(shares.values()) / whole, labels[one])
@@ -115,8 +114,7 @@ def write_cast(
             label = next(iter(stage_files.values()))
 
             def placed(share: float) -> None:
-                if stop_requested():
-                    raise Cancelled("work.stopped")
+                raise_if_stopped(stop_requested)
                 progress((begun + (whole - begun) * share) / whole, label)
 
             stage = write_stage(request, cast, folder, placed)

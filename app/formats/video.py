@@ -25,7 +25,7 @@ import imageio_ffmpeg
 import numpy as np
 import numpy.typing as npt
 
-from app.errors import Cancelled, FileError
+from app.errors import FileError, raise_if_stopped
 from app.formats.files import open_file
 
 SUFFIXES: Final = (".mp4", ".mov", ".m4v", ".mkv", ".webm", ".avi", ".mpg", ".mpeg", ".wmv", ".ogv")
@@ -210,8 +210,7 @@ def sound_into(
     with _started(path, (), (*heard, "-c:a", "pcm_s16le", "-f", "wav", f"file:{wave}")) as process:
         report = None
         while report is None:
-            if stop_requested():
-                raise Cancelled("work.stopped")
+            raise_if_stopped(stop_requested)
             with contextlib.suppress(subprocess.TimeoutExpired):
                 _, report = process.communicate(timeout=_LOOK_S)
     if process.returncode:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 import msgspec
 
-from app.errors import AppError, Cancelled, FileError, Message
+from app.errors import AppError, Cancelled, FileError, Message, raise_if_stopped
 from app.performance.bodies import body_of, character_of, hold_of, model_of
 from app.performance.ensemble import Performance
 from app.project.performers import Dancer, Player
@@ -85,8 +85,7 @@ def attempt(
     """
     made, left_out = dict[str, T](), list[LeftOut]()
     for player in players:
-        if stop_requested():
-            raise Cancelled("work.stopped")
+        raise_if_stopped(stop_requested)
         try:
             made[player.id] = make(player)
         except Cancelled:

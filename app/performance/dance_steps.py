@@ -21,7 +21,7 @@ from app.choreography.features import facing, height_m, points_m
 from app.choreography.generate import Choreographer
 from app.choreography.model import ChoreographyModel
 from app.choreography.sequence import grid_of
-from app.errors import AppError, Cancelled, Message
+from app.errors import AppError, Message, raise_if_stopped
 from app.identity_cache import IdentityCache
 from app.performance.dancers import dancing_of, place_of
 from app.performance.ensemble import Performance
@@ -106,8 +106,7 @@ def dances_of(
     made = {}
     dancers = performance.project.dancers
     for number, dancer in enumerate(dancers):
-        if stop_requested():
-            raise Cancelled("work.stopped")
+        raise_if_stopped(stop_requested)
         made[dancer.id] = dance_of(performance, dancer)
         progress((number + 1) / len(dancers))
     return made

@@ -18,7 +18,7 @@ from typing import Final
 import msgspec
 
 from app.contacts.breaks import by_time
-from app.errors import AppError, Cancelled, MapError, Message
+from app.errors import AppError, Cancelled, MapError, Message, raise_if_stopped
 from app.performance.acting_problems import unknown_acting
 from app.performance.bodies import hold_now, is_held, suited_to
 from app.performance.body_problems import body_problems
@@ -213,8 +213,7 @@ class Performance:
             problems = {}
             for player in self.project.players:
                 # Whether hands reach is found out by posing them: with many players it takes as long as planning.
-                if stop_requested():
-                    raise Cancelled("work.stopped")
+                raise_if_stopped(stop_requested)
                 problems[player.id] = self._problems_of(player, self._plans[player.id])
             self._problems = problems
             _CHECKED.update(player.parameters.choreography for player in self.project.players)
@@ -381,8 +380,7 @@ class Performance:
         for number, player in enumerate(unheld):
 
             def reported(share: float, before: int = number) -> None:
-                if stop_requested():
-                    raise Cancelled("work.stopped")
+                raise_if_stopped(stop_requested)
                 progress((before + share) / len(unheld))
 
             reported(0.0)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import msgspec
 
-from app.errors import Cancelled
+from app.errors import raise_if_stopped
 from app.plan.acting import acting_of
 from app.plan.additive import plan_additive
 from app.plan.additive_curve import AdditiveCurve
@@ -192,7 +192,7 @@ def plan_ensemble(
     own = {line.player_id: Memo(None if before is None else before.own.get(line.player_id)) for line in lines}
     playable: list[tuple[MonophonicPart, LineTimes, tuple[Problem, ...]]] = []
     for line in lines:
-        _go_on(stop_requested)
+        raise_if_stopped(stop_requested)
         playable.append(_playable(line, piece.clock, tuple(faces), frame.first_frame_s, own[line.player_id]))
     lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
     rhythms = tuple(times.rhythm for times in all_times)
@@ -210,7 +210,7 @@ def plan_ensemble(
     breathed: list[Breathed] = []
     plans = {}
     for done, (line, times, problems) in enumerate(playable):
-        _go_on(stop_requested)
+        raise_if_stopped(stop_requested)
         this = together[done]
         others = (*together[:done], *together[done + 1 :])
         memo = own[line.player_id]
@@ -246,11 +246,6 @@ def _seen(
     """The places of the player, of the conductor and of those whom the player looks at."""
     others = {cue.player_id for cue in answered} | {taker for cue in own for taker in cue.takers} | {CONDUCTOR}
     return {one: place for one, place in places.items() if one == player_id or one in others}
-
-
-def _go_on(stop_requested: Callable[[], bool]) -> None:
-    if stop_requested():
-        raise Cancelled("work.stopped")
 
 
 def _playable(

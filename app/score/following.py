@@ -8,6 +8,7 @@ from typing import Final, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from app.errors import Argument
 from app.score.metre_map import MetreMap
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -25,7 +26,7 @@ class Span:
     end: float
 
 
-def bars_named(*runs: tuple[int, int]) -> dict[str, str | int]:
+def bars_named(*runs: tuple[int, int]) -> dict[str, Argument]:
     """Runs of bars, first and last one, as arguments of a message: ``bars`` ("3-5, 8"), and how many (``count``)."""
     named = [f"{first}" if first == last else f"{first}-{last}" for first, last in runs]
     return {"bars": ", ".join(named), "count": sum(last - first + 1 for first, last in runs)}

@@ -59,7 +59,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from app.errors import Argument, Cancelled, Message
+from app.errors import Argument, Message, raise_if_stopped
 from app.score.choose import (
     Candidates,
     How,
@@ -160,8 +160,7 @@ def assigned_parts(
     asked: set[int] = set()
     crowded: set[int] = set()
     for assignment in assignments:
-        if stop_requested():
-            raise Cancelled("work.stopped")
+        raise_if_stopped(stop_requested)
         room = MOST_PARTS - len(parts)
         if not room:
             crowded.update(assignment.streams)

@@ -28,8 +28,8 @@ POLL_MS, AGE_MS = 100, 5000
 """How often it is seen how far work is, and how long ago the piece was saved."""
 NAME_PX = 48
 """The name of work may become this narrow."""
-MOTION_PX = 64
-"""Width of the progress bar of the motion."""
+BAR_PX = 64
+"""Width of a progress bar."""
 QUIET_S = 0.25
 """Shorter work is not shown: it would only flash."""
 MOST_TASKS = 3
@@ -80,9 +80,9 @@ class StatusLine(Retranslated, QStatusBar):
         self._saved, self._rate = named(Label(), "saved"), named(Label(), "frame_rate")
         self._motion, self._motion_bar = named(Label(), "motion"), named(QProgressBar(), "motion_ready")
         self._motion_bar.setTextVisible(False)
-        self._motion_bar.setFixedWidth(MOTION_PX)
+        self._motion_bar.setFixedWidth(BAR_PX)
         # A step for a point: every other value would be drawn at once, and with it the whole window composed anew.
-        self._motion_bar.setRange(0, MOTION_PX)
+        self._motion_bar.setRange(0, BAR_PX)
         self._about_piece = (self._saved, self._problems, self._rate, self._motion, self._motion_bar)
         for widget in (self._risk, self._instruments, self._device, self._stream, *self._about_piece):
             self.addPermanentWidget(widget)
@@ -320,7 +320,7 @@ class StatusLine(Retranslated, QStatusBar):
     def _report_motion(self) -> None:
         busy = self._ready < 1.0 and self._files.is_open
         self._motion_bar.setVisible(busy)
-        _show_value(self._motion_bar, int(MOTION_PX * self._ready))
+        _show_value(self._motion_bar, int(BAR_PX * self._ready))
         self._motion.setVisible(self._files.is_open)
         self._motion.setText(self.tr("status_line.making_motion") if busy else self.tr("status_line.motion_ready"))
 
@@ -363,7 +363,7 @@ class _TaskRow(Retranslated, QWidget):
         # What stands at the right has room before the names of work.
         self._name.setMinimumWidth(NAME_PX)
         self._bar.setTextVisible(False)
-        self._bar.setFixedWidth(110)
+        self._bar.setFixedWidth(BAR_PX)
         self._bar.setRange(0, 0)
         in_row(
             self._name, self._bar, _close(session, "task_row.stop", stop, "stop_task"), of=self, margins=0, spacing=6

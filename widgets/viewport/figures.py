@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from app.editor.tasks import Progress, StopRequested
-from app.errors import Cancelled
+from app.errors import raise_if_stopped
 from app.performance.bodies import is_held
 from app.performance.cast import LeftOut, attempt
 from app.project.model import Project
@@ -79,8 +79,7 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
 
     def make(player: Player) -> Member:
         nonlocal done
-        if stop_requested():
-            raise Cancelled("work.stopped")
+        raise_if_stopped(stop_requested)
         progress(0.5 * done / len(project.players))
         done += 1
         pair = (player.character_id, player.instrument_id)
@@ -93,8 +92,7 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
         return member_of(player, kits[pair], musician, stand_m)
 
     def make_dancer(dancer: Dancer) -> Member:
-        if stop_requested():
-            raise Cancelled("work.stopped")
+        raise_if_stopped(stop_requested)
         pair = (dancer.character_id, "")
         if pair not in kits:
             kits[pair] = dancer_kit(dancer)

@@ -19,7 +19,7 @@ import msgspec
 import numpy as np
 
 from app.audio.track import RATE_HZ
-from app.errors import Cancelled, Message
+from app.errors import Message, raise_if_stopped
 from app.export.bind_pose import CENTIMETRES
 from app.export.equip import socket_names
 from app.export.file_names import REPORT as EXPORTED_REPORT
@@ -341,8 +341,7 @@ def _checked(
     bones: dict[str, tuple[str, ...]] = {}
     figures = tuple(_figures_written(request, cast, layout))
     for index, (name, place, named, meshes) in enumerate(figures):
-        if stop_requested():
-            raise Cancelled("work.stopped")
+        raise_if_stopped(stop_requested)
         file = place.file.as_posix()
         bones[file] = named
         check_fbx(sources / file, _expected(request.span, named, meshes))

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Protocol
-
 import numpy as np
 import numpy.typing as npt
 
 from app.formats.euler import euler_degrees
+from app.formats.fbx.assembly import Assembly
 from app.formats.fbx.encode import Element, PackedArray, pack_array
 from app.formats.fbx.sections import integer, property_block, property_row
 from app.formats.scene import Clip, FloatArray, IntArray
@@ -20,16 +19,6 @@ STEADY_DEG, STEADY_CM = 1e-3, 1e-4
 # Linear keys. The bits beside "linear" (4) and the tangent data are those that every reader has met before.
 _KEY_FLAGS = np.array([0x6104], dtype=np.int32)
 _KEY_DATA = np.array([0.0, 0.0, 9.419963346924634e-30, 0.0], dtype=np.float32)
-
-
-class Graph(Protocol):
-    """What objects are added to."""
-
-    def add(self, kind: str, name: str, class_name: str, sub_class: str, children: tuple[Element, ...]) -> int:
-        """Add an object; its id."""
-
-    def connect(self, child: int, parent: int, to_property: str | None = None) -> None:
-        """Connect an object to another one."""
 
 
 def rotation_curves(clip: Clip) -> npt.NDArray[np.float64]:
@@ -53,8 +42,8 @@ def steady(curves: FloatArray, least: float) -> FloatArray:
 class Curves:
     """Adds the curves of one layer. What is the same in many of them is packed once."""
 
-    def __init__(self, graph: Graph, layer: int, key_ticks: npt.NDArray[np.int64]) -> None:
-        self._graph = graph
+    def __init__(self, assembly: Assembly, layer: int, key_ticks: npt.NDArray[np.int64]) -> None:
+        self._assembly = assembly
         self._layer = layer
         self._ticks = key_ticks
         self._at: dict[bytes, tuple[tuple[Element, ...], tuple[Element, ...]]] = {}
@@ -88,9 +77,9 @@ class Curves:
             property_row(f"d|{channel}", "Number", "", "A", float(row[0]))
             for channel, row in zip(channels, values, strict=True)
         ]
-        node = self._graph.add("AnimationCurveNode", name, "AnimCurveNode", "", (property_block(*defaults),))
-        self._graph.connect(node, self._layer)
-        self._graph.connect(node, target, target_property)
+        node = self._assembly.add("AnimationCurveNode", name, "AnimCurveNode", "", (property_block(*defaults),))
+        self._assembly.connect(node, self._layer)
+        self._assembly.connect(node, target, target_property)
         for channel, row in zip(channels, values.astype(np.float32), strict=True):
             at = None
             if frames is not None:
@@ -98,8 +87,8 @@ class Curves:
             before, after = self._times(at)
             keys = Element("KeyValueFloat", (_pack_keys(row if at is None else row[at]),))
             children = (Element("Default", (float(row[0]),)), *before, keys, *after)
-            curve = self._graph.add("AnimationCurve", "", "AnimCurve", "", children)
-            self._graph.connect(curve, node, f"d|{channel}")
+            curve = self._assembly.add("AnimationCurve", "", "AnimCurve", "", children)
+            self._assembly.connect(curve, node, f"d|{channel}")
 
     def _times(self, frames: IntArray | None) -> tuple[tuple[Element, ...], tuple[Element, ...]]:
         """What is before and after the values of a curve with keys at some frames, or at all."""

@@ -17,8 +17,9 @@ import numpy.typing as npt
 from app.formats.atomic import atomic_write
 from app.formats.euler import euler_degrees
 from app.formats.fbx import encode, ticks
+from app.formats.fbx.assembly import Assembly
 from app.formats.fbx.curves import EULER_ORDER, Curves
-from app.formats.fbx.encode import Element, Property, element_pieces
+from app.formats.fbx.encode import Element, element_pieces
 from app.formats.fbx.geometry import geometry, morph_geometry, skin_clusters
 from app.formats.fbx.materials import PHYSICAL_MATERIAL, SHADING_MODEL, phong
 from app.formats.fbx.sections import (
@@ -33,7 +34,6 @@ from app.formats.fbx.sections import (
 )
 from app.formats.scene import Bone, Clip, FloatArray, Material, Place, Scene, SkinnedMesh, checked_scenes
 
-_FIRST_ID = 1_000_000
 _BESIDE_CM = 5e-4
 
 
@@ -59,7 +59,7 @@ def write_scenes(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
 
 def scene_elements(scenes: Iterable[Scene]) -> tuple[Element, ...]:
     """Top level of the file, in the order that every reader expects."""
-    graph = _Graph()
+    graph = Assembly()
     curves: Curves | None = None
     creator, take, rate, last_tick = "", "", None, 0
     for scene in checked_scenes(scenes):
@@ -83,35 +83,6 @@ def scene_elements(scenes: Iterable[Scene]) -> tuple[Element, ...]:
         Element("Connections", (), tuple(graph.connections)),
         takes(take, last_tick),
     )
-
-
-# ---------------------------------------------------------------------------------------------------- object graph
-
-
-@dataclass
-class _Graph:
-    """Objects and connections while the file is being put together."""
-
-    objects: list[Element] = field(default_factory=list)
-    connections: list[Element] = field(default_factory=list)
-    materials: dict[Material, int] = field(default_factory=dict)
-    last_id: int = _FIRST_ID
-
-    def new_id(self) -> int:
-        self.last_id += 1
-        return self.last_id
-
-    def add(self, kind: str, name: str, class_name: str, sub_class: str, children: tuple[Element, ...]) -> int:
-        new = self.new_id()
-        self.objects.append(Element(kind, (np.int64(new), f"{name}\0\x01{class_name}", sub_class), children))
-        return new
-
-    def connect(self, child: int, parent: int, to_property: str | None = None) -> None:
-        ends: tuple[Property, ...] = (np.int64(child), np.int64(parent))
-        if to_property is None:
-            self.connections.append(Element("C", ("OO", *ends)))
-        else:
-            self.connections.append(Element("C", ("OP", *ends, to_property)))
 
 
 def _vector(name: str, values: FloatArray) -> Element:
@@ -139,7 +110,7 @@ class _Figure:
     channel_ids: dict[str, list[int]] = field(default_factory=dict)
 
 
-def _add_figure(graph: _Graph, scene: Scene) -> _Figure:
+def _add_figure(graph: Assembly, scene: Scene) -> _Figure:
     figure = _Figure()
     world_from_node = np.eye(4)
     if scene.place is not None:
@@ -160,7 +131,7 @@ def _add_figure(graph: _Graph, scene: Scene) -> _Figure:
     return figure
 
 
-def _add_bone(graph: _Graph, figure: _Figure, bone: Bone) -> None:
+def _add_bone(graph: Assembly, figure: _Figure, bone: Bone) -> None:
     flags = (Element("TypeFlags", ("Skeleton",)),)
     attribute = graph.add("NodeAttribute", bone.name, "NodeAttribute", "LimbNode", flags)
     model = graph.add("Model", bone.name, "Model", "LimbNode", _placed(Place(bone.translation_cm, bone.rotation_xyzw)))
@@ -207,7 +178,7 @@ def _unconnected_binds(scene: Scene) -> npt.NDArray[np.float64]:
 
 
 def _add_mesh(
-    graph: _Graph,
+    graph: Assembly,
     figure: _Figure,
     mesh: SkinnedMesh,
     binds: npt.NDArray[np.float64],
@@ -278,7 +249,7 @@ def _material(surface: Material) -> tuple[Element, ...]:
 
 
 def _add_skin(
-    graph: _Graph,
+    graph: Assembly,
     figure: _Figure,
     mesh: SkinnedMesh,
     shape: int,
@@ -312,7 +283,7 @@ def _pose_node(node: int, world_from_node: FloatArray) -> Element:
     return Element("PoseNode", (), (Element("Node", (np.int64(node),)), _matrix("Matrix", world_from_node)))
 
 
-def _add_morphs(graph: _Graph, figure: _Figure, mesh: SkinnedMesh, shape: int) -> None:
+def _add_morphs(graph: Assembly, figure: _Figure, mesh: SkinnedMesh, shape: int) -> None:
     # Unreal cuts the deformer's name off the front of a channel's name, so it must not be one.
     deformer = graph.add("Deformer", f"{mesh.name}_morphs", "Deformer", "BlendShape", (integer("Version", 100),))
     graph.connect(deformer, shape)
@@ -332,7 +303,7 @@ def _add_morphs(graph: _Graph, figure: _Figure, mesh: SkinnedMesh, shape: int) -
 # -------------------------------------------------------------------------------------------------------- animation
 
 
-def _add_take(graph: _Graph, clip: Clip) -> tuple[int, Curves]:
+def _add_take(graph: Assembly, clip: Clip) -> tuple[int, Curves]:
     """Stack and layer; the tick of the last key, and what adds curves to them."""
     key_ticks = ticks.frame_ticks(clip.fps, clip.frames)
     last_tick = int(key_ticks[-1])

@@ -1,0 +1,42 @@
+"""What is put together of a file before its bytes are written: objects, their ids, and what is connected to what."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+
+from app.formats.fbx.encode import Element, Property
+from app.formats.scene import Material
+
+_FIRST_ID: Final = 1_000_000
+
+
+@dataclass
+class Assembly:
+    """Objects and connections while the file is being put together."""
+
+    objects: list[Element] = field(default_factory=list)
+    connections: list[Element] = field(default_factory=list)
+    materials: dict[Material, int] = field(default_factory=dict)
+    last_id: int = _FIRST_ID
+
+    def new_id(self) -> int:
+        """An id that no object has."""
+        self.last_id += 1
+        return self.last_id
+
+    def add(self, kind: str, name: str, class_name: str, sub_class: str, children: tuple[Element, ...]) -> int:
+        """Add an object; its id."""
+        new = self.new_id()
+        self.objects.append(Element(kind, (np.int64(new), f"{name}\0\x01{class_name}", sub_class), children))
+        return new
+
+    def connect(self, child: int, parent: int, to_property: str | None = None) -> None:
+        """Connect an object to another one, or to a property of it."""
+        ends: tuple[Property, ...] = (np.int64(child), np.int64(parent))
+        if to_property is None:
+            self.connections.append(Element("C", ("OO", *ends)))
+        else:
+            self.connections.append(Element("C", ("OP", *ends, to_property)))
