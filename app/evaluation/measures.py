@@ -10,7 +10,6 @@ from typing import Final, Literal
 import msgspec
 import numpy as np
 import numpy.typing as npt
-from scipy.signal import butter, sosfiltfilt
 
 from app.contacts.breaks import Break
 from app.contacts.controls import NoteFrames
@@ -201,6 +200,8 @@ def quantity_of_motion_mm_s(place_m: FloatArray, fps: float, counted: BoolArray)
     if not counted.any() or len(place_m) < period_frames:
         return None
     top_hz = min(SEEN_HZ[1], 0.45 * fps)
+    from scipy.signal import butter, sosfiltfilt  # heavy; a process that refuses or is stopped needs none
+
     sections = butter(2, (SEEN_HZ[0], top_hz), "band", fs=fps, output="sos")
     moved = np.asarray(sosfiltfilt(sections, place_m, axis=0))
     speed = np.linalg.norm(np.gradient(moved, axis=0), axis=1) * fps * 1000.0

@@ -1,16 +1,21 @@
-"""Draws the whole editor at a scale, in both languages, and prints what does not fit; run as a program.
+"""Draws the whole editor at some scales, in both languages, and prints what does not fit; run as a program.
 
-``QT_SCALE_FACTOR=1.5 python -m tests.support.looks THEME WIDTH HEIGHT [FOLDER]``: a line for each fault, and
-with a folder a picture of each state. The scale belongs to the process: a test starts one for each.
+``python -m tests.support.looks SCALE:THEME:WIDTH:HEIGHT ... [FOLDER]``: a line for each scale and for each fault at it,
+and with a folder a picture of each state. The scale belongs to the process: each has a fork of this one, in which all
+modules and the piece are loaded.
 """
 
 from __future__ import annotations
 
+import importlib
+import os
+import pkgutil
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import patch
 
 from PySide6.QtCore import Qt
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
@@ -30,13 +35,17 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+import app.shell
+import widgets.dialogs
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Severity
 from app.editor.settings import Settings
 from app.editor.tokens import LEAST_TARGET_PX
 from app.errors import Message
+from app.performance.ensemble import Performance
 from app.project.autosave import Autosave
 from app.project.edit.takes import add_takes, comp_whole
+from app.project.importing import import_project, usual_rows
 from app.project.presence import Presence
 from app.project.recovery import Recoverable
 from app.score.read import read_contents
@@ -50,6 +59,7 @@ from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import pause
 from widgets.dialogs.import_midi import ImportDialog
+from widgets.viewport import figures
 
 ELIDED = {"player_instrument", "front_player", "curve_choice", "notice", "problems_who", "problems_kind"}
 """What may be cut short: all of it stands in the list that opens, in the tool tip, or beside it."""
@@ -329,10 +339,10 @@ class Look:
         print(f"scale {ratio:g}")
 
 
-def main() -> None:
-    """Look, and print what was found."""
-    theme, width, height = sys.argv[1:4]
-    pictures = Path(sys.argv[4]) if len(sys.argv) > 4 else None
+def look_at(screen: str, pictures: Path | None) -> None:
+    """Look at one scale, and print what was found."""
+    scale, theme, width, height = screen.split(":")
+    os.environ["QT_SCALE_FACTOR"] = scale
     with tempfile.TemporaryDirectory() as folder:
         look = Look(theme, (int(width), int(height)), Path(folder), pictures)
         look.start()
@@ -351,5 +361,33 @@ def main() -> None:
         look.window.hide()
 
 
+def load() -> None:
+    """What is the same at every scale: modules, the piece's plans, and its figures."""
+    for package in (widgets.dialogs, app.shell):
+        for module in pkgutil.iter_modules(package.__path__, f"{package.__name__}."):
+            importlib.import_module(module.name)
+    contents = read_contents(LUTKIN)
+    project = import_project(contents, usual_rows(contents, bundled_maps()), bundled_maps(), str(LUTKIN))
+    known = Performance(project)
+    known.prepare()
+    patch("app.editor.session.Performance", lambda project: Performance(project, known)).start()
+    figures.load(project, None, lambda share: None, lambda: False)
+
+
+def main() -> int:
+    """Look at one scale after another; 1 where one of them failed."""
+    screens = [argument for argument in sys.argv[1:] if ":" in argument]
+    pictures = Path(sys.argv[-1]) if sys.argv[-1] not in screens else None
+    load()
+    status = 0
+    for screen in screens:
+        child = os.fork()
+        if child == 0:
+            look_at(screen, pictures)
+            return 0
+        status = status or int(os.waitpid(child, 0)[1] != 0)
+    return status
+
+
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

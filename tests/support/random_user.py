@@ -58,6 +58,8 @@ from tests.fuzz.harness.values import TEXTS
 from tests.gui.shell.conftest import Answers
 from tests.support.dances import model
 from tests.support.restless import QUARTET, Complaints, Restless
+from tests.support.windows import draw_coarsely
+from widgets.viewport.canvas import Canvas
 
 MOST_LOST_S: Final = 5.0
 """Work of the editor's last seconds that a kill may cost."""
@@ -286,6 +288,7 @@ class SessionRun:
         answers = RandomAnswers(self.chance, folder / "files", self.log)
         autosave = Autosave(Presence(folder / "recovery"))
         patch("app.editor.files.time", self.clock).start()
+        patch.object(Canvas, "on_draw", draw_coarsely).start()
         self.program = Program(settings, questions=answers, autosave=autosave, audible=False)
         assert isinstance(self.program.tasks, ThreadTasks)
         self.tasks = self.program.tasks
@@ -356,7 +359,7 @@ class SessionRun:
             if time.monotonic() > end_s:
                 raise TimeoutError(what)
             self.application.processEvents()
-            time.sleep(0.001)
+            time.sleep(0.005)
 
     def _tell_complaints(self) -> None:
         for complaint in self.complaints.found:

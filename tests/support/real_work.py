@@ -56,7 +56,7 @@ class Work:
         self.session = self.program.session
         self.session.noticed.connect(self._reported)
         self.window = self.program.window
-        self.window.resize(1600, 1000)
+        self.window.resize(1600, 800)
         self.window.show()
         self.window.activateWindow()
         self.pictures = 0
@@ -83,13 +83,11 @@ class Work:
         self.planned()
         viewport, playhead_s = self.viewport, self.session.playhead_s
         self.until(lambda: self.program.generator.live.pose(self.front, playhead_s) is not None, "motion")
-        for _ in range(12):
-            self.application.processEvents()
-            time.sleep(0.02)
+        pause(240)
         viewport.refresh()
         self.application.processEvents()
         self.pictures += 1
-        self.window.grab().save(str(self.folder / f"{self.pictures:02}_{name}.png"))
+        self.window.grab().save(str(self.folder / f"{self.pictures:02}_{name}.jpg"))
 
     def do(self, action_id: str) -> None:
         """Choose an action."""
@@ -324,7 +322,7 @@ def recover_and_export(folder: Path) -> None:
     work.program.editor.files.find_recoverable(offered.extend)
     work.until(lambda: bool(offered), "what was lost")
     assert len(offered) == 1, offered
-    work.window.grab().save(str(folder / "20_offered.png"))
+    work.window.grab().save(str(folder / "20_offered.jpg"))
     work.program.editor.files.recover(offered[0])
     work.until(lambda: len(work.session.project.players) == 4, "the recovery")
     work.pictures = 20
@@ -338,11 +336,11 @@ def recover_and_export(folder: Path) -> None:
     assert bars is not None
     assert last_bar is not None
     bars.setCurrentIndex(1)
-    last_bar.setValue(16)
+    last_bar.setValue(8)
     QTest.mouseClick(dialog.findChild(QPushButton, "export_start"), Qt.MouseButton.LeftButton)
     work.until(lambda: (folder / "out" / "report.json").exists(), "the export")
     pause(300)
-    dialog.grab().save(str(folder / "22_exported.png"))
+    dialog.grab().save(str(folder / "22_exported.jpg"))
     work.answers.answer = "save"
     work.do("file.save")
     work.until(lambda: work.session.document.is_saved, "saving")

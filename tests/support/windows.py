@@ -9,6 +9,8 @@ from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 
+from widgets.viewport.canvas import Canvas
+
 PATIENCE_MS = 180_000
 LOOK_AGAIN_MS = 10
 """Between two looks whether something has come to be: more often takes much of the processor that it needs itself."""
@@ -41,3 +43,8 @@ def wait_until(condition: Callable[[], bool]) -> bool:
     while not (holds := condition()) and time.monotonic() < end_s:
         pause(LOOK_AGAIN_MS)
     return holds
+
+
+def draw_coarsely(canvas: Canvas, event: object) -> None:
+    """In place of `Canvas.on_draw`, where no one looks at the players: a quarter of the pixels."""
+    canvas._draw(*(int(size_px) // 2 for size_px in canvas.physical_size))

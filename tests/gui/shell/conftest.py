@@ -29,7 +29,7 @@ from tests.gui.conftest import QUARTET, delete_now
 from tests.support.recorder import EWI, Clock, SpokenFor
 from tests.support.studio import Studio
 from tests.support.tasks import ImmediateTasks
-from tests.support.windows import show_in_front
+from tests.support.windows import draw_coarsely, show_in_front
 from widgets.viewport.canvas import Canvas
 
 
@@ -92,8 +92,7 @@ def _drawn(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> N
 
     Where the processor does OpenGL's work, every change of the window costs up to 100 ms: 60 times as much as without.
     """
-    # What is drawn is looked at in tests of the viewport: here a quarter of the pixels does.
-    monkeypatch.setattr(Canvas, "on_draw", lambda self, event: self._draw(*(int(px) // 2 for px in self.physical_size)))
+    monkeypatch.setattr(Canvas, "on_draw", draw_coarsely)
     marks = {mark.name for mark in request.node.iter_markers()}
     if "drawn" not in marks:
         monkeypatch.setattr("widgets.viewport.panel.why_no_gl", lambda: "not in this test")

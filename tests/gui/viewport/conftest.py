@@ -20,7 +20,7 @@ from tests.support.windows import show
 from widgets.viewport.panel import ViewportPanel
 
 AT_S = 6.0
-SIZE = (640, 360)
+SIZE = (480, 270)
 
 Picture = npt.NDArray[np.uint8]
 

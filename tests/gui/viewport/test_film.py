@@ -117,7 +117,7 @@ def test_dancers_are_filmed_but_have_no_hands_on_an_instrument(
 @pytest.mark.skipif(sys.platform == "win32", reason="signals to a child are another thing there")
 @pytest.mark.parametrize("target", [("--to", "film.mp4"), ("--to", "frames"), ("--sheet", "sheet.png")])
 def test_stopped_it_leaves_nothing(target: tuple[str, str], tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "app", "film", str(QUARTET), *target, "--size", "64x64"]
+    command = [sys.executable, "-m", "app", "film", str(QUARTET), *target, "--size", "64x64", "--to-bar", "8"]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     with subprocess.Popen(command, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True) as process:
         deadline_s = time.monotonic() + 300.0

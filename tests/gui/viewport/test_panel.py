@@ -352,7 +352,8 @@ def test_where_there_is_little_room_the_views_fold_into_a_menu(qtbot: QtBot, vie
     segment = viewport.findChild(QToolButton, "viewport_view_front")
     assert folded is not None
     assert segment is not None
-    assert segment.isVisible()
+    viewport.resize(640, 360)
+    qtbot.waitUntil(segment.isVisible)
     assert not folded.isVisible()
     viewport.resize(300, 300)
     qtbot.waitUntil(folded.isVisible)
@@ -540,10 +541,10 @@ def test_a_second_drag_goes_on_from_the_first(posing: ViewportPanel, session: Se
 
 
 def test_shift_is_finer(posing: ViewportPanel, session: Session) -> None:
-    drag(canvas(posing), posing.handle_places()["head"], QPointF(8, 0))
+    drag(canvas(posing), posing.handle_places()["head"], QPointF(6, 0))
     coarse = only(session).left_deg
     session.document.undo()
-    drag(canvas(posing), posing.handle_places()["head"], QPointF(8, 0), modifiers=Qt.KeyboardModifier.ShiftModifier)
+    drag(canvas(posing), posing.handle_places()["head"], QPointF(6, 0), modifiers=Qt.KeyboardModifier.ShiftModifier)
     assert only(session).left_deg == pytest.approx(coarse / 4.0, abs=0.2)
 
 
