@@ -79,6 +79,7 @@ def plan_embouchures(
     reported = "embouchure.controller" if from_breath else "embouchure.register"
     known: dict[float, float] = {}
     """Equal values are kept once."""
+    once = known.setdefault
     events = []
     rows = zip(
         notes, times.onset_s.tolist(), times.played_end_s.tolist(), times.pitch.tolist(),
@@ -88,7 +89,7 @@ def plan_embouchures(
     for index, (note, start_s, end_s, midi, loudness, tight, strain, air) in enumerate(rows):
         reason = _reason(reported, midi, low, top, loudness)
         end_s = early_end_s.get(index, end_s)
-        tight, strain, air = (known.setdefault(value, value) for value in (tight, strain, air))
+        tight, strain, air = once(tight, tight), once(strain, strain), once(air, air)
         events.append(EmbouchureEvent(note.id, start_s, end_s, tight, strain, air, reason))
     return tuple(events)
 
