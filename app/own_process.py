@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import IO, Any, Final, NoReturn, Protocol
 
 _LENGTH: Final = struct.Struct("<I")
+_ENDING: Final = (signal.SIGINT, signal.SIGTERM)
 
 
 class Child(Protocol):
@@ -81,14 +82,19 @@ class ForkedChild:
         there, to, back, here = (os.fdopen(end, mode) for end, mode in zip(ends, ("rb", "wb", "rb", "wb"), strict=True))
         self.to: IO[bytes] = to
         self.back: IO[bytes] = back
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, ())
         try:
+            # What a signal raises within a fork is lost.
+            signal.pthread_sigmask(signal.SIG_BLOCK, _ENDING)
             self._id = os.fork()
+            if not self._id:
+                _close(to, back, *(stream for other in others for stream in (other.to, other.back)))
+                _in_copy(lambda: work(there, here))
         except OSError:
             _close(there, to, back, here)
             raise
-        if not self._id:
-            _close(to, back, *(stream for other in others for stream in (other.to, other.back)))
-            _in_copy(lambda: work(there, here))
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
         _close(there, here)
 
     def end(self) -> None:
@@ -103,7 +109,9 @@ def _in_copy(work: Callable[[], None]) -> NoReturn:
     status = 1
     try:
         os.setpgid(0, 0)
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        for number in _ENDING:
+            signal.signal(number, signal.SIG_DFL)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, _ENDING)
         work()
         status = 0
     finally:

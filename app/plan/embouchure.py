@@ -6,6 +6,8 @@ Messages: ``embouchure.register``, ``embouchure.controller``.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from app.errors import Message
@@ -75,9 +77,9 @@ def plan_embouchures(
     tension = np.clip(tension * parameters.embouchure_tension, 0.0, 1.0)
     low, top = instrument.range.low, instrument.range.high
     reported = "embouchure.controller" if from_breath else "embouchure.register"
-    reasons: dict[tuple[int, float], Message] = {}
     known: dict[float, float] = {}
     """Equal values are kept once."""
+    once = known.setdefault
     events = []
     rows = zip(
         notes, times.onset_s.tolist(), times.played_end_s.tolist(), times.pitch.tolist(),
@@ -85,14 +87,17 @@ def plan_embouchures(
         np.round(times.loudness, 4).tolist(), strict=True,
     )  # fmt: skip
     for index, (note, start_s, end_s, midi, loudness, tight, strain, air) in enumerate(rows):
-        reason = reasons.get((midi, loudness))
-        if reason is None:
-            arguments = {"pitch": midi, "low": low, "high": top, "loudness": loudness}
-            reason = reasons[midi, loudness] = Message(reported, arguments)
+        reason = _reason(reported, midi, low, top, loudness)
         end_s = early_end_s.get(index, end_s)
-        tight, strain, air = (known.setdefault(value, value) for value in (tight, strain, air))
+        tight, strain, air = once(tight, tight), once(strain, strain), once(air, air)
         events.append(EmbouchureEvent(note.id, start_s, end_s, tight, strain, air, reason))
     return tuple(events)
+
+
+@lru_cache(maxsize=8192)
+def _reason(reported: str, pitch: int, low: int, high: int, loudness: float) -> Message:
+    """Equal ones are kept once."""
+    return Message(reported, {"pitch": pitch, "low": low, "high": high, "loudness": loudness})
 
 
 def efforts_of(embouchures: tuple[EmbouchureEvent, ...]) -> FloatArray:

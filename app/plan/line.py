@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import msgspec
 import numpy as np
@@ -298,6 +298,18 @@ def without_sound(notes: tuple[Note, ...]) -> tuple[Note, ...]:
     return tuple(Note(note.id, note.onset_tick, note.duration_tick, 0, 0) for note in notes)
 
 
+@lru_cache(maxsize=64)
+def _digests(parts: tuple[str | int, ...], places: bytes) -> bytes:
+    """Of the parts with each place (int64) after them. Kept, since an edit of a pitch moves no note of its line."""
+    head = begun(parts)
+    digests = []
+    for place in np.frombuffer(places, np.int64).tolist():
+        digest = head.copy()
+        digest.update(b"%d" % place)
+        digests.append(digest.digest())
+    return b"".join(digests)
+
+
 class Seeds(msgspec.Struct, frozen=True):
     """What one player's chances are drawn from.
 
@@ -337,13 +349,8 @@ class Seeds(msgspec.Struct, frozen=True):
         ends : (N,) int64, optional
             Up to where each has consequences: chances fall differently where these lie within the span too.
         """
-        head = begun((*self.names, purpose))
-        digests = []
-        for place in (ticks if places is None else places).tolist():
-            digest = head.copy()
-            digest.update(b"%d" % place)
-            digests.append(digest.digest())
-        shares: FloatArray = np.frombuffer(b"".join(digests), ">u8") / 2.0**64
+        drawn = np.asarray(ticks if places is None else places, np.int64)
+        shares: FloatArray = np.frombuffer(_digests((*self.names, purpose), drawn.tobytes()), ">u8") / 2.0**64
         last = ticks + 1 if ends is None else ends
         for start_tick, end_tick, seed in self.varied:
             for place in np.flatnonzero((ticks >= start_tick) & (last <= end_tick)).tolist():
