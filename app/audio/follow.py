@@ -156,9 +156,9 @@ def _as_sure_as(whole: Following | None) -> float:
 
 def _part_limit(played: Sequence[Passage], recorded: RecordedSound) -> float:
     """Mean confidence below which passages are rather those of another piece."""
-    lengths_s = [float(one.recording_end_s - one.recording_start_s) for one in played]
+    lengths_s = [one.recording_end_s - one.recording_start_s for one in played]
     short = float(np.interp(max(lengths_s, default=0.0), _SHORT_S, (_SHORT_RECOGNISED, 0.0)))
-    alone = 1.0 - min(sum(lengths_s) / (recorded.chroma.shape[1] * CHROMA_S), 1.0)
+    alone = float(1.0 - min(sum(lengths_s) / (recorded.chroma.shape[1] * CHROMA_S), 1.0))
     return _PART_RECOGNISED + short + _ALONE_RECOGNISED * alone
 
 

@@ -70,7 +70,7 @@ def passages(score: Floats, recording: Floats, frame_s: float = CHROMA_S) -> tup
     ]
     chain = _rising([run for run, _ in long], path)
     return tuple(
-        Passage(path[first] * frame_s, (path[last - 1] + 1) * frame_s, first * frame_s, last * frame_s)
+        Passage(int(path[first]) * frame_s, (int(path[last - 1]) + 1) * frame_s, first * frame_s, last * frame_s)
         for first, last in chain
     )
 

@@ -47,7 +47,7 @@ _AT_CONTROLS: Final = {
     "results.unasked": "results.unasked_here",
 }
 """By the id of an error the one that says which controls of the dialog to use, instead of options."""
-_SIZE: Final = QSize(1080, 680)
+_SIZE: Final = QSize(1120, 700)
 _SHARPER: Final = 2
 """Pixels of a copied picture by those of its own size."""
 
