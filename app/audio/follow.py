@@ -158,7 +158,10 @@ def _part_limit(played: Sequence[Passage], recorded: RecordedSound) -> float:
     """Mean confidence below which passages are rather those of another piece."""
     lengths_s = [one.recording_end_s - one.recording_start_s for one in played]
     short = float(np.interp(max(lengths_s, default=0.0), _SHORT_S, (_SHORT_RECOGNISED, 0.0)))
-    alone = float(1.0 - min(sum(lengths_s) / (recorded.chroma.shape[1] * CHROMA_S), 1.0))
+    sounding = np.linalg.norm(recorded.chroma, axis=0)
+    frames = [(round(one.recording_start_s / CHROMA_S), round(one.recording_end_s / CHROMA_S)) for one in played]
+    there = sum(float(sounding[first:last].sum()) for first, last in frames)
+    alone = 1.0 - min(there / max(float(sounding.sum()), 1e-9), 1.0)
     return _PART_RECOGNISED + short + _ALONE_RECOGNISED * alone
 
 
