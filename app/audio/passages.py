@@ -26,8 +26,10 @@ _LEAST_S: Final = 3.0
 """Shorter passages are chance."""
 _LEAST_ALIKE: Final = 0.6
 """Passages less alike than this part of the most alike one are chance."""
-_PLAYED: Final = np.array([1, 0, 2])
-"""Frames of the score from one frame of the recording to the next, in the order of preference."""
+_PLAYED: Final = (1, 0, 2)
+"""Frames of the score from one frame of the recording to the next, in the order of preference ..."""
+_JUMPED: Final = 3
+"""... and the number of what is none of these."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +72,7 @@ def passages(score: Floats, recording: Floats, frame_s: float = CHROMA_S) -> tup
     ]
     chain = _rising([run for run, _ in long], path)
     return tuple(
-        Passage(path[first] * frame_s, (path[last - 1] + 1) * frame_s, first * frame_s, last * frame_s)
+        Passage(int(path[first]) * frame_s, (int(path[last - 1]) + 1) * frame_s, first * frame_s, last * frame_s)
         for first, last in chain
     )
 
@@ -79,7 +81,8 @@ def _path(score: Floats, recording: Floats) -> Integers:
     """Of every frame of the recording the frame of the score."""
     count = len(score)
     places = np.arange(count)
-    came_from = np.empty((len(recording), count), np.int32)
+    how = np.empty((len(recording), count), np.int8)
+    jumped_from = np.empty(len(recording), np.int64)
     total = -(score @ recording[0])
     best = np.full((3, count), np.inf)
     for frame in range(1, len(recording)):
@@ -88,15 +91,15 @@ def _path(score: Floats, recording: Floats) -> Integers:
         best[2, 2:] = total[:-2] + _UNEVEN
         chosen = best.argmin(axis=0)
         least = best[chosen, places]
-        before = places - _PLAYED[chosen]
-        lowest = int(total.argmin())
+        lowest = jumped_from[frame] = int(total.argmin())
         jumps = total[lowest] + _JUMP < least
-        came_from[frame] = np.where(jumps, lowest, before)
+        how[frame] = np.where(jumps, _JUMPED, chosen)
         total = np.where(jumps, total[lowest] + _JUMP, least) - score @ recording[frame]
     path = np.empty(len(recording), np.int64)
     path[-1] = int(total.argmin())
     for frame in range(len(recording) - 1, 0, -1):
-        path[frame - 1] = came_from[frame, path[frame]]
+        came = int(how[frame, path[frame]])
+        path[frame - 1] = jumped_from[frame] if came == _JUMPED else path[frame] - _PLAYED[came]
     return path
 
 

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
     QHeaderView,
     QListWidget,
     QPlainTextEdit,
+    QScrollArea,
     QTableWidget,
     QTableWidgetItem,
     QTabWidget,
@@ -28,6 +29,7 @@ from app.evaluation.gathered import Gathered
 from app.evaluation.plot import plot
 from app.evaluation.report import write_results
 from app.evaluation.tables import Table, tables
+from app.messages import text
 from widgets.common.controls import Button, Caption, Retranslated, named, selectable, wrapped
 from widgets.common.instrument_name import language
 from widgets.common.layouts import in_column, in_row
@@ -45,6 +47,7 @@ _AT_CONTROLS: Final = {
     "results.unasked": "results.unasked_here",
 }
 """By the id of an error the one that says which controls of the dialog to use, instead of options."""
+_SIZE: Final = QSize(1120, 700)
 _SHARPER: Final = 2
 """Pixels of a copied picture by those of its own size."""
 
@@ -76,6 +79,9 @@ class EvaluationResultsDialog(Retranslated, QDialog):
         self._words = named(QPlainTextEdit(), "results_words")
         self._words.setReadOnly(True)
         self._picture = _Picture()
+        self._room = named(QScrollArea(), "results_room")
+        self._room.setWidgetResizable(True)
+        self._room.setWidget(self._picture)
         self._tabs = named(QTabWidget(), "results_tabs")
         self._add = Button("results_dialog.add", self._ask, "results_add")
         self._remove = Button("results_dialog.remove", self._remove_chosen, "results_remove")
@@ -84,6 +90,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
         self._save = Button("results_dialog.save", self._ask_folder, "results_save")
         self._lay_out()
         self.retranslate()
+        self.resize(_SIZE)
 
     def _lay_out(self) -> None:
         box = QDialogButtonBox()
@@ -178,7 +185,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
         if self._found is None:
             return
         self._picture.show_svg(plot(self._found.results, language()))
-        self._tabs.addTab(self._picture, self.tr("results_dialog.picture"))
+        self._tabs.addTab(self._room, self.tr("results_dialog.picture"))
         for table in tables(self._found.results, self._found.measures, language()):
             self._tabs.addTab(_TableView(table), table.title)
         self._tabs.setCurrentIndex(max(min(front, self._tabs.count() - 1), 0))
@@ -188,9 +195,10 @@ class EvaluationResultsDialog(Retranslated, QDialog):
         assert self._found is not None
         results = self._found.results
         conclusions = conclude(results)
-        lines = [message_text(Message("results.title", {"piece": results.piece}))]
+        spoken = language()
+        lines = [text(Message("results.title", {"piece": results.piece}), spoken)]
         for heading, said in (("results.may", conclusions.may), ("results.may_not", conclusions.may_not)):
-            lines += ["", f"{message_text(Message(heading))}:", *(f"• {message_text(message)}" for message in said)]
+            lines += ["", f"{text(Message(heading), spoken)}:", *(f"• {text(message, spoken)}" for message in said)]
         return "\n".join(lines)
 
     # What is asked
@@ -235,9 +243,6 @@ class EvaluationResultsDialog(Retranslated, QDialog):
         event.acceptProposedAction()
         self.add_files(dropped_paths(event))
 
-    def sizeHint(self) -> QSize:
-        return QSize(1080, 680)
-
 
 class _TableView(QWidget):
     """A table and what its columns mean."""
@@ -264,7 +269,7 @@ class _TableView(QWidget):
 
 
 class _Picture(QWidget):
-    """The picture, as large as there is room, and its own shape."""
+    """The picture in its own shape, larger where there is room."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -274,6 +279,7 @@ class _Picture(QWidget):
     def show_svg(self, source: str) -> None:
         """Show another picture."""
         self._renderer.load(QByteArray(source.encode()))
+        self.setMinimumSize(self._renderer.defaultSize())
         self.update()
 
     def image(self, factor: int) -> QImage:

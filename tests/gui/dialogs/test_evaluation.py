@@ -19,8 +19,10 @@ from app.errors import AppError, Cancelled, Message
 from app.evaluation.process import Finished, made_by_process
 from app.evaluation.request import Request
 from app.messages import WORDINGS
+from app.performance.ensemble import Performance
 from app.project.model import Project
 from tests.gui.conftest import quartet_project
+from tests.unit.evaluation.test_keyframes import export_bvh
 from widgets.common.paths import PathEdit
 from widgets.dialogs.evaluation import EvaluationDialog, Make
 from widgets.dialogs.texts import TEXTS
@@ -189,9 +191,12 @@ def test_errors_name_controls_that_there_are() -> None:
 def test_another_process_makes_it_stops_and_refuses(tmp_path: Path) -> None:
     project = quartet_project()
     request = Request(
-        str(tmp_path / "made"), "Quartet", variants=("generated", "still"), excerpts=1, excerpt_s=1.0,
+        str(tmp_path / "made"), "Quartet", variants=("generated", "keyframes"), excerpts=1, excerpt_s=1.0,
         view="front", player_ids=(project.bodies[0].id,), size=(64, 64), fps=(2, 1), presentation="pair",
+        keyframes=str(tmp_path / "motion"),
     )  # fmt: skip
+    (tmp_path / "motion").mkdir()
+    export_bvh(Performance(project), project.bodies[0].name, tmp_path / "motion")
     shares: list[float] = []
     module = "app.cli.evaluation_worker"
     made = made_by_process(module, project, request, lambda share, said: shares.append(share), lambda: False)

@@ -38,6 +38,7 @@ def test_files_become_words_a_picture_and_tables(
     write_measures(MEASURES, tmp_path / "measures.json")
     dialog.add_files(files[:1])
     assert (state.text(), listed.count(), tabs.count()) == ("", 8, 6)
+    assert "results." not in words.toPlainText()
     assert "With 8 viewers only large differences show" in words.toPlainText()
     clipboard = QGuiApplication.clipboard()
     dialog.copy()

@@ -42,15 +42,20 @@ def motion_of(performance: Performance, name: str) -> Motion:
 
 @pytest.fixture(scope="module")
 def exported(performance: Performance, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Two players as `suisou export` writes them, with what of its report is read."""
+    """Two players as `suisou export` writes them."""
     folder = tmp_path_factory.mktemp("exported")
     for name in ("Trumpet 1", "Trombone 1"):
-        player = next(player for player in performance.project.players if player.name == name)
-        character, motion = performer_of(performance, player).character, motion_of(performance, name)
-        scene = character_scene(character, motion, name, "test", normalised_target(character.skeleton), ())
-        write_bvh(folder / f"{name}.bvh", scene_bvh(scene))
-        (folder / "report.json").write_text(f'{{"first_frame_s": {motion.first_frame_s}, "frames": 24}}')
+        export_bvh(performance, name, folder)
     return folder
+
+
+def export_bvh(performance: Performance, name: str, folder: Path) -> None:
+    """Write some seconds of a player as `suisou export` does, with what of its report is read."""
+    player = next(player for player in performance.project.players if player.name == name)
+    character, motion = performer_of(performance, player).character, motion_of(performance, name)
+    scene = character_scene(character, motion, name, "test", normalised_target(character.skeleton), ())
+    write_bvh(folder / f"{name}.bvh", scene_bvh(scene))
+    (folder / "report.json").write_text(f'{{"first_frame_s": {motion.first_frame_s}, "frames": 24}}')
 
 
 def apart_rad(one: np.ndarray, other: np.ndarray) -> float:
