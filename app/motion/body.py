@@ -370,9 +370,15 @@ def body_motion(
     *,
     steps: bool = True,
     beside: FloatArray | float = 1.0,
+    swaying: FloatArray | float = 1.0,
+    shifting: FloatArray | float = 1.0,
 ) -> BodyMotion:
     """Sum of all layers at ascending ``times_s`` (F,), on top of the posture's own angles; without ``steps`` feet only
-    tap. ``beside`` is the share that is shown of keyed gestures and of what is done beside playing."""
+    tap.
+
+    ``beside`` is the share that is shown of keyed gestures and of what is done beside playing, ``swaying`` and
+    ``shifting`` of what wanders by itself with the sway and with the weight.
+    """
     sizes, sway, deg = Sizes(body, parameters, player_id), body.sway, np.deg2rad
     inhaled, lean, shown = levels.full + QUIET * levels.quiet, levels.leaning, acting.gestures * beside
     dip, lift = acting.cue * levels.dip, acting.cue * levels.lift
@@ -382,13 +388,14 @@ def body_motion(
         lowered = lowered * (1.0 - raised)
     look, total = with_instrument(look, lowered), Sum(frames)
     aside_rad = _held(total, posture, lowered)
+    wandering, uneasy = swaying * acting.sway, shifting * acting.weight_shift
     angles = Angles.of(
         Part(levels.sway, acting.sway), Part(levels.lean, acting.phrase), Part(levels.accent, acting.phrase),
-        Part(levels.weight, acting.weight_shift), sizes, seated, Leads.of(body.overlap), times_s,
+        Part(levels.weight, acting.weight_shift), sizes, seated, Leads.of(body.overlap), times_s, wandering,
     )  # fmt: skip
     angles.add_to(total)
-    total.left(NECK_SHARES, deg(sizes.wander("head_side", sway.head_deg, times_s, acting.sway)))
-    total.turn(NECK_SHARES, deg(sizes.wander("head_turn", sway.head_deg, times_s, acting.sway)))
+    total.left(NECK_SHARES, deg(sizes.wander("head_side", sway.head_deg, times_s, wandering)))
+    total.turn(NECK_SHARES, deg(sizes.wander("head_turn", sway.head_deg, times_s, wandering)))
 
     inhaled = acting.breath * at_amplitude(body.breath.shown, parameters.amplitude) * inhaled
     with_trunk, with_shoulders = sizes.breathing
@@ -412,7 +419,7 @@ def body_motion(
     total.forward(TRUNK_SHARES, deg(body.bell.lowered_trunk_deg) * lowered)
 
     feet = feet_moved(levels.feet, body, parameters.amplitude, acting.footwork, steps=steps)
-    hips_forward_rad, hips_ahead_m = angles.pelvis, _ahead_m(levels, sizes, acting, feet, times_s)
+    hips_forward_rad, hips_ahead_m = angles.pelvis, _ahead_m(levels, sizes, acting, feet, times_s, uneasy)
     shoulders, elbows = (
         deg(with_shoulders * body.breath.shoulder_lift_deg) * inhaled,
         deg(body.breath.elbow_out_deg) * inhaled,
@@ -442,7 +449,7 @@ def body_motion(
         forward_rad=forward_rad,
         left_rad=left_rad,
         turn_rad=turn_rad,
-        hips_side_m=_aside_m(levels, sizes, acting, steps, times_s),
+        hips_side_m=_aside_m(levels, sizes, acting, steps, times_s, uneasy),
         hips_ahead_m=hips_ahead_m,
         hips_bob_m=np.maximum(down, 0.0) * sizes.of(sway.bob_m),
         hips_roll_rad=angles.hips_roll_rad,
@@ -484,11 +491,13 @@ def _held(total: Sum, posture: Posture, lowered: FloatArray) -> FloatArray:
     return aside
 
 
-def _aside_m(levels: LayerSamples, sizes: Sizes, acting: Acting, steps: bool, times_s: FloatArray) -> FloatArray:
+def _aside_m(
+    levels: LayerSamples, sizes: Sizes, acting: Acting, steps: bool, times_s: FloatArray, uneasy: FloatArray | float
+) -> FloatArray:
     """Hips to the left: with the weight, and over the foot that stands during a step."""
     side_m = sizes.body.weight_shift.side_m
     aside_m: FloatArray = acting.weight_shift * levels.weight.hips * sizes.of(side_m)
-    aside_m = aside_m + sizes.wander("weight", side_m, times_s, acting.weight_shift)
+    aside_m = aside_m + sizes.wander("weight", side_m, times_s, uneasy)
     if steps:
         over_m = acting.footwork * sizes.of(sizes.body.footwork.unload_m)
         for side, sign in (("left", -1.0), ("right", 1.0)):
@@ -498,13 +507,18 @@ def _aside_m(levels: LayerSamples, sizes: Sizes, acting: Acting, steps: bool, ti
 
 
 def _ahead_m(
-    levels: LayerSamples, sizes: Sizes, acting: Acting, feet: dict[str, FloatArray], times_s: FloatArray
+    levels: LayerSamples,
+    sizes: Sizes,
+    acting: Acting,
+    feet: dict[str, FloatArray],
+    times_s: FloatArray,
+    uneasy: FloatArray | float,
 ) -> FloatArray:
     """Hips ahead: back as the trunk leans forward, aslant with the weight, half as far as a foot that is put ahead."""
     phrase, shift = sizes.body.phrase, sizes.body.weight_shift
     back = acting.phrase * (levels.lean.hips + 0.5 * levels.accent.hips) * sizes.of(phrase.ahead_m)
     aslant = sizes.aslant * acting.weight_shift * levels.weight.hips * sizes.of(shift.ahead_m)
-    ahead_m: FloatArray = aslant - back + sizes.wander("ahead", shift.ahead_m, times_s, acting.weight_shift)
+    ahead_m: FloatArray = aslant - back + sizes.wander("ahead", shift.ahead_m, times_s, uneasy)
     for side in ("left", "right"):
         if f"{side}_ahead" in feet:
             ahead_m = ahead_m + STEP_IN_HIPS * feet[f"{side}_ahead"]

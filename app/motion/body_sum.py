@@ -66,10 +66,12 @@ class Sizes:
         share = low + (high - low) * _own(self.player_id, self.parameters.seed, "breathes")
         return share, 1.0 + SHOULDERS_INSTEAD * (0.5 * (low + high) - share)
 
-    def wander(self, layer: str, scale: AmplitudeScale, times_s: FloatArray, shown: float) -> FloatArray:
+    def wander(self, layer: str, scale: AmplitudeScale, times_s: FloatArray, shown: FloatArray | float) -> FloatArray:
         """Noise of this player's layer: the residue, and a share of the planned motion, as much of it as is shown."""
         noise = _noise(self.player_id, self.parameters.seed, layer, self.body.sway.residual_hz)
-        return noise.sample(times_s) * (RESIDUE_SHARE * scale[0] + NOISE_SHARE * shown * (self.of(scale) - scale[0]))
+        size = NOISE_SHARE * (self.of(scale) - scale[0])
+        wandering: FloatArray = noise.sample(times_s) * (RESIDUE_SHARE * scale[0] + shown * size)
+        return wandering
 
 
 @lru_cache(maxsize=4096)
@@ -155,8 +157,9 @@ class Angles:
         seated: bool,
         leads: Leads,
         times_s: FloatArray,
+        wandering: FloatArray | float,
     ) -> Angles:
-        """In the sizes of a player."""
+        """In the sizes of a player; ``wandering`` is how much is shown of what is not planned."""
         swings, phrase, rad = sizes.body.sway, sizes.body.phrase, sizes.rad
         at = leads.at(times_s)
         share = phrase.seated_share if seated else 1.0
@@ -164,7 +167,7 @@ class Angles:
         def waving(layer: str, scale: AmplitudeScale, size: float) -> Overlapped:
             return Overlapped(
                 *(
-                    size * level + np.deg2rad(sizes.wander(layer, scale, moment, sway.amount))
+                    size * level + np.deg2rad(sizes.wander(layer, scale, moment, wandering))
                     for level, moment in zip(sway.level, at, strict=True)
                 )
             )
@@ -175,7 +178,7 @@ class Angles:
         bowed = [
             leant * own[0]
             + dipped * own[1]
-            + np.deg2rad(sizes.wander("forward", swings.forward_deg, moment, sway.amount))
+            + np.deg2rad(sizes.wander("forward", swings.forward_deg, moment, wandering))
             for leant, dipped, own, moment in zip(
                 lean.level, accent.level, (chest, chest, head, chest), at, strict=True
             )

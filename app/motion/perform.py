@@ -203,6 +203,8 @@ class PerformanceCurves:
             frames.times_s,
             steps=_steps(self.player),
             beside=share_at(styles, "gestures", frames.times_s),
+            swaying=share_at(styles, "sway", frames.times_s),
+            shifting=share_at(styles, "weight_shift", frames.times_s),
         )
         if frames.danced is not None:
             amount, free = self.parameters.dance_amount, _stands_free(self.player)

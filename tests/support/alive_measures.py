@@ -202,10 +202,8 @@ def accents_lag_s(read: Read) -> tuple[float, int]:
 
 def overlap_ms(read: Read) -> tuple[str, str]:
     """How much later the chest does what the hips did, and the head what the chest did: the lag of the greatest
-    correlation of their leans aside (0.15 to 3 Hz), ms, and that correlation, from the first note to the last.
-
-    Gestures that are keyed joint by joint are left out. Where the correlation is below about 0.8 each moves mostly by
-    itself, and the lag is a matter of chance.
+    correlation of their leans aside (0.15 to 3 Hz), ms, and that correlation, from the first note to the last. Keyed
+    gestures are left out. The peak is that of a parabola. Below a correlation of about 0.8 a lag is a matter of chance.
     """
     swaying = (read.times_s >= read.onset_s[0]) & (read.times_s <= read.end_s[-1])
     for event in read.plan.gestures:
@@ -219,9 +217,8 @@ def overlap_ms(read: Read) -> tuple[str, str]:
         one, other = (_bandpass(read.aside_rad(name), read.fps, 0.15, 3.0) for name in (before, after))
         found = np.array([abs(np.corrcoef(one[places], other[places + lag])[0, 1]) for lag in range(-reach, reach + 1)])
         best = int(np.clip(np.argmax(found), 1, 2 * reach - 1))
-        # The peak of a parabola: frames are as far apart as the lags asked for.
         low, peak, high = found[best - 1 : best + 2]
-        lag = best - reach + 0.5 * (low - high) / (low - 2.0 * peak + high)
+        lag = best - reach + float(np.clip(0.5 * (low - high) / (low - 2.0 * peak + high), -0.5, 0.5))
         results.append(f"{1000.0 * lag / read.fps:.0f} ({peak:.2f})")
     return results[0], results[1]
 

@@ -247,7 +247,7 @@ def changed(tmp_path: Path, source: str, old: str, new: str, name: str | None = 
         ("bodies/adult.toml", "[face.strain]\n", "[face.strain]\nmouthPucker = 0.1\n", "face.strain.mouthPucker",
          "embouchure"),
         ("bodies/adult.toml", "left_right = [0.045, 0.105]", "left_right = [0.2, 0.1]", "face.left_right", "first"),
-        ("bodies/adult.toml", "rise_s = 1.2", "rise_s = 0.0", "face.rise_s", "> 0"),
+        ("bodies/adult.toml", "rise_s = 0.7", "rise_s = 0.0", "face.rise_s", "> 0"),
         ("bodies/adult.toml", "[face.phrase]", "[face.phrases]", "face", "phrase"),
         ("bodies/adult.toml", "give = 0.07", "give = 0.07\nvibrato_hz = [6.0, 5.0]", "embouchure.cup.vibrato_hz",
          "first"),
