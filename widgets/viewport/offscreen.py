@@ -125,7 +125,9 @@ def captions(texts: Sequence[tuple[str, str]], width: int, theme: str) -> list[P
     font.setPixelSize(round(min(max(width * _CAPTION_PER_WIDTH, least), most)))
     metrics = QFontMetrics(font)
     step, margin = metrics.height(), metrics.descent()
-    lines = [((first, tokens.text), (second, tokens.text_dim)) for first, second in texts]
+    lines: list[tuple[tuple[str, str], ...]] = [
+        ((first, tokens.text), (second, tokens.text_dim)) for first, second in texts
+    ]
     if any(metrics.horizontalAdvance(first) > width - margin for first, _ in texts):
         lines = [
             (*((part, tokens.text) for part in first.split(_DOT)), (second, tokens.text_dim)) for first, second in texts
