@@ -1,8 +1,8 @@
 """What playing costs and where the music goes, as the face shows it: slow curves from the notes of a plan.
 
 All of it is worked out in whole numbers on a grid of absolute time, so that a note far away changes not even the last
-bit: after an edit only what is near it is another face. What lasts long (where the melody goes, a phrase, the air that is
-left, tired lips) follows the music as it was planned: lips set by hand for a note change its load alone.
+bit: after an edit only what is near it is another face. What lasts long (where the melody goes, a phrase, the air left,
+tired lips) follows the music as it was planned: lips set by hand for a note change its load alone.
 """
 
 from __future__ import annotations
