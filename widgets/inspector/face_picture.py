@@ -8,7 +8,7 @@ from typing import Final
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QImage, QPixmap
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtWidgets import QWidget
 
 from app.editor.session import Session
 from app.editor.tasks import Progress, StopRequested
@@ -16,17 +16,18 @@ from app.errors import Message
 from app.rig.character_library import character_named
 from app.rig.model import Character
 from widgets.common.character_picture import Seen, picture, seen
+from widgets.common.plain import Label
 
 SIZE_PX: Final = 200
 WAITS_MS: Final = 120
 """A face that changes is drawn when it has not changed for so long: the player in the viewport follows at once."""
 
 
-class FacePicture(QLabel):
+class FacePicture(Label):
     """Draws a face beside the window whenever its weights change."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+        super().__init__(parent=parent)
         self._session = session
         self._weights: dict[str, float] | None = None
         self._drawn: tuple[str, dict[str, float]] | None = None
